@@ -1,0 +1,43 @@
+// Words for people: numbers as text, quoted input, and the name somebody probably meant.
+#pragma once
+
+#include <concepts>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace sporeprint {
+
+/// Shortest decimal text that reads back as the same number: "0.04", "1e-7", "4294967295".
+/// Follows JSON's grammar without a '+'; -0 is "0"; not finite is "nan", "inf", "-inf".
+std::string number_text(double value);
+std::string number_text(float value);
+template <std::integral T>
+std::string number_text(T value) {
+    return std::to_string(value);
+}
+
+/// `text` between single quotes as an error message shows it: at most 40 bytes, then "...";
+/// control characters and bytes that are not UTF-8 become '?'.
+std::string quoted(std::string_view text);
+
+/// `text` with control characters and bytes that are not UTF-8 replaced by '?', at most `most` bytes.
+std::string printable(std::string_view text, std::size_t most = 120);
+
+/// Length in bytes of the valid UTF-8 sequence at the front of `text`; 0 when there is none.
+std::size_t utf8_length(std::string_view text);
+
+/// Whether all of `text` is UTF-8 without control characters.
+bool is_plain_text(std::string_view text);
+
+/// The candidate a person most likely meant by `name` (edit distance with transpositions, at most
+/// a third of its length, capitals ignored), or "" when none is close.
+std::string_view closest(std::string_view name, std::span<const std::string> candidates);
+
+/// "unknown parameter", with "; did you mean 'seed'?" when a known name is close.
+std::string unknown_message(std::string_view name, std::span<const std::string> known);
+
+/// One reference token of a JSON pointer (RFC 6901): '~' and '/' escaped, made printable.
+std::string pointer_token(std::string_view key);
+
+}  // namespace sporeprint

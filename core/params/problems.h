@@ -1,0 +1,65 @@
+// What can be wrong with parameters, and the three exceptions that core throws.
+// Standard library only.
+#pragma once
+
+#include <exception>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace sporeprint {
+
+/// One thing wrong with a set of parameters. `path` is a JSON pointer ("/cap/radius"), or the
+/// query name ("cap.radius") where a query was read; `message` names the value and what is allowed.
+struct Problem {
+    std::string path, message;
+    bool operator==(const Problem&) const = default;
+};
+
+/// No answer lists more problems than this: hostile input must not buy an answer without bound.
+inline constexpr std::size_t most_problems = 100;
+
+/// Appends a problem, or drops it when `most_problems` are already listed.
+inline void report(std::vector<Problem>& problems, std::string path, std::string message) {
+    if (problems.size() < most_problems) problems.push_back({std::move(path), std::move(message)});
+}
+
+/// Thrown when the caller's data breaks a stated precondition; carries every problem found.
+class InvalidInput : public std::invalid_argument {
+public:
+    explicit InvalidInput(std::vector<Problem> problems)
+        : std::invalid_argument(joined(problems)), problems_(std::move(problems)) {}
+
+    InvalidInput(std::string path, std::string message)
+        : InvalidInput(std::vector<Problem>{{std::move(path), std::move(message)}}) {}
+
+    const std::vector<Problem>& problems() const noexcept { return problems_; }
+
+private:
+    static std::string joined(const std::vector<Problem>& problems) {
+        std::string text;
+        for (const Problem& problem : problems) {
+            if (!text.empty()) text += "; ";
+            if (!problem.path.empty()) text += problem.path + ": ";
+            text += problem.message;
+        }
+        return text;
+    }
+
+    std::vector<Problem> problems_;
+};
+
+/// Thrown when well-formed input cannot be made: crossing outlines, no convergence, over budget.
+class GenerationError : public std::runtime_error {
+public:
+    using std::runtime_error::runtime_error;
+};
+
+/// Thrown by a long loop whose stop token was triggered.
+class Cancelled : public std::exception {
+public:
+    const char* what() const noexcept override { return "cancelled"; }
+};
+
+}  // namespace sporeprint

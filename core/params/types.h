@@ -1,0 +1,97 @@
+// Leaf types of parameters beyond numbers, booleans and enums: text, colour, range, choice, upload.
+// Each is a literal type, so that defaults are proven at compile time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace sporeprint {
+
+/// UTF-8 text of at most `Capacity` bytes, stored in place. A literal that is too long does not
+/// compile.
+template <std::size_t Capacity>
+class Text {
+public:
+    static constexpr std::size_t capacity = Capacity;
+
+    constexpr Text() = default;
+    template <std::size_t Size>
+    consteval Text(const char (&literal)[Size]) : Text(std::string_view(literal)) {
+        static_assert(Size <= Capacity + 1, "this literal is longer than the text can hold");
+    }
+    /// Throws std::length_error when `text` is longer than the capacity.
+    constexpr explicit Text(std::string_view text) {
+        if (text.size() > Capacity) throw std::length_error("text is too long");
+        size_ = text.size();
+        for (std::size_t i = 0; i < size_; ++i) bytes_[i] = text[i];
+    }
+
+    constexpr std::string_view view() const { return {bytes_, size_}; }
+    constexpr operator std::string_view() const { return view(); }
+    std::string string() const { return std::string(view()); }
+    constexpr bool empty() const { return size_ == 0; }
+    constexpr std::size_t size() const { return size_; }
+
+    friend constexpr bool operator==(const Text& a, const Text& b) { return a.view() == b.view(); }
+
+private:
+    char bytes_[Capacity + 1] = {};
+    std::size_t size_ = 0;
+};
+
+/// An sRGB colour of 8 bits a channel; "#RRGGBB" in JSON and text.
+struct Colour {
+    std::uint8_t r = 0, g = 0, b = 0;
+    bool operator==(const Colour&) const = default;
+};
+
+/// A closed range of numbers, from <= to; [from, to] in JSON.
+struct Range {
+    double from = 0.0, to = 0.0;
+    bool operator==(const Range&) const = default;
+};
+
+/// One of a few whole numbers, such as the side of an image; a number in JSON and text.
+/// `Choice<256, 512> side{512}`; a value that is not among them does not compile as a default.
+template <int... Values>
+struct Choice {
+    static_assert(sizeof...(Values) > 0);
+    static constexpr int values[] = {Values...};
+    int value = values[0];
+    static constexpr bool allows(double candidate) { return ((candidate == Values) || ...); }
+    constexpr operator int() const { return value; }
+};
+
+/// Bytes sent by the user, such as an image; base64 in JSON, "sha256:<hex>" in canonical text.
+/// Empty means that nothing was sent. Make one with `uploaded`, so that the digest belongs to it.
+struct Upload {
+    std::vector<std::uint8_t> bytes;
+    Text<64> sha256;  ///< lower-case hexadecimal digest of `bytes`; empty when there are none
+    bool empty() const { return bytes.empty(); }
+    bool operator==(const Upload&) const = default;
+};
+
+/// The upload holding `bytes`, with its SHA-256. Throws std::runtime_error if the digest fails.
+Upload uploaded(std::vector<std::uint8_t> bytes);
+
+/// Lower-case hexadecimal SHA-256 of `bytes` (64 characters), by OpenSSL's libcrypto.
+std::string sha256_hex(const void* bytes, std::size_t size);
+
+/// Reads "#RRGGBB" (either case). Returns false and leaves `out` when `text` is anything else.
+bool read_colour(std::string_view text, Colour& out);
+
+/// "#RRGGBB", upper case.
+std::string colour_text(Colour colour);
+
+/// Reads strict base64 (RFC 4648 §4: padded, no white space, unused bits zero). Returns false when
+/// `text` is anything else.
+bool read_base64(std::string_view text, std::vector<std::uint8_t>& out);
+
+/// Base64 of `bytes`, padded.
+std::string base64_text(const std::vector<std::uint8_t>& bytes);
+
+}  // namespace sporeprint
