@@ -1,0 +1,34 @@
+# What server/run and tests/run share; both source it from the project's root, under `set -euo pipefail`.
+
+# Under `sudo`, goes on as the user who owns the checkout, so that no file in build/ belongs to root.
+# Call when the packages are installed: become_owner "$0" "$@".
+become_owner() {
+    [ "$(id -u)" -eq 0 ] && [ "${SUDO_UID:-0}" -ne 0 ] || return 0
+    [ "$(stat -c %u .)" -eq "$SUDO_UID" ] || return 0
+    local home
+    home=$(getent passwd "$SUDO_UID" | cut -d: -f6)
+    exec setpriv --reuid "$SUDO_UID" --regid "$SUDO_GID" --init-groups \
+        env HOME="$home" USER="$SUDO_USER" LOGNAME="$SUDO_USER" "$@"
+}
+
+# Builds targets of a configured preset; says nothing when there is nothing to do.
+build() { # preset [target ...]
+    cmake --build "build/$1" -j "${SPOREPRINT_JOBS:-$(nproc)}" ${2:+--target "${@:2}"} |
+        { grep -v '^ninja: no work to do' || true; }
+}
+
+# Builds web_viewer/dist when a file of the page changed since the last time.
+build_page() {
+    local lock now
+    lock=$(sha256sum web_viewer/package-lock.json)
+    if [ "$(cat build/page-modules.stamp 2>/dev/null)" != "$lock" ] || [ ! -d web_viewer/node_modules ]; then
+        (cd web_viewer && npm ci --no-audit --no-fund --loglevel=error)
+        echo "$lock" >build/page-modules.stamp
+    fi
+    now=$(find web_viewer \( -name node_modules -o -name dist \) -prune -o -type f -print0 |
+        LC_ALL=C sort -z | xargs -0 sha256sum)
+    if [ "$(cat build/page.stamp 2>/dev/null)" != "$now" ] || [ ! -f web_viewer/dist/index.html ]; then
+        (cd web_viewer && npm run --silent build)
+        echo "$now" >build/page.stamp
+    fi
+}
