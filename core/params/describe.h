@@ -2,13 +2,10 @@
 // below, the JSON reader, the query reader, the schema, the canonical text and the blend.
 #pragma once
 
-#include "core/params/messages.h"
-#include "core/params/problems.h"
-#include "core/params/types.h"
-
 #include <array>
 #include <concepts>
 #include <cstddef>
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -16,6 +13,10 @@
 #include <utility>
 #include <variant>
 #include <vector>
+
+#include "core/params/messages.h"
+#include "core/params/problems.h"
+#include "core/params/types.h"
 
 namespace sporeprint {
 
@@ -35,42 +36,68 @@ struct Info {
 /// their order. It may add a cross-field rule, asked only when each field is fine by itself:
 /// `void check(const std::string& path, std::vector<Problem>& problems) const`.
 template <class T>
-concept Described = std::is_aggregate_v<T> && requires { T::fields([](auto, const Info&) {}); };
+concept Described = std::is_aggregate_v<T> && requires {
+    T::fields([](auto, const Info&) {});
+};
 
 /// An enum whose `const char* name(E)` switches over every enumerator and ends in nullptr,
 /// so -Wswitch proves that none is forgotten and counting up lists them all.
 template <class T>
-concept NamedEnum =
-    std::is_enum_v<T> && requires(T e) { { name(e) } -> std::same_as<const char*>; };
+concept NamedEnum = std::is_enum_v<T> && requires(T e) {
+    { name(e) } -> std::same_as<const char*>;
+};
 
 /// A number that has a range: any integer or floating-point type but bool.
 template <class T>
 concept Number = std::is_arithmetic_v<T> && !std::is_same_v<T, bool>;
 
-template <class T> inline constexpr bool is_list = false;
-template <class T> inline constexpr bool is_list<std::vector<T>> = true;
+template <class T>
+inline constexpr bool is_list = false;
+template <class T>
+inline constexpr bool is_list<std::vector<T>> = true;
 
 /// A list of fixed length: std::array of numbers.
-template <class T> inline constexpr bool is_tuple = false;
-template <Number T, std::size_t N> inline constexpr bool is_tuple<std::array<T, N>> = true;
+template <class T>
+inline constexpr bool is_tuple = false;
+template <Number T, std::size_t N>
+inline constexpr bool is_tuple<std::array<T, N>> = true;
 
-template <class T> inline constexpr bool is_optional = false;
-template <class T> inline constexpr bool is_optional<std::optional<T>> = true;
+template <class T>
+inline constexpr bool is_optional = false;
+template <class T>
+inline constexpr bool is_optional<std::optional<T>> = true;
 
-template <class T> inline constexpr bool is_variant = false;
-template <class... Ts> inline constexpr bool is_variant<std::variant<Ts...>> = true;
+template <class T>
+inline constexpr bool is_variant = false;
+template <class... Ts>
+inline constexpr bool is_variant<std::variant<Ts...>> = true;
 
-template <class T> inline constexpr bool is_text = false;
-template <std::size_t N> inline constexpr bool is_text<Text<N>> = true;
+template <class T>
+inline constexpr bool is_text = false;
+template <std::size_t N>
+inline constexpr bool is_text<Text<N>> = true;
 
-template <class T> inline constexpr bool is_choice = false;
-template <int... Values> inline constexpr bool is_choice<Choice<Values...>> = true;
+template <class T>
+inline constexpr bool is_choice = false;
+template <int... Values>
+inline constexpr bool is_choice<Choice<Values...>> = true;
 
 /// For struct templates that exist twice with the same fields, as values and as overrides:
 /// `template <template <class> class Maybe> struct BendOf { Maybe<double> bend_deg{}; ... };`
 /// `using Bend = BendOf<Plain>; using BendOverrides = BendOf<Maybe>;`
-template <class T> using Plain = T;
-template <class T> using Maybe = std::optional<T>;
+template <class T>
+using Plain = T;
+template <class T>
+using Maybe = std::optional<T>;
+
+/// The default of such a member: `value` where members are values, unset where they are overrides.
+template <template <class> class M, class T>
+constexpr M<T> preset(T value) {
+    if constexpr (is_optional<M<T>>)
+        return std::nullopt;
+    else
+        return value;
+}
 
 /// Whether `value` lies in the closed range of `info`; NaN never does. A float is compared with
 /// the bounds rounded to float.
@@ -86,7 +113,8 @@ constexpr bool in_range(T value, const Info& info) {
 inline constexpr const char* form_key = "form";
 
 /// The forms of a variant's alternatives, in order: `static constexpr const char* form = "swept"`.
-template <class Variant> struct FormsOf;
+template <class Variant>
+struct FormsOf;
 template <class... Ts>
 struct FormsOf<std::variant<Ts...>> {
     static_assert((Described<Ts> && ...), "every alternative of a variant is described");
@@ -98,7 +126,7 @@ struct FormsOf<std::variant<Ts...>> {
         return select(out, form, std::index_sequence_for<Ts...>{});
     }
 
-private:
+  private:
     template <std::size_t... Is>
     static constexpr bool select(std::variant<Ts...>& out, std::string_view form,
                                  std::index_sequence<Is...>) {
@@ -146,7 +174,8 @@ std::string choice_names() {
 
 /// Converts to whatever a member wants; only ever named, never called.
 struct Anything {
-    template <class T> operator T() const;
+    template <class T>
+    operator T() const;
 };
 
 /// Number of members of the aggregate T.
@@ -206,14 +235,26 @@ constexpr bool proper_name(const Info& info) {
 /// Whether a member of type T can live with the bounds in `info`.
 template <class T>
 constexpr bool proper_bounds(const Info& info) {
-    if constexpr (is_optional<T>) return proper_bounds<typename T::value_type>(info);
-    else if constexpr (is_list<T>) return info.most > 0 && proper_bounds<typename T::value_type>(info);
-    else if constexpr (is_tuple<T>) return info.min < info.max;
-    else if constexpr (std::is_same_v<T, Range>) return info.min < info.max;
-    else if constexpr (Number<T>) return info.min < info.max;
-    else if constexpr (is_text<T>) return info.most <= T::capacity;
-    else if constexpr (std::is_same_v<T, Upload>) return info.most > 0;
-    else return true;
+    if constexpr (is_optional<T>)
+        return proper_bounds<typename T::value_type>(info);
+    else if constexpr (is_list<T>)
+        return info.most > 0 && proper_bounds<typename T::value_type>(info);
+    else if constexpr (is_tuple<T>)
+        return info.min < info.max;
+    else if constexpr (std::is_same_v<T, Range>)
+        return info.min < info.max;
+    else if constexpr (std::is_integral_v<T> && Number<T>)  // and the type can hold them
+        return info.min < info.max &&
+               info.min >= static_cast<double>(std::numeric_limits<T>::min()) &&
+               info.max <= static_cast<double>(std::numeric_limits<T>::max());
+    else if constexpr (Number<T>)
+        return info.min < info.max;
+    else if constexpr (is_text<T>)
+        return info.most <= T::capacity;
+    else if constexpr (std::is_same_v<T, Upload>)
+        return info.most > 0;
+    else
+        return true;
 }
 
 /// Whether the default `value` obeys the bounds in `info`.
@@ -267,15 +308,16 @@ consteval Description description() {
     return found;
 }
 
-template <Described T> inline constexpr Description description_of = description<T>();
+template <Described T>
+inline constexpr Description description_of = description<T>();
 
 /// Whether T's `fields` names every member exactly once, each with a proper name, a doc, bounds
 /// that make sense and a default inside them. Put `static_assert(well_described<T>());` below T.
 template <Described T>
 consteval bool well_described() {
     constexpr Description found = description_of<T>;
-    return found.described == found.members && found.distinct && found.named &&
-           found.documented && found.bounded && found.in_bounds;
+    return found.described == found.members && found.distinct && found.named && found.documented &&
+           found.bounded && found.in_bounds;
 }
 
 /// The same proof with a sentence for each fault; every consumer of a description asks for it.
@@ -285,11 +327,13 @@ consteval void prove() {
     static_assert(found.described >= found.members, "fields() forgets a member");
     static_assert(found.described <= found.members && found.distinct,
                   "fields() visits a member twice");
-    static_assert(found.named,
-                  "a name is not [a-z0-9_]+, or is used twice, or \"_deg\" and unit \"deg\" disagree");
+    static_assert(
+        found.named,
+        "a name is not [a-z0-9_]+, or is used twice, or \"_deg\" and unit \"deg\" disagree");
     static_assert(found.documented, "a doc is empty");
-    static_assert(found.bounded,
-                  "a number has no min < max, or a list or upload no `most`, or a text too large a one");
+    static_assert(
+        found.bounded,
+        "a number has no min < max, or a list or upload no `most`, or a text too large a one");
     static_assert(found.in_bounds, "a default is outside its own bounds");
 }
 
@@ -334,8 +378,8 @@ void check(const T& value, const Info& info, const std::string& path,
         if constexpr (is_list<T>)
             if (value.size() > info.most)
                 return report(problems, path,
-                              "a list of " + std::to_string(value.size()) +
-                                  " items; at most " + std::to_string(info.most) + " are allowed");
+                              "a list of " + std::to_string(value.size()) + " items; at most " +
+                                  std::to_string(info.most) + " are allowed");
         for (std::size_t i = 0; i < value.size(); ++i)
             check(value[i], info, path + '/' + std::to_string(i), problems);
     } else if constexpr (Number<T>) {
@@ -350,13 +394,14 @@ void check(const T& value, const Info& info, const std::string& path,
     } else if constexpr (is_text<T>) {
         if (value.size() > longest_text<T>(info))
             report(problems, path,
-                   quoted(value) + " is longer than " +
-                       std::to_string(longest_text<T>(info)) + " bytes");
+                   in_quotes(value) + " is longer than " + std::to_string(longest_text<T>(info)) +
+                       " bytes");
         else if (!is_plain_text(value))
-            report(problems, path, quoted(value) + " holds control characters or is not UTF-8");
+            report(problems, path, in_quotes(value) + " holds control characters or is not UTF-8");
     } else if constexpr (is_choice<T>) {
         if (!T::allows(value.value))
-            report(problems, path, number_text(value.value) + " is not one of " + choice_names<T>());
+            report(problems, path,
+                   number_text(value.value) + " is not one of " + choice_names<T>());
     } else if constexpr (NamedEnum<T>) {
         if (!enum_holds(value))
             report(problems, path,

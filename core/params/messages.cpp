@@ -18,9 +18,9 @@ std::string shortest(T value) {
     constexpr T exact = T{1} / std::numeric_limits<T>::epsilon();  // whole numbers below are exact
     const bool as_integer =
         value > -exact && value < exact && value == static_cast<T>(static_cast<long long>(value));
-    const auto end = as_integer
-                         ? std::to_chars(text, text + sizeof text, static_cast<long long>(value)).ptr
-                         : std::to_chars(text, text + sizeof text, value).ptr;
+    const auto end =
+        as_integer ? std::to_chars(text, text + sizeof text, static_cast<long long>(value)).ptr
+                   : std::to_chars(text, text + sizeof text, value).ptr;
     std::string out(text, end);
     // "1e-07" and "1e+20" become "1e-7" and "1e20": shorter, and no '+' to be taken for a space.
     if (const std::size_t e = out.find('e'); e != std::string::npos) {
@@ -32,9 +32,7 @@ std::string shortest(T value) {
     return out;
 }
 
-constexpr bool is_control(char c) {
-    return static_cast<unsigned char>(c) < 0x20 || c == 0x7f;
-}
+constexpr bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; }
 
 constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
@@ -96,14 +94,16 @@ std::string printable(std::string_view text, std::size_t most) {
     while (!text.empty()) {
         const std::size_t length = utf8_length(text);
         if (out.size() + std::max<std::size_t>(length, 1) > most) return out + "...";
-        if (length == 0 || is_control(text[0])) out += '?';
-        else out += text.substr(0, length);
+        if (length == 0 || is_control(text[0]))
+            out += '?';
+        else
+            out += text.substr(0, length);
         text.remove_prefix(std::max<std::size_t>(length, 1));
     }
     return out;
 }
 
-std::string quoted(std::string_view text) { return '\'' + printable(text, 40) + '\''; }
+std::string in_quotes(std::string_view text) { return "'" + printable(text, 40) + "'"; }
 
 std::string_view closest(std::string_view name, std::span<const std::string> candidates) {
     if (name.size() > longest_name) return {};
@@ -133,11 +133,38 @@ std::string unknown_message(std::string_view name, std::span<const std::string> 
 std::string pointer_token(std::string_view key) {
     std::string out;
     for (const char c : printable(key)) {
-        if (c == '~') out += "~0";
-        else if (c == '/') out += "~1";
-        else out += c;
+        if (c == '~')
+            out += "~0";
+        else if (c == '/')
+            out += "~1";
+        else
+            out += c;
     }
     return out;
+}
+
+std::string percent_encoded(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        const bool unreserved = (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+                                (c >= '0' && c <= '9') || c == '-' || c == '.' || c == '_' ||
+                                c == '~';
+        if (unreserved) {
+            out += c;
+        } else {
+            out += '%';
+            out += "0123456789ABCDEF"[(c >> 4) & 15];
+            out += "0123456789ABCDEF"[c & 15];
+        }
+    }
+    return out;
+}
+
+std::string title_of(std::string_view name) {
+    if (name.ends_with("_deg")) name.remove_suffix(4);
+    std::string title(name);
+    std::replace(title.begin(), title.end(), '_', ' ');
+    return title;
 }
 
 }  // namespace sporeprint

@@ -19,9 +19,10 @@ std::string number_text(T value) {
 
 /// `text` between single quotes as an error message shows it: at most 40 bytes, then "...";
 /// control characters and bytes that are not UTF-8 become '?'.
-std::string quoted(std::string_view text);
+std::string in_quotes(std::string_view text);
 
-/// `text` with control characters and bytes that are not UTF-8 replaced by '?', at most `most` bytes.
+/// `text` with control characters and bytes that are not UTF-8 replaced by '?', at most `most`
+/// bytes.
 std::string printable(std::string_view text, std::size_t most = 120);
 
 /// Length in bytes of the valid UTF-8 sequence at the front of `text`; 0 when there is none.
@@ -39,5 +40,11 @@ std::string unknown_message(std::string_view name, std::span<const std::string> 
 
 /// One reference token of a JSON pointer (RFC 6901): '~' and '/' escaped, made printable.
 std::string pointer_token(std::string_view key);
+
+/// `text` with everything but RFC 3986's unreserved characters percent-encoded.
+std::string percent_encoded(std::string_view text);
+
+/// What a slider is called: "gill_count" is "gill count", "bend_deg" is "bend".
+std::string title_of(std::string_view name);
 
 }  // namespace sporeprint

@@ -27,7 +27,7 @@ inline void report(std::vector<Problem>& problems, std::string path, std::string
 
 /// Thrown when the caller's data breaks a stated precondition; carries every problem found.
 class InvalidInput : public std::invalid_argument {
-public:
+  public:
     explicit InvalidInput(std::vector<Problem> problems)
         : std::invalid_argument(joined(problems)), problems_(std::move(problems)) {}
 
@@ -36,7 +36,7 @@ public:
 
     const std::vector<Problem>& problems() const noexcept { return problems_; }
 
-private:
+  private:
     static std::string joined(const std::vector<Problem>& problems) {
         std::string text;
         for (const Problem& problem : problems) {
@@ -50,15 +50,22 @@ private:
     std::vector<Problem> problems_;
 };
 
-/// Thrown when well-formed input cannot be made: crossing outlines, no convergence, over budget.
+/// Thrown when each value is allowed but no such thing can be made: a crossing outline, a stem that
+/// folds, pores asked of gills.
+class Impossible : public InvalidInput {
+  public:
+    using InvalidInput::InvalidInput;
+};
+
+/// Thrown when the numbers fail: no convergence, a result that is not finite.
 class GenerationError : public std::runtime_error {
-public:
+  public:
     using std::runtime_error::runtime_error;
 };
 
 /// Thrown by a long loop whose stop token was triggered.
 class Cancelled : public std::exception {
-public:
+  public:
     const char* what() const noexcept override { return "cancelled"; }
 };
 

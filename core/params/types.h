@@ -15,7 +15,7 @@ namespace sporeprint {
 /// compile.
 template <std::size_t Capacity>
 class Text {
-public:
+  public:
     static constexpr std::size_t capacity = Capacity;
 
     constexpr Text() = default;
@@ -38,7 +38,7 @@ public:
 
     friend constexpr bool operator==(const Text& a, const Text& b) { return a.view() == b.view(); }
 
-private:
+  private:
     char bytes_[Capacity + 1] = {};
     std::size_t size_ = 0;
 };

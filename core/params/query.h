@@ -1,0 +1,222 @@
+// From the pairs of a query string to parameter structs and back: dotted names, "cap.radius=0.05".
+#pragma once
+
+#include <algorithm>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/params/describe.h"
+#include "core/params/reader.h"
+#include "core/params/value.h"
+
+namespace sporeprint {
+
+/// The decoded names and values of a query, in its order.
+using QueryPairs = std::span<const std::pair<std::string, std::string>>;
+
+/// Whether a member of type T can be named in a query: lists, ranges and uploads cannot.
+template <class T>
+inline constexpr bool in_query =
+    !is_list<T> && !is_tuple<T> && !std::is_same_v<T, Range> && !std::is_same_v<T, Upload>;
+template <class T>
+inline constexpr bool in_query<std::optional<T>> = in_query<T>;
+
+/// The pairs of a query while they are being read: which are known, which were taken.
+class QueryReader {
+  public:
+    QueryReader(QueryPairs pairs, std::vector<Problem>& problems)
+        : pairs_(pairs), taken_(pairs.size(), false), problems_(problems) {}
+
+    /// The text given for `name`, or nullptr when it is absent or repeated (which is reported).
+    const std::string* take(const std::string& name) {
+        known_.push_back(name);
+        const std::string* text = nullptr;
+        std::size_t count = 0;
+        for (std::size_t i = 0; i < pairs_.size(); ++i) {
+            if (pairs_[i].first != name) continue;
+            taken_[i] = true;
+            text = &pairs_[i].second;
+            ++count;
+        }
+        if (count > 1) report(problems_, name, "given more than once");
+        return count == 1 ? text : nullptr;
+    }
+
+    /// Whether any pair's name begins with `prefix`.
+    bool mentions(std::string_view prefix) const {
+        return std::any_of(pairs_.begin(), pairs_.end(),
+                           [&](const auto& pair) { return pair.first.starts_with(prefix); });
+    }
+
+    /// Reports each pair that nobody took, once a name.
+    void refuse_the_rest() {
+        for (std::size_t i = 0; i < pairs_.size() && problems_.size() < most_problems; ++i) {
+            if (taken_[i]) continue;
+            const std::string& name = pairs_[i].first;
+            for (std::size_t k = i; k < pairs_.size(); ++k)
+                if (pairs_[k].first == name) taken_[k] = true;
+            report(problems_, printable(name), unknown_message(name, known_));
+        }
+    }
+
+    std::vector<Problem>& problems() { return problems_; }
+
+  private:
+    QueryPairs pairs_;
+    std::vector<bool> taken_;
+    std::vector<std::string> known_;
+    std::vector<Problem>& problems_;
+};
+
+/// The JSON value that the text of a query means for a member of type T; reports what is not even
+/// of T's kind and then returns false.
+template <class T>
+bool value_from_query(const std::string& text, Value& value, const std::string& name,
+                      std::vector<Problem>& problems) {
+    if constexpr (is_optional<T>) {
+        return value_from_query<typename T::value_type>(text, value, name, problems);
+    } else if constexpr (std::is_same_v<T, bool>) {
+        if (text == "true" || text == "false")
+            value = Value(text == "true");
+        else
+            value = Value(text);
+    } else if constexpr (Number<T> || is_choice<T>) {
+        double number = 0.0;
+        if (!read_number(text, number)) {
+            report(problems, name,
+                   "expected " +
+                       std::string(std::is_floating_point_v<T> ? "a number" : "a whole number") +
+                       ", got " + in_quotes(text));
+            return false;
+        }
+        value = Value(number);
+    } else {
+        value = Value(text);
+    }
+    return true;
+}
+
+/// Reads the members of a described struct or variant whose names begin with `prefix`.
+template <class T>
+void read_query_members(QueryReader& query, T& out, const std::string& prefix) {
+    if constexpr (is_variant<T>) {
+        const std::string name = prefix + form_key;
+        if (const std::string* form = query.take(name); form && !FormsOf<T>::select(out, *form)) {
+            std::string names;
+            for (const char* one : FormsOf<T>::names)
+                names += (names.empty() ? "" : ", ") + std::string(one);
+            report(query.problems(), name, in_quotes(*form) + " is not one of " + names);
+        }
+        std::visit([&](auto& one) { read_query_members(query, one, prefix); }, out);
+    } else {
+        prove<T>();
+        T::fields([&](auto member, const Info& sub) {
+            using Member = std::remove_cvref_t<decltype(out.*member)>;
+            const std::string name = prefix + sub.name;
+            if constexpr (Described<Member> || is_variant<Member>) {
+                read_query_members(query, out.*member, sub.name[0] ? name + '.' : prefix);
+            } else if constexpr (is_optional<Member>) {
+                using Inner = typename Member::value_type;
+                if constexpr (Described<Inner> || is_variant<Inner>) {
+                    // Read even when not mentioned, so that its names are known to did-you-mean.
+                    Inner inner = out.*member ? *(out.*member) : Inner{};
+                    read_query_members(query, inner, name + '.');
+                    if (query.mentions(name + '.')) out.*member = std::move(inner);
+                } else if constexpr (in_query<Inner>) {
+                    Value value;
+                    if (const std::string* text = query.take(name))
+                        if (value_from_query<Member>(*text, value, name, query.problems()))
+                            read(value, out.*member, sub, name, query.problems());
+                }
+            } else if constexpr (in_query<Member>) {
+                Value value;
+                if (const std::string* text = query.take(name))
+                    if (value_from_query<Member>(*text, value, name, query.problems()))
+                        read(value, out.*member, sub, name, query.problems());
+            }
+        });
+    }
+}
+
+/// "/cap/radius" as a query names it: "cap.radius".
+inline std::string query_name(std::string_view pointer) {
+    std::string name(pointer.substr(pointer.starts_with('/') ? 1 : 0));
+    std::replace(name.begin(), name.end(), '/', '.');
+    return name;
+}
+
+/// Reads decoded pairs over the values already in `out`. Appends every problem, `path` being the
+/// query name: unknown (with the name probably meant), repeated, malformed, out of range; when
+/// there is none, what the cross-field rules say. Numbers follow JSON's grammar.
+template <class T>
+void read_query(QueryPairs pairs, T& out, std::vector<Problem>& problems) {
+    const std::size_t before = problems.size();
+    QueryReader query(pairs, problems);
+    read_query_members(query, out, "");
+    query.refuse_the_rest();
+    if (problems.size() != before) return;
+    for (Problem& problem : problems_in(out))
+        report(problems, query_name(problem.path), std::move(problem.message));
+}
+
+/// Appends the members of `value` that differ from `defaults`; see `query_text`.
+template <class T>
+void query_members(const T& value, const T& defaults, const std::string& prefix, std::string& out) {
+    const auto pair = [&](const std::string& name, std::string_view text) {
+        if (!out.empty()) out += '&';
+        ((out += name) += '=') += percent_encoded(text);
+    };
+    if constexpr (is_variant<T>) {
+        const bool same = value.index() == defaults.index();
+        if (!same) pair(prefix + form_key, form_of(value));
+        std::visit(
+            [&](const auto& one) {
+                using Alternative = std::remove_cvref_t<decltype(one)>;
+                query_members(one, same ? std::get<Alternative>(defaults) : Alternative{}, prefix,
+                              out);
+            },
+            value);
+    } else {
+        prove<T>();
+        T::fields([&](auto member, const Info& sub) {
+            const auto& mine = value.*member;
+            const auto& standard = defaults.*member;
+            using Member = std::remove_cvref_t<decltype(mine)>;
+            const std::string name = prefix + sub.name;
+            const auto leaf = [&](const auto& content) {
+                const Value json = write(content);
+                if (json.is_string())
+                    pair(name, json.as_string());
+                else
+                    pair(name, dump(json));
+            };
+            if constexpr (Described<Member> || is_variant<Member>) {
+                query_members(mine, standard, sub.name[0] ? name + '.' : prefix, out);
+            } else if constexpr (is_optional<Member>) {
+                using Inner = typename Member::value_type;
+                if constexpr (Described<Inner> || is_variant<Inner>) {
+                    if (mine) query_members(*mine, standard ? *standard : Inner{}, name + '.', out);
+                } else if constexpr (in_query<Inner>) {
+                    if (mine && mine != standard) leaf(*mine);
+                }
+            } else if constexpr (in_query<Member>) {
+                if (!(mine == standard)) leaf(mine);
+            }
+        });
+    }
+}
+
+/// The query, without '?', that makes `value` from `defaults`: "a=1&b.c=0.5", only what differs, in
+/// field order, shortest digits, percent-encoded. Lists, ranges and uploads cannot be told, nor
+/// that an optional set in `defaults` is empty in `value`.
+template <class T>
+std::string query_text(const T& value, const T& defaults = {}) {
+    std::string out;
+    query_members(value, defaults, "", out);
+    return out;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,102 @@
+// A JSON value of our own, its strict reader and its writer.
+#pragma once
+
+#include <concepts>
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/params/problems.h"
+
+namespace sporeprint {
+
+/// A JSON value. Objects keep the order of their members; numbers are doubles.
+struct Value {
+    using Array = std::vector<Value>;
+    using Member = std::pair<std::string, Value>;
+    using Object = std::vector<Member>;
+
+    std::variant<std::nullptr_t, bool, double, std::string, Array, Object> data = nullptr;
+
+    Value() = default;
+    Value(std::nullptr_t) {}
+    Value(std::same_as<bool> auto flag) : data(flag) {}
+    template <class T>
+    requires(std::integral<T> || std::floating_point<T>) && (!std::same_as<T, bool>)Value(T number)
+        : data(static_cast<double>(number)) {}
+    Value(const char* text) : data(std::string(text)) {}
+    Value(std::string_view text) : data(std::string(text)) {}
+    Value(std::string text) : data(std::move(text)) {}
+    Value(Array items) : data(std::move(items)) {}
+    Value(Object members) : data(std::move(members)) {}
+
+    static Value array() { return Value(Array{}); }
+    static Value object() { return Value(Object{}); }
+
+    bool is_null() const { return std::holds_alternative<std::nullptr_t>(data); }
+    bool is_bool() const { return std::holds_alternative<bool>(data); }
+    bool is_number() const { return std::holds_alternative<double>(data); }
+    bool is_string() const { return std::holds_alternative<std::string>(data); }
+    bool is_array() const { return std::holds_alternative<Array>(data); }
+    bool is_object() const { return std::holds_alternative<Object>(data); }
+
+    /// The content; throws std::bad_variant_access when the value is of another kind.
+    bool as_bool() const { return std::get<bool>(data); }
+    double as_number() const { return std::get<double>(data); }
+    const std::string& as_string() const { return std::get<std::string>(data); }
+    const Array& items() const { return std::get<Array>(data); }
+    Array& items() { return std::get<Array>(data); }
+    const Object& members() const { return std::get<Object>(data); }
+    Object& members() { return std::get<Object>(data); }
+
+    /// The member called `key`, or nullptr when there is none or this is not an object.
+    const Value* find(std::string_view key) const;
+    Value* find(std::string_view key);
+
+    /// The value at an RFC 6901 pointer such as "/cap/3/r" ("" is this value), or nullptr.
+    const Value* at_pointer(std::string_view pointer) const;
+
+    /// Sets the member `key`, appending it when it is new. Null becomes an object first.
+    Value& set(std::string_view key, Value value);
+
+    /// Appends an item. Null becomes an array first.
+    Value& push(Value value);
+
+    /// Removes the member `key` if there is one.
+    void erase(std::string_view key);
+};
+
+bool operator==(const Value& a, const Value& b);
+
+/// Deepest nesting of arrays and objects that `parse` accepts.
+inline constexpr std::size_t deepest_json = 32;
+
+/// Most values in one text that `parse` accepts.
+inline constexpr std::size_t most_json_values = 200'000;
+
+/// Reads JSON (RFC 8259). Appends to `problems`, with the place, what is malformed, not UTF-8, too
+/// deep, too much, not finite (1e999) or a repeated key; then the result is null or incomplete.
+/// Never throws on bad text.
+Value parse(std::string_view text, std::vector<Problem>& problems);
+
+/// Reads one number in JSON's grammar and nothing else: no "+1", ".5", "1.", hexadecimal or space.
+/// Returns false when `text` is anything else or too large for a double.
+bool read_number(std::string_view text, double& out);
+
+/// Writes JSON with shortest round-trip numbers, -0 as 0, whole numbers without ".0". `indent` < 0
+/// writes one line without spaces. Text that is not UTF-8 gets U+FFFD; not finite becomes null.
+std::string dump(const Value& value, int indent = -1);
+
+/// `text` as a JSON string with its quotes.
+std::string json_string(std::string_view text);
+
+/// What kind of value this is, in words: "a number", "text", "a list", "an object", ...
+const char* kind_name(const Value& value);
+
+/// The value as an error message shows it: a short one itself, else its kind.
+std::string shown(const Value& value);
+
+}  // namespace sporeprint
