@@ -1,0 +1,106 @@
+// Makes one labelled picture of many mushrooms, to look at shapes side by side.
+//
+//   node tests/web_viewer/contact_sheet.mjs http://127.0.0.1:8080 [options]
+//     --out FILE            picture to write (build/screenshots/contact_sheet.png)
+//     --species a,b         rows (all species); a mix is written with + for its commas: a:0.5+b:0.5
+//     --ages 0,0.3,0.6,1    columns, each list is crossed with the others
+//     --seeds 1,2
+//     --lods 0,2
+//     --views three-quarter,front,side,top,below
+//     --set name=value      any other parameter for every cell; may be repeated
+//     --vary name=v1,v2     any other parameter as columns; may be repeated
+//     --cell 320            side of a cell in pixels
+//     --wireframe           draws edges
+import { writeFile, mkdir } from "node:fs/promises";
+import path from "node:path";
+import { launchBrowser, listen, ready, root } from "./support.mjs";
+
+function readArguments(argv) {
+    const options = { out: path.join(root, "build/screenshots/contact_sheet.png"), cell: 320, set: [], vary: [] };
+    const list = (text) => text.split(",").filter(Boolean);
+    const take = {
+        "--out": (text) => (options.out = path.resolve(text)),
+        "--species": (text) => (options.species = list(text).map((mix) => mix.replaceAll("+", ","))),
+        "--ages": (text) => options.vary.push(["age", list(text)]),
+        "--seeds": (text) => options.vary.push(["seed", list(text)]),
+        "--lods": (text) => options.vary.push(["lod", list(text)]),
+        "--views": (text) => (options.views = list(text)),
+        "--set": (text) => options.set.push(text),
+        "--vary": (text) => options.vary.push([text.split("=")[0], list(text.slice(text.indexOf("=") + 1))]),
+        "--cell": (text) => (options.cell = Number(text)),
+    };
+    for (let i = 0; i < argv.length; ++i) {
+        if (argv[i] === "--wireframe") options.wireframe = true;
+        else if (take[argv[i]] && argv[i + 1] !== undefined) take[argv[i]](argv[++i]);
+        else if (/^https?:/.test(argv[i]) && !options.base) options.base = argv[i].replace(/\/+$/, "");
+        else throw new Error(`cannot use argument '${argv[i]}'`);
+    }
+    if (!options.base) throw new Error("give the address of a running server, e.g. http://127.0.0.1:8080");
+    return options;
+}
+
+const options = readArguments(process.argv.slice(2));
+const species = options.species ?? (await (await fetch(`${options.base}/v1/species`)).json()).species.map(({ id }) => id);
+
+let columns = [{ query: options.set, label: [] }];
+for (const [name, values] of options.vary) {
+    columns = columns.flatMap((column) => values.map((value) => ({
+        query: [...column.query, `${name}=${value}`],
+        label: [...column.label, `${name} ${value}`],
+    })));
+}
+const views = options.views ?? ["three-quarter"];
+
+const browser = await launchBrowser();
+let broken = 0;
+try {
+    const page = await browser.newPage({ viewport: { width: options.cell, height: options.cell } });
+    const heard = listen(page);
+    const rows = [];
+    for (const mix of species) {
+        const cells = [];
+        for (const { query, label } of columns) {
+            const address = `${options.base}/?${[`species=${mix}`, ...query, "shot=1"].join("&")}`;
+            let facts = "";
+            try {
+                await page.goto(address);
+                await ready(page);
+                if (options.wireframe) await page.evaluate(() => document.querySelector("#wireframe").click());
+                facts = await page.evaluate(() => {
+                    const { size, counts } = window.sporeprint;
+                    const cm = (metres) => (metres * 100).toFixed(1);
+                    return `${cm(size.height)} x ${cm(Math.max(size.width, size.depth))} cm, ${counts.triangles} tri`;
+                });
+            } catch (error) {
+                broken += 1;
+                facts = error.message.split("\n")[0].replace(/^page\.\w+: /, "");
+                console.error(`${mix} ${label.join(" ")}: ${facts}`);
+            }
+            for (const view of views) {
+                await page.evaluate((name) => window.sporeprint?.view(name), view).catch(() => undefined);
+                await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+                const png = await page.screenshot();
+                cells.push({ png: png.toString("base64"), label: [...label, view, facts].join(" · ") });
+            }
+        }
+        rows.push({ mix, cells });
+    }
+    for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
+
+    const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+    const html = `<!doctype html><meta charset="utf-8"><style>
+body { margin: 0; background: #f5efe2; color: #2b211a; font: 12px/1.3 sans-serif; }
+table { border-collapse: collapse; } th { font: italic 600 15px serif; width: 130px; padding: 4px; overflow-wrap: anywhere; }
+td { border: 1px solid #d8ccb6; padding: 0; width: ${options.cell}px; } img { display: block; width: ${options.cell}px; }
+p { margin: 2px 5px; min-height: 2.6em; }</style>
+<table>${rows.map(({ mix, cells }) => `<tr><th>${escaped(mix.replaceAll("_", " "))}</th>${cells.map(({ png, label }) =>
+        `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`).join("")}</tr>`).join("")}</table>`;
+    const sheet = await browser.newPage({ viewport: { width: 140 + views.length * columns.length * (options.cell + 1), height: 600 } });
+    await sheet.setContent(html);
+    await mkdir(path.dirname(options.out), { recursive: true });
+    await writeFile(options.out, await sheet.screenshot({ fullPage: true }));
+    console.log(options.out);
+} finally {
+    await browser.close();
+}
+process.exitCode = broken ? 1 : 0;

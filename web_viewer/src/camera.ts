@@ -1,0 +1,77 @@
+// Where to stand to see a box whole, from a named side.
+import { Vector3, type Box3, type PerspectiveCamera } from "three";
+
+export const viewNames = ["three-quarter", "front", "side", "top", "below"] as const;
+export type ViewName = (typeof viewNames)[number];
+
+/** Unit direction from the model to the eye, by azimuth from +Z to +X and elevation, degrees. */
+function towards(azimuth: number, elevation: number): Vector3 {
+    const a = (azimuth * Math.PI) / 180;
+    const e = (elevation * Math.PI) / 180;
+    return new Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
+}
+
+export const viewDirections: Readonly<Record<ViewName, Vector3>> = {
+    "three-quarter": towards(32, 17),
+    front: towards(0, 4),
+    side: towards(90, 4),
+    top: towards(0, 89.9),
+    below: towards(24, -38),
+};
+
+/** The frame left free around the model, as parts of the picture: the plate and the buttons stand there. */
+export interface Margin {
+    x: number;
+    y: number;
+}
+
+/** The distance from the centre of `box` at which all its corners are inside the picture. */
+export function fittingDistance(
+    box: Box3,
+    direction: Vector3,
+    camera: PerspectiveCamera,
+    margin: Margin,
+): number {
+    const centre = box.getCenter(new Vector3());
+    const right = new Vector3().crossVectors(camera.up, direction).normalize();
+    const up = new Vector3().crossVectors(direction, right);
+    const tall = Math.tan((camera.fov * Math.PI) / 360);
+    const wide = tall * camera.aspect;
+    let distance = 0;
+    for (let corner = 0; corner < 8; ++corner) {
+        const point = new Vector3(
+            corner & 1 ? box.max.x : box.min.x,
+            corner & 2 ? box.max.y : box.min.y,
+            corner & 4 ? box.max.z : box.min.z,
+        ).sub(centre);
+        const depth = point.dot(direction);
+        distance = Math.max(
+            distance,
+            depth + Math.abs(point.dot(right)) / (wide * (1 - margin.x)),
+            depth + Math.abs(point.dot(up)) / (tall * (1 - margin.y)),
+        );
+    }
+    return distance;
+}
+
+/** Pixels that a metre takes at the depth of the point looked at. */
+export function pixelsPerMetre(camera: PerspectiveCamera, target: Vector3, height: number): number {
+    const distance = camera.position.distanceTo(target);
+    return height / (2 * distance * Math.tan((camera.fov * Math.PI) / 360));
+}
+
+/** A bar of a round length between `least` and some 2.5 times as many pixels; lengths in metres. */
+export function scaleBar(perMetre: number, least: number): { metres: number; pixels: number } {
+    const wanted = least / perMetre;
+    const power = 10 ** Math.floor(Math.log10(wanted));
+    const digit = [1, 2, 5, 10].find((size) => size * power >= wanted * 0.9999999) ?? 10;
+    const metres = Number((digit * power).toPrecision(1));
+    return { metres, pixels: metres * perMetre };
+}
+
+/** "5 cm", "0.5 cm", "20 cm": a round number of metres as a person says it. */
+export function centimetres(metres: number, digits?: number): string {
+    const value = metres * 100;
+    const text = digits === undefined ? String(Number(value.toPrecision(6))) : value.toFixed(digits);
+    return `${text} cm`;
+}

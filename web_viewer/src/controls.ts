@@ -1,0 +1,224 @@
+// The controls, made from the fields of the schema: native inputs whose `name` is the query name.
+import { make } from "./dom";
+import { fault, valueAt, type Field, type Group, type Value } from "./schema";
+import type { Settings } from "./settings";
+
+export interface ControlEvents {
+    /** A control is being moved: settings are new already. */
+    moving: (field: Field) => void;
+    /** A control was let go. */
+    moved: (field: Field) => void;
+}
+
+type Entry = HTMLInputElement | HTMLSelectElement;
+
+class Control {
+    readonly row: HTMLElement;
+    private readonly entries: Entry[] = [];
+    private readonly message = make("p", { class: "fault", hidden: true });
+    private readonly reset = make("button", { type: "button", class: "reset" }, "↺");
+
+    constructor(
+        readonly field: Field,
+        private readonly settings: Settings,
+        private readonly events: ControlEvents,
+    ) {
+        const id = `control-${field.name}`;
+        const describedBy = `${id}-about ${id}-fault`;
+        const shared = {
+            name: field.name,
+            title: field.description || undefined,
+            "aria-describedby": describedBy,
+        };
+        this.message.id = `${id}-fault`;
+        const label = make("label", { for: id, title: field.description || undefined }, field.label);
+        const about = make("p", { class: "about", id: `${id}-about` }, this.aboutText());
+        const reset = field.fromSpecies ? "Back to the species' own" : "Back to the default";
+        this.reset.title = reset;
+        this.reset.setAttribute("aria-label", `${field.label}: ${reset.toLowerCase()}`);
+        this.reset.addEventListener("click", () => {
+            this.settings.set(field.name, undefined);
+            this.fail(undefined);
+            this.events.moved(field);
+            this.entries[0]?.focus();
+        });
+
+        const body = make("div", { class: "entry" });
+        if (field.kind === "checkbox") {
+            body.append(this.listen(make("input", { ...shared, id, type: "checkbox" })));
+        } else if (field.kind === "select") {
+            const options = field.options.map((option) => make("option", { value: String(option) }, String(option)));
+            body.append(this.listen(make("select", { ...shared, id }, ...options)));
+        } else if (field.kind === "text") {
+            body.append(this.listen(make("input", { ...shared, id, type: "text" })));
+        } else {
+            const { min, max } = field;
+            if (min !== undefined && max !== undefined) {
+                body.append(this.listen(make("input", { ...shared, id, type: "range", min, max, step: field.step })));
+            }
+            const number = make("input", {
+                ...shared,
+                id: this.entries.length ? `${id}-number` : id,
+                type: "number",
+                min,
+                max,
+                step: field.integer ? 1 : "any",
+                "aria-label": `${field.label}, as a number`,
+                inputmode: field.integer ? "numeric" : "decimal",
+            });
+            body.append(this.listen(number));
+        }
+        const unit = make("span", { class: "unit", "aria-hidden": true }, field.unit);
+        const head = make("div", { class: "head" }, label, this.reset);
+        body.append(unit);
+        if (field.name === "seed" && field.kind === "number") body.append(this.dice());
+        this.row = make("div", { class: `control ${field.kind}`, "data-name": field.name }, head, body, about, this.message);
+        this.row.classList.toggle("integer", field.integer);
+    }
+
+    /** Shows the setting, or what the species has of its own. */
+    show(effective: unknown): void {
+        const set = this.settings.values.get(this.field.name);
+        const own = this.field.fromSpecies ? valueAt(effective, this.field.name) : this.field.fallback;
+        const value = set ?? own;
+        this.row.classList.toggle("set", set !== undefined);
+        this.row.classList.toggle("inherited", set === undefined && this.field.fromSpecies);
+        this.reset.hidden = set === undefined;
+        // What a species cannot have is not offered.
+        this.row.hidden = this.field.fromSpecies && set === undefined && effective !== undefined && own === undefined;
+        for (const entry of this.entries) {
+            if (entry instanceof HTMLInputElement && entry.type === "checkbox") {
+                entry.checked = value === true;
+            } else if (document.activeElement !== entry || entry.type !== "number" || Number(entry.value) !== value) {
+                entry.value = value === undefined ? "" : this.text(value, entry);
+            }
+            if (entry.type === "range") this.fill(entry as HTMLInputElement, value);
+        }
+    }
+
+    fail(detail: string | undefined): void {
+        this.message.hidden = detail === undefined;
+        this.message.textContent = detail ?? "";
+        this.row.classList.toggle("failed", detail !== undefined);
+        if (detail !== undefined) this.row.hidden = false;
+        for (const entry of this.entries) {
+            if (detail === undefined) entry.removeAttribute("aria-invalid");
+            else entry.setAttribute("aria-invalid", "true");
+        }
+    }
+
+    private aboutText(): string {
+        const { field } = this;
+        const range = field.min !== undefined && field.max !== undefined ? `${field.min} to ${field.max}` : "";
+        const span = [range, field.unit].filter(Boolean).join(" ");
+        const start = field.fromSpecies ? "the species' own unless moved" : "";
+        const facts = [span, start].filter(Boolean).join("; ");
+        return [field.description, facts && `(${facts})`].filter(Boolean).join(" ");
+    }
+
+    /** What the species brings has more digits than a person wants to read. */
+    private text(value: Value, entry: Entry): string {
+        if (typeof value !== "number" || entry.type !== "number" || this.settings.values.has(this.field.name)) {
+            return String(value);
+        }
+        return String(Number(value.toPrecision(4 + (this.field.integer ? 8 : 0))));
+    }
+
+    private fill(range: HTMLInputElement, value: Value | undefined): void {
+        const { min = 0, max = 1 } = this.field;
+        const part = typeof value === "number" ? (value - min) / (max - min) : 0;
+        const zero = min < 0 && max > 0 ? -min / (max - min) : 0;
+        range.style.setProperty("--from", `${100 * Math.min(part, zero)}%`);
+        range.style.setProperty("--to", `${100 * Math.max(part, zero)}%`);
+    }
+
+    private listen<T extends Entry>(entry: T): T {
+        this.entries.push(entry);
+        entry.addEventListener("input", () => this.take(entry, false));
+        entry.addEventListener("change", () => this.take(entry, true));
+        return entry;
+    }
+
+    private take(entry: Entry, letGo: boolean): void {
+        const { field } = this;
+        let value: Value;
+        if (entry instanceof HTMLInputElement && entry.type === "checkbox") value = entry.checked;
+        else if (field.kind === "select") value = field.options.find((option) => String(option) === entry.value) ?? "";
+        else if (field.kind === "number") value = entry.value === "" ? Number.NaN : Number(entry.value);
+        else value = entry.value;
+        const wrong = fault(field, value);
+        this.fail(wrong);
+        if (wrong) return;
+        this.settings.set(field.name, value);
+        if (letGo) this.events.moved(field);
+        else this.events.moving(field);
+    }
+
+    private dice(): HTMLElement {
+        const button = make(
+            "button",
+            { type: "button", class: "dice", title: "Another individual", "aria-label": "Another individual: a new seed" },
+            "⚄",
+        );
+        button.addEventListener("click", () => {
+            const { min = 0, max = 0xffffffff } = this.field;
+            const random = crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
+            // Short seeds are easier to tell to somebody else.
+            const span = Math.min(max - min, 99999);
+            this.settings.set(this.field.name, min + (random % (span + 1)));
+            this.fail(undefined);
+            this.events.moved(this.field);
+        });
+        return button;
+    }
+}
+
+export class Controls {
+    private readonly controls: Control[] = [];
+    private readonly sections: { element: HTMLElement; controls: Control[] }[] = [];
+    private effective: unknown;
+
+    constructor(host: HTMLElement, groups: readonly Group[], settings: Settings, events: ControlEvents) {
+        groups.forEach((group, index) => {
+            const made = group.fields.map((field) => new Control(field, settings, events));
+            const fields = made.map((control) => control.row);
+            const title = make("span", {}, group.label);
+            const element = make(
+                "details",
+                { class: "group", open: index < 2, title: group.description || undefined },
+                make("summary", {}, title),
+                make("div", { class: "fields", role: "group", "aria-label": group.label }, ...fields),
+            );
+            host.append(element);
+            this.controls.push(...made);
+            this.sections.push({ element, controls: made });
+        });
+    }
+
+    /** Brings every control to the settings; `effective` is what the server says is really used. */
+    show(effective: unknown = this.effective): void {
+        this.effective = effective;
+        for (const control of this.controls) control.show(effective);
+        for (const { element, controls } of this.sections) {
+            element.hidden = controls.every((control) => control.row.hidden);
+            element.classList.toggle("set", controls.some((control) => control.row.classList.contains("set")));
+        }
+    }
+
+    /** Puts words next to the control they are about; returns false when there is no such control. */
+    fail(name: string, detail: string): boolean {
+        const found = this.controls.find((control) => control.field.name === name);
+        if (!found) return false;
+        found.fail(detail);
+        const details = found.row.closest("details");
+        if (details) {
+            details.open = true;
+            details.hidden = false;
+        }
+        return true;
+    }
+
+    clearFaults(): void {
+        for (const control of this.controls) control.fail(undefined);
+    }
+}

@@ -1,0 +1,104 @@
+// The gallery: one button per species, with a picture that the page takes itself.
+import { make } from "./dom";
+import { centimetres } from "./camera";
+
+export interface Species {
+    id: string;
+    scientific_name: string;
+    common_name: string;
+    form?: string;
+    cap_diameter_m?: [number, number] | null;
+    height_m?: [number, number];
+    substrate?: string;
+    season?: number[];
+    links?: { self?: string; model?: string };
+}
+
+const months = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
+
+/** "Jul–Oct" of [7, 8, 9, 10]; also over the turn of the year. */
+export function seasonText(season: readonly number[] = []): string {
+    const first = season.find((month) => !season.includes(month === 1 ? 12 : month - 1));
+    if (first === undefined) return season.length === 12 ? "all year" : "";
+    let last = first;
+    while (season.includes((last % 12) + 1)) last = (last % 12) + 1;
+    const from = months[first - 1] ?? "";
+    return first === last ? from : `${from}–${months[last - 1]}`;
+}
+
+function span(range: [number, number] | null | undefined): string {
+    if (!range) return "";
+    const low = Number((range[0] * 100).toPrecision(2));
+    return `${low}–${centimetres(Number(range[1].toPrecision(2)))}`;
+}
+
+/** One line about a species: "cap 8–20 cm · soil · Jul–Oct". */
+export function factLine(species: Species): string {
+    const cap = span(species.cap_diameter_m);
+    const tall = span(species.height_m);
+    return [cap ? `cap ${cap}` : tall && `${tall} tall`, species.substrate, seasonText(species.season)]
+        .filter(Boolean)
+        .join(" · ");
+}
+
+export class Gallery {
+    private readonly buttons = new Map<string, HTMLButtonElement>();
+
+    constructor(host: HTMLElement, readonly species: readonly Species[], choose: (id: string) => void) {
+        for (const one of species) {
+            const picture = make("span", { class: "picture", "aria-hidden": true });
+            const button = make(
+                "button",
+                { type: "button", "data-species": one.id, "aria-pressed": "false", title: factLine(one) || undefined },
+                picture,
+                make("span", { class: "names" },
+                    make("span", { class: "common" }, one.common_name),
+                    make("i", { lang: "la" }, one.scientific_name)),
+            );
+            button.addEventListener("click", () => choose(one.id));
+            this.buttons.set(one.id, button);
+            host.append(make("li", {}, button));
+        }
+        host.addEventListener("keydown", (event) => {
+            const all = [...this.buttons.values()];
+            const at = all.indexOf(document.activeElement as HTMLButtonElement);
+            const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
+            if (at < 0 || step === undefined) return;
+            event.preventDefault();
+            all[(at + step + all.length) % all.length]?.focus();
+        });
+    }
+
+    find(id: string): Species | undefined {
+        return this.species.find((one) => one.id === id);
+    }
+
+    /** Marks what is on the stage: a species, or each member of a mix. */
+    mark(mix: string): void {
+        const members = mix.split(",").map((member) => member.split(":")[0]);
+        for (const [id, button] of this.buttons) {
+            const chosen = members.includes(id);
+            if (chosen && button.getAttribute("aria-pressed") !== "true") {
+                this.intoView(button);
+            }
+            button.setAttribute("aria-pressed", String(chosen));
+        }
+    }
+
+    picture(id: string, address: string): void {
+        const host = this.buttons.get(id)?.querySelector(".picture");
+        host?.replaceChildren(make("img", { src: address, alt: "", width: 96, height: 96 }));
+    }
+
+    /** Scrolls the list, never the page. */
+    private intoView(button: HTMLButtonElement): void {
+        const list = button.closest("ul");
+        if (!list) return;
+        const item = button.getBoundingClientRect();
+        const frame = list.getBoundingClientRect();
+        if (item.left < frame.left) list.scrollLeft += item.left - frame.left - 8;
+        if (item.right > frame.right) list.scrollLeft += item.right - frame.right + 8;
+        if (item.top < frame.top) list.scrollTop += item.top - frame.top - 8;
+        if (item.bottom > frame.bottom) list.scrollTop += item.bottom - frame.bottom + 8;
+    }
+}

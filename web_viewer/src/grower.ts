@@ -1,0 +1,156 @@
+// Keeps the stage equal to the settings: rough models while something is dragged, the chosen one
+// after it, never two at a time, and the old one until the new one is ready.
+import type { Object3D } from "three";
+import { getJson, getModel, RequestFailed, type Answer, type Progress } from "./http";
+import { parseModel } from "./model";
+import type { Settings } from "./settings";
+
+export interface Grown {
+    answer: Answer;
+    model: Object3D;
+    draft: boolean;
+    /** Address that was asked for. */
+    address: string;
+}
+
+export interface GrowerEvents {
+    progress: (progress: Progress | { stage: "unpacking" } | { stage: "idle" }) => void;
+    /** Puts the model on the stage; `current` says whether it is still wanted. */
+    show: (grown: Grown, refit: boolean, current: () => boolean) => Promise<boolean>;
+    effective: (resource: { effective?: unknown }) => void;
+    failed: (error: RequestFailed) => void;
+}
+
+const pauseMs = 120;
+
+interface Flight {
+    draft: boolean;
+    stop: AbortController;
+}
+
+export class Grower {
+    private flight: Flight | undefined;
+    private timer: ReturnType<typeof setTimeout> | undefined;
+    private pending: { draft: boolean } | undefined;
+    private refit = true;
+    private linked = true;
+    private shown: string | undefined;
+    private failure: { address: string; error: RequestFailed } | undefined;
+    private waiting: (() => void)[] = [];
+
+    constructor(
+        private readonly settings: Settings,
+        private readonly events: GrowerEvents,
+    ) {}
+
+    /** Something is being moved: a rough model soon. */
+    draft(): void {
+        // A final model on its way is out of date; a draft on its way is finished first, so that
+        // a long drag shows something also when the server is slow.
+        if (this.flight && !this.flight.draft) this.stop();
+        this.plan(true, pauseMs);
+    }
+
+    /** The settings stand: the model as chosen. */
+    final(refit = false, delay = 0): void {
+        this.refit ||= refit;
+        this.stop();
+        this.plan(false, delay);
+    }
+
+    /** Resolves when what stands on the stage is what the settings say. */
+    async settled(): Promise<void> {
+        for (;;) {
+            const address = this.settings.address(".glb");
+            const idle = !this.flight && !this.pending;
+            if (idle && this.shown === address) return;
+            if (idle && this.failure?.address === address) throw this.failure.error;
+            await new Promise<void>((resolve) => this.waiting.push(resolve));
+        }
+    }
+
+    private plan(draft: boolean, delay: number): void {
+        this.pending = { draft };
+        if (this.flight) return;
+        if (this.timer !== undefined && draft) return;
+        clearTimeout(this.timer);
+        this.timer = setTimeout(() => {
+            this.timer = undefined;
+            void this.start();
+        }, delay);
+    }
+
+    private stop(): void {
+        this.flight?.stop.abort();
+        this.flight = undefined;
+        clearTimeout(this.timer);
+        this.timer = undefined;
+    }
+
+    private async start(): Promise<void> {
+        const pending = this.pending;
+        if (!pending) return;
+        this.pending = undefined;
+        const { draft } = pending;
+        const flight: Flight = { draft, stop: new AbortController() };
+        this.flight = flight;
+        const replaced = draft ? this.settings.draftValues(this.linked) : undefined;
+        const address = this.settings.address(".glb", replaced);
+        const current = (): boolean => this.flight === flight;
+        try {
+            const effective = draft ? undefined : this.readEffective(flight.stop.signal);
+            const answer = await getModel(address, flight.stop.signal, (progress) => {
+                if (current()) this.events.progress(progress);
+            });
+            if (!current()) return;
+            this.events.progress({ stage: "unpacking" });
+            const model = await parseModel(answer.bytes);
+            const refit = this.refit;
+            if (!(await this.events.show({ answer, model, draft, address }, refit, current))) return;
+            this.refit = false;
+            if (!draft) {
+                const resource = await effective;
+                if (!current()) return;
+                if (resource) this.events.effective(resource);
+                this.shown = address;
+                this.failure = undefined;
+            }
+        } catch (error) {
+            if (!current()) return;
+            this.fail(address, replaced?.has("textures") ?? false, draft, error);
+        } finally {
+            if (current()) {
+                this.flight = undefined;
+                this.events.progress({ stage: "idle" });
+                if (this.pending) this.plan((this.pending as { draft: boolean }).draft, 0);
+            }
+            const waiting = this.waiting;
+            this.waiting = [];
+            for (const resolve of waiting) resolve();
+        }
+    }
+
+    private fail(address: string, linked: boolean, draft: boolean, error: unknown): void {
+        const known =
+            error instanceof RequestFailed
+                ? error
+                : new RequestFailed("The model could not be shown", error instanceof Error ? error.message : "", 0);
+        if (draft && linked && known.status === 422) {
+            // A server with signed URLs has no linked images: drafts embed them from now on.
+            this.linked = false;
+            this.pending ??= { draft: true };
+            return;
+        }
+        if (!draft) this.failure = { address, error: known };
+        this.events.failed(known);
+    }
+
+    private async readEffective(signal: AbortSignal): Promise<{ effective?: unknown } | undefined> {
+        try {
+            return await getJson(this.settings.address(".json"), signal);
+        } catch {
+            // The model's own request says what is wrong.
+            return undefined;
+        }
+    }
+}

@@ -1,0 +1,83 @@
+// A parsed GLB on its way to the stage and off it again: reading, measuring, counting, freeing.
+import { Box3, Mesh, Texture, type Material, type Object3D } from "three";
+import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+
+export interface Counts {
+    triangles: number;
+    vertices: number;
+    drawCalls: number;
+    textures: number;
+}
+
+export function meshesOf(model: Object3D): Mesh[] {
+    const meshes: Mesh[] = [];
+    model.traverse((node) => {
+        if (node instanceof Mesh) meshes.push(node);
+    });
+    return meshes;
+}
+
+function materialsOf(mesh: Mesh): Material[] {
+    return Array.isArray(mesh.material) ? mesh.material : [mesh.material];
+}
+
+export function texturesOf(model: Object3D): Set<Texture> {
+    const textures = new Set<Texture>();
+    for (const mesh of meshesOf(model)) {
+        for (const material of materialsOf(mesh)) {
+            for (const value of Object.values(material)) {
+                if (value instanceof Texture) textures.add(value);
+            }
+        }
+    }
+    return textures;
+}
+
+/** Reads GLB bytes; linked images are fetched from this server. */
+export async function parseModel(bytes: ArrayBuffer): Promise<Object3D> {
+    const { scene } = await new GLTFLoader().parseAsync(bytes, `${location.origin}/`);
+    for (const mesh of meshesOf(scene)) {
+        mesh.castShadow = true;
+        mesh.receiveShadow = true;
+    }
+    for (const texture of texturesOf(scene)) texture.anisotropy = 8;
+    return scene;
+}
+
+export function countsOf(model: Object3D): Counts {
+    const counts = { triangles: 0, vertices: 0, drawCalls: 0, textures: texturesOf(model).size };
+    for (const { geometry } of meshesOf(model)) {
+        const vertices = geometry.getAttribute("position")?.count ?? 0;
+        counts.vertices += vertices;
+        counts.triangles += (geometry.index?.count ?? vertices) / 3;
+        counts.drawCalls += 1;
+    }
+    return counts;
+}
+
+/** Bounds of the vertices themselves, metres. */
+export function boundsOf(model: Object3D): Box3 {
+    model.updateMatrixWorld(true);
+    return new Box3().setFromObject(model, true);
+}
+
+export function setWireframe(model: Object3D, shown: boolean): void {
+    for (const mesh of meshesOf(model)) {
+        for (const material of materialsOf(mesh)) {
+            if ("wireframe" in material) material.wireframe = shown;
+        }
+    }
+}
+
+/** Frees all that a model holds on the graphics card, and its decoded images. */
+export function disposeModel(model: Object3D): void {
+    for (const texture of texturesOf(model)) {
+        const image: unknown = texture.image;
+        texture.dispose();
+        if (typeof ImageBitmap !== "undefined" && image instanceof ImageBitmap) image.close();
+    }
+    for (const mesh of meshesOf(model)) {
+        mesh.geometry.dispose();
+        for (const material of materialsOf(mesh)) material.dispose();
+    }
+}

@@ -1,0 +1,199 @@
+// Turns the served JSON Schema of the query parameters into one flat list of fields, which is all
+// that the rest of the page knows about parameters.
+
+export type Value = number | string | boolean;
+
+export interface Schema {
+    type?: string | string[];
+    title?: string;
+    description?: string;
+    default?: Value;
+    minimum?: number;
+    maximum?: number;
+    enum?: Value[];
+    const?: Value;
+    properties?: Record<string, Schema>;
+    anyOf?: Schema[];
+    oneOf?: Schema[];
+    $ref?: string;
+    $defs?: Record<string, Schema>;
+    "x-unit"?: string;
+    "x-default-from"?: string;
+    "x-group"?: string;
+}
+
+export type Kind = "number" | "select" | "checkbox" | "text";
+
+export interface Field {
+    /** The query name, dotted when nested: "weathering.cracks". */
+    name: string;
+    label: string;
+    kind: Kind;
+    integer: boolean;
+    min: number | undefined;
+    max: number | undefined;
+    /** Distance between two notches of the slider: 1, 2 or 5 times a power of ten. */
+    step: number;
+    options: Value[];
+    /** What the server takes when the parameter is absent; undefined when it is the species' own. */
+    fallback: Value | undefined;
+    fromSpecies: boolean;
+    unit: string;
+    description: string;
+    /** Key of the group, "" for the top level. */
+    group: string;
+}
+
+export interface Group {
+    key: string;
+    label: string;
+    description: string;
+    fields: Field[];
+}
+
+/** Query parameters that are the page's business, not the person's. */
+const hidden = new Set(["v"]);
+
+/** The largest of 1, 2, 5 times a power of ten that is not above `most`. */
+export function niceStep(most: number): number {
+    const power = 10 ** Math.floor(Math.log10(most));
+    const step = [5, 2, 1].map((digit) => digit * power).find((size) => size <= most * 1.0000001);
+    return Number((step ?? power).toPrecision(1));
+}
+
+/** "bend_deg" -> "Bend", "texture_size" -> "Texture size". */
+export function words(name: string): string {
+    const text = name.replace(/_(deg|m|mm|px)$/, "").replaceAll("_", " ").replace(/\blod\b/, "LOD");
+    return text.charAt(0).toUpperCase() + text.slice(1);
+}
+
+/** The sign a person reads for a unit of the schema. */
+export function unitSign(unit: string): string {
+    return { deg: "°", degree: "°", degrees: "°", pixel: "px", pixels: "px" }[unit] ?? unit;
+}
+
+function resolved(schema: Schema, root: Schema): Schema {
+    let found = schema;
+    for (let hops = 0; found.$ref !== undefined && hops < 16; ++hops) {
+        let target: unknown = root;
+        for (const part of found.$ref.replace(/^#\/?/, "").split("/").filter(Boolean)) {
+            target = (target as Record<string, unknown> | undefined)?.[decodeURIComponent(part)];
+        }
+        const { $ref: _, ...rest } = found;
+        found = { ...(target as Schema), ...rest };
+    }
+    const choices = found.anyOf ?? found.oneOf;
+    if (choices && !found.type && !found.enum) {
+        if (choices.every((choice) => choice.const !== undefined)) {
+            return { ...found, enum: choices.map((choice) => choice.const as Value) };
+        }
+        const real = choices.filter((choice) => choice.type !== "null");
+        if (real.length === 1 && real[0]) return resolved({ ...real[0], ...found, anyOf: undefined, oneOf: undefined } as Schema, root);
+    }
+    return found;
+}
+
+function fieldOf(name: string, last: string, group: string, schema: Schema): Field | undefined {
+    const types = Array.isArray(schema.type) ? schema.type : [schema.type];
+    const fromSpecies = schema["x-default-from"] === "species";
+    const field: Field = {
+        name,
+        label: schema.title ?? words(last),
+        kind: "text",
+        integer: types.includes("integer"),
+        min: schema.minimum,
+        max: schema.maximum,
+        step: 1,
+        options: [],
+        fallback: schema.default,
+        fromSpecies,
+        unit: unitSign(schema["x-unit"] ?? ""),
+        description: schema.description ?? "",
+        group,
+    };
+    if (schema.enum) {
+        field.kind = "select";
+        field.options = schema.enum.filter((option) => option !== null);
+    } else if (types.includes("boolean")) {
+        field.kind = "checkbox";
+    } else if (types.includes("integer") || types.includes("number")) {
+        field.kind = "number";
+        if (!field.integer) {
+            const span = field.min !== undefined && field.max !== undefined ? field.max - field.min : 1;
+            field.step = niceStep(span / 180);
+        }
+    } else if (!types.includes("string")) {
+        return undefined;
+    }
+    return field;
+}
+
+/** All parameters in schema order; nested objects become dotted names and groups of their own. */
+export function groupsOf(root: Schema): Group[] {
+    const groups = new Map<string, Group>();
+    const groupAt = (key: string, label: string, description = ""): Group => {
+        const made = groups.get(key) ?? { key, label, description, fields: [] };
+        groups.set(key, made);
+        return made;
+    };
+    const walk = (schema: Schema, path: string[]): void => {
+        for (const [key, raw] of Object.entries(schema.properties ?? {})) {
+            const sub = resolved(raw, root);
+            const at = [...path, ...key.split(".")];
+            if (sub.properties) {
+                const groupKey = at.join(".");
+                groupAt(groupKey, sub.title ?? words(at.join(" · ")), sub.description);
+                walk(sub, at);
+                continue;
+            }
+            const name = at.join(".");
+            if (hidden.has(name)) continue;
+            const groupKey = at.slice(0, -1).join(".") || (sub["x-group"] ?? fileGroup(name));
+            const field = fieldOf(name, at.at(-1) ?? name, groupKey, sub);
+            if (field) groupAt(groupKey, words(groupKey || "individual")).fields.push(field);
+        }
+    };
+    walk(resolved(root, root), []);
+    return [...groups.values()].filter((group) => group.fields.length > 0);
+}
+
+/** Top-level parameters about the file rather than the mushroom stand in a group of their own. */
+function fileGroup(name: string): string {
+    return /^(lod|textures?|texture_size|animation|frames)$/.test(name) ? "file" : "";
+}
+
+/** Reads "deformation.bend_deg" out of the nested `effective` of a resource. */
+export function valueAt(effective: unknown, name: string): Value | undefined {
+    let found: unknown = effective;
+    for (const part of name.split(".")) {
+        if (typeof found !== "object" || found === null) return undefined;
+        found = (found as Record<string, unknown>)[part];
+    }
+    return typeof found === "number" || typeof found === "string" || typeof found === "boolean"
+        ? found
+        : undefined;
+}
+
+/** What is wrong with a value, in words; undefined when nothing is. */
+export function fault(field: Field, value: Value): string | undefined {
+    if (field.kind === "number") {
+        if (typeof value !== "number" || !Number.isFinite(value)) return "needs a number";
+        if (field.integer && !Number.isInteger(value)) return "needs a whole number";
+        if (field.min !== undefined && value < field.min) return `is below ${field.min}`;
+        if (field.max !== undefined && value > field.max) return `is above ${field.max}`;
+    }
+    if (field.kind === "select" && !field.options.includes(value)) {
+        return `is none of ${field.options.join(", ")}`;
+    }
+    return undefined;
+}
+
+/** Text of a query to a typed value of the field; undefined when it cannot be one. */
+export function parsed(field: Field, text: string): Value | undefined {
+    if (field.kind === "number") {
+        return /^-?\d+(\.\d+)?([eE][+-]?\d+)?$/.test(text) ? Number(text) : undefined;
+    }
+    if (field.kind === "checkbox") return text === "true" ? true : text === "false" ? false : undefined;
+    if (field.kind === "select") return field.options.find((option) => String(option) === text);
+    return text;
+}

@@ -1,0 +1,321 @@
+// The stage: one model in daylight on a sheet of paper, drawn only when something changed.
+import {
+    Box3,
+    DirectionalLight,
+    HemisphereLight,
+    NeutralToneMapping,
+    PCFShadowMap,
+    PerspectiveCamera,
+    PMREMGenerator,
+    Scene,
+    Sphere,
+    Spherical,
+    Vector3,
+    WebGLRenderer,
+    type Object3D,
+} from "three";
+import { OrbitControls } from "three/addons/controls/OrbitControls.js";
+import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
+import { fittingDistance, pixelsPerMetre, viewDirections, type ViewName } from "./camera";
+import { ContactShadow } from "./contact_shadow";
+import { Ground } from "./ground";
+import { boundsOf, disposeModel, setWireframe, texturesOf } from "./model";
+import { niceStep } from "./schema";
+
+/** Light from the upper left, as in the plates of field guides. */
+const sunDirection = new Vector3(-0.55, 1.3, 0.66).normalize();
+
+export interface Size {
+    width: number;
+    height: number;
+    depth: number;
+}
+
+/** A renderer and a lit scene, the same for the stage and for thumbnails. */
+export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
+    renderer: WebGLRenderer;
+    scene: Scene;
+    sun: DirectionalLight;
+} {
+    const renderer = new WebGLRenderer({ canvas, antialias, alpha: true });
+    renderer.toneMapping = NeutralToneMapping;
+    renderer.toneMappingExposure = 1;
+    renderer.shadowMap.enabled = true;
+    renderer.shadowMap.type = PCFShadowMap;
+    const scene = new Scene();
+    const room = new RoomEnvironment();
+    const generator = new PMREMGenerator(renderer);
+    scene.environment = generator.fromScene(room, 0.04).texture;
+    scene.environmentIntensity = 0.62;
+    generator.dispose();
+    room.dispose();
+    const sun = new DirectionalLight(0xfff2dd, 2.3);
+    sun.castShadow = true;
+    sun.shadow.mapSize.set(1024, 1024);
+    sun.shadow.radius = 7;
+    // Light that the paper throws back: gills and pores are seen by it.
+    const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 0.9);
+    scene.add(sun, sun.target, bounce);
+    return { renderer, scene, sun };
+}
+
+/** Turns the sun's shadow camera to a model of this size. */
+export function aimSun(sun: DirectionalLight, ball: Sphere): void {
+    const reach = ball.radius * 1.7;
+    sun.target.position.copy(ball.center);
+    sun.position.copy(sunDirection).multiplyScalar(ball.radius * 4).add(ball.center);
+    const camera = sun.shadow.camera;
+    Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach });
+    camera.near = ball.radius;
+    camera.far = ball.radius * 8;
+    camera.updateProjectionMatrix();
+    sun.shadow.normalBias = ball.radius * 0.006;
+    sun.shadow.bias = -0.0006;
+    sun.target.updateMatrixWorld();
+}
+
+export class Stage {
+    readonly renderer: WebGLRenderer;
+    readonly camera = new PerspectiveCamera(26, 1, 0.001, 10);
+    /** Called after each drawn frame. */
+    onFrame: () => void = () => undefined;
+
+    private readonly scene: Scene;
+    private readonly sun: DirectionalLight;
+    private readonly controls: OrbitControls;
+    private readonly ground = new Ground();
+    private readonly contact = new ContactShadow();
+    private model: Object3D | undefined;
+    private bounds = new Box3();
+    private requested = false;
+    private flight = 0;
+    private wireframe_ = false;
+    private waiting: (() => void)[] = [];
+
+    constructor(
+        private readonly host: HTMLElement,
+        canvas: HTMLCanvasElement,
+        private readonly calm: boolean,
+    ) {
+        const { renderer, scene, sun } = litScene(canvas, true);
+        this.renderer = renderer;
+        this.scene = scene;
+        this.sun = sun;
+        this.scene.add(this.ground, this.contact);
+        this.ground.visible = false;
+        this.contact.visible = false;
+        this.controls = new OrbitControls(this.camera, canvas);
+        this.controls.enableDamping = !calm;
+        this.controls.dampingFactor = 0.12;
+        this.controls.zoomToCursor = true;
+        this.controls.addEventListener("change", () => this.draw());
+        this.controls.addEventListener("start", () => (this.flight += 1));
+        canvas.addEventListener("keydown", (event) => this.onKey(event));
+        canvas.addEventListener("webglcontextrestored", () => this.draw());
+        new ResizeObserver(() => this.resize()).observe(host);
+        this.resize();
+    }
+
+    /** Size of what is shown, metres. */
+    get size(): Size {
+        const size = this.bounds.getSize(new Vector3());
+        return { width: size.x, height: size.y, depth: size.z };
+    }
+
+    get pixelsPerMetre(): number {
+        return pixelsPerMetre(this.camera, this.controls.target, this.host.clientHeight);
+    }
+
+    /** Metres between two lines on the ground. */
+    get ruling(): number {
+        const size = this.bounds.getSize(new Vector3());
+        return niceStep(Math.max(size.x, size.y, size.z) / 5) || 0.01;
+    }
+
+    colours(ink: string, shadow: string): void {
+        this.ground.colours(ink, shadow);
+        this.draw();
+    }
+
+    set ruled(shown: boolean) {
+        this.ground.ruledLines = shown;
+        this.draw();
+    }
+
+    set wireframe(shown: boolean) {
+        this.wireframe_ = shown;
+        if (this.model) setWireframe(this.model, shown);
+        this.draw();
+    }
+
+    /** Puts a model on the stage in place of the last one, once the graphics card has it. */
+    async show(model: Object3D, refit: boolean, current: () => boolean): Promise<boolean> {
+        setWireframe(model, this.wireframe_);
+        for (const texture of texturesOf(model)) this.renderer.initTexture(texture);
+        if (this.renderer.getContext().getExtension("KHR_parallel_shader_compile")) {
+            await this.renderer.compileAsync(model, this.camera, this.scene);
+        }
+        if (!current()) {
+            disposeModel(model);
+            return false;
+        }
+        const old = this.model;
+        this.model = model;
+        this.bounds = boundsOf(model);
+        this.scene.add(model);
+        if (old) {
+            this.scene.remove(old);
+            disposeModel(old);
+        }
+        this.settle();
+        if (refit || !old || this.outOfPicture()) this.fit(old ? undefined : "three-quarter", !old);
+        this.draw();
+        return true;
+    }
+
+    /** Looks from a named side, at once. */
+    view(name: ViewName, atOnce = true): void {
+        this.fit(name, atOnce);
+    }
+
+    /** Moves so that the whole model is in the picture. */
+    fit(name?: ViewName, atOnce = false): void {
+        if (this.bounds.isEmpty()) return;
+        const direction = name
+            ? viewDirections[name].clone()
+            : this.camera.position.clone().sub(this.controls.target).normalize();
+        if (direction.lengthSq() === 0) direction.copy(viewDirections["three-quarter"]);
+        const centre = this.bounds.getCenter(new Vector3());
+        const margin = this.host.clientWidth < 520 ? { x: 0.12, y: 0.3 } : { x: 0.14, y: 0.26 };
+        const distance = fittingDistance(this.bounds, direction, this.camera, margin);
+        this.moveTo(centre, direction.multiplyScalar(distance).add(centre), atOnce || this.calm);
+    }
+
+    /** Asks for one frame; many asks in one moment make one frame. */
+    draw(): void {
+        if (this.requested) return;
+        this.requested = true;
+        requestAnimationFrame(() => this.frame());
+    }
+
+    /** Resolves after the next drawn frame. */
+    drawn(): Promise<void> {
+        return new Promise((resolve) => {
+            this.waiting.push(resolve);
+            this.draw();
+        });
+    }
+
+    private frame(): void {
+        this.requested = false;
+        this.controls.update();
+        this.renderer.render(this.scene, this.camera);
+        this.onFrame();
+        const done = this.waiting;
+        this.waiting = [];
+        for (const resolve of done) resolve();
+    }
+
+    private resize(): void {
+        const { clientWidth: width, clientHeight: height } = this.host;
+        if (width === 0 || height === 0) return;
+        this.renderer.setPixelRatio(Math.min(devicePixelRatio, 2));
+        this.renderer.setSize(width, height, false);
+        this.camera.aspect = width / height;
+        this.camera.updateProjectionMatrix();
+        if (this.model && this.outOfPicture()) this.fit(undefined, true);
+        // Drawn at once: a canvas of a new size is empty until the next frame.
+        if (this.model) this.frame();
+    }
+
+    private settle(): void {
+        const ball = this.bounds.getBoundingSphere(new Sphere());
+        const size = this.bounds.getSize(new Vector3());
+        aimSun(this.sun, ball);
+        this.ground.visible = true;
+        this.ground.fit(ball.radius, this.ruling);
+        const half = Math.max(
+            Math.abs(this.bounds.min.x), Math.abs(this.bounds.max.x),
+            Math.abs(this.bounds.min.z), Math.abs(this.bounds.max.z),
+        ) * 1.6;
+        this.contact.visible = true;
+        this.contact.position.y = ball.radius * 0.0015;
+        if (this.model) this.contact.update(this.renderer, this.scene, this.model, half, size.y);
+        this.controls.minDistance = ball.radius * 0.4;
+        this.controls.maxDistance = ball.radius * 24;
+    }
+
+    private outOfPicture(): boolean {
+        const ball = this.bounds.getBoundingSphere(new Sphere());
+        const seen = ball.radius / (this.camera.position.distanceTo(ball.center) || 1);
+        const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
+        const off = this.controls.target.distanceTo(ball.center) / ball.radius;
+        return seen > half * 1.05 || seen < half * 0.3 || off > 1.5;
+    }
+
+    private moveTo(target: Vector3, position: Vector3, atOnce: boolean): void {
+        const flight = ++this.flight;
+        const clip = (): void => {
+            const distance = this.camera.position.distanceTo(this.controls.target);
+            this.camera.near = distance / 60;
+            this.camera.far = distance * 30;
+            this.camera.updateProjectionMatrix();
+        };
+        if (atOnce) {
+            this.controls.enableDamping = false;
+            this.controls.target.copy(target);
+            this.camera.position.copy(position);
+            clip();
+            this.controls.update();
+            this.controls.enableDamping = !this.calm;
+            this.draw();
+            return;
+        }
+        const fromTarget = this.controls.target.clone();
+        const from = new Spherical().setFromVector3(this.camera.position.clone().sub(fromTarget));
+        const to = new Spherical().setFromVector3(position.clone().sub(target));
+        let turn = to.theta - from.theta;
+        turn -= Math.round(turn / (2 * Math.PI)) * 2 * Math.PI;
+        const start = performance.now();
+        const step = (now: number): void => {
+            if (flight !== this.flight) return;
+            const t = Math.min(Math.max((now - start) / 380, 0), 1);
+            const s = t * t * (3 - 2 * t);
+            const at = new Spherical(
+                from.radius * (to.radius / from.radius) ** s,
+                from.phi + (to.phi - from.phi) * s,
+                from.theta + turn * s,
+            );
+            this.controls.target.lerpVectors(fromTarget, target, s);
+            this.camera.position.setFromSpherical(at).add(this.controls.target);
+            clip();
+            this.draw();
+            if (t < 1) requestAnimationFrame(step);
+        };
+        requestAnimationFrame(step);
+    }
+
+    private onKey(event: KeyboardEvent): void {
+        if (event.ctrlKey || event.metaKey || event.altKey) return;
+        const turn = new Spherical().setFromVector3(
+            this.camera.position.clone().sub(this.controls.target),
+        );
+        const step = Math.PI / 24;
+        if (event.key === "ArrowLeft") turn.theta -= step;
+        else if (event.key === "ArrowRight") turn.theta += step;
+        else if (event.key === "ArrowUp") turn.phi -= step;
+        else if (event.key === "ArrowDown") turn.phi += step;
+        else if (event.key === "+" || event.key === "=") turn.radius *= 0.9;
+        else if (event.key === "-") turn.radius /= 0.9;
+        else if (event.key === "Home") {
+            event.preventDefault();
+            return this.fit("three-quarter");
+        } else return;
+        event.preventDefault();
+        this.flight += 1;
+        turn.phi = Math.min(Math.max(turn.phi, 0.01), Math.PI - 0.01);
+        turn.radius = Math.min(Math.max(turn.radius, this.controls.minDistance), this.controls.maxDistance);
+        this.camera.position.setFromSpherical(turn).add(this.controls.target);
+        this.draw();
+    }
+}

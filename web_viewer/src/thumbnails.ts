@@ -1,0 +1,109 @@
+// Takes the gallery's pictures: small models, one after the other, on one renderer off the page.
+// They are kept in Cache Storage under the model's ETag, so that a second visit draws nothing.
+import { PerspectiveCamera, Sphere, Vector3, type Scene, type WebGLRenderer, type DirectionalLight } from "three";
+import { fittingDistance, viewDirections } from "./camera";
+import { getModel, send } from "./http";
+import { boundsOf, disposeModel, parseModel } from "./model";
+import { aimSun, litScene } from "./stage";
+
+const cacheName = "sporeprint-thumbnails-1";
+const pixels = 192;
+
+interface Studio {
+    renderer: WebGLRenderer;
+    scene: Scene;
+    sun: DirectionalLight;
+    canvas: HTMLCanvasElement;
+}
+
+/** Cache Storage is there on https and on this machine only; without it pictures are just drawn again. */
+async function openCache(): Promise<Cache | undefined> {
+    if (!("caches" in window)) return undefined;
+    try {
+        return await caches.open(cacheName);
+    } catch {
+        return undefined;
+    }
+}
+
+/** What tells one version of a model from another: its ETag, or else its canonical URL with `v`. */
+function versionOf(response: Response): string | undefined {
+    return response.headers.get("etag") ?? response.headers.get("content-location") ?? undefined;
+}
+
+function keyOf(id: string, version: string): string {
+    return `/thumbnails/${id}?version=${encodeURIComponent(version)}`;
+}
+
+async function keep(cache: Cache, id: string, version: string, picture: Blob): Promise<void> {
+    for (const old of await cache.keys()) {
+        if (new URL(old.url).pathname === `/thumbnails/${id}`) await cache.delete(old);
+    }
+    await cache.put(keyOf(id, version), new Response(picture, { headers: { "Content-Type": picture.type } }));
+}
+
+async function photograph(studio: Studio, bytes: ArrayBuffer): Promise<Blob> {
+    const model = await parseModel(bytes);
+    const camera = new PerspectiveCamera(24, 1, 0.001, 100);
+    const bounds = boundsOf(model);
+    const ball = bounds.getBoundingSphere(new Sphere());
+    const direction = viewDirections["three-quarter"];
+    const distance = fittingDistance(bounds, direction, camera, { x: 0.08, y: 0.08 });
+    camera.position.copy(direction).multiplyScalar(distance).add(ball.center);
+    camera.near = distance / 50;
+    camera.far = distance * 10;
+    camera.lookAt(bounds.getCenter(new Vector3()));
+    camera.updateProjectionMatrix();
+    aimSun(studio.sun, ball);
+    studio.scene.add(model);
+    studio.renderer.render(studio.scene, camera);
+    const picture = await new Promise<Blob>((resolve, reject) => {
+        studio.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/webp", 0.9);
+    });
+    studio.scene.remove(model);
+    disposeModel(model);
+    return picture;
+}
+
+/** Makes or finds the picture of each model in turn; `done` gets an address for an <img>. */
+export async function makeThumbnails(
+    models: readonly { id: string; address: string }[],
+    done: (id: string, picture: string) => void,
+    signal: AbortSignal,
+): Promise<void> {
+    const cache = await openCache();
+    let studio: Studio | undefined;
+    try {
+        for (const { id, address } of models) {
+            if (signal.aborted) return;
+            try {
+                const head = cache ? await send(address, { method: "HEAD", signal }) : undefined;
+                const known = head && versionOf(head);
+                const kept = known ? await cache?.match(keyOf(id, known)) : undefined;
+                if (kept) {
+                    done(id, URL.createObjectURL(await kept.blob()));
+                    continue;
+                }
+                const answer = await getModel(address, signal, () => undefined);
+                if (!studio) {
+                    const canvas = document.createElement("canvas");
+                    studio = { canvas, ...litScene(canvas, true) };
+                    studio.renderer.setSize(pixels, pixels, false);
+                    studio.sun.shadow.mapSize.set(512, 512);
+                }
+                const picture = await photograph(studio, answer.bytes);
+                done(id, URL.createObjectURL(picture));
+                const version = versionOf(answer.response);
+                if (cache && version) await keep(cache, id, version, picture);
+            } catch {
+                // A picture that could not be made leaves its place empty; the species still opens.
+            }
+        }
+    } finally {
+        if (studio) {
+            studio.scene.environment?.dispose();
+            studio.renderer.dispose();
+            studio.renderer.forceContextLoss();
+        }
+    }
+}
