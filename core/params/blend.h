@@ -79,8 +79,8 @@ template <Described Overrides, Described Values>
 consteval bool same_fields();
 
 /// Whether `Override` is `Member` made optional, or both are structs with the same fields.
-template <class Override, class Member>
-constexpr bool fits(const Override*, const Member*) {
+template <class Overrides, class Override, class Values, class Member>
+constexpr bool fits(Override Overrides::*, Member Values::*) {
     if constexpr (Described<Override> && Described<Member>)
         return same_fields<Override, Member>();
     else
@@ -92,13 +92,11 @@ template <Described Overrides, Described Values>
 consteval bool same_fields() {
     bool same = member_count<Overrides>() == member_count<Values>();
     std::size_t i = 0;
-    Overrides from{};
-    Values to{};
     Overrides::fields([&](auto override_member, const Info& override_info) {
         std::size_t j = 0;
         Values::fields([&](auto member, const Info& info) {
             if (i == j)
-                same = same && fits(&(from.*override_member), &(to.*member)) &&
+                same = same && fits(override_member, member) &&
                        std::string_view(override_info.name) == info.name;
             ++j;
         });

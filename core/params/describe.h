@@ -283,19 +283,34 @@ constexpr bool proper_default(const T& value, const Info& info) {
     }
 }
 
+template <class T>
+constexpr bool constructs() {
+    T value{};  // not const: GCC 12 cannot build a const vector in a constant expression
+    return static_cast<const void*>(&value) != nullptr;
+}
+
+/// Whether a T with its defaults can be made at compile time. Where it cannot (a std::variant whose
+/// alternative holds a list, under Clang 14), its defaults are left to `check` and to GCC.
+template <class T>
+concept ConstantDefault = requires {
+    typename std::bool_constant<constructs<T>()>;
+};
+
+template <class A, class B>
+constexpr bool same_member(A a, B b) {
+    if constexpr (std::is_same_v<A, B>)
+        return a == b;
+    else
+        return false;
+}
+
 template <Described T>
 consteval Description description() {
     Description found;
     constexpr std::size_t members = member_count<T>();
     found.members = members;
-    T value{};  // not const: GCC 12 cannot build a const vector in a constant expression
-    const void* seen[members + 1] = {};
     T::fields([&](auto member, const Info& info) {
-        using Member = std::remove_cvref_t<decltype(value.*member)>;
-        const void* const here = &(value.*member);
-        for (std::size_t i = 0; i < found.described && i < members; ++i)
-            found.distinct = found.distinct && seen[i] != here;
-        if (found.described < members) seen[found.described] = here;
+        using Member = std::remove_cvref_t<decltype(std::declval<T&>().*member)>;
         ++found.described;
         constexpr bool can_be_inlined = Described<Member> || is_variant<Member>;
         if (!(can_be_inlined && info.name[0] == '\0')) {
@@ -303,8 +318,26 @@ consteval Description description() {
             found.documented = found.documented && info.doc[0] != '\0';
         }
         found.bounded = found.bounded && proper_bounds<Member>(info);
-        found.in_bounds = found.in_bounds && proper_default(value.*member, info);
     });
+    if constexpr (ConstantDefault<T>) {
+        T value{};
+        const void* seen[members + 1] = {};
+        std::size_t count = 0;
+        T::fields([&](auto member, const Info& info) {
+            const void* const here = &(value.*member);
+            for (std::size_t i = 0; i < count && i < members; ++i)
+                found.distinct = found.distinct && seen[i] != here;
+            if (count < members) seen[count] = here;
+            ++count;
+            found.in_bounds = found.in_bounds && proper_default(value.*member, info);
+        });
+    } else {
+        std::size_t equal_pairs = 0;
+        T::fields([&](auto a, const Info&) {
+            T::fields([&](auto b, const Info&) { equal_pairs += same_member(a, b) ? 1 : 0; });
+        });
+        found.distinct = equal_pairs == found.described;
+    }
     return found;
 }
 
