@@ -1,0 +1,11 @@
+// What a fuzz target does when a promise is broken: says which and stops, so that the input is kept.
+#pragma once
+
+#include <cstdio>
+#include <cstdlib>
+
+inline void expect(bool kept, const char* promise) {
+    if (kept) return;
+    std::fprintf(stderr, "broken promise: %s\n", promise);
+    std::abort();
+}

@@ -1,0 +1,33 @@
+// A JSON body as a stranger sends it: parsed, read as a Model, and read again from our own text.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "core/model/model.h"
+#include "core/params/canonical.h"
+#include "core/params/reader.h"
+#include "core/params/value.h"
+#include "tests/fuzz/expect.h"
+
+using namespace sporeprint;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    std::vector<Problem> problems;
+    const Value json = parse(text, problems);
+    if (!problems.empty()) return 0;
+
+    const std::string own = dump(json);
+    const Value again = parse(own, problems);
+    expect(problems.empty() && dump(again) == own, "what we write reads back the same");
+
+    const Model model = read_all<Model>(json, problems);
+    if (!problems.empty()) return 0;
+    const Model copy = read_all<Model>(write(model), problems);
+    std::string before, after;
+    canonical(model, before);
+    canonical(copy, after);
+    expect(problems.empty() && before == after, "a written model reads back the same");
+    return 0;
+}

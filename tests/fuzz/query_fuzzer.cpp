@@ -1,0 +1,48 @@
+// A request target as a stranger sends it: taken apart, its query read, and read again from our own text.
+
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "api/errors.h"
+#include "api/mix.h"
+#include "api/query.h"
+#include "core/atlas/atlas.h"
+#include "core/model/request.h"
+#include "core/params/canonical.h"
+#include "core/params/query.h"
+#include "tests/fuzz/expect.h"
+
+using namespace sporeprint;
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const auto atlas = built_in_atlas();
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+
+    std::vector<Problem> problems;
+    const api::Target target = api::split_target(text, problems);
+    if (!target.segments.empty()) {
+        api::Faults faults;
+        const Mix mix = api::read_mix(std::string_view(target.segments.back()), *atlas, faults);
+        if (!mix.empty()) {
+            api::Faults none;
+            const Mix again = api::read_mix(std::string_view(api::mix_text(mix)), *atlas, none);
+            expect(again == mix, "a canonical mix is its own canonical form");
+        }
+    }
+
+    MushroomParams params;
+    read_query(target.query, params, problems);
+    if (!problems.empty()) return 0;
+
+    const std::string own = query_text(params);
+    std::vector<Problem> none;
+    const api::Target own_target = api::split_target("/?" + own, none);
+    MushroomParams again;
+    if (!own.empty()) read_query(own_target.query, again, none);
+    std::string before, after;
+    canonical(params, before);
+    canonical(again, after);
+    expect(none.empty() && before == after, "our own query text reads back as the same parameters");
+    return 0;
+}

@@ -1,0 +1,70 @@
+#!/usr/bin/env bash
+# The same request gives the same bytes from GCC and Clang, at -O0 and -O3, with every instruction set of this
+# processor; and from one whole server per compiler (built before as build/release and, here, build/clang).
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+. server/common.sh
+jobs=${SPOREPRINT_JOBS:-$(nproc)}
+requests=${SPOREPRINT_HASH_REQUESTS:-200}
+passed=0 failed=0
+
+verdict() { # ok|bad, what
+    if [ "$1" = ok ]; then passed=$((passed + 1)); else failed=$((failed + 1)); fi
+    echo "$1  $2"
+}
+
+ways=(g++:-O3 g++:-O0 clang++-14:-O3 clang++-14:-O0)
+for way in "${ways[@]}"; do
+    cmake -S . -B "build/hash/$way" -G Ninja -DSPOREPRINT_CORE_ONLY=ON -DSPOREPRINT_TESTS=OFF \
+        -DCMAKE_CXX_COMPILER="${way%%:*}" -DCMAKE_CXX_COMPILER_LAUNCHER=ccache \
+        -DCMAKE_BUILD_TYPE=Release -DCMAKE_CXX_FLAGS_RELEASE="${way##*:}" >/dev/null
+    build "hash/$way" hasher
+done
+
+mkdir -p build/hash/out
+rm -f build/hash/out/*
+hasher() { echo "build/hash/$1/tests/hasher/hasher"; }
+mapfile -t simd < <("$(hasher g++:-O3)" --simd-names)
+for way in "${ways[@]}"; do
+    for name in "${simd[@]}"; do echo "$(hasher "$way") $requests $name build/hash/out/$way:$name"; done
+done | xargs -P "$jobs" -L 1 sh -c '"$0" "$1" "$2" > "$3" || echo "failed: $?" >> "$3"'
+
+reference=build/hash/out/g++:-O3:auto
+grown=$(grep -cE '^[0-9a-f]{16} ' "$reference" || true)
+echo "$grown of $requests random requests were grown, the others refused"
+if [ "$grown" -ge $((requests / 2)) ]; then verdict ok 'most random requests are possible'; else verdict bad 'most random requests are possible'; fi
+for out in build/hash/out/*; do
+    if cmp -s "$reference" "$out"; then
+        verdict ok "$(basename "$out")"
+    else
+        verdict bad "$(basename "$out") differs from $(basename "$reference"):"
+        diff "$reference" "$out" | head -n 6 || true
+    fi
+done
+
+cmake --preset clang >/dev/null
+build clang sporeprint
+. tests/e2e/server.sh
+fetch_all() { # binary: path and SHA-256 of the answer to each request
+    start_server "$1"
+    local path
+    for path in "${paths[@]}"; do
+        echo "$path $(curl -fsS "$url$path" | sha256sum | cut -d' ' -f1)"
+    done
+    stop_server
+}
+paths=()
+for id in $(basename -s .json core/atlas/*.json); do
+    paths+=("/v1/mushrooms/$id.glb?texture_size=256&seed=11" "/v1/mushrooms/$id.glb?texture_size=256&age=0.9&seed=12"
+        "/v1/mushrooms/$id.glb?texture_size=128&age=0.15&lod=1&seed=13")
+done
+if [ "${#paths[@]}" -ge 20 ] && by_gcc=$(fetch_all build/release/server/sporeprint) &&
+    by_clang=$(fetch_all build/clang/server/sporeprint) && [ "$by_gcc" = "$by_clang" ]; then
+    verdict ok "${#paths[@]} requests to a server by GCC and one by Clang"
+else
+    verdict bad "${#paths[@]} requests to a server by GCC and one by Clang"
+    diff <(echo "${by_gcc:-}") <(echo "${by_clang:-}") || true
+fi
+
+echo "$passed passed, $failed failed"
+[ "$failed" -eq 0 ]

@@ -1,0 +1,113 @@
+// Prints a hash of the GLB of each of many random requests, from core alone. Builds by other compilers and
+// runs with other instruction sets must print the same text: tests/hasher/four_ways.sh compares them.
+//   hasher [count] [simd name]     hasher --simd-names
+
+#include <charconv>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <type_traits>
+#include <vector>
+
+#include "core/grow/mushroom.h"
+#include "core/math/noise.h"
+#include "core/math/random.h"
+#include "core/params/query.h"
+
+namespace {
+
+using namespace sporeprint;
+
+/// FNV-1a, 64 bits: enough to tell that bytes differ, and short enough to be read here.
+std::uint64_t hash_of(const Body& body) {
+    std::uint64_t hash = 14695981039346656037u;
+    for (const Slice& slice : body) {
+        for (std::size_t i = 0; i < slice.size; ++i) {
+            hash = (hash ^ slice.data()[i]) * 1099511628211u;
+        }
+    }
+    return hash;
+}
+
+/// Sets a third of the optional members, anywhere below, to a random allowed value.
+template <class T>
+void draw_overrides(T& value, const Info& info, Random& random) {
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+        const double chance = random.uniform();
+        const double drawn = random.uniform(info.min, info.max);
+        if (chance < 0.3) value = drawn;
+    } else if constexpr (std::is_same_v<T, std::optional<int>>) {
+        const double chance = random.uniform();
+        const double drawn = random.uniform(info.min, info.max);
+        if (chance < 0.3) value = static_cast<int>(drawn);
+    } else if constexpr (Described<T>) {
+        T::fields(
+            [&](auto member, const Info& sub) { draw_overrides(value.*member, sub, random); });
+    }
+}
+
+MushroomOrder random_order(std::uint32_t number, const Atlas& atlas) {
+    Random random(number, 0x68617368);
+    const auto& entries = atlas.entries();
+    const auto any_species = [&] { return entries[random.bits() % entries.size()].species.id; };
+
+    MushroomOrder order;
+    order.mix.push_back({std::string(any_species().view()), 1000});
+    order.params.seed = random.bits();
+    order.params.age = random.uniform();
+    order.params.size = random.uniform(0.25, 4.0);
+    order.params.variation = random.uniform();
+    order.params.lod = static_cast<int>(random.bits() % 4);
+    order.params.texture_size.value = 128;
+    const std::uint32_t textures = random.bits() % 8;
+    if (textures == 0) order.params.textures = Textures::none;
+    // Half of the requests leave everything to the species: what a species is not able to have is refused.
+    if (random.bits() % 2 == 0) draw_overrides(order.params, Info{.name = ""}, random);
+    return order;
+}
+
+std::string line_of(const MushroomOrder& order, const Atlas& atlas) {
+    const std::string request = order.mix.front().id + '?' + query_text(order.params);
+    try {
+        const Mushroom mushroom = grow_mushroom(order, atlas);
+        char text[64];
+        std::snprintf(text, sizeof text, "%016llx %8zu  ",
+                      static_cast<unsigned long long>(hash_of(mushroom.glb)),
+                      size_of(mushroom.glb));
+        return text + request;
+    } catch (const InvalidInput& refusal) {
+        return "refused  " + request + "  " + refusal.what();
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const std::vector<std::string_view> arguments(argv + 1, argv + argc);
+    if (!arguments.empty() && arguments[0] == "--simd-names") {
+        for (const std::string& name : simd_names()) std::puts(name.c_str());
+        return 0;
+    }
+    std::uint32_t count = 200;
+    if (!arguments.empty()) {
+        const std::string_view text = arguments[0];
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+        if (error != std::errc() || end != text.data() + text.size()) {
+            std::fputs("usage: hasher [count] [simd name] | hasher --simd-names\n", stderr);
+            return 2;
+        }
+    }
+    if (arguments.size() > 1) force_simd(arguments[1]);
+
+    const auto atlas = built_in_atlas();
+    for (std::uint32_t number = 0; number < count; ++number) {
+        std::puts(line_of(random_order(number, *atlas), *atlas).c_str());
+    }
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "hasher: %s\n", error.what());
+    return 1;
+}
