@@ -1,0 +1,148 @@
+// Gradient noise and its hash on vectors of floats, once per instruction set: included by noise.cpp and by core/surface only.
+// Products and sums stay apart and every operation is exact or correctly rounded, so that all instruction sets agree.
+#if defined(SPOREPRINT_CORE_MATH_NOISE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_MATH_NOISE_INL
+#undef SPOREPRINT_CORE_MATH_NOISE_INL
+#else
+#define SPOREPRINT_CORE_MATH_NOISE_INL
+#endif
+
+#include <hwy/highway.h>
+
+#include <cstddef>
+#include <cstdint>
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+namespace hn = hwy::HWY_NAMESPACE;
+
+// At most eight lanes: wider vectors would need wider images than the smallest atlas has.
+using Floats = hn::CappedTag<float, 8>;
+using Ints = hn::RebindToSigned<Floats>;
+using Words = hn::RebindToUnsigned<Floats>;
+using VF = hn::Vec<Floats>;
+using VI = hn::Vec<Ints>;
+using VU = hn::Vec<Words>;
+
+HWY_INLINE VF set(float value) { return hn::Set(Floats(), value); }
+HWY_INLINE VU word(std::uint32_t value) { return hn::Set(Words(), value); }
+HWY_INLINE VF clamped(VF x, float low, float high) { return hn::Min(hn::Max(x, set(low)), set(high)); }
+HWY_INLINE VF unit(VF x) { return clamped(x, 0.0F, 1.0F); }
+HWY_INLINE VF mix(VF a, VF b, VF weight) { return a + (b - a) * weight; }
+
+/// 0 below `from`, 1 above it by 1/slope, with flat ends.
+HWY_INLINE VF smooth(VF x, float from, float slope) {
+    const VF t = unit((x - set(from)) * set(slope));
+    return t * t * (set(3.0F) - set(2.0F) * t);
+}
+
+/// Quintic with two flat derivatives at 0 and 1.
+HWY_INLINE VF fade(VF t) { return t * t * t * (t * (t * set(6.0F) - set(15.0F)) + set(10.0F)); }
+
+HWY_INLINE VU hash(VU h) {
+    h = hn::Xor(h, hn::ShiftRight<15>(h));
+    h = h * word(0x2C1B3C6DU);
+    h = hn::Xor(h, hn::ShiftRight<13>(h));
+    return h;
+}
+
+/// Hash bits as a number: the upper 16, the lower 16. -1 <= x < 1
+HWY_INLINE VF upper_part(VU h) {
+    return hn::ConvertTo(Floats(), hn::ShiftRight<16>(hn::BitCast(Ints(), h))) * set(1.0F / 32768.0F);
+}
+HWY_INLINE VF lower_part(VU h) {
+    return hn::ConvertTo(Floats(), hn::ShiftRight<16>(hn::BitCast(Ints(), hn::ShiftLeft<16>(h)))) * set(1.0F / 32768.0F);
+}
+
+inline constexpr std::uint32_t prime_x = 0x9E3779B1U;
+inline constexpr std::uint32_t prime_y = 0x85EBCA77U;
+inline constexpr std::uint32_t prime_z = 0xC2B2AE3DU;
+
+// Gradient (two 16-bit halves of the hash) times offset, not yet scaled to 1.
+HWY_INLINE VF slope2(VU h, VF dx, VF dy) {
+    h = hash(h);
+    const VI bits = hn::BitCast(Ints(), h);
+    const VF gx = hn::ConvertTo(Floats(), hn::ShiftRight<16>(bits));
+    const VF gy = hn::ConvertTo(Floats(), hn::ShiftRight<16>(hn::ShiftLeft<16>(bits)));
+    return gx * dx + gy * dy;
+}
+
+// Gradient (three 10-bit parts of the hash) times offset, not yet scaled to 1.
+HWY_INLINE VF slope3(VU h, VF dx, VF dy, VF dz) {
+    h = hash(h);
+    const VI bits = hn::BitCast(Ints(), h);
+    const VF gx = hn::ConvertTo(Floats(), hn::ShiftRight<22>(bits));
+    const VF gy = hn::ConvertTo(Floats(), hn::ShiftRight<22>(hn::ShiftLeft<10>(bits)));
+    const VF gz = hn::ConvertTo(Floats(), hn::ShiftRight<22>(hn::ShiftLeft<20>(bits)));
+    return gx * dx + gy * dy + gz * dz;
+}
+
+HWY_INLINE VF noise2_of(VU hx0, VU hx1, VF fx, VF y, std::uint32_t seed) {
+    const VF y0 = hn::Floor(y);
+    const VF fy = y - y0;
+    const VU hy0 = hn::BitCast(Words(), hn::ConvertTo(Ints(), y0)) * word(prime_y) + word(seed);
+    const VU hy1 = hy0 + word(prime_y);
+    const VF gx = fx - set(1.0F);
+    const VF gy = fy - set(1.0F);
+    const VF u = fade(fx);
+    const VF near = mix(slope2(hn::Xor(hx0, hy0), fx, fy), slope2(hn::Xor(hx1, hy0), gx, fy), u);
+    const VF far = mix(slope2(hn::Xor(hx0, hy1), fx, gy), slope2(hn::Xor(hx1, hy1), gx, gy), u);
+    return mix(near, far, fade(fy)) * set(1.6F / 32768.0F);
+}
+
+HWY_INLINE VF noise2(VF x, VF y, std::uint32_t seed) {
+    const VF x0 = hn::Floor(x);
+    const VU hx0 = hn::BitCast(Words(), hn::ConvertTo(Ints(), x0)) * word(prime_x);
+    return noise2_of(hx0, hx0 + word(prime_x), x - x0, y, seed);
+}
+
+/// Repeats in x after `period`, for -period <= x < 2 period.
+HWY_INLINE VF periodic_noise2(VF x, VF y, int period, std::uint32_t seed) {
+    const VF x0 = hn::Floor(x);
+    const VI whole = hn::Set(Ints(), period);
+    VI i0 = hn::ConvertTo(Ints(), x0);
+    i0 = i0 + hn::IfThenElseZero(i0 < hn::Zero(Ints()), whole);
+    i0 = i0 - hn::IfThenElseZero(i0 > hn::Set(Ints(), period - 1), whole);
+    VI i1 = i0 + hn::Set(Ints(), 1);
+    i1 = hn::IfThenZeroElse(i1 == whole, i1);
+    const VU hx0 = hn::BitCast(Words(), i0) * word(prime_x);
+    const VU hx1 = hn::BitCast(Words(), i1) * word(prime_x);
+    return noise2_of(hx0, hx1, x - x0, y, seed);
+}
+
+HWY_INLINE VF noise3(VF x, VF y, VF z, std::uint32_t seed) {
+    const VF x0 = hn::Floor(x);
+    const VF y0 = hn::Floor(y);
+    const VF z0 = hn::Floor(z);
+    const VF fx = x - x0;
+    const VF fy = y - y0;
+    const VF fz = z - z0;
+    const VF gx = fx - set(1.0F);
+    const VF gy = fy - set(1.0F);
+    const VF gz = fz - set(1.0F);
+    const VU hx0 = hn::BitCast(Words(), hn::ConvertTo(Ints(), x0)) * word(prime_x);
+    const VU hy0 = hn::BitCast(Words(), hn::ConvertTo(Ints(), y0)) * word(prime_y) + word(seed);
+    const VU hz0 = hn::BitCast(Words(), hn::ConvertTo(Ints(), z0)) * word(prime_z);
+    const VU hx1 = hx0 + word(prime_x);
+    const VU hy1 = hy0 + word(prime_y);
+    const VU hz1 = hz0 + word(prime_z);
+    const VU h00 = hn::Xor(hy0, hz0);
+    const VU h10 = hn::Xor(hy1, hz0);
+    const VU h01 = hn::Xor(hy0, hz1);
+    const VU h11 = hn::Xor(hy1, hz1);
+    const VF u = fade(fx);
+    const VF v = fade(fy);
+    const VF n00 = mix(slope3(hn::Xor(hx0, h00), fx, fy, fz), slope3(hn::Xor(hx1, h00), gx, fy, fz), u);
+    const VF n10 = mix(slope3(hn::Xor(hx0, h10), fx, gy, fz), slope3(hn::Xor(hx1, h10), gx, gy, fz), u);
+    const VF n01 = mix(slope3(hn::Xor(hx0, h01), fx, fy, gz), slope3(hn::Xor(hx1, h01), gx, fy, gz), u);
+    const VF n11 = mix(slope3(hn::Xor(hx0, h11), fx, gy, gz), slope3(hn::Xor(hx1, h11), gx, gy, gz), u);
+    return mix(mix(n00, n10, v), mix(n01, n11, v), fade(fz)) * set(1.8F / 512.0F);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif

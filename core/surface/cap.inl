@@ -1,0 +1,166 @@
+// Paints the texels of the upper face: ramp, fibres, zones, patches, streaks, veins, striae, and the warts and scales on it.
+#if defined(SPOREPRINT_CORE_SURFACE_CAP_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_CAP_INL
+#undef SPOREPRINT_CORE_SURFACE_CAP_INL
+#else
+#define SPOREPRINT_CORE_SURFACE_CAP_INL
+#endif
+
+#include "core/surface/texel.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+HWY_INLINE Rgb ramp_colour(const CapPlan& plan, VF along) {
+    Rgb colour = rgb(plan.first);
+    for (int i = 0; i < plan.steps; ++i) {
+        const VF t = unit(along * set(static_cast<float>(plan.steps)) - set(static_cast<float>(i)));
+        const Light& step = plan.step[static_cast<std::size_t>(i)];
+        colour.r = colour.r + set(step.r) * t;
+        colour.g = colour.g + set(step.g) * t;
+        colour.b = colour.b + set(step.b) * t;
+    }
+    return colour;
+}
+
+/// coarse: broad unevenness of the ramp, mottle, and a spare field of middling size, each about -1..1
+HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, VF uneven, VF mottle, VF middle) {
+    const VF one = set(1.0F);
+    Texel out;
+    const VF px = p.radius * p.cosine;
+    const VF pz = p.radius * p.sine;
+    const VF turn = turn_of(p.cosine, p.sine);
+    const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
+
+    // Fine unevenness of the skin.
+    VF height = set(0.0F);
+    VF fine = set(0.0F);
+    float frequency = plan.bump_frequency;
+    for (std::size_t octave = 0; octave < 3; ++octave, frequency *= 2.17F) {
+        if (plan.bumps[octave] <= 0.0F) continue;
+        const VF f = set(frequency);
+        const VF n = noise3(px * f, p.height * f, pz * f, plan.seed[0] + static_cast<std::uint32_t>(octave));
+        fine = fine + n * set(plan.bumps[octave]);
+        height = height + n * set(plan.bumps[octave] * 0.16F / frequency);
+    }
+
+    const VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F));
+    Rgb colour = ramp_colour(plan, unit(along));
+    VF shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) + set(plan.grain) * fine;
+    VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
+    VF rough = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
+
+    if (plan.patches > 0.0F) {
+        const VF f = set(plan.patch_frequency);
+        const VF n = noise3(px * f, p.height * f, pz * f, plan.seed[4]) + set(0.25F) * middle;
+        const VF patch = smooth(n, plan.patch_threshold - 0.05F, 10.0F) * set(plan.patch_weight);
+        colour = mix(colour, rgb(plan.patch_colour), patch);
+        rough = rough + patch * set(0.05F);
+        height = height + patch * set(0.0012F);
+    }
+    if (plan.zones > 0.0F) {
+        const VF t = (p.rho + uneven * set(0.035F) + mottle * set(0.012F)) * set(plan.zone_count);
+        const VF band = set(0.5F) - set(0.5F) * wave(t);
+        const VF soft = band * shown(set(1.0F / (plan.zone_count * plan.disc.per_texel)), 4.0F);
+        shade = shade * (one - set(0.42F * plan.zones) * soft * (set(0.8F) + set(0.4F) * middle));
+        height = height - soft * set(0.02F * plan.zones / plan.zone_count);
+    }
+    if (plan.streaks > 0.0F) {
+        const VF coarse = periodic_noise2(turn * set(46.0F), p.rho * set(1.7F) + middle * set(0.12F), 46, plan.seed[5]);
+        const VF thin = periodic_noise2(turn * set(131.0F), p.rho * set(2.9F), 131, plan.seed[6]) * shown(round_texels * set(1.0F / 131.0F), 4.0F);
+        const VF streak = smooth(coarse + thin * set(0.7F), -0.05F, 1.9F) * smooth(p.rho, 0.02F, 6.0F);
+        shade = shade * (one - set(0.55F * plan.streaks) * streak);
+        height = height - streak * set(0.0015F * plan.streaks);
+    }
+    if (plan.fibrils > 0.0F) {
+        const float n = static_cast<float>(plan.fibril_count);
+        const VF visible = shown(round_texels * set(1.0F / n), 4.5F);
+        const VF visible2 = shown(round_texels * set(0.5F / n), 4.5F);
+        const VF a = periodic_noise2(turn * set(n) + uneven * set(0.6F), p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
+        const VF b = periodic_noise2(turn * set(2.0F * n) + middle * set(0.5F), p.rho * set(8.0F), 2 * plan.fibril_count, plan.seed[8]);
+        const VF fibre = a * visible * set(0.75F) + b * visible2 * set(0.55F);
+        shade = shade * (one + set(0.42F * plan.fibrils) * fibre);
+        height = height + fibre * p.radius * set(0.22F * 6.2831853F * plan.fibrils / n);
+        occlusion = occlusion + hn::Min(fibre, set(0.0F)) * set(0.3F * plan.fibrils);
+        rough = rough + fibre * set(0.04F * plan.fibrils);
+    }
+    if (plan.veins > 0.0F) {
+        const VF y = p.rho * set(plan.vein_rows) + middle * set(0.38F);
+        const VF x = turn + uneven * set(0.012F);
+        const VF wrapped = x - hn::Floor(x);
+        const Cells net = cells(wrapped, hn::Max(y, set(0.0F)), 0.0F, plan.vein_columns / plan.vein_rows, 0.42F, plan.seed[9]);
+        const VF ridge = one - smooth(net.border, 0.02F, 3.2F);
+        const VF strength = set(plan.veins) * (one - smooth(p.rho + mottle * set(0.12F), 0.30F, 1.55F));
+        const VF cup = (one - ridge) * strength;
+        height = height - cup * set(0.30F / plan.vein_rows);
+        occlusion = occlusion * (one - set(0.45F) * cup);
+        shade = shade * (one - set(0.30F) * cup) * (one + set(0.10F) * ridge * strength);
+    }
+    if (plan.striae > 0.0F) {
+        const float n = static_cast<float>(plan.striae_count);
+        const VF wander = periodic_noise2(turn * set(31.0F), p.rho * set(3.0F), 31, plan.seed[10]);
+        const VF reach = (p.rho - set(1.0F - plan.striae)) * set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) + wander * set(0.22F);
+        const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
+        const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + wander * set(0.16F));
+        const VF deep = groove * strength;
+        height = height - deep * p.radius * set(0.30F * 6.2831853F / n);
+        shade = shade * (one - set(0.34F) * deep);
+        occlusion = occlusion * (one - set(0.30F) * deep);
+    }
+
+    out.colour = shaded(colour, hn::Max(shade, set(0.05F)) * set(plan.lightness));
+    out.height = height;
+    out.roughness = rough;
+    out.occlusion = occlusion;
+    return out;
+}
+
+/// Lays one wart or scale over a texel: colour, roughness, a little relief, and shade round its foot.
+HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF y, Texel& texel) {
+    const VF one = set(1.0F);
+    const VF dx = x - set(patch.x);
+    const VF dy = y - set(patch.y);
+    const VF a = (dx * set(patch.along_x) + dy * set(patch.along_y)) * set(patch.per_length);
+    const VF b = (dy * set(patch.along_x) - dx * set(patch.along_y)) * set(patch.per_width);
+    const VF window = one - smooth(a * a + b * b, 2.2F, 1.0F);
+    if (hn::AllTrue(Floats(), window <= set(0.0F))) return;
+    const VF grain = noise2(a * set(4.1F), b * set(4.1F), patch.seed);
+    if (patch.kind == 0) {
+        VF far = set(0.0F);
+        for (std::size_t side = 0; side < 6; ++side) far = hn::Max(far, a * set(patch.side_x[side]) + b * set(patch.side_y[side]));
+        far = far + grain * set(0.16F);
+        const VF cover = (one - smooth(far, 0.86F, 5.0F)) * window * set(patch.shown);
+        const VF foot = (one - smooth(far, 0.75F, 1.4F)) * (one - cover) * window * set(patch.shown);
+        const VF up = hn::Max(one - far, set(0.0F));
+        Rgb colour = mix(rgb(veil.colour), rgb(veil.tip), smooth(up, 0.35F, 1.8F));
+        colour = shaded(colour, one + grain * set(0.12F) - set(0.10F) * far);
+        texel.colour = mix(texel.colour, colour, cover);
+        texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
+        texel.height = texel.height + (up * set(patch.relief) + grain * set(0.15F * patch.relief)) * cover;
+        texel.occlusion = texel.occlusion * (one - set(0.38F) * foot);
+        texel.colour = shaded(texel.colour, one - set(0.16F) * foot);
+    } else {
+        // A tongue of skin: broad at the root, ragged and pointed at the tip, standing off there.
+        const VF thread = noise2(a * set(1.3F), b * set(5.3F), patch.seed ^ 0x5bd1e995U);
+        const VF taper = one - set(0.62F) * smooth(a, -0.35F, 0.8F);
+        const VF side = hn::Abs(b) / hn::Max(taper, set(0.1F));
+        const VF far = hn::Max(side, hn::Abs(a)) + (grain + thread) * set(0.17F);
+        const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) * smooth(a, -1.0F, 1.2F);
+        const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window * set(patch.shown) * smooth(a, -0.2F, 1.0F);
+        const VF tip = smooth(a + thread * set(0.45F), -0.05F, 1.1F);
+        Rgb colour = mix(rgb(veil.colour), rgb(veil.tip), tip);
+        colour = shaded(colour, one + thread * set(0.22F));
+        texel.colour = mix(texel.colour, colour, cover);
+        texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
+        texel.height = texel.height + (unit(a * set(0.5F) + set(0.5F)) + thread * set(0.2F)) * set(patch.relief) * cover;
+        texel.occlusion = texel.occlusion * (one - set(0.45F) * foot);
+        texel.colour = shaded(texel.colour, one - set(0.30F) * foot);
+    }
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,161 @@
+// Paints the texels of the lower face: gills with their shorter tiers, forking ridges, pores, or a smooth skin.
+#if defined(SPOREPRINT_CORE_SURFACE_HYMENIUM_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
+#undef SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
+#else
+#define SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
+#endif
+
+#include "core/surface/texel.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+/// A slot between blades: how far a texel is from the edge of the nearest blade (0) to the middle of the slot (1).
+struct Slot {
+    VF depth;    ///< 0 on an edge, 1 in the middle of the slot
+    VF visible;  ///< 0 where slots are smaller than texels
+};
+
+/// Number in -1..1 that belongs to a whole number.
+HWY_INLINE VF lot(VF whole, std::uint32_t seed) {
+    const VU h = hn::BitCast(Words(), hn::ConvertTo(Ints(), whole)) * word(prime_x);
+    return upper_part(hash(hn::Xor(hash(h), word(seed))));
+}
+
+/// x modulo `period`, for -period <= x < 2 period.
+HWY_INLINE VF wrapped(VF x, float period) {
+    x = x + hn::IfThenElseZero(x < set(0.0F), set(period));
+    return x - hn::IfThenElseZero(x >= set(period), set(period));
+}
+
+/// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from its own radius outwards.
+HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn) {
+    const VF one = set(1.0F);
+    const float n = static_cast<float>(plan.blades);
+    const VF wander = periodic_noise2(turn * set(37.0F), share * set(3.2F), 37, plan.seed[1]);
+    const VF x = turn * set(n) + wander * set(n * 0.0022F);
+    const VF gap = p.radius * set(6.2831853F / n);
+    VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
+    VF room = one;                                        // share of the gap between two blades
+    float scale = 1.0F;
+    for (int tier = 0; tier < plan.tiers; ++tier, scale *= 2.0F) {
+        const VF fine = x * set(scale);
+        const VF place = hn::Floor(fine);
+        const VF chance = lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
+        const float from = tier == 0 ? 0.30F : tier == 1 ? 0.58F : 0.78F;
+        const VF begin = set(from) + chance * set(0.11F);
+        const VF grown = unit((share - begin) * set(9.0F));
+        const VF here = hn::Abs(fine - place - set(0.5F)) * set(1.0F / scale);
+        // A blade that has not yet risen is far away.
+        distance = hn::Min(distance, here + (one - grown) * set(0.5F / scale));
+        room = room * (one - set(0.5F) * grown);
+    }
+    const VF half = gap * room * set(0.5F);
+    const VF edge = hn::Min(set(plan.blade), half * set(0.42F));
+    const VF soft = set(plan.disc.per_texel * 0.75F / (1.0F - plan.disc.inner));
+    Slot slot;
+    slot.depth = unit((distance * gap - edge) / hn::Max(half - edge, soft));
+    slot.visible = shown(gap * room * set((1.0F - plan.disc.inner) / plan.disc.per_texel), 4.0F);
+    return slot;
+}
+
+/// Ridges: blunt folds; from each grows a fork that swings out to the middle of the gap, and another from each half.
+HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn) {
+    const VF one = set(1.0F);
+    const float n = static_cast<float>(plan.blades);
+    const VF wander = periodic_noise2(turn * set(23.0F), share * set(2.6F), 23, plan.seed[1]);
+    const VF x = turn * set(n) + wander * set(0.34F);
+    const VF gap = p.radius * set(6.2831853F / n);
+    VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
+    VF room = one;
+    const float hidden = 1.0F - plan.forking;
+    float scale = 1.0F;
+    for (int level = 0; level < 2; ++level, scale *= 2.0F) {
+        const VF fine = x * set(scale);
+        const VF place = hn::Floor(fine);
+        const VF within = fine - place;
+        const VF chance = lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(level));
+        const VF side = lot(wrapped(place, n * scale), plan.seed[3] + static_cast<std::uint32_t>(level));
+        const VF begin = set((level == 0 ? 0.24F : 0.66F) + hidden * 1.1F) + chance * set(level == 0 ? 0.17F : 0.10F);
+        const VF swing = set(0.5F) * smooth(share - begin, 0.0F, 3.2F);
+        const VF fork = hn::IfThenElse(side < set(0.0F), swing, one - swing);
+        distance = hn::Min(distance, hn::Abs(within - fork) * set(1.0F / scale));
+        room = room * (one - swing);
+    }
+    const VF half = gap * room * set(0.5F);
+    Slot slot;
+    slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.18F, 1.35F);
+    // Cross veins, low and thin.
+    const VF vein = periodic_noise2(turn * set(2.0F * n) + wander * set(0.6F), share * set(13.0F), 2 * plan.blades, plan.seed[4]);
+    const VF cross = (one - smooth(hn::Abs(vein), 0.03F, 5.5F)) * set(0.55F * plan.forking);
+    slot.depth = slot.depth * (one - cross);
+    slot.visible = shown(gap * room * set((1.0F - plan.disc.inner) / plan.disc.per_texel), 4.0F);
+    return slot;
+}
+
+HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
+    const Cells cell = cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow / plan.pore_rows, 0.30F, plan.seed[5]);
+    // Each tube has its own width.
+    const VF width = set(0.16F) + set(0.06F) * lower_part(hash(cell.id));
+    Slot slot;
+    slot.depth = unit((cell.border - width * set(0.6F)) * set(3.4F));
+    slot.depth = slot.depth * slot.depth * (set(3.0F) - set(2.0F) * slot.depth);
+    slot.visible = set(plan.pore_shown);
+    return slot;
+}
+
+/// coarse: broad and middling unevenness, each about -1..1
+HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, VF uneven, VF middle) {
+    const VF one = set(1.0F);
+    Texel out;
+    const VF turn = turn_of(p.cosine, p.sine);
+    const VF share = hn::Max(p.rho - set(plan.disc.inner), set(0.0F)) * set(1.0F / (1.0F - plan.disc.inner));
+    VF fine = set(0.0F);
+    VF height = set(0.0F);
+    float frequency = plan.bump_frequency;
+    for (std::size_t octave = 0; octave < 2; ++octave, frequency *= 2.3F) {
+        if (plan.bumps[octave] <= 0.0F) continue;
+        const VF f = set(frequency);
+        const VF n = noise2(p.x * f, p.y * f, plan.seed[0] + static_cast<std::uint32_t>(octave));
+        fine = fine + n * set(plan.bumps[octave]);
+        height = height + n * set(plan.bumps[octave] * 0.14F / frequency);
+    }
+    const VF cloud = uneven * set(0.7F) + middle * set(0.5F) + fine * set(0.35F);
+    VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.2F);
+    Rgb colour = rgb(plan.colour);
+    if (plan.pattern == 0) {
+        // A smooth face: clouds between its colours, and the finest grain.
+        colour = mix(colour, rgb(plan.depth), unit(cloud * set(0.55F * plan.mottle) + set(0.08F * plan.mottle)));
+        colour = mix(colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
+        height = height * set(0.35F + plan.relief);
+    } else {
+        const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn)
+                          : plan.pattern == 2 ? ridges(plan, p, share, turn)
+                                              : pores(plan, share, turn);
+        const float mean_depth = plan.pattern == 3 ? 0.5F : 0.45F;
+        const VF depth = mix(set(mean_depth), slot.depth, slot.visible);
+        const VF deep = depth * depth;
+        // Edge, face, and depth of the slot; what is deep is only as dark as the relief makes it.
+        const VF on_edge = (one - smooth(slot.depth, 0.0F, plan.pattern == 3 ? 2.6F : 4.0F)) * slot.visible + (one - slot.visible) * set(0.2F);
+        colour = mix(colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
+        colour = mix(colour, rgb(plan.edge), on_edge);
+        occlusion = occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
+        const VF period = plan.pattern == 3 ? set(1.0F / plan.pore_rows) : p.radius * set(6.2831853F / static_cast<float>(plan.blades));
+        const VF rise = (one - depth * depth) * slot.visible * period;
+        height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.34F : 0.26F) * plan.relief);
+    }
+    const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);
+    out.colour = shaded(colour, hn::Max(shade, set(0.05F)));
+    out.height = height;
+    out.roughness = set(plan.roughness) + fine * set(0.03F) + middle * set(0.03F * plan.mottle);
+    out.occlusion = occlusion;
+    return out;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif

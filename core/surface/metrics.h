@@ -1,0 +1,35 @@
+// All that paint may know of a shape: a few lengths, quantised so that similar shapes share their images.
+#pragma once
+
+#include "core/params/describe.h"
+
+namespace sporeprint {
+
+/// Lengths in steps of 2 %: step n stands for 1.02^n metres. See quantised_length() and length_of_step().
+struct SurfaceMetrics {
+    int cap_arc = -150;
+    int cap_radius = -150;
+    int hymenium_arc = -150;
+    int hymenium_inner = -230;
+    int stem_length = -130;
+    int stem_radius = -230;
+
+    static constexpr void fields(auto visit) {
+        using M = SurfaceMetrics;
+        visit(&M::cap_arc, Info{.name = "cap_arc", .min = -600, .max = 100, .doc = "Meridian of the upper face, apex to margin."});
+        visit(&M::cap_radius, Info{.name = "cap_radius", .min = -600, .max = 100, .doc = "Largest radius of the upper face."});
+        visit(&M::hymenium_arc, Info{.name = "hymenium_arc", .min = -600, .max = 100, .doc = "Meridian of the lower face, stem to margin."});
+        visit(&M::hymenium_inner, Info{.name = "hymenium_inner", .min = -600, .max = 100, .doc = "Radius where the lower face meets the stem."});
+        visit(&M::stem_length, Info{.name = "stem_length", .min = -600, .max = 100, .doc = "Meridian of the stem, ground to hymenium."});
+        visit(&M::stem_radius, Info{.name = "stem_radius", .min = -600, .max = 100, .doc = "Mean radius of the stem."});
+    }
+    bool operator==(const SurfaceMetrics&) const = default;
+};
+
+/// Step nearest to `metres` (> 0; smaller than 1e-5 m counts as 1e-5 m), in -600..100.
+[[nodiscard]] int quantised_length(double metres);
+
+/// Length in metres of a step.
+[[nodiscard]] double length_of_step(int step);
+
+}  // namespace sporeprint

@@ -1,0 +1,466 @@
+#include "core/surface/paint.h"
+
+#include <hwy/aligned_allocator.h>
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <string>
+#include <utility>
+
+#include "core/math/elementary.h"
+#include "core/math/random.h"
+#include "core/params/problems.h"
+#include "core/surface/charts.h"
+#include "core/surface/codecs.h"
+#include "core/surface/plan.h"
+
+#undef HWY_TARGET_INCLUDE
+#define HWY_TARGET_INCLUDE "core/surface/rows.inl"
+#include <hwy/foreach_target.h>
+
+#include "core/surface/rows.inl"
+
+namespace sporeprint {
+
+HWY_EXPORT(paint_rows);
+HWY_EXPORT(workbench_size);
+HWY_EXPORT(fill_coarse);
+
+namespace {
+
+// Purposes of the random streams that paint draws from.
+constexpr std::uint32_t cap_purpose = 101;
+constexpr std::uint32_t hymenium_purpose = 102;
+constexpr std::uint32_t stem_purpose = 103;
+constexpr std::uint32_t veil_purpose = 104;
+constexpr std::uint32_t coarse_purpose = 105;
+constexpr std::uint32_t outline_purpose = 106;
+
+constexpr float single(double value) { return static_cast<float>(value); }
+
+template <std::size_t N>
+std::array<std::uint32_t, N> seeds(std::uint32_t seed, std::uint32_t purpose) {
+    Random stream(seed, purpose);
+    std::array<std::uint32_t, N> out{};
+    for (std::uint32_t& one : out) one = stream.bits();
+    return out;
+}
+
+const std::array<float, 256>& linear_table() {
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> out{};
+        for (int i = 0; i < 256; ++i) out[static_cast<std::size_t>(i)] = single(srgb_to_linear(i / 255.0));
+        return out;
+    }();
+    return table;
+}
+
+Light light_of(Colour colour) {
+    const std::array<float, 256>& table = linear_table();
+    return {table[colour.r], table[colour.g], table[colour.b]};
+}
+
+// How much of a noise octave with features `texels` large can be shown: none below two, all from four on.
+float shown_of(double texels) { return single(std::clamp((texels - 2.0) / 2.0, 0.0, 1.0)); }
+
+Frame frame_of(const Chart& chart, int side) {
+    Frame frame;
+    frame.x = static_cast<int>(chart.u * side);
+    frame.y = static_cast<int>(chart.v * side);
+    frame.width = static_cast<int>(chart.width * side);
+    frame.height = static_cast<int>(chart.height * side);
+    frame.inset = single(chart.inset);
+    return frame;
+}
+
+double disc_texel(const Frame& frame) { return 1.0 / ((0.5 - static_cast<double>(frame.inset)) * frame.width); }
+
+// A piece of a sphere whose meridian is `arc` long and whose rim has radius `radius`; deeper caps go on as a cylinder.
+DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
+    DiscPlan disc;
+    disc.per_texel = single(disc_texel(frame));
+    const double ratio = std::max(arc / radius, 1.0);
+    double bend = 0.5 * pi;
+    if (ratio < 0.5 * pi) {
+        // Bisection of bend / sin(bend) = ratio.
+        double low = 0.01, high = 0.5 * pi;
+        for (int i = 0; i < 40; ++i) {
+            bend = 0.5 * (low + high);
+            (bend / sine(bend) < ratio ? low : high) = bend;
+        }
+    } else {
+        bend = ratio;
+    }
+    disc.bend = single(bend);
+    disc.sphere = single(1.0 / bend);
+    return disc;
+}
+
+CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
+    const CapSurface& cap = params.surface.cap;
+    CapPlan plan;
+    const double arc = length_of_step(params.metrics.cap_arc);
+    plan.disc = cap_disc(arc, length_of_step(params.metrics.cap_radius), frame);
+    plan.seed = seeds<12>(params.seed, cap_purpose);
+    plan.lightness = single(params.lightness);
+    plan.roughness = single(cap.roughness);
+    plan.bump_frequency = 21.0F;
+    double frequency = 21.0;
+    for (float& bump : plan.bumps) {
+        bump = single(cap.bumps) * shown_of(1.0 / (frequency * static_cast<double>(plan.disc.per_texel)));
+        frequency *= 2.17;
+    }
+    plan.grain = 0.10F;
+    std::vector<Colour> ramp = cap.ramp;
+    if (ramp.empty()) ramp.push_back(Colour{128, 128, 128});
+    if (ramp.size() > most_ramp_steps + 1) ramp.resize(most_ramp_steps + 1);
+    plan.first = light_of(ramp[0]);
+    plan.steps = static_cast<int>(ramp.size()) - 1;
+    for (std::size_t i = 0; i + 1 < ramp.size(); ++i) {
+        const Light from = light_of(ramp[i]);
+        const Light to = light_of(ramp[i + 1]);
+        plan.step[i] = {to.r - from.r, to.g - from.g, to.b - from.b};
+    }
+    if (!cap.image.empty()) {
+        plan.lightness = 1.0F;
+        return plan;
+    }
+    plan.ramp_noise = single(cap.ramp_noise);
+    plan.fibrils = single(cap.fibrils);
+    plan.fibril_count = cap.fibril_count;
+    plan.zones = single(cap.zones);
+    plan.zone_count = single(cap.zone_count);
+    plan.patches = single(cap.patches);
+    plan.patch_frequency = single(std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
+    // Share of the face above a threshold of the noise: a logistic stand-in for its distribution.
+    const double share = std::clamp(cap.patches, 0.01, 0.99);
+    plan.patch_threshold = single(-0.20 * logarithm(share / (1.0 - share)));
+    plan.patch_weight = single(std::min(1.0, cap.patches * 8.0));
+    plan.patch_colour = light_of(cap.patch_colour);
+    plan.streaks = single(cap.streaks);
+    plan.veins = single(cap.veins);
+    plan.vein_rows = 7.0F;
+    plan.vein_columns = single(2.0 * pi * 7.0 * sine(std::min(static_cast<double>(plan.disc.bend), 0.5 * pi)) * static_cast<double>(plan.disc.sphere));
+    plan.striae = single(cap.striae);
+    plan.striae_count = std::clamp(params.hymenium.blades, 8, 400);
+    return plan;
+}
+
+HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
+    const HymeniumSurface& face = params.surface.hymenium;
+    HymeniumPlan plan;
+    const double arc = length_of_step(params.metrics.hymenium_arc);
+    const double inner = length_of_step(params.metrics.hymenium_inner);
+    const double outer = std::max(length_of_step(params.metrics.cap_radius), inner);
+    const double unit = arc / (1.0 - hymenium_inner_share);
+    plan.disc.per_texel = single(disc_texel(frame));
+    plan.disc.inner = single(hymenium_inner_share);
+    plan.disc.cone_from = single(inner / unit);
+    plan.disc.cone_grow = single((outer - inner) / unit);
+    plan.seed = seeds<8>(params.seed, hymenium_purpose);
+    plan.colour = light_of(face.colour);
+    plan.edge = light_of(face.edge);
+    plan.depth = light_of(face.depth);
+    plan.roughness = single(face.roughness);
+    plan.relief = single(params.hymenium.relief);
+    plan.bump_frequency = 30.0F;
+    double frequency = 30.0;
+    for (float& bump : plan.bumps) {
+        bump = 0.6F * shown_of(1.0 / (frequency * static_cast<double>(plan.disc.per_texel)));
+        frequency *= 2.3;
+    }
+    if (!face.image.empty()) return plan;
+    plan.pattern = static_cast<int>(face.pattern);
+    plan.mottle = single(face.mottle);
+    plan.blades = params.hymenium.blades;
+    plan.tiers = params.hymenium.tiers;
+    plan.forking = single(params.hymenium.forking);
+    // The bottom of a slot as deep as `relief` times 2.2 its width sees that little of the sky.
+    const double steep = 2.2 * params.hymenium.relief;
+    plan.slot_occlusion = single(std::sqrt(1.0 + steep * steep) - steep);
+    plan.blade = single(0.21 * 2.0 * pi * outer / unit / (params.hymenium.blades * (1 << params.hymenium.tiers)));
+    const double rows = std::max(3.0, arc * params.hymenium.pores_per_mm * 1000.0);
+    plan.pore_rows = single(rows);
+    plan.pore_from = single(2.0 * pi * inner / arc * rows);
+    plan.pore_grow = single(2.0 * pi * (outer - inner) / arc * rows);
+    plan.pore_shown = single(std::clamp(((1.0 - hymenium_inner_share) / (rows * static_cast<double>(plan.disc.per_texel)) - 1.6) / 2.0, 0.0, 1.0));
+    return plan;
+}
+
+StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
+    const StemSurface& stem = params.surface.stem;
+    StemPlan plan;
+    const double length = length_of_step(params.metrics.stem_length);
+    const double circumference = 2.0 * pi * length_of_step(params.metrics.stem_radius);
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    const double aspect = std::clamp(length / circumference, 0.02, 40.0);
+    const double along = aspect / (share * frame.width);
+    const double round = 1.0 / (share * frame.height);
+    const double coarse = std::max(along, round);
+    plan.seed = seeds<12>(params.seed, stem_purpose);
+    plan.aspect = single(aspect);
+    plan.texel_along = single(along);
+    plan.texel_round = single(round);
+    plan.top = light_of(stem.top);
+    plan.base = light_of(stem.base);
+    plan.stain = light_of(stem.stain);
+    plan.band_colour = light_of(stem.band_colour);
+    plan.net_colour = light_of(stem.net_colour);
+    plan.roughness = single(stem.roughness);
+    constexpr double bump_cells[3] = {24, 52, 113};
+    for (std::size_t i = 0; i < 3; ++i) plan.bumps[i] = single(stem.bumps) * shown_of(1.0 / (bump_cells[i] * coarse));
+    if (!stem.image.empty()) return plan;
+    plan.base_stain = single(stem.base_stain);
+    plan.fibrils = single(stem.fibrils);
+    constexpr double fibre_cells[3] = {17, 46, 109};
+    constexpr double slender[3] = {0.16, 0.10, 0.08};
+    const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.fibres[i] = single(weights[i]) * shown_of(1.0 / (fibre_cells[i] * std::max(round, along * slender[i])));
+    plan.bands = single(stem.bands);
+    plan.net = single(stem.net);
+    plan.net_shown = shown_of(1.0 / (26.0 * std::max(round, along / 2.1)) - 1.0);
+    return plan;
+}
+
+VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
+    VeilPlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, veil_purpose);
+    plan.texel = single(1.0 / (share * frame.width));
+    plan.across = single(static_cast<double>(frame.height) / frame.width);
+    plan.colour = light_of(params.surface.veil.colour);
+    plan.tip = light_of(params.surface.veil.tip);
+    plan.roughness = single(params.surface.veil.roughness);
+    return plan;
+}
+
+// Radius from the axis over disc radius, at share rho of the meridian.
+double roundness(const DiscPlan& disc, double rho) {
+    if (rho < 1e-4) return 1.0;
+    const double angle = std::min(rho * static_cast<double>(disc.bend), 0.5 * pi);
+    return static_cast<double>(disc.sphere) * sine(angle) / rho;
+}
+
+void add_patches(const PatchStyle& style, int kind, double amount, const PaintParams& params, PaintPlan& plan) {
+    const std::uint32_t purpose = kind == 0 ? wart_purpose : scale_purpose;
+    if (amount <= 0.0) return;
+    for (const Patch& patch : patches(style, params.seed, purpose)) {
+        const double scale = patch_scale(patch, amount);
+        if (scale <= 0.0) continue;
+        // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
+        const double radius = patch.radius * (kind == 0 ? scale : 0.7 + 0.3 * scale);
+        const double length = std::max(radius * style.elongation, 1e-4);
+        const double width = std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
+        const SineCosine turn = sine_cosine(patch.theta);
+        PatchPlan one;
+        one.kind = kind;
+        one.x = single(patch.sigma * turn.cosine);
+        one.y = single(patch.sigma * turn.sine);
+        const double outwards = style.lift < 0.0 ? -1.0 : 1.0;
+        one.along_x = single(outwards * turn.cosine);
+        one.along_y = single(outwards * turn.sine);
+        one.per_length = single(1.0 / length);
+        one.per_width = single(1.0 / width);
+        one.relief = single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
+        one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
+        one.reach = single(1.8 * std::max(length, width));
+        Random stream(params.seed, outline_purpose + static_cast<std::uint32_t>(kind), patch.id);
+        one.seed = stream.bits();
+        for (std::size_t side = 0; side < 6; ++side) {
+            const double angle = stream.uniform(-0.32, 0.32);
+            const double off = stream.uniform(0.78, 1.12);
+            const SineCosine normal = sine_cosine(patch.spin + (static_cast<double>(side) / 6.0) * 2.0 * pi + angle);
+            one.side_x[side] = single(normal.cosine / off);
+            one.side_y[side] = single(normal.sine / off);
+        }
+        plan.patches.push_back(one);
+    }
+}
+
+void sort_patches_into_rows(PaintPlan& plan) {
+    const Frame& frame = plan.frames[0];
+    plan.patches_by_row.resize(static_cast<std::size_t>(frame.height));
+    const double reach = 0.5 - static_cast<double>(frame.inset);
+    for (std::size_t i = 0; i < plan.patches.size(); ++i) {
+        const PatchPlan& patch = plan.patches[i];
+        const double middle = (static_cast<double>(patch.y) * reach + 0.5) * frame.height;
+        const double half = static_cast<double>(patch.reach) * reach * frame.height + 1.0;
+        const int from = static_cast<int>(std::max(middle - half, 0.0));
+        const int to = static_cast<int>(std::clamp(middle + half, 0.0, static_cast<double>(frame.height)));
+        for (int y = from; y < to; ++y) plan.patches_by_row[static_cast<std::size_t>(y)].push_back(static_cast<int>(i));
+    }
+}
+
+// The decoded upload in linear light, halved until it is no more than twice as fine as its chart.
+GivenImage given_image(const Upload& upload, const Frame& frame, const std::string& path) {
+    GivenImage image;
+    if (upload.empty()) return image;
+    const Picture picture = decoded_picture(upload.bytes, path);
+    const std::array<float, 256>& table = linear_table();
+    image.width = picture.width;
+    image.height = picture.height;
+    image.light.resize(picture.rgb.size());
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.light[i] = table[picture.rgb[i]];
+    while (image.width > 2 * frame.width || image.height > 2 * frame.height) {
+        const int across = image.width > 2 * frame.width ? 2 : 1;
+        const int down = image.height > 2 * frame.height ? 2 : 1;
+        GivenImage half;
+        half.width = image.width / across;
+        half.height = image.height / down;
+        half.light.resize(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height) * 3);
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    float sum = 0.0F;
+                    for (int j = 0; j < down; ++j)
+                        for (int i = 0; i < across; ++i)
+                            sum += image.light[static_cast<std::size_t>(((y * down + j) * image.width + x * across + i) * 3 + c)];
+                    half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] = sum / static_cast<float>(across * down);
+                }
+        image = std::move(half);
+    }
+    return image;
+}
+
+void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cells, float frequency, std::uint32_t seed) {
+    field.values.resize(static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 1));
+    HWY_DYNAMIC_DISPATCH(fill_coarse)(disc, frame.inset, cells, frequency, seed, field.values.data());
+}
+
+PaintPlan paint_plan(const PaintParams& params) {
+    PaintPlan plan;
+    plan.side = params.side;
+    for (std::size_t i = 0; i < 4; ++i) plan.frames[i] = frame_of(swept_charts[i], plan.side);
+    plan.cap = cap_plan(params, plan.frames[0]);
+    plan.hymenium = hymenium_plan(params, plan.frames[1]);
+    plan.stem = stem_plan(params, plan.frames[2]);
+    plan.veil = veil_plan(params, plan.frames[3]);
+    plan.fade = single(params.fade);
+    plan.wetness = single(params.wetness);
+    plan.given[0] = given_image(params.surface.cap.image, plan.frames[0], "/surface/cap/image");
+    plan.given[1] = given_image(params.surface.hymenium.image, plan.frames[1], "/surface/hymenium/image");
+    plan.given[2] = given_image(params.surface.stem.image, plan.frames[2], "/surface/stem/image");
+    const auto coarse = seeds<5>(params.seed, coarse_purpose);
+    plan.coarse_cells = std::min(64, plan.side / 2);
+    fill(plan.cap_fields[0], plan.cap.disc, plan.frames[0], plan.coarse_cells, 2.3F, coarse[0]);
+    fill(plan.cap_fields[1], plan.cap.disc, plan.frames[0], plan.coarse_cells, 5.5F, coarse[1]);
+    fill(plan.cap_fields[2], plan.cap.disc, plan.frames[0], plan.coarse_cells, 8.5F, coarse[2]);
+    fill(plan.hymenium_fields[0], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 2.7F, coarse[3]);
+    fill(plan.hymenium_fields[1], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 8.0F, coarse[4]);
+    if (params.surface.cap.image.empty()) {
+        add_patches(params.scales, 1, params.ornaments.scales, params, plan);
+        add_patches(params.warts, 0, params.ornaments.warts, params, plan);
+    }
+    sort_patches_into_rows(plan);
+    return plan;
+}
+
+// Memory of finished paintings, lent again: fresh pages cost as much as painting them. At most four of the default size are kept.
+class Canvases {
+public:
+    Bytes take(std::size_t size) {
+        Bytes found;
+        {
+            const std::lock_guard lock(mutex_);
+            if (!kept_.empty()) {
+                found = std::move(kept_.back());
+                kept_.pop_back();
+            }
+        }
+        found.resize(size);
+        return found;
+    }
+    void give(Bytes canvas) {
+        if (canvas.capacity() > largest_kept) return;
+        const std::lock_guard lock(mutex_);
+        if (kept_.size() < most_kept) kept_.push_back(std::move(canvas));
+    }
+
+private:
+    static constexpr std::size_t largest_kept = 10U << 20U;
+    static constexpr std::size_t most_kept = 4;
+    std::mutex mutex_;
+    std::vector<Bytes> kept_;
+};
+
+Canvases& canvases() {
+    static Canvases shared;
+    return shared;
+}
+
+struct Canvas {
+    explicit Canvas(std::size_t image) : size(image), bytes(canvases().take(3 * image)) {}
+    Canvas(const Canvas&) = delete;
+    Canvas& operator=(const Canvas&) = delete;
+    ~Canvas() { canvases().give(std::move(bytes)); }
+    [[nodiscard]] std::uint8_t* image(std::size_t i) { return bytes.data() + i * size; }
+
+    std::size_t size;
+    Bytes bytes;
+};
+
+constexpr int rows_per_piece = 128;
+
+int checked_side(const PaintParams& params) {
+    const int side = params.side;
+    if (side < 16 || side > 2048 || (side & (side - 1)) != 0)
+        throw InvalidInput("/side", std::to_string(side) + " is not a power of two from 16 to 2048");
+    return side;
+}
+
+void paint_canvas(const PaintParams& params, const Parallel& parallel, Canvas& canvas) {
+    const PaintPlan plan = paint_plan(params);
+    const PaintTarget target = {canvas.image(0), canvas.image(1), canvas.image(2)};
+    std::vector<std::function<void()>> pieces;
+    for (int part = 0; part < 4; ++part) {
+        const int height = plan.frames[static_cast<std::size_t>(part)].height;
+        for (int from = 0; from < height; from += rows_per_piece) {
+            const int to = std::min(from + rows_per_piece, height);
+            pieces.emplace_back([&plan, &target, part, from, to] {
+                thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> bench;
+                if (!bench) bench = hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(workbench_size)());
+                HWY_DYNAMIC_DISPATCH(paint_rows)(plan, part, from, to, bench.get(), target);
+            });
+        }
+    }
+    parallel(pieces);
+}
+
+}  // namespace
+
+void in_turn(std::span<const std::function<void()>> pieces) {
+    for (const std::function<void()>& piece : pieces) piece();
+}
+
+RawImages paint_raw(const PaintParams& params, const Parallel& parallel) {
+    const std::size_t side = static_cast<std::size_t>(checked_side(params));
+    Canvas canvas(3 * side * side);
+    paint_canvas(params, parallel, canvas);
+    RawImages out;
+    out.side = static_cast<int>(side);
+    for (std::size_t i = 0; i < 3; ++i) out.rgb[i].assign(canvas.image(i), canvas.image(i) + canvas.size);
+    return out;
+}
+
+ImageSet paint(const PaintParams& params, const Parallel& parallel) {
+    const int side = checked_side(params);
+    Canvas canvas(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    paint_canvas(params, parallel, canvas);
+    ImageSet out;
+    const auto encode = [&](ImageKind kind, int quality, Chroma chroma) {
+        const std::size_t i = static_cast<std::size_t>(kind);
+        const std::span<const std::uint8_t> rgb(canvas.image(i), canvas.size);
+        out.files[i] = Slice(std::make_shared<const Bytes>(jpeg(rgb, side, side, quality, chroma)));
+    };
+    const std::array<std::function<void()>, 3> pieces = {
+        [&] { encode(ImageKind::normal, 92, Chroma::full); },
+        [&] { encode(ImageKind::base_color, 88, Chroma::halved); },
+        [&] { encode(ImageKind::orm, 88, Chroma::halved); },
+    };
+    parallel(pieces);
+    return out;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,88 @@
+// Paints the image atlas of a mushroom: base colour, normal and occlusion-roughness-metalness.
+#pragma once
+
+#include <array>
+#include <functional>
+#include <span>
+
+#include "core/bytes.h"
+#include "core/model/patches.h"
+#include "core/model/request.h"
+#include "core/surface/metrics.h"
+
+namespace sporeprint {
+
+/// Everything that painting depends on. Equal canonical text means equal images, so its text is the key of the image cache.
+struct PaintParams {
+    std::uint32_t seed = 1;
+    double lightness = 1.0;
+    int side = 1024;
+    SurfaceMetrics metrics;
+    Surface surface;
+    HymeniumOf<Plain> hymenium;
+    PatchStyle warts;
+    PatchStyle scales;
+    OrnamentsOf<Plain> ornaments;
+    double fade = 0.0;
+    double wetness = 0.0;
+
+    static constexpr void fields(auto visit) {
+        using P = PaintParams;
+        visit(&P::seed, Info{.name = "seed", .min = 0, .max = 4294967295.0, .doc = "The individual."});
+        visit(&P::lightness, Info{.name = "lightness", .min = 0.4, .max = 2.5, .doc = "Factor on the linear colour of the cap: the individual's own tone."});
+        visit(&P::side, Info{.name = "side", .unit = "texels", .min = 16, .max = 2048, .doc = "Side of the square atlas, a power of two."});
+        visit(&P::metrics, Info{.name = "metrics", .doc = "Lengths of the shape."});
+        visit(&P::surface, Info{.name = "surface", .doc = "What is painted."});
+        visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
+        visit(&P::warts, Info{.name = "warts", .doc = "Remnants of the universal veil."});
+        visit(&P::scales, Info{.name = "scales", .doc = "Scales of the torn skin."});
+        visit(&P::ornaments, Info{.name = "ornaments", .doc = "How much of them is left."});
+        visit(&P::fade, Info{.name = "fade", .min = 0, .max = 1, .doc = "Bleaching."});
+        visit(&P::wetness, Info{.name = "wetness", .min = 0, .max = 1, .doc = "Film of water."});
+    }
+    bool operator==(const PaintParams&) const = default;
+};
+
+enum class ImageKind { base_color, normal, orm };
+
+constexpr const char* name(ImageKind kind) {
+    switch (kind) {
+        case ImageKind::base_color: return "base_color";
+        case ImageKind::normal: return "normal";
+        case ImageKind::orm: return "orm";
+    }
+    return nullptr;
+}
+
+/// Three encoded JPEG files, by ImageKind.
+struct ImageSet {
+    std::array<Slice, 3> files;
+    [[nodiscard]] std::size_t bytes() const { return files[0].size + files[1].size + files[2].size; }
+};
+
+/// Runs independent pieces of work, perhaps at once; returns when all are done and throws what one threw. Lent from above.
+using Parallel = std::function<void(std::span<const std::function<void()>>)>;
+
+/// Runs them one after another.
+void in_turn(std::span<const std::function<void()>> pieces);
+
+/// Paints and encodes an atlas.
+///
+/// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images by the layout of swept_charts, bleeding beyond every chart
+/// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 92, 4:4:4),
+///          occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
+/// throws   InvalidInput if a given image cannot be read (path /surface/<part>/image); Cancelled
+/// cost     O(side^2)
+/// source   [Desbenoit2004] sec. 3.3 for the maps; hymenium occlusion by view factors of slots
+[[nodiscard]] ImageSet paint(const PaintParams& params, const Parallel& parallel = in_turn);
+
+/// The three images before they are encoded, by ImageKind: `side` rows of `side` RGB texels each.
+struct RawImages {
+    int side = 0;
+    std::array<Bytes, 3> rgb;
+};
+
+/// Paints an atlas and leaves it as pixels, for tests and tools; else like paint().
+[[nodiscard]] RawImages paint_raw(const PaintParams& params, const Parallel& parallel = in_turn);
+
+}  // namespace sporeprint

@@ -1,0 +1,161 @@
+// What the paint kernels read: every parameter turned into the few numbers that a texel needs. Private to core/surface.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace sporeprint {
+
+/// A colour in linear light.
+struct Light {
+    float r = 0.0F, g = 0.0F, b = 0.0F;
+};
+
+/// A chart's rectangle in texels and where its inset begins, as shares of the rectangle.
+struct Frame {
+    int x = 0, y = 0, width = 0, height = 0;
+    float inset = 0.0F;
+};
+
+/// A disc's surface of revolution: a young cap is a piece of a sphere that goes over into a cylinder, a lower face is a cone.
+struct DiscPlan {
+    float per_texel = 0.0F;   ///< disc radii per texel
+    float bend = 0.0F;        ///< angle of the sphere's piece; 0 for a cone
+    float sphere = 0.0F;      ///< radius of the sphere in arcs
+    float inner = 0.0F;       ///< disc radius where the part begins
+    float cone_from = 0.0F;   ///< radius at the inner edge, in lengths of one disc radius
+    float cone_grow = 0.0F;   ///< its growth to the rim
+};
+
+/// Smooth noise sampled on a grid over a chart and stretched over its texels.
+struct CoarseField {
+    std::vector<float> values;  ///< (cells + 1)^2
+};
+
+/// A given image in linear light, prefiltered to about the chart's resolution; empty when it is painted.
+struct GivenImage {
+    int width = 0, height = 0;
+    std::vector<float> light;  ///< rgb
+    [[nodiscard]] bool empty() const { return light.empty(); }
+};
+
+inline constexpr int most_ramp_steps = 5;
+
+/// 1.055 x^(1/2.4) - 0.055 as a polynomial of the square root of x, highest power first, for x in 0.0031308..1: Chebyshev nodes.
+inline constexpr std::array<float, 7> srgb_curve = {-0.58427069F, 2.24849906F, -3.55274765F, 3.03261645F,
+                                                    -1.64561153F, 1.54233637F, -0.04086402F};
+
+struct CapPlan {
+    DiscPlan disc;
+    std::array<std::uint32_t, 12> seed{};
+    Light first;
+    std::array<Light, most_ramp_steps> step{};
+    int steps = 0;
+    float lightness = 1.0F;
+    float ramp_noise = 0.0F;
+    float fibrils = 0.0F;
+    int fibril_count = 8;
+    float zones = 0.0F;
+    float zone_count = 1.0F;
+    float patches = 0.0F;
+    float patch_frequency = 1.0F;  ///< per arc
+    float patch_threshold = 0.0F;
+    float patch_weight = 0.0F;
+    Light patch_colour;
+    float streaks = 0.0F;
+    float veins = 0.0F;
+    float vein_rows = 8.0F;
+    float vein_columns = 20.0F;  ///< at the rim
+    float striae = 0.0F;
+    int striae_count = 60;
+    std::array<float, 3> bumps{};  ///< by octave, already limited to what the texels can show
+    float bump_frequency = 20.0F;
+    float grain = 0.0F;
+    float roughness = 0.6F;
+};
+
+struct HymeniumPlan {
+    DiscPlan disc;
+    std::array<std::uint32_t, 8> seed{};
+    int pattern = 0;
+    Light colour, edge, depth;
+    float mottle = 0.0F;
+    float roughness = 0.8F;
+    float relief = 0.0F;
+    float slot_occlusion = 1.0F;  ///< of the bottom of a slot, with `relief`
+    int blades = 60;
+    int tiers = 0;
+    float blade = 0.0F;  ///< half thickness, in lengths of one disc radius
+    float forking = 0.0F;
+    float pore_rows = 1.0F;     ///< from the inner edge to the rim
+    float pore_from = 6.0F;     ///< pores round the inner edge
+    float pore_grow = 0.0F;     ///< more of them at the rim
+    float pore_shown = 0.0F;    ///< 0 when pores are smaller than texels
+    std::array<float, 2> bumps{};
+    float bump_frequency = 24.0F;
+};
+
+struct StemPlan {
+    std::array<std::uint32_t, 12> seed{};
+    float aspect = 2.0F;         ///< length over circumference
+    float texel_along = 0.0F;    ///< in circumferences
+    float texel_round = 0.0F;
+    Light top, base, stain, band_colour, net_colour;
+    float base_stain = 0.0F;
+    float fibrils = 0.0F;
+    float bands = 0.0F;
+    float net = 0.0F;
+    std::array<float, 3> bumps{};
+    std::array<float, 3> fibres{};  ///< by octave, already limited
+    float net_shown = 1.0F;
+    float roughness = 0.75F;
+};
+
+struct VeilPlan {
+    std::array<std::uint32_t, 4> seed{};
+    float texel = 0.0F;  ///< in lengths of the strip
+    float across = 0.1F; ///< width of the strip over its length
+    Light colour, tip;
+    float roughness = 0.85F;
+};
+
+/// A painted wart or scale on the cap's disc.
+struct PatchPlan {
+    float x = 0.0F, y = 0.0F;             ///< centre, in disc radii
+    float along_x = 0.0F, along_y = 0.0F; ///< unit vector to the tip
+    float per_length = 0.0F, per_width = 0.0F;
+    float relief = 0.0F;                  ///< height in arcs
+    float shown = 0.0F;                   ///< 0..1
+    float reach = 0.0F;                   ///< in disc radii
+    std::array<float, 6> side_x{}, side_y{};
+    std::uint32_t seed = 0;
+    int kind = 0;                         ///< 0 wart, 1 scale
+};
+
+struct PaintPlan {
+    int side = 0;
+    std::array<Frame, 4> frames{};
+    CapPlan cap;
+    HymeniumPlan hymenium;
+    StemPlan stem;
+    VeilPlan veil;
+    float fade = 0.0F;
+    float wetness = 0.0F;
+    int coarse_cells = 64;
+    std::array<CoarseField, 3> cap_fields;
+    std::array<CoarseField, 2> hymenium_fields;
+    std::vector<PatchPlan> patches;
+    std::vector<std::vector<int>> patches_by_row;  ///< of the cap's chart
+    std::array<GivenImage, 3> given;
+};
+
+/// Where a piece of work paints: three RGB images of the whole atlas.
+struct PaintTarget {
+    std::uint8_t* base_color = nullptr;
+    std::uint8_t* normal = nullptr;
+    std::uint8_t* orm = nullptr;
+};
+
+}  // namespace sporeprint

@@ -1,0 +1,108 @@
+// Paints the texels of the stem and of the veil's strip: fibres, stain, bands, net; threads and grain.
+#if defined(SPOREPRINT_CORE_SURFACE_STEM_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_STEM_INL
+#undef SPOREPRINT_CORE_SURFACE_STEM_INL
+#else
+#define SPOREPRINT_CORE_SURFACE_STEM_INL
+#endif
+
+#include "core/surface/texel.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+/// along  0 at the ground, 1 at the top; turn 0..1. Heights are in circumferences.
+HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn) {
+    const VF one = set(1.0F);
+    Texel out;
+    const VF length = along * set(plan.aspect);
+    const VF broad = periodic_noise2(turn * set(4.0F), length * set(3.0F), 4, plan.seed[0]);
+    const VF middle = periodic_noise2(turn * set(11.0F), length * set(8.0F), 11, plan.seed[1]);
+    VF height = set(0.0F);
+    VF fine = set(0.0F);
+    constexpr int bump_cells[3] = {24, 52, 113};
+    for (std::size_t octave = 0; octave < 3; ++octave) {
+        if (plan.bumps[octave] <= 0.0F) continue;
+        const float n = static_cast<float>(bump_cells[octave]);
+        const VF v = periodic_noise2(turn * set(n), length * set(n), bump_cells[octave], plan.seed[2 + octave]);
+        fine = fine + v * set(plan.bumps[octave]);
+        height = height + v * set(plan.bumps[octave] * 0.16F / n);
+    }
+    Rgb colour = mix(rgb(plan.base), rgb(plan.top), smooth(along + broad * set(0.07F), 0.0F, 1.0F));
+    VF shade = one + middle * set(0.05F) + fine * set(0.06F);
+    VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
+
+    if (plan.fibrils > 0.0F) {
+        // Coarse wrinkles come only with strong fibres.
+        constexpr int fibre_cells[3] = {17, 46, 109};
+        constexpr float slender[3] = {0.16F, 0.10F, 0.08F};
+        VF fibre = set(0.0F);
+        for (std::size_t octave = 0; octave < 3; ++octave) {
+            if (plan.fibres[octave] <= 0.0F) continue;
+            const float n = static_cast<float>(fibre_cells[octave]);
+            const VF v = periodic_noise2(turn * set(n) + broad * set(0.5F), length * set(n * slender[octave]), fibre_cells[octave], plan.seed[5 + octave]);
+            fibre = fibre + v * set(plan.fibres[octave]);
+            height = height + v * set(plan.fibres[octave] * plan.fibrils * 0.20F / n);
+        }
+        shade = shade * (one + fibre * set(0.30F * plan.fibrils));
+        occlusion = occlusion + hn::Min(fibre, set(0.0F)) * set(0.25F * plan.fibrils);
+    }
+    if (plan.bands > 0.0F) {
+        // Snake skin: the skin has torn into zig-zag belts.
+        const VF zigzag = hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) - set(0.5F);
+        const VF phase = along * set(8.0F) + zigzag * set(0.42F) + broad * set(0.35F) + middle * set(0.22F);
+        const VF belt = smooth(wave(phase) + fine * set(0.3F) + middle * set(0.35F), -0.15F, 2.2F);
+        colour = mix(colour, rgb(plan.band_colour), belt * set(plan.bands));
+        height = height + belt * set(0.003F * plan.bands);
+    }
+    if (plan.net > 0.0F) {
+        constexpr float columns = 26.0F;
+        const VF y = length * set(columns / 2.1F) + middle * set(0.30F);
+        const Cells mesh = cells(turn, hn::Max(y, set(0.0F)), columns, 0.0F, 0.36F, plan.seed[8]);
+        const VF thread = one - smooth(mesh.border, 0.03F, 5.5F);
+        const VF strength = set(plan.net * plan.net_shown) * (set(0.10F) + set(0.90F) * smooth(along + broad * set(0.10F), 0.30F, 2.1F));
+        const VF up = thread * strength;
+        colour = mix(colour, rgb(plan.net_colour), up * set(0.9F));
+        height = height + up * set(0.20F / columns);
+        occlusion = occlusion * (one - set(0.22F) * strength * (one - thread));
+        shade = shade * (one - set(0.08F) * strength * (one - thread));
+    }
+    if (plan.base_stain > 0.0F) {
+        const VF ragged = along + broad * set(0.10F) + middle * set(0.06F) + fine * set(0.03F);
+        const VF stain = (one - smooth(ragged, plan.base_stain * 0.55F - 0.06F, 1.0F / (0.45F * plan.base_stain + 0.12F))) *
+                         set(plan.base_stain < 0.1F ? plan.base_stain * 10.0F : 1.0F);
+        colour = mix(colour, rgb(plan.stain), stain * unit(set(0.86F) + middle * set(0.5F)));
+        occlusion = occlusion * (one - stain * set(0.12F));
+    }
+    out.colour = shaded(colour, hn::Max(shade, set(0.05F)));
+    out.height = height;
+    out.roughness = set(plan.roughness) + fine * set(0.04F) + middle * set(0.03F);
+    out.occlusion = occlusion;
+    return out;
+}
+
+/// turn 0..1 along the strip; across 0 at the attachment, 1 at the edge. Heights are in lengths of the strip.
+HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across) {
+    const VF one = set(1.0F);
+    Texel out;
+    const VF thread = periodic_noise2(turn * set(92.0F), across * set(1.6F), 92, plan.seed[0]) *
+                      shown(set(1.0F / (92.0F * plan.texel)), 4.0F);
+    const VF cloud = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
+    const VF grain = periodic_noise2(turn * set(160.0F), across * set(160.0F * plan.across), 160, plan.seed[2]) *
+                     shown(set(1.0F / (160.0F * plan.texel)), 4.0F);
+    Rgb colour = mix(rgb(plan.colour), rgb(plan.tip), smooth(across + cloud * set(0.18F) + thread * set(0.10F), 0.35F, 1.5F));
+    const VF fade_out = one - set(0.5F) * across;
+    out.colour = shaded(colour, one + thread * set(0.13F) * fade_out + cloud * set(0.05F) + grain * set(0.06F));
+    out.height = thread * set(0.16F / 92.0F) * fade_out + grain * set(0.14F / 160.0F);
+    out.roughness = set(plan.roughness) + grain * set(0.05F);
+    // The fold where it hangs from the stem lies in shade.
+    out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) + hn::Min(thread, set(0.0F)) * set(0.2F);
+    return out;
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif

@@ -1,0 +1,154 @@
+// What all painted parts share, on vectors of texels: coordinates on discs, colours, waves and cells.
+#if defined(SPOREPRINT_CORE_SURFACE_TEXEL_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_TEXEL_INL
+#undef SPOREPRINT_CORE_SURFACE_TEXEL_INL
+#else
+#define SPOREPRINT_CORE_SURFACE_TEXEL_INL
+#endif
+
+#include "core/math/noise.inl"
+#include "core/surface/plan.h"
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+struct Rgb {
+    VF r, g, b;
+};
+
+HWY_INLINE Rgb rgb(const Light& light) { return {set(light.r), set(light.g), set(light.b)}; }
+HWY_INLINE Rgb mix(const Rgb& a, const Rgb& b, VF weight) {
+    return {mix(a.r, b.r, weight), mix(a.g, b.g, weight), mix(a.b, b.b, weight)};
+}
+HWY_INLINE Rgb shaded(const Rgb& colour, VF factor) { return {colour.r * factor, colour.g * factor, colour.b * factor}; }
+
+/// What is known of a texel when all is painted. Height in lengths of one disc radius, or of the strip.
+struct Texel {
+    Rgb colour;
+    VF height, roughness, occlusion;
+};
+
+/// Where a texel of a disc lies.
+struct DiscPoint {
+    VF x, y;          ///< on the disc, in its radii
+    VF rho;           ///< distance from the pole, at most 1
+    VF cosine, sine;  ///< of the angle round the pole
+    VF radius;        ///< from the axis, in lengths of one disc radius
+    VF height;        ///< along the axis, likewise
+};
+
+HWY_INLINE DiscPoint disc_point_of(const DiscPlan& plan, VF x, VF y) {
+    DiscPoint p;
+    p.x = x;
+    p.y = y;
+    const VF far = hn::Sqrt(x * x + y * y);
+    const VF inverse = set(1.0F) / hn::Max(far, set(1e-6F));
+    p.cosine = x * inverse;
+    p.sine = y * inverse;
+    p.rho = hn::Min(far, set(1.0F));
+    if (plan.bend > 0.0F) {
+        const VF angle = hn::Min(p.rho * set(plan.bend), set(1.5707963F));
+        const VF q = angle * angle;
+        const VF sine = angle * (set(1.0F) + q * (set(-1.0F / 6.0F) + q * (set(1.0F / 120.0F) + q * (set(-1.0F / 5040.0F) + q * set(1.0F / 362880.0F)))));
+        const VF fall = q * (set(0.5F) + q * (set(-1.0F / 24.0F) + q * (set(1.0F / 720.0F) + q * set(-1.0F / 40320.0F))));
+        p.radius = set(plan.sphere) * sine;
+        p.height = set(plan.sphere) * fall + hn::Max(p.rho - set(plan.sphere * 1.5707963F), set(0.0F));
+    } else {
+        const VF share = hn::Max(p.rho - set(plan.inner), set(0.0F)) * set(1.0F / (1.0F - plan.inner));
+        p.radius = set(plan.cone_from) + set(plan.cone_grow) * share;
+        p.height = set(0.0F);
+    }
+    return p;
+}
+
+/// Angle of a unit vector in turns, 0..1.
+HWY_INLINE VF turn_of(VF cosine, VF sine) {
+    const VF x = hn::Abs(cosine);
+    const VF y = hn::Abs(sine);
+    const VF t = hn::Min(x, y) / hn::Max(hn::Max(x, y), set(1e-9F));
+    const VF q = t * t;
+    // Minimax polynomial of the arc tangent on 0..1, error 1e-5; here in turns.
+    VF angle = set(-0.01172120F);
+    angle = angle * q + set(0.05265332F);
+    angle = angle * q + set(-0.11643287F);
+    angle = angle * q + set(0.19354346F);
+    angle = angle * q + set(-0.33262347F);
+    angle = angle * q + set(0.99997726F);
+    angle = angle * t * set(0.15915494F);
+    angle = hn::IfThenElse(y > x, set(0.25F) - angle, angle);
+    angle = hn::IfThenElse(cosine < set(0.0F), set(0.5F) - angle, angle);
+    return hn::IfThenElse(sine < set(0.0F), set(1.0F) - angle, angle);
+}
+
+/// Like a cosine of period 1: 1 at whole numbers, -1 half-way between.
+HWY_INLINE VF wave(VF t) {
+    const VF u = hn::Abs(t - hn::Floor(t) - set(0.5F)) * set(2.0F);
+    return u * u * (set(6.0F) - set(4.0F) * u) - set(1.0F);
+}
+
+/// How well a pattern shows whose period is `texels` long: 0 below two, 1 from `full` on.
+HWY_INLINE VF shown(VF texels, float full) { return unit((texels - set(2.0F)) * set(1.0F / (full - 2.0F))); }
+
+/// Coarse noise of a row, stretched over its texels.
+struct Cells {
+    VF border;  ///< distance to the border with the next cell, in cells
+    VF centre;  ///< distance to the cell's point
+    VU id;
+};
+
+/// Cells with one point each, in rows across y; row j has floor(from + grow * (j + 0.5)) of them round the turn, at least 3.
+/// So they neither stretch where a surface widens nor break where the turn closes.
+///
+/// source  [Worley1996]; the border distance is that to the bisector, true in the metric of the surface
+HWY_INLINE Cells cells(VF turn, VF y, float from, float grow, float jitter, std::uint32_t seed) {
+    const VF row = hn::Floor(y);
+    VF dx[9];
+    VF dy[9];
+    VF nearest = set(1e9F);
+    VF near_x = set(0.0F);
+    VF near_y = set(0.0F);
+    VU id = word(0);
+    for (int j = 0; j < 3; ++j) {
+        const VF this_row = row + set(static_cast<float>(j - 1));
+        const VF count = hn::Max(hn::Floor(set(from) + set(grow) * (this_row + set(0.5F))), set(3.0F));
+        // Odd rows are shifted by half a cell: the start of a hexagonal order.
+        const VF odd = this_row * set(0.5F) - hn::Floor(this_row * set(0.5F));
+        const VF x = turn * count - odd;
+        const VF column = hn::Floor(x);
+        const VU row_bits = hn::BitCast(Words(), hn::ConvertTo(Ints(), this_row)) * word(prime_y) + word(seed);
+        for (int i = 0; i < 3; ++i) {
+            const VF this_column = column + set(static_cast<float>(i - 1));
+            VF wrapped = this_column;
+            wrapped = wrapped + hn::IfThenElseZero(wrapped < set(0.0F), count);
+            wrapped = wrapped - hn::IfThenElseZero(wrapped >= count, count);
+            VU h = hn::BitCast(Words(), hn::ConvertTo(Ints(), wrapped)) * word(prime_x);
+            h = hash(hn::Xor(h, row_bits));
+            const int k = 3 * j + i;
+            dx[k] = this_column + set(0.5F) + upper_part(h) * set(jitter) - x;
+            dy[k] = this_row + set(0.5F) + lower_part(h) * set(jitter) - y;
+            const VF far = dx[k] * dx[k] + dy[k] * dy[k];
+            const auto closer = far < nearest;
+            nearest = hn::IfThenElse(closer, far, nearest);
+            near_x = hn::IfThenElse(closer, dx[k], near_x);
+            near_y = hn::IfThenElse(closer, dy[k], near_y);
+            id = hn::IfThenElse(hn::RebindMask(Words(), closer), h, id);
+        }
+    }
+    VF border = set(1e9F);
+    for (int k = 0; k < 9; ++k) {
+        const VF ex = dx[k] - near_x;
+        const VF ey = dy[k] - near_y;
+        const VF apart = ex * ex + ey * ey;
+        const VF far = dx[k] * dx[k] + dy[k] * dy[k];
+        const VF distance = (far - nearest) * set(0.5F) / hn::Sqrt(hn::Max(apart, set(1e-6F)));
+        border = hn::IfThenElse(apart > set(1e-6F), hn::Min(border, distance), border);
+    }
+    return {border, hn::Sqrt(nearest), id};
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif
