@@ -385,6 +385,15 @@ constexpr std::size_t longest_text(const Info& info) {
     return info.most ? info.most : T::capacity;
 }
 
+/// What bounds each item of the list described by `info`: its numbers' range, and for texts their
+/// capacity, since `most` is the list's own length.
+template <class T>
+constexpr Info item_info(const Info& info) {
+    Info item = info;
+    if constexpr (is_text<T>) item.most = 0;
+    return item;
+}
+
 /// Path of the member described by `sub` below `path`; an inlined member has its parent's.
 inline std::string member_path(const std::string& path, const Info& sub) {
     return sub.name[0] ? path + '/' + sub.name : path;
@@ -414,7 +423,8 @@ void check(const T& value, const Info& info, const std::string& path,
                               "a list of " + std::to_string(value.size()) + " items; at most " +
                                   std::to_string(info.most) + " are allowed");
         for (std::size_t i = 0; i < value.size(); ++i)
-            check(value[i], info, path + '/' + std::to_string(i), problems);
+            check(value[i], item_info<typename T::value_type>(info), path + '/' + std::to_string(i),
+                  problems);
     } else if constexpr (Number<T>) {
         if (!in_range(value, info)) report(problems, path, outside_message(value, info));
     } else if constexpr (std::is_same_v<T, Range>) {

@@ -103,7 +103,8 @@ void read(const Value& json, T& out, const Info& info, const std::string& path,
                 read(json.items()[i], item, info, path + '/' + std::to_string(i), problems);
                 out[i] = item;
             } else {
-                read(json.items()[i], out[i], info, path + '/' + std::to_string(i), problems);
+                read(json.items()[i], out[i], item_info<typename T::value_type>(info),
+                     path + '/' + std::to_string(i), problems);
             }
         }
     } else if constexpr (is_tuple<T>) {

@@ -123,7 +123,7 @@ Value schema(const T& fallback, const Info& info) {
         out.set("type", "array");
         if constexpr (is_list<T>) {
             out.set("maxItems", info.most);
-            items = schema(typename T::value_type{}, info);
+            items = schema(typename T::value_type{}, item_info<typename T::value_type>(info));
         } else if constexpr (is_tuple<T>) {
             out.set("minItems", fallback.size()).set("maxItems", fallback.size());
             items = schema(typename T::value_type{}, info);

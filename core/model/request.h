@@ -1,0 +1,70 @@
+// What a person may ask of a mushroom: the query parameters and the mix of species.
+#pragma once
+
+#include "core/model/model.h"
+
+namespace sporeprint {
+
+/// How the images reach the client.
+enum class Textures { embedded, linked, none };
+
+constexpr const char* name(Textures textures) {
+    switch (textures) {
+        case Textures::embedded: return "embedded";
+        case Textures::linked: return "linked";
+        case Textures::none: return "none";
+    }
+    return nullptr;
+}
+
+/// Side of the LOD 0 atlas in texels.
+using TextureSize = Choice<128, 256, 512, 1024, 2048>;
+
+/// Query parameters of /v1/mushrooms. Unset optionals are the species' own.
+struct MushroomParams {
+    std::uint32_t seed = 1;
+    double age = 0.6;
+    double size = 1.0;
+    double variation = 0.5;
+    int lod = 0;
+    TextureSize texture_size{1024};
+    Textures textures = Textures::embedded;
+    DeformationOf<Maybe> deformation;
+    OrnamentsOf<Maybe> ornaments;
+    HymeniumOf<Maybe> hymenium;
+    WeatheringOf<Maybe> weathering;
+
+    static constexpr void fields(auto visit) {
+        using P = MushroomParams;
+        visit(&P::seed, Info{.name = "seed", .min = 0, .max = 4294967295.0, .doc = "The individual: same seed and parameters, same mushroom, bit for bit."});
+        visit(&P::age, Info{.name = "age", .min = 0, .max = 1, .doc = "From button (0) through maturity (0.6) to decay (1)."});
+        visit(&P::size, Info{.name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."});
+        visit(&P::variation, Info{.name = "variation", .min = 0, .max = 1, .doc = "How far individuals depart from their species' template."});
+        visit(&P::lod, Info{.name = "lod", .min = 0, .max = 3, .doc = "Level of detail: the same individual with fewer triangles and smaller images."});
+        visit(&P::texture_size, Info{.name = "texture_size", .unit = "texels", .doc = "Side of the image atlas at LOD 0; it halves with every level."});
+        visit(&P::textures, Info{.name = "textures", .doc = "Images inside the file, linked by address, or none."});
+        visit(&P::deformation, Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});
+        visit(&P::ornaments, Info{.name = "ornaments", .doc = "What is left of the veils."});
+        visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
+        visit(&P::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
+    }
+    bool operator==(const MushroomParams&) const = default;
+};
+
+/// One species of a mix; weights are thousandths and sum to 1000.
+struct MixPart {
+    std::string id;
+    int weight = 1000;
+    bool operator==(const MixPart&) const = default;
+};
+
+using Mix = std::vector<MixPart>;
+
+/// A whole order: a mix of the atlas or a model of the client's own, and the parameters.
+struct MushroomOrder {
+    Mix mix;
+    std::optional<Model> model;
+    MushroomParams params;
+};
+
+}  // namespace sporeprint
