@@ -1,0 +1,119 @@
+#include "core/build/free_form.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stdexcept>
+
+namespace sporeprint {
+
+namespace {
+
+constexpr int highest_degree = 7;
+
+struct Weight {
+    double value, derivative;
+};
+
+constexpr double binomial(int n, int k) {
+    double c = 1.0;
+    for (int i = 1; i <= k; ++i) c = c * (n - k + i) / i;
+    return c;
+}
+
+double power_of(double x, int exponent) {
+    double p = 1.0;
+    for (; exponent > 0; --exponent) p *= x;
+    return p;
+}
+
+/// The Bernstein polynomial B_i^n and its derivative at s.
+Weight bernstein(int n, int i, double s) {
+    const double rest = 1.0 - s;
+    // C(n,i) s^i (1-s)^(n-i); its derivative shares all but one factor of each.
+    const double low = i > 0 ? power_of(s, i - 1) : 0.0, high = i < n ? power_of(rest, n - i - 1) : 0.0;
+    const double left = i > 0 ? low * s : 1.0, right = i < n ? high * rest : 1.0;
+    const double c = binomial(n, i);
+    return {c * left * right, c * (i * low * right - (n - i) * left * high)};
+}
+
+/// Largest value of B_i^n on 0..1, taken at s = i / n.
+double peak(int n, int i) { return bernstein(n, i, static_cast<double>(i) / n).value; }
+
+/// Largest |derivative| of B_i^n: its extrema lie where the second derivative vanishes; a fine walk plus the walk's own error bound.
+double steepest(int n, int i) {
+    constexpr int steps = 512;
+    double most = 0.0;
+    for (int k = 0; k <= steps; ++k)
+        most = std::max(most, std::abs(bernstein(n, i, static_cast<double>(k) / steps).derivative));
+    return most + 4.0 * n * n / steps;  // the second derivative of a Bernstein polynomial is below 4 n^2 on 0..1
+}
+
+}  // namespace
+
+FreeForm::FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree, std::vector<Displaced> displaced)
+    : corner_(corner), size_(size), degree_(degree), displaced_(std::move(displaced)) {
+    for (int axis = 0; axis < 3; ++axis) {
+        if (degree_[static_cast<std::size_t>(axis)] < 1 || degree_[static_cast<std::size_t>(axis)] > highest_degree)
+            throw std::invalid_argument("degree is outside 1..7");
+        if (!(size_[axis] > 0.0)) throw std::invalid_argument("the box is empty");
+        for (const Displaced& d : displaced_)
+            if (d.index[static_cast<std::size_t>(axis)] < 0 || d.index[static_cast<std::size_t>(axis)] > degree_[static_cast<std::size_t>(axis)])
+                throw std::invalid_argument("a control point lies outside the lattice");
+    }
+    std::erase_if(displaced_, [](const Displaced& d) { return d.by == glm::dvec3(0.0); });
+}
+
+bool FreeForm::contains(const glm::dvec3& p) const {
+    const glm::dvec3 q = p - corner_;
+    return q.x > 0.0 && q.y > 0.0 && q.z > 0.0 && q.x < size_.x && q.y < size_.y && q.z < size_.z;
+}
+
+void FreeForm::apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const {
+    if (displaced_.empty() || !contains(p)) return;
+    const glm::dvec3 s = (p - corner_) / size_;
+    glm::dvec3 move(0.0), by_x(0.0), by_y(0.0), by_z(0.0);
+    for (const Displaced& d : displaced_) {
+        const Weight x = bernstein(degree_[0], d.index[0], s.x), y = bernstein(degree_[1], d.index[1], s.y), z = bernstein(degree_[2], d.index[2], s.z);
+        move += x.value * y.value * z.value * d.by;
+        by_x += x.derivative * y.value * z.value * d.by;
+        by_y += x.value * y.derivative * z.value * d.by;
+        by_z += x.value * y.value * z.derivative * d.by;
+    }
+    by_x /= size_.x;
+    by_y /= size_.y;
+    by_z /= size_.z;
+    p += move;
+    first += first.x * by_x + first.y * by_y + first.z * by_z;
+    second += second.x * by_x + second.y * by_y + second.z * by_z;
+}
+
+double FreeForm::stretch_bound() const {
+    double squares = 0.0;
+    for (int axis = 0; axis < 3; ++axis) {
+        double along = 0.0;
+        for (const Displaced& d : displaced_) {
+            double weight = 1.0;
+            for (int other = 0; other < 3; ++other) {
+                const int n = degree_[static_cast<std::size_t>(other)], i = d.index[static_cast<std::size_t>(other)];
+                weight *= other == axis ? steepest(n, i) : peak(n, i);
+            }
+            along += weight * std::sqrt(glm::dot(d.by, d.by));
+        }
+        along /= size_[axis];
+        squares += along * along;
+    }
+    // The Frobenius norm of the Jacobian of the displacement bounds its operator norm.
+    return std::sqrt(squares);
+}
+
+FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size, const glm::dvec3& push) {
+    constexpr double share = (6.0 / 16.0) * (6.0 / 16.0) * (6.0 / 16.0);  // B_2^4(1/2) cubed
+    // For this lattice the bound of stretch_bound() is |push| * 1.1858 / 0.375 / size per axis: keep it below 0.7.
+    const glm::dvec3 steep = glm::dvec3(1.20 / 0.375) / size;
+    const double bound = std::sqrt(glm::dot(push, push)) * std::sqrt(glm::dot(steep, steep));
+    const double keep = bound > 0.7 ? 0.7 / bound : 1.0;
+    return FreeForm(centre - 0.5 * size, size, {4, 4, 4}, {{{2, 2, 2}, push * (keep / share)}});
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,40 @@
+// Local free-form deformation: a box of space moved by a Bernstein lattice, everything outside left alone.
+#pragma once
+
+#include <array>
+#include <glm/vec3.hpp>
+#include <vector>
+
+namespace sporeprint {
+
+/// A lattice of (degree + 1)^3 control points over an axis-aligned box; only points that are displaced are stored.
+class FreeForm {
+public:
+    struct Displaced {
+        std::array<int, 3> index;  ///< 0..degree along x, y, z
+        glm::dvec3 by;             ///< metres
+    };
+
+    /// degree  1..7 along each axis. The box blends C1 into its surroundings when the two outermost layers on each side are not displaced.
+    /// throws  std::invalid_argument if an index or a degree is out of range, or the box is empty
+    /// source  [Sederberg1986], in displacement form: no displacement is the exact identity
+    FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree, std::vector<Displaced> displaced);
+
+    [[nodiscard]] bool contains(const glm::dvec3& p) const;
+
+    /// Moves `p` and the two directions with it, by the Jacobian at p; nothing happens outside the box.
+    void apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const;
+
+    /// Upper bound of the norm of the displacement's derivative anywhere; below 1 the map is injective and keeps orientation.
+    [[nodiscard]] double stretch_bound() const;
+
+private:
+    glm::dvec3 corner_, size_;
+    std::array<int, 3> degree_;
+    std::vector<Displaced> displaced_;
+};
+
+/// A dent or bulge: degree 4, its one free control point displaced so that the centre moves by `push` (or as far as is injective).
+[[nodiscard]] FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size, const glm::dvec3& push);
+
+}  // namespace sporeprint

@@ -1,0 +1,67 @@
+// Turns a Model into a mesh: the outline swept round the axis, with deformation, waves and ornaments.
+#pragma once
+
+#include "core/build/axis.h"
+#include "core/build/detail.h"
+#include "core/build/free_form.h"
+#include "core/mesh/mesh.h"
+#include "core/silhouette/outline.h"
+
+namespace sporeprint {
+
+/// A point of the surface at rest (straight axis) and two unit directions that span its tangent plane; outward is first x second.
+struct SurfacePoint {
+    glm::dvec3 position, meridian, azimuth;
+};
+
+/// Everything that moves a point from rest to its place: imperfections, then the axis.
+class Deformer {
+public:
+    /// throws Impossible if the stem would fold ("/deformation/bend_deg")
+    Deformer(const Model& model, const Swept& shape, const Outline& outline, std::uint32_t seed);
+
+    /// Moves a point that belongs to a station of the axis: the stem's skin to that of its height, caps and rings to the frozen one
+    /// where they are attached. A dent moves a point by far less than the axis' radius of curvature, so it keeps its station.
+    void apply(SurfacePoint& point, const AxisStation& station) const;
+
+    [[nodiscard]] AxisStation station(double height) const { return axis_.at(height); }
+    [[nodiscard]] AxisStation frozen_station(double height) const { return axis_.frozen_at(height); }
+    [[nodiscard]] double base() const { return base_; }
+    [[nodiscard]] double top() const { return top_; }
+
+private:
+    double base_, top_;
+    Axis axis_;
+    std::vector<FreeForm> dents_;
+};
+
+/// The margin's waves: height added at a share of a face (0 centre, 1 margin), with derivatives.
+class Waves {
+public:
+    Waves(double amount, double cap_radius, int columns, std::uint32_t seed);
+
+    struct Value {
+        double height = 0.0, by_share = 0.0, by_angle = 0.0;
+    };
+    [[nodiscard]] bool flat() const { return amplitude_ == 0.0; }
+    [[nodiscard]] Value at(double share, double angle) const;
+
+private:
+    struct Mode {
+        int count;
+        double size, phase, from;
+    };
+    double amplitude_;
+    std::vector<Mode> modes_;
+};
+
+/// Mesh of a swept Model.
+///
+/// lod       0..3; seed  the individual
+/// textured  whether texture coordinates and tangents are made
+/// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last
+/// throws    InvalidInput for a bad outline, Impossible for a stem that folds
+/// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by meridian arc length, so that they never fold
+[[nodiscard]] Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed, bool textured);
+
+}  // namespace sporeprint
