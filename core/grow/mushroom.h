@@ -1,0 +1,53 @@
+// The recipe of a mushroom: an order in, a GLB out. This is how core is used as a library.
+#pragma once
+
+#include "core/atlas/atlas.h"
+#include "core/bytes.h"
+#include "core/grow/workshop.h"
+#include "core/mesh/mesh.h"
+#include "core/model/request.h"
+#include "core/model/resolve.h"
+
+namespace sporeprint {
+
+/// What an order will come to, before any work.
+struct Estimate {
+    std::uint64_t vertices = 0;
+    std::uint64_t triangles = 0;
+    std::uint64_t texels = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// Number of vertices, texels and bytes; microseconds, allocates nothing large.
+[[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas);
+
+/// The quantised lengths of an individual that its images depend on.
+[[nodiscard]] SurfaceMetrics surface_metrics(const Individual& individual);
+
+/// What painting this order depends on. Age is taken in steps of 1/64, so that similar mushrooms share their images.
+[[nodiscard]] PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas, const SurfaceMetrics& metrics);
+
+/// The mesh alone.
+[[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
+
+struct Extras {
+    std::string canonical;                       ///< canonical address of the request; empty for none
+    std::array<std::string, 3> image_addresses;  ///< by ImageKind, for Textures::linked
+};
+
+struct Mushroom {
+    Body glb;
+    std::uint64_t vertices = 0;
+    std::uint64_t triangles = 0;
+};
+
+/// Grows a mushroom.
+///
+/// returns  the GLB as shared slices: header with JSON, geometry, images
+/// throws   InvalidInput, GenerationError, Cancelled
+[[nodiscard]] Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras = {}, const Workshop& workshop = {});
+
+/// Raised whenever bytes change for an unchanged request.
+inline constexpr int generator_version = 1;
+
+}  // namespace sporeprint
