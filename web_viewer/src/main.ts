@@ -19,7 +19,8 @@ interface TestHandle {
     /** The shown model equals the controls, and a frame of it was drawn. */
     ready(): Promise<void>;
     view(name: ViewName): void;
-    readonly renderer: { calls: number; triangles: number; geometries: number; textures: number };
+    /** Of the last frame, and what the graphics card holds; `frames` drawn so far. */
+    readonly renderer: { frames: number; calls: number; triangles: number; geometries: number; textures: number };
     readonly counts: { triangles: number; vertices: number; drawCalls: number; textures: number };
     /** Metres. */
     readonly size: { width: number; height: number; depth: number };
@@ -62,6 +63,7 @@ class Page {
     private readonly grower: Grower;
     private readonly lods = new Map<number, HTMLButtonElement>();
     private grown: Grown | undefined;
+    private faults: Fault[] = [];
     private pushed: { name: string; at: number } | undefined;
     private readonly thumbnails = new AbortController();
 
@@ -117,14 +119,14 @@ class Page {
         this.writeAddress(name, false);
         this.controls.show();
         this.markLod();
-        showProblem(undefined);
+        this.showFaults([]);
         this.grower.final(false, 60);
     }
 
     /** Shows new settings from scratch: another species, another address, a dropped file. */
     private begin(refit: boolean): void {
         this.controls.clearFaults();
-        showProblem(undefined);
+        this.showFaults([]);
         this.gallery.mark(this.settings.mix);
         this.controls.show(undefined);
         this.markLod();
@@ -159,8 +161,10 @@ class Page {
         this.showFaults(faults);
     }
 
+    /** What an address or a file asked for and cannot have; it stays until something is changed. */
     private showFaults(faults: Fault[]): void {
-        if (faults.length === 0) return;
+        this.faults = faults;
+        if (faults.length === 0) return showProblem(undefined);
         const title = faults.length === 1 ? "One setting of the address was left out" : `${faults.length} settings of the address were left out`;
         showProblem(new RequestFailed(title, "", 0, faults), this.controls);
     }
@@ -168,8 +172,8 @@ class Page {
     private async show(grown: Grown, refit: boolean, current: () => boolean): Promise<boolean> {
         if (!(await this.stage.show(grown.model, refit, current))) return false;
         this.grown = grown;
-        showProblem(undefined);
         if (!grown.draft) this.controls.clearFaults();
+        this.showFaults(this.faults);
         this.showNumbers(grown);
         this.showDimensions();
         for (const id of ["download", "copy-url", "copy-curl"]) {
@@ -440,7 +444,7 @@ async function open(): Promise<void> {
         view: (name) => stage.view(name),
         get renderer() {
             const { render, memory } = stage.renderer.info;
-            return { calls: render.calls, triangles: render.triangles, ...memory };
+            return { frames: render.frame, calls: render.calls, triangles: render.triangles, ...memory };
         },
         get counts() {
             return page.counts;

@@ -15,11 +15,13 @@ export interface Schema {
     properties?: Record<string, Schema>;
     anyOf?: Schema[];
     oneOf?: Schema[];
+    allOf?: Schema[];
     $ref?: string;
     $defs?: Record<string, Schema>;
     "x-unit"?: string;
     "x-default-from"?: string;
     "x-group"?: string;
+    "x-step"?: number;
 }
 
 export type Kind = "number" | "select" | "checkbox" | "text";
@@ -88,14 +90,22 @@ function resolved(schema: Schema, root: Schema): Schema {
             return { ...found, enum: choices.map((choice) => choice.const as Value) };
         }
         const real = choices.filter((choice) => choice.type !== "null");
-        if (real.length === 1 && real[0]) return resolved({ ...real[0], ...found, anyOf: undefined, oneOf: undefined } as Schema, root);
+        if (real.length === 1 && real[0]) {
+            const { anyOf: _, oneOf: __, ...rest } = found;
+            return resolved({ ...real[0], ...rest }, root);
+        }
     }
     return found;
 }
 
-function fieldOf(name: string, last: string, group: string, schema: Schema): Field | undefined {
+function fieldOf(
+    name: string,
+    last: string,
+    group: string,
+    schema: Schema,
+    fromSpecies: boolean,
+): Field | undefined {
     const types = Array.isArray(schema.type) ? schema.type : [schema.type];
-    const fromSpecies = schema["x-default-from"] === "species";
     const field: Field = {
         name,
         label: schema.title ?? words(last),
@@ -105,7 +115,7 @@ function fieldOf(name: string, last: string, group: string, schema: Schema): Fie
         max: schema.maximum,
         step: 1,
         options: [],
-        fallback: schema.default,
+        fallback: fromSpecies ? undefined : schema.default,
         fromSpecies,
         unit: unitSign(schema["x-unit"] ?? ""),
         description: schema.description ?? "",
@@ -120,12 +130,32 @@ function fieldOf(name: string, last: string, group: string, schema: Schema): Fie
         field.kind = "number";
         if (!field.integer) {
             const span = field.min !== undefined && field.max !== undefined ? field.max - field.min : 1;
-            field.step = niceStep(span / 180);
+            field.step = schema["x-step"] ?? niceStep(span / 180);
         }
     } else if (!types.includes("string")) {
         return undefined;
     }
     return field;
+}
+
+/** The properties of an object in order, those of its alternatives after its own. A `form` that
+ *  each alternative names differently becomes one list of names. */
+function propertiesOf(schema: Schema, root: Schema): Map<string, Schema> {
+    const found = new Map<string, Schema>();
+    const take = (part: Schema): void => {
+        for (const [name, raw] of Object.entries(part.properties ?? {})) {
+            const sub = resolved(raw, root);
+            const before = found.get(name);
+            const names = [...(before?.enum ?? []), ...(sub.const === undefined ? [] : [sub.const])];
+            if (sub.const !== undefined) found.set(name, { ...before, ...sub, const: undefined, enum: [...new Set(names)] } as Schema);
+            else if (!before) found.set(name, sub);
+        }
+        for (const choice of [...(part.oneOf ?? []), ...(part.anyOf ?? []), ...(part.allOf ?? [])]) {
+            take(resolved(choice, root));
+        }
+    };
+    take(schema);
+    return found;
 }
 
 /** All parameters in schema order; nested objects become dotted names and groups of their own. */
@@ -136,24 +166,24 @@ export function groupsOf(root: Schema): Group[] {
         groups.set(key, made);
         return made;
     };
-    const walk = (schema: Schema, path: string[]): void => {
-        for (const [key, raw] of Object.entries(schema.properties ?? {})) {
-            const sub = resolved(raw, root);
+    const walk = (schema: Schema, path: string[], fromSpecies: boolean): void => {
+        for (const [key, sub] of propertiesOf(schema, root)) {
             const at = [...path, ...key.split(".")];
-            if (sub.properties) {
+            const own = fromSpecies || sub["x-default-from"] === "species";
+            if (propertiesOf(sub, root).size > 0) {
                 const groupKey = at.join(".");
                 groupAt(groupKey, sub.title ?? words(at.join(" · ")), sub.description);
-                walk(sub, at);
+                walk(sub, at, own);
                 continue;
             }
             const name = at.join(".");
             if (hidden.has(name)) continue;
             const groupKey = at.slice(0, -1).join(".") || (sub["x-group"] ?? fileGroup(name));
-            const field = fieldOf(name, at.at(-1) ?? name, groupKey, sub);
+            const field = fieldOf(name, at.at(-1) ?? name, groupKey, sub, own);
             if (field) groupAt(groupKey, words(groupKey || "individual")).fields.push(field);
         }
     };
-    walk(resolved(root, root), []);
+    walk(resolved(root, root), [], false);
     return [...groups.values()].filter((group) => group.fields.length > 0);
 }
 

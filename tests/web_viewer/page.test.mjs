@@ -1,0 +1,394 @@
+// The page in headless Chromium against a running server (SPOREPRINT_URL): what a person sees and does.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+
+const base = serverUrl();
+let browser;
+let shared;
+let folder;
+let species;
+
+before(async () => {
+    folder = await screenshotFolder();
+    browser = await launchBrowser();
+    // One storage for all tests: the gallery's pictures are made once.
+    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
+    species = (await (await fetch(`${base}/v1/species`)).json()).species;
+});
+
+after(() => browser?.close());
+
+/** A page of its own; `heard` is what it said and asked for. */
+async function open(t, query = "", viewport = undefined) {
+    const page = await shared.newPage();
+    t.after(() => page.close());
+    if (viewport) await page.setViewportSize(viewport);
+    const heard = listen(page);
+    await page.goto(`${base}/${query}`);
+    await ready(page);
+    return { page, heard };
+}
+
+const stagePicture = (page) => page.locator("#stage").screenshot();
+const parameters = (page) => new URL(page.url()).searchParams;
+const models = (heard) => heard.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url));
+const slider = (page, name) => page.locator(`input[type=range][name="${name}"]`);
+
+/** How many different colours a picture has: a blank stage has a gradient's few. */
+async function colours(t, png) {
+    const context = await browser.newContext();
+    t.after(() => context.close());
+    const page = await context.newPage();
+    return page.evaluate(async (data) => {
+        const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+        const canvas = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
+        canvas.drawImage(bitmap, 0, 0);
+        return new Set(new Uint32Array(canvas.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer)).size;
+    }, png.toString("base64"));
+}
+
+function quiet(heard) {
+    assert.deepEqual(heard.console, []);
+    assert.deepEqual(heard.failed, []);
+}
+
+test("every species loads, is drawn, and nothing is said on the console", async (t) => {
+    assert.ok(species.length > 0);
+    const { page, heard } = await open(t, "", { width: 1280, height: 800 });
+    await galleryComplete(page);
+    assert.equal(await page.locator("#gallery img").count(), species.length, "a picture for every species");
+    await page.screenshot({ path: path.join(folder, "page.png") });
+    for (const { id, common_name: name } of species) {
+        await page.locator(`#gallery button[data-species="${id}"]`).click();
+        await ready(page);
+        assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), id);
+        assert.equal(await page.locator("#common-name").textContent(), name);
+        const { counts, size } = await page.evaluate(() => ({ counts: window.sporeprint.counts, size: window.sporeprint.size }));
+        assert.ok(counts.triangles > 100 && counts.drawCalls >= 1, `${id}: ${JSON.stringify(counts)}`);
+        assert.ok(size.height > 0.001 && size.height < 2, `${id} is ${size.height} m tall`);
+        const png = await page.screenshot({ path: path.join(folder, `species-${id}.png`) });
+        assert.ok((await colours(t, png)) > 1500, `${id} is drawn`);
+    }
+    quiet(heard);
+});
+
+test("a dragged slider shows drafts, then what was chosen, and writes the address", async (t) => {
+    const { page, heard } = await open(t, `?species=${species[0].id}`);
+    await galleryComplete(page);
+    const before_ = await stagePicture(page);
+    const asked = models(heard).length;
+    const box = await slider(page, "age").boundingBox();
+    const y = box.y + box.height / 2;
+    await page.mouse.move(box.x + box.width * 0.6, y);
+    await page.mouse.down();
+    for (let step = 0; step < 12; ++step) {
+        await page.mouse.move(box.x + box.width * (0.6 - step * 0.035), y);
+        await page.waitForTimeout(60);
+    }
+    await page.waitForTimeout(400);
+    const drafts = models(heard).slice(asked).map((url) => new URL(url).searchParams);
+    assert.ok(drafts.length >= 1 && drafts.length <= 12, `${drafts.length} drafts for one drag`);
+    assert.ok(drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"));
+    await page.mouse.up();
+    await ready(page);
+    const age = Number(parameters(page).get("age"));
+    assert.ok(age > 0.05 && age < 0.45, `age is ${age}`);
+    assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), String(age));
+    const last = new URL(models(heard).at(-1)).searchParams;
+    assert.deepEqual([...last], [["age", String(age)]]);
+    assert.notDeepEqual(await stagePicture(page), before_, "the picture changed");
+    await page.screenshot({ path: path.join(folder, "after-drag.png") });
+
+    await page.goBack();
+    await ready(page);
+    assert.equal(parameters(page).get("age"), null, "one step back undoes the drag");
+    assert.equal(await slider(page, "age").inputValue(), "0.6");
+    await page.goForward();
+    await ready(page);
+    assert.equal(Number(parameters(page).get("age")), age);
+    quiet(heard);
+});
+
+test("an address opens as it was shared", async (t) => {
+    const id = species.at(-1).id;
+    const { page, heard } = await open(t, `?species=${id}&seed=42&age=0.35&lod=1`);
+    assert.equal(await page.locator('input[type=number][name="seed"]').inputValue(), "42");
+    assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), "0.35");
+    assert.equal(await page.locator('#lods button[aria-pressed="true"]').textContent(), "L1");
+    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), id);
+    quiet(heard);
+});
+
+test("what an address gets wrong is said in words beside the control", async (t) => {
+    const { page } = await open(t, `?species=${species[0].id}&age=1.7&sed=4`);
+    assert.match(await page.locator('.control[data-name="age"] .fault').textContent(), /'1.7' is above 1/);
+    assert.match(await page.locator("#problem").textContent(), /sed/);
+    assert.equal(await slider(page, "age").getAttribute("aria-invalid"), "true");
+});
+
+test("every control is native, named by its query name, described and within its range", async (t) => {
+    const { page } = await open(t);
+    const schema = await (await fetch(`${base}/v1/mushrooms/schema`)).json();
+    const names = Object.keys(schema.properties).filter((name) => name !== "v" && !schema.properties[name].properties && !schema.properties[name].oneOf);
+    for (const name of names) assert.ok((await page.locator(`[name="${name}"]`).count()) >= 1, `${name} has a control`);
+    const faults = await page.evaluate(() => [...document.querySelectorAll("#form [name]")].flatMap((entry) => {
+        const wrong = [];
+        const about = entry.getAttribute("aria-describedby")?.split(" ")[0];
+        if (!document.getElementById(about)?.textContent) wrong.push("no description");
+        if (entry.type === "range" && !document.querySelector(`input[type=number][name="${entry.name}"]`)) wrong.push("no number");
+        if (entry.type === "number" && entry.value !== "" && (Number(entry.value) < Number(entry.min) || Number(entry.value) > Number(entry.max))) wrong.push("outside its range");
+        if (!entry.labels?.length && !entry.getAttribute("aria-label")) wrong.push("no label");
+        return wrong.map((what) => `${entry.name}: ${what}`);
+    }));
+    assert.deepEqual(faults, []);
+});
+
+test("a control of the species' own is sent once moved, and no more after its reset", async (t) => {
+    const { page, heard } = await open(t, `?species=${species[0].id}`);
+    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+    const row = page.locator(".control.inherited.number:visible").first();
+    assert.equal(await row.count(), 1);
+    const name = await row.getAttribute("data-name");
+    assert.ok(!models(heard).some((url) => new URL(url).searchParams.has(name)));
+    const own = await slider(page, name).inputValue();
+    await slider(page, name).focus();
+    await page.keyboard.press(Number(own) > Number(await slider(page, name).getAttribute("min")) ? "ArrowLeft" : "ArrowRight");
+    await ready(page);
+    assert.ok(parameters(page).has(name));
+    assert.ok(new URL(models(heard).at(-1)).searchParams.has(name));
+    await page.locator(`.control[data-name="${name}"] .reset`).click();
+    await ready(page);
+    assert.ok(!parameters(page).has(name));
+    assert.equal(await slider(page, name).inputValue(), own);
+    quiet(heard);
+});
+
+/** Drops bytes onto the page as a file from the desktop. */
+async function drop(page, bytes, name) {
+    const transfer = await page.evaluateHandle(([data, file]) => {
+        const transfer_ = new DataTransfer();
+        transfer_.items.add(new File([Uint8Array.from(atob(data), (sign) => sign.charCodeAt(0))], file));
+        return transfer_;
+    }, [Buffer.from(bytes).toString("base64"), name]);
+    await page.dispatchEvent("body", "dragover", { dataTransfer: transfer });
+    await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
+}
+
+test("a dropped GLB restores its controls", async (t) => {
+    const id = species.at(-1).id;
+    const bytes = await (await fetch(`${base}/v1/mushrooms/${id}.glb?age=0.35&seed=42&variation=0.8&texture_size=256`)).arrayBuffer();
+    const { page, heard } = await open(t, `?species=${species[0].id}&size=2`);
+    await drop(page, bytes, "found.glb");
+    await page.waitForFunction((wanted) => location.search.includes(wanted), id);
+    await ready(page);
+    assert.deepEqual([...parameters(page)].sort(), [["age", "0.35"], ["seed", "42"], ["species", id], ["texture_size", "256"], ["variation", "0.8"]]);
+    assert.equal(await page.locator('input[type=number][name="seed"]').inputValue(), "42");
+    assert.equal(await page.locator('select[name="texture_size"]').inputValue(), "256");
+    assert.match(await page.locator("#status").textContent(), /./);
+    await page.screenshot({ path: path.join(folder, "after-drop.png") });
+    quiet(heard);
+});
+
+test("a file that is no GLB of ours is refused in words and the mushroom stays", async (t) => {
+    const { page } = await open(t);
+    const before_ = page.url();
+    await drop(page, Buffer.from("not a model"), "poem.glb");
+    await page.locator("#problem:not([hidden])").waitFor();
+    assert.match(await page.locator("#problem").textContent(), /\w+ \w+/);
+    assert.equal(page.url(), before_);
+    await ready(page);
+});
+
+test("nothing is asked for and nothing is drawn once the page is idle", async (t) => {
+    const { page, heard } = await open(t);
+    await galleryComplete(page);
+    await page.waitForTimeout(500);
+    const asked = heard.requests.length;
+    const { frames } = await page.evaluate(() => window.sporeprint.renderer);
+    await page.waitForTimeout(3000);
+    assert.deepEqual(heard.requests.slice(asked), []);
+    assert.equal((await page.evaluate(() => window.sporeprint.renderer)).frames, frames);
+    quiet(heard);
+});
+
+test("a second visit takes the gallery's pictures from Cache Storage", async (t) => {
+    const { page, heard } = await open(t);
+    await galleryComplete(page);
+    const seen = [];
+    page.on("request", (request) => {
+        if (request.method() === "GET" && /[?&]lod=2/.test(request.url())) seen.push(request.url());
+    });
+    await page.reload();
+    await ready(page);
+    await galleryComplete(page);
+    assert.equal(await page.locator("#gallery img").count(), species.length);
+    assert.deepEqual(seen, []);
+    quiet(heard);
+});
+
+test("the whole page can be walked by keyboard with the focus in sight", async (t) => {
+    const { page, heard } = await open(t);
+    await galleryComplete(page);
+    const seen = new Set();
+    let unseen = 0;
+    for (let step = 0; step < 120; ++step) {
+        await page.keyboard.press("Tab");
+        const focus = await page.evaluate(() => {
+            const element = document.activeElement;
+            if (!element || element === document.body) return null;
+            const box = element.getBoundingClientRect();
+            const ring = getComputedStyle(element);
+            return {
+                key: element.id || element.dataset.species || element.name || element.textContent.trim().slice(0, 30) || element.tagName,
+                visible: box.width > 0 && box.height > 0 && box.right > 0 && box.bottom > 0 && box.left < innerWidth && box.top < innerHeight,
+                ring: ring.outlineStyle !== "none" && parseFloat(ring.outlineWidth) > 0,
+            };
+        });
+        if (!focus) break;
+        if (!focus.visible || !focus.ring) unseen += 1;
+        seen.add(focus.key);
+    }
+    assert.equal(unseen, 0, "every stop is visible and has a focus ring");
+    for (const key of ["canvas", "wireframe", "download", "copy-url", "copy-curl", "open", species[0].id, species.at(-1).id]) {
+        assert.ok(seen.has(key), `${key} can be reached; seen: ${[...seen].join(", ")}`);
+    }
+
+    await page.locator(`#gallery button[data-species="${species[0].id}"]`).focus();
+    await page.keyboard.press("ArrowDown");
+    await page.keyboard.press("Enter");
+    await ready(page);
+    assert.equal(parameters(page).get("species"), (species[1] ?? species[0]).id);
+
+    await slider(page, "age").focus();
+    await page.keyboard.press("ArrowRight");
+    await ready(page);
+    assert.ok(Number(parameters(page).get("age")) > 0.6);
+
+    const before_ = await stagePicture(page);
+    await page.locator("#canvas").focus();
+    for (let turn = 0; turn < 4; ++turn) await page.keyboard.press("ArrowRight");
+    await page.evaluate(() => window.sporeprint.ready());
+    assert.notDeepEqual(await stagePicture(page), before_, "arrow keys turn the mushroom");
+    quiet(heard);
+});
+
+test("a window 360 pixels wide has everything and no sideways scrolling", async (t) => {
+    const { page, heard } = await open(t, "", { width: 360, height: 740 });
+    await galleryComplete(page);
+    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+    const { wide, over } = await page.evaluate(() => ({
+        wide: document.documentElement.scrollWidth,
+        over: [...document.querySelectorAll("main *, aside *, header *, footer")]
+            .filter((element) => element.getBoundingClientRect().right > innerWidth + 0.5 && element.getClientRects().length)
+            .map((element) => element.id || element.className || element.tagName),
+    }));
+    assert.ok(wide <= 360, `the page is ${wide} pixels wide`);
+    assert.deepEqual(over, []);
+    await page.screenshot({ path: path.join(folder, "phone.png") });
+    await page.screenshot({ path: path.join(folder, "phone-whole.png"), fullPage: true });
+    quiet(heard);
+});
+
+test("the downloaded file and the copied address are the same bytes", async (t) => {
+    const { page } = await open(t, `?species=${species[0].id}&seed=7`);
+    await shared.grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    assert.match(download.suggestedFilename(), /\.glb$/);
+    const saved = await readFile(await download.path());
+    await page.locator("#copy-url").click();
+    await page.waitForFunction(() => document.querySelector("#status").textContent === "URL copied");
+    const address = await page.evaluate(() => navigator.clipboard.readText());
+    assert.match(address, /^http.*\/v1\/mushrooms\/.*seed=7/);
+    assert.deepEqual(Buffer.from(await (await fetch(address)).arrayBuffer()), saved);
+    await page.locator("#copy-curl").click();
+    await page.waitForFunction(() => document.querySelector("#status").textContent === "curl command copied");
+    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), `curl -o '${download.suggestedFilename()}' '${address}'`);
+});
+
+test("many changes leave nothing behind on the graphics card", async (t) => {
+    const { page } = await open(t);
+    await galleryComplete(page);
+    const roll = async () => {
+        await page.locator(".dice").click();
+        await ready(page);
+        return page.evaluate(() => window.sporeprint.renderer);
+    };
+    const first = await roll();
+    let last = first;
+    for (let i = 0; i < 5; ++i) last = await roll();
+    assert.equal(last.geometries, first.geometries);
+    assert.equal(last.textures, first.textures);
+    assert.ok(parameters(page).has("seed"));
+});
+
+test("wireframe and named views change the picture, not the address", async (t) => {
+    const { page, heard } = await open(t, `?species=${species[0].id}`);
+    const plain = await stagePicture(page);
+    await page.locator("#wireframe").click();
+    await page.evaluate(() => window.sporeprint.ready());
+    const wire = await stagePicture(page);
+    assert.notDeepEqual(wire, plain);
+    await page.evaluate(() => window.sporeprint.view("below"));
+    await page.evaluate(() => window.sporeprint.ready());
+    assert.notDeepEqual(await stagePicture(page), wire);
+    assert.deepEqual([...parameters(page)], [["species", species[0].id]]);
+    quiet(heard);
+});
+
+test("a busy server is asked again after the time it names, and the page says so", async (t) => {
+    const { page } = await open(t, `?species=${species[0].id}`);
+    await galleryComplete(page);
+    let refused = 0;
+    await page.route(/\/v1\/mushrooms\/[^/]+\.glb/, async (route) => {
+        if (refused++ < 2) await route.fulfill({ status: 503, headers: { "Retry-After": "1" }, body: "" });
+        else await route.continue();
+    });
+    const start = Date.now();
+    await page.locator(".dice").click();
+    await page.locator("#progress-text", { hasText: /busy; again in 1 s/ }).waitFor();
+    await ready(page);
+    assert.ok(Date.now() - start >= 1900);
+    assert.equal(refused, 3);
+    assert.ok(await page.locator("#problem").isHidden());
+});
+
+test("a refusal stands in words beside its control, and the old mushroom stays", async (t) => {
+    const { page } = await open(t, `?species=${species[0].id}`);
+    await galleryComplete(page);
+    const shown = await page.evaluate(() => window.sporeprint.counts);
+    await page.route(/\/v1\/mushrooms\/[^/]+\.glb/, (route) => route.fulfill({
+        status: 422,
+        contentType: "application/problem+json",
+        body: JSON.stringify({ title: "Impossible", status: 422, detail: "1 parameter does not fit", errors: [{ parameter: "size", detail: "this species cannot be so large" }] }),
+    }));
+    await slider(page, "size").focus();
+    await page.keyboard.press("End");
+    await page.locator('.control[data-name="size"] .fault', { hasText: "cannot be so large" }).waitFor();
+    assert.match(await page.locator("#problem").textContent(), /Impossible.*1 parameter does not fit/);
+    await assert.rejects(page.evaluate(() => window.sporeprint.ready()), /Impossible/);
+    assert.deepEqual(await page.evaluate(() => window.sporeprint.counts), shown);
+    await page.unroute(/\/v1\/mushrooms\/[^/]+\.glb/);
+    await page.keyboard.press("Home");
+    await ready(page);
+    assert.ok(await page.locator("#problem").isHidden());
+});
+
+test("the API page shows every route of the description", async (t) => {
+    const context = await browser.newContext({ viewport: { width: 1100, height: 800 } });
+    t.after(() => context.close());
+    const page = await context.newPage();
+    const heard = listen(page);
+    await page.goto(`${base}/docs`);
+    await page.waitForFunction(() => document.documentElement.dataset.docs === "complete");
+    const { paths } = await (await fetch(`${base}/openapi.json`)).json();
+    const text = await page.locator("main").textContent();
+    for (const route of Object.keys(paths)) assert.ok(text.includes(route), `${route} is shown`);
+    assert.match(text, /0 to 1/);
+    await page.screenshot({ path: path.join(folder, "docs.png") });
+    await page.setViewportSize({ width: 360, height: 740 });
+    assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
+    quiet(heard);
+});
