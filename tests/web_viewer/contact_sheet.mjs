@@ -51,6 +51,20 @@ for (const [name, values] of options.vary) {
 }
 const views = options.views ?? ["three-quarter"];
 
+/** Opens an address; after the first one without loading the page again. */
+async function go(page, address) {
+    if (page.url().startsWith(options.base)) {
+        await page.evaluate((there) => {
+            history.replaceState(null, "", there);
+            dispatchEvent(new PopStateEvent("popstate"));
+        }, address);
+        return ready(page);
+    }
+    await page.goto(options.base + address);
+    await ready(page);
+    if (options.wireframe) await page.evaluate(() => document.querySelector("#wireframe").click());
+}
+
 const browser = await launchBrowser();
 let broken = 0;
 try {
@@ -60,12 +74,10 @@ try {
     for (const mix of species) {
         const cells = [];
         for (const { query, label } of columns) {
-            const address = `${options.base}/?${[`species=${mix}`, ...query, "shot=1"].join("&")}`;
+            const address = `/?${[`species=${mix}`, ...query, "shot=1"].join("&")}`;
             let facts = "";
             try {
-                await page.goto(address);
-                await ready(page);
-                if (options.wireframe) await page.evaluate(() => document.querySelector("#wireframe").click());
+                await go(page, address);
                 facts = await page.evaluate(() => {
                     const { size, counts } = window.sporeprint;
                     const cm = (metres) => (metres * 100).toFixed(1);

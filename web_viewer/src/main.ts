@@ -54,6 +54,7 @@ function showProblem(error: RequestFailed | undefined, controls?: Controls, retr
         again.addEventListener("click", retry);
         box.append(again);
     }
+    box.scrollIntoView({ block: "nearest" });
 }
 
 class Page {
@@ -64,7 +65,8 @@ class Page {
     private readonly lods = new Map<number, HTMLButtonElement>();
     private grown: Grown | undefined;
     private faults: Fault[] = [];
-    private pushed: { name: string; at: number } | undefined;
+    private written: { name: string; at: number } | undefined;
+    private writing: ReturnType<typeof setTimeout> | undefined;
     private readonly thumbnails = new AbortController();
 
     constructor(
@@ -78,7 +80,6 @@ class Page {
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
         this.controls = new Controls(byId("form"), groups, this.settings, {
             moving: () => {
-                this.writeAddress("", true);
                 this.controls.show();
                 this.grower.draft();
             },
@@ -100,8 +101,9 @@ class Page {
         if (!shot) void this.takeThumbnails();
     }
 
-    settled(): Promise<void> {
-        return this.grower.settled();
+    async settled(): Promise<void> {
+        this.flushAddress();
+        await this.grower.settled();
     }
 
     get counts(): ReturnType<typeof countsOf> {
@@ -111,12 +113,12 @@ class Page {
     private choose(mix: string): void {
         if (mix === this.settings.mix) return;
         this.settings.choose(mix);
-        this.writeAddress("species", false);
+        this.writeAddress("species");
         this.begin(true);
     }
 
     private changed(name: string): void {
-        this.writeAddress(name, false);
+        this.writeAddress(name);
         this.controls.show();
         this.markLod();
         this.showFaults([]);
@@ -134,28 +136,43 @@ class Page {
         this.grower.final(refit);
     }
 
-    private writeAddress(name: string, moving: boolean): void {
-        const address = this.settings.pageQuery(new URLSearchParams(location.search));
-        if (address === location.search) {
-            if (!moving && this.pushed?.name === "moving") this.pushed = { name, at: performance.now() };
+    /** Writes the settings into the page's address: one step back per drag or run of key presses.
+     *  Browsers refuse many writes in a short time, so quick ones are gathered. */
+    private writeAddress(name: string): void {
+        const now = performance.now();
+        const same = this.written?.name === name && now - this.written.at < 1500;
+        if (same && now - (this.written?.at ?? 0) < 250) {
+            clearTimeout(this.writing);
+            this.writing = setTimeout(() => this.flushAddress(), 250);
             return;
         }
-        // One step back per drag or run of key presses, not one per notch.
-        const now = performance.now();
-        const same = this.pushed && now - this.pushed.at < 1500 && (this.pushed.name === name || this.pushed.name === "moving");
-        const replace = same || (moving && this.pushed?.name === "moving");
-        history[replace ? "replaceState" : "pushState"](null, "", address);
-        this.pushed = { name: moving ? "moving" : name, at: now };
+        this.flushAddress();
+        this.store(same);
+        this.written = { name, at: now };
+    }
+
+    private flushAddress(): void {
+        if (this.writing === undefined) return;
+        clearTimeout(this.writing);
+        this.writing = undefined;
+        this.store(true);
+    }
+
+    private store(replace: boolean): void {
+        const address = this.settings.pageQuery(new URLSearchParams(location.search));
+        if (address !== location.search) history[replace ? "replaceState" : "pushState"](null, "", address);
     }
 
     private readAddress(): void {
+        clearTimeout(this.writing);
+        this.writing = undefined;
         const query = new URLSearchParams(location.search);
         const asked = query.get("species");
         const mix = asked && mixPattern.test(asked) ? asked : (this.gallery.species[0]?.id ?? "");
         const refit = mix !== this.settings.mix || !this.grown;
         this.settings.mix = mix;
         const faults = this.settings.read(query);
-        this.pushed = undefined;
+        this.written = undefined;
         this.begin(refit);
         if (asked && asked !== mix) faults.push({ parameter: "species", detail: `'${asked}' is no species` });
         this.showFaults(faults);
@@ -390,7 +407,7 @@ class Page {
             const refit = mix !== this.settings.mix;
             this.settings.mix = mix;
             const faults = this.settings.read(address.searchParams);
-            this.writeAddress("file", false);
+            this.writeAddress("file");
             this.begin(refit);
             this.showFaults(faults);
             say(`Settings of ${file.name} restored`);

@@ -77,7 +77,7 @@ export async function makeThumbnails(
         for (const { id, address } of models) {
             if (signal.aborted) return;
             try {
-                const head = cache ? await send(address, { method: "HEAD", signal }) : undefined;
+                const head = cache && (await send(address, { method: "HEAD", signal }).catch(() => undefined));
                 const known = head && versionOf(head);
                 const kept = known ? await cache?.match(keyOf(id, known)) : undefined;
                 if (kept) {
