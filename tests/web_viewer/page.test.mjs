@@ -129,6 +129,21 @@ test("what an address gets wrong is said in words beside the control", async (t)
     assert.equal(await slider(page, "age").getAttribute("aria-invalid"), "true");
 });
 
+test("a species that is not there is said in words and another one is shown", async (t) => {
+    const { page, heard } = await open(t, "?species=amanita_unicornis");
+    assert.match(await page.locator("#problem").textContent(), /'amanita_unicornis' is no species here/);
+    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), species[0].id);
+    quiet(heard);
+});
+
+test("a mix is shown with both its members marked", async (t) => {
+    const mix = `${species[0].id}:0.5,${species[6 % species.length].id}:0.5`;
+    const { page, heard } = await open(t, `?species=${mix}`);
+    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 2);
+    assert.match(await page.locator("#common-name").textContent(), / × /);
+    quiet(heard);
+});
+
 test("every control is native, named by its query name, described and within its range", async (t) => {
     const { page } = await open(t);
     const schema = await (await fetch(`${base}/v1/mushrooms/schema`)).json();

@@ -26,8 +26,8 @@ export type Progress =
 export interface Answer {
     bytes: ArrayBuffer;
     response: Response;
-    /** True when the browser had it and no body was sent. */
-    fromBrowser: boolean;
+    /** Where the body came from: the server, this browser's cache, or that after the server said 304. */
+    source: "server" | "browser" | "confirmed";
 }
 
 const attempts = 6;
@@ -141,7 +141,8 @@ export async function getModel(
     const timing = performance
         .getEntriesByName(response.url, "resource")
         .at(-1) as PerformanceResourceTiming | undefined;
-    const fromBrowser = timing !== undefined && timing.transferSize === 0 && timing.decodedBodySize > 0;
+    const { transferSize = 0, encodedBodySize = 0 } = timing ?? {};
+    const source = transferSize >= encodedBodySize ? "server" : transferSize === 0 ? "browser" : "confirmed";
     performance.clearResourceTimings();
-    return { bytes: bytes.buffer, response, fromBrowser };
+    return { bytes: bytes.buffer, response, source };
 }

@@ -3,7 +3,7 @@ import "./app.css";
 import { centimetres, scaleBar, viewNames, type ViewName } from "./camera";
 import { Controls } from "./controls";
 import { byId, grouped, kilobytes, make } from "./dom";
-import { Gallery, type Species } from "./gallery";
+import { factLine, Gallery, type Species } from "./gallery";
 import { Grower, type Grown } from "./grower";
 import { getJson, RequestFailed, send, type Progress } from "./http";
 import { countsOf } from "./model";
@@ -168,14 +168,19 @@ class Page {
         this.writing = undefined;
         const query = new URLSearchParams(location.search);
         const asked = query.get("species");
-        const mix = asked && mixPattern.test(asked) ? asked : (this.gallery.species[0]?.id ?? "");
+        const mix = asked && this.canShow(asked) ? asked : (this.gallery.species[0]?.id ?? "");
         const refit = mix !== this.settings.mix || !this.grown;
         this.settings.mix = mix;
         const faults = this.settings.read(query);
         this.written = undefined;
         this.begin(refit);
-        if (asked && asked !== mix) faults.push({ parameter: "species", detail: `'${asked}' is no species` });
+        if (asked && asked !== mix) faults.push({ parameter: "species", detail: `'${asked}' is no species here` });
         this.showFaults(faults);
+    }
+
+    /** Whether all members of a mix are species of this server. */
+    private canShow(mix: string): boolean {
+        return mixPattern.test(mix) && mix.split(",").every((member) => this.gallery.find(member.split(":")[0] ?? ""));
     }
 
     /** What an address or a file asked for and cannot have; it stays until something is changed. */
@@ -218,6 +223,7 @@ class Page {
         const latin = known.map((one, index) => one?.scientific_name ?? words(members[index] ?? ""));
         byId("common-name").textContent = common.join(" × ");
         byId("scientific-name").textContent = latin.join(" × ");
+        byId("facts").textContent = known.length === 1 && known[0] ? factLine(known[0]) : "";
         document.title = `${common.join(" × ")} · Sporeprint`;
     }
 
@@ -265,7 +271,8 @@ class Page {
     }
 
     private showNumbers(grown: Grown): void {
-        const { response, bytes, fromBrowser } = grown.answer;
+        const { response, bytes, source } = grown.answer;
+        const origin = { server: "", browser: ", from this browser’s cache", confirmed: ", unchanged since (304)" }[source];
         const counts = countsOf(grown.model);
         const header = (name: string): string | undefined => response.headers.get(name) ?? undefined;
         const timings = (header("server-timing") ?? "").split(",").flatMap((part) => {
@@ -279,7 +286,7 @@ class Page {
             ["Vertices", grouped(counts.vertices)],
             ["Draw calls", String(counts.drawCalls)],
             ["Images", String(counts.textures)],
-            ["Status", `${response.status}${fromBrowser ? ", from this browser’s cache" : ""}`],
+            ["Status", `${response.status}${origin}`],
             ["Cache", header("cache-status")],
             ["Server ms", timings.join(" · ") || undefined],
         ];
@@ -450,7 +457,7 @@ async function open(): Promise<void> {
         getJson<Schema>("/v1/mushrooms/schema"),
         getJson<{ species: Species[] }>("/v1/species"),
     ]);
-    const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), calm);
+    const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), { calm, bare: shot });
     paintStage(stage, false);
     const page = new Page(stage, schema, list.species);
     window.sporeprint = {

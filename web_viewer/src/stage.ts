@@ -31,6 +31,13 @@ export interface Size {
     depth: number;
 }
 
+export interface StageStyle {
+    /** No movement of its own. */
+    calm: boolean;
+    /** Nothing but the model: it may fill the picture. */
+    bare: boolean;
+}
+
 /** A renderer and a lit scene, the same for the stage and for thumbnails. */
 export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
     renderer: WebGLRenderer;
@@ -95,7 +102,7 @@ export class Stage {
     constructor(
         private readonly host: HTMLElement,
         canvas: HTMLCanvasElement,
-        private readonly calm: boolean,
+        private readonly style: StageStyle,
     ) {
         const { renderer, scene, sun } = litScene(canvas, true);
         this.renderer = renderer;
@@ -105,7 +112,7 @@ export class Stage {
         this.ground.visible = false;
         this.contact.visible = false;
         this.controls = new OrbitControls(this.camera, canvas);
-        this.controls.enableDamping = !calm;
+        this.controls.enableDamping = !style.calm;
         this.controls.dampingFactor = 0.12;
         this.controls.zoomToCursor = true;
         this.controls.addEventListener("change", () => this.draw());
@@ -186,9 +193,9 @@ export class Stage {
             : this.camera.position.clone().sub(this.controls.target).normalize();
         if (direction.lengthSq() === 0) direction.copy(viewDirections["three-quarter"]);
         const centre = this.bounds.getCenter(new Vector3());
-        const margin = this.host.clientWidth < 520 ? { x: 0.12, y: 0.3 } : { x: 0.14, y: 0.26 };
+        const margin = this.style.bare ? { x: 0.06, y: 0.06 } : this.host.clientWidth < 520 ? { x: 0.12, y: 0.3 } : { x: 0.14, y: 0.26 };
         const distance = fittingDistance(this.bounds, direction, this.camera, margin);
-        this.moveTo(centre, direction.multiplyScalar(distance).add(centre), atOnce || this.calm);
+        this.moveTo(centre, direction.multiplyScalar(distance).add(centre), atOnce || this.style.calm);
     }
 
     /** Asks for one frame; many asks in one moment make one frame. */
@@ -267,7 +274,7 @@ export class Stage {
             this.camera.position.copy(position);
             clip();
             this.controls.update();
-            this.controls.enableDamping = !this.calm;
+            this.controls.enableDamping = !this.style.calm;
             this.draw();
             return;
         }
