@@ -1,0 +1,83 @@
+#include "api/encoding.h"
+
+#include <xxhash.h>
+#include <zlib.h>
+
+#include <new>
+
+#include "api/text.h"
+
+namespace sporeprint::api {
+
+std::string digest_of(std::string_view text) {
+    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+    XXH128_canonical_t bytes;
+    XXH128_canonicalFromHash(&bytes, hash);
+    std::string out;
+    for (const unsigned char byte : bytes.digest) {
+        out += "0123456789abcdef"[byte >> 4];
+        out += "0123456789abcdef"[byte & 15];
+    }
+    return out;
+}
+
+std::string etag_of(std::string_view key) { return '"' + digest_of(key) + '"'; }
+
+std::string gzip_etag(std::string_view etag) {
+    return etag.size() < 2 ? std::string(etag)
+                           : std::string(etag.substr(0, etag.size() - 1)) + "-gz\"";
+}
+
+bool names_any(std::string_view if_none_match) { return trimmed(if_none_match) == "*"; }
+
+bool names_etag(std::string_view if_none_match, std::string_view etag) {
+    // Walked by hand: a quoted tag may hold commas.
+    std::string_view rest = if_none_match;
+    for (;;) {
+        while (!rest.empty() &&
+               (rest.front() == ' ' || rest.front() == '\t' || rest.front() == ','))
+            rest.remove_prefix(1);
+        if (rest.starts_with("W/")) rest.remove_prefix(2);
+        if (!rest.starts_with('"')) return false;
+        const std::size_t end = rest.find('"', 1);
+        if (end == std::string_view::npos) return false;
+        if (rest.substr(0, end + 1) == etag) return true;
+        rest.remove_prefix(end + 1);
+    }
+}
+
+bool accepts_gzip(std::string_view accept_encoding) {
+    int named = -1, any = -1;  // -1 not mentioned, 0 refused, 1 allowed
+    for (const std::string_view item : split(accept_encoding, ',')) {
+        const std::vector<std::string_view> parts = split(item, ';');
+        bool allowed = true;
+        for (std::size_t i = 1; i < parts.size(); ++i) {
+            if (parts[i].size() < 2 || lower(parts[i][0]) != 'q' || parts[i][1] != '=') continue;
+            allowed = parts[i].find_first_of("123456789", 2) != std::string_view::npos;
+        }
+        if (same_word(parts[0], "gzip") || same_word(parts[0], "x-gzip")) named = allowed;
+        if (parts[0] == "*") any = allowed;
+    }
+    return named >= 0 ? named == 1 : any == 1;
+}
+
+Slice gzip(const Body& body) {
+    z_stream stream{};
+    if (deflateInit2(&stream, 6, Z_DEFLATED, 15 + 16, 8, Z_DEFAULT_STRATEGY) != Z_OK)
+        throw std::bad_alloc();
+    auto out =
+        std::make_shared<Bytes>(deflateBound(&stream, static_cast<uLong>(size_of(body))) + 32);
+    stream.next_out = out->data();
+    stream.avail_out = static_cast<uInt>(out->size());
+    for (std::size_t i = 0; i <= body.size(); ++i) {
+        const bool last = i == body.size();
+        stream.next_in = last ? nullptr : const_cast<Bytef*>(body[i].data());
+        stream.avail_in = last ? 0 : static_cast<uInt>(body[i].size);
+        deflate(&stream, last ? Z_FINISH : Z_NO_FLUSH);
+    }
+    out->resize(stream.total_out);
+    deflateEnd(&stream);
+    return Slice(std::move(out));
+}
+
+}  // namespace sporeprint::api

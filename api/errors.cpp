@@ -1,0 +1,151 @@
+#include "api/errors.h"
+
+#include <algorithm>
+#include <array>
+
+#include "core/model/request.h"
+#include "core/params/query.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr std::array<ProblemType, 17> types = {{
+    {400, "invalid-parameters", "Invalid parameters",
+     "Something is malformed, unknown, repeated or out of range; every culprit is named."},
+    {403, "forbidden", "Forbidden", "The signature of the address is missing, wrong or expired."},
+    {404, "not-found", "Not found", "There is no such route, species or preset."},
+    {405, "method-not-allowed", "Method not allowed",
+     "The route does not answer this method; Allow names those it does."},
+    {408, "request-timeout", "Request timeout", "The request did not arrive in time."},
+    {410, "superseded", "Superseded",
+     "The version asked for is no longer made; `canonical` is the address of today's."},
+    {411, "length-required", "Length required",
+     "Send Content-Length instead of Transfer-Encoding."},
+    {413, "body-too-large", "Body too large", "The body is longer than this route takes."},
+    {414, "uri-too-long", "URI too long", "The address is longer than 4096 bytes."},
+    {415, "unsupported-media-type", "Unsupported media type",
+     "The body is of a type or encoding that this route does not take."},
+    {422, "impossible", "Impossible", "The request is well-formed, but no such thing can be made."},
+    {429, "too-many-requests", "Too many requests",
+     "This client asks for too much; Retry-After says when to come back."},
+    {431, "header-too-large", "Header too large", "The header has too many or too long lines."},
+    {500, "internal-error", "Internal error",
+     "The fault is ours; the log holds the details under the request id."},
+    {501, "not-implemented", "Not implemented", "The method is not known."},
+    {503, "unavailable", "Unavailable",
+     "The service is saturated or shutting down; Retry-After says when to come back."},
+    {504, "timeout", "Timeout", "The work took longer than a request may."},
+}};
+
+/// By strength: which status wins when several apply.
+constexpr std::array<int, 4> strongest_first = {404, 400, 422, 410};
+
+std::string count_of(std::span<const Problem> problems, int status) {
+    const std::size_t count = problems.size();
+    const char* what = status == 422   ? "impossible"
+                       : status == 404 ? "not found or invalid"
+                                       : "invalid";
+    return std::to_string(count) + (count == 1 ? " parameter is " : " parameters are ") + what;
+}
+
+template <class T>
+bool is_field_of(std::string_view key) {
+    bool found = false;
+    T::fields([&](auto, const Info& info) { found = found || key == info.name; });
+    return found;
+}
+
+}  // namespace
+
+std::span<const ProblemType> problem_types() { return types; }
+
+const ProblemType& problem_type(int status) {
+    const auto row = std::find_if(types.begin(), types.end(),
+                                  [&](const ProblemType& type) { return type.status == status; });
+    return row != types.end() ? *row : problem_type(500);
+}
+
+void Faults::add(int status, std::string parameter, std::string detail) {
+    if (problems_.size() >= most_problems) return;
+    problems_.push_back({std::move(parameter), std::move(detail)});
+    statuses_.push_back(status);
+}
+
+void Faults::add(int status, const std::vector<Problem>& problems) {
+    for (const Problem& problem : problems) add(status, problem.path, problem.message);
+}
+
+bool Faults::any(int status) const {
+    return std::find(statuses_.begin(), statuses_.end(), status) != statuses_.end();
+}
+
+int Faults::status() const {
+    for (const int status : strongest_first)
+        if (any(status)) return status;
+    return statuses_.empty() ? 200 : statuses_.front();
+}
+
+Answer problem_answer(const Request& request, int status, std::string_view detail,
+                      std::span<const Problem> problems, Value::Object more) {
+    const ProblemType& type = problem_type(status);
+    Value body = Value::object();
+    body.set("type", std::string("/problems/") + type.slug);
+    body.set("title", type.title);
+    body.set("status", status);
+    body.set("detail", !detail.empty()    ? std::string(detail)
+                       : problems.empty() ? std::string(type.meaning)
+                                          : count_of(problems, status));
+    body.set("instance", request.id);
+    if (!problems.empty()) {
+        Value errors = Value::array();
+        for (const Problem& problem : problems) {
+            Value error = Value::object();
+            error.set("parameter", problem.path);
+            error.set("detail", problem.message);
+            errors.push(std::move(error));
+        }
+        body.set("errors", std::move(errors));
+    }
+    for (auto& [key, value] : more) body.set(key, std::move(value));
+    Answer answer;
+    answer.status = status;
+    answer.headers = {{"Content-Type", "application/problem+json"}, {"Cache-Control", "no-store"}};
+    answer.body = {slice_of(dump(body))};
+    return answer;
+}
+
+std::string parameter_name(std::string_view pointer, bool posted) {
+    if (!pointer.starts_with('/'))
+        return pointer.empty() && posted ? std::string() : std::string(pointer);
+    const std::string_view first = pointer.substr(1, pointer.find('/', 1) - 1);
+    const bool of_params = is_field_of<MushroomParams>(first);
+    if (posted)
+        return first == "model" || first == "mix" || of_params ? std::string(pointer)
+                                                               : "/model" + std::string(pointer);
+    return of_params ? query_name(pointer) : "mix";
+}
+
+Answer problem_answer(const Request& request, std::exception_ptr error) {
+    const auto named = [&](const InvalidInput& input, int status) {
+        std::vector<Problem> problems = input.problems();
+        for (Problem& problem : problems)
+            problem.path = parameter_name(problem.path, request.method == "POST");
+        return problem_answer(request, status, {}, problems);
+    };
+    try {
+        std::rethrow_exception(error);
+    } catch (const Impossible& impossible) {
+        return named(impossible, 422);
+    } catch (const InvalidInput& invalid) {
+        return named(invalid, 400);
+    } catch (const Cancelled&) {
+        Answer answer = problem_answer(request, 503, "the work was stopped before it was done");
+        answer.headers.emplace_back("Retry-After", "1");
+        return answer;
+    } catch (...) {
+        return problem_answer(request, 500, {});
+    }
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,56 @@
+// A request and an answer as plain data: all that api and server share. No sockets.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/bytes.h"
+#include "core/grow/workshop.h"
+
+namespace sporeprint::api {
+
+using Header = std::pair<std::string, std::string>;
+
+struct Request {
+    std::string method;           ///< "GET"
+    std::string target;           ///< as received: path and query, still percent-encoded
+    std::vector<Header> headers;  ///< names in any case
+    std::string body;
+    std::string id;  ///< request id, made or accepted by server
+
+    /// Value of the first header of that name, any case; empty if there is none.
+    [[nodiscard]] std::string_view header(std::string_view name) const;
+};
+
+struct Answer {
+    int status = 200;
+    std::vector<Header> headers;
+    Body body;
+    bool has_body =
+        true;  ///< false: no body and no Content-Length (304, HEAD of something not generated)
+};
+
+/// What a piece of work will cost; admission charges it.
+struct Cost {
+    std::uint64_t vertices = 0;
+    std::uint64_t texels = 0;
+    std::uint64_t bytes = 0;
+};
+
+/// Full canonical text of what is to be made: equal keys, equal bytes.
+using Key = std::string;
+
+/// Work that plan() does not do itself. `run` may be called on any thread; its answer is shared by all who wait for the same key.
+struct Job {
+    Key key;
+    Cost cost;
+    std::function<Answer(std::stop_token, const Observer&, const Parallel&)> run;
+};
+
+}  // namespace sporeprint::api

@@ -1,0 +1,335 @@
+#include "api/openapi.h"
+
+#include <set>
+#include <string>
+#include <utility>
+
+#include "api/catalogue.h"
+#include "api/errors.h"
+#include "api/mix.h"
+#include "api/routes.h"
+#include "api/surfaces.h"
+#include "core/model/request.h"
+#include "core/model/species.h"
+#include "core/params/schema.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+Value object(std::initializer_list<Value::Member> members) { return Value(Value::Object(members)); }
+
+Value reference(std::string_view where) {
+    return object({{"$ref", "#/components/" + std::string(where)}});
+}
+
+/// The leaves of a nested schema as query parameters with dotted names.
+void add_query_parameters(const Value& schema, const std::string& prefix, Value& parameters) {
+    const Value* properties = schema.find("properties");
+    if (!properties) return;
+    for (const auto& [key, leaf] : properties->members()) {
+        if (leaf.find("properties")) {
+            add_query_parameters(leaf, prefix + key + '.', parameters);
+            continue;
+        }
+        Value plain = leaf;
+        Value parameter = object({{"name", prefix + key}, {"in", "query"}, {"required", false}});
+        if (const Value* doc = leaf.find("description")) parameter.set("description", *doc);
+        plain.erase("description");
+        parameter.set("schema", std::move(plain));
+        parameters.push(std::move(parameter));
+    }
+}
+
+Value path_parameter(std::string_view key, std::string_view doc, Value schema,
+                     std::string_view example) {
+    return object({{"name", key},
+                   {"in", "path"},
+                   {"required", true},
+                   {"description", doc},
+                   {"schema", std::move(schema)},
+                   {"example", example}});
+}
+
+Value version_parameter() {
+    return object({{"name", "v"},
+                   {"in", "query"},
+                   {"required", false},
+                   {"description",
+                    "Version token. Today's makes the answer immutable; any other is 410 with the "
+                    "canonical address of today's."},
+                   {"schema", object({{"type", "string"}})}});
+}
+
+std::string example_id(const Atlas& atlas) {
+    if (atlas.find("amanita_muscaria") || atlas.entries().empty()) return "amanita_muscaria";
+    return atlas.entries().front().species.id.string();
+}
+
+Value parameters_of(const Route& route, const Atlas& atlas) {
+    Value parameters = Value::array();
+    const std::string_view pattern = route.pattern;
+    const Value text = object({{"type", "string"}});
+    const std::string example = example_id(atlas);
+    if (pattern.find("{mix}") != std::string_view::npos)
+        parameters.push(path_parameter("mix",
+                                       "A species id, or up to " + std::to_string(most_species) +
+                                           " with weights: id:0.7,id:0.3.",
+                                       text, example));
+    if (pattern.find("{id}") != std::string_view::npos)
+        parameters.push(path_parameter("id", "A species id.", text, example));
+    if (pattern.find("{name}") != std::string_view::npos)
+        parameters.push(path_parameter("name", "Name of the file.", text, "favicon.svg"));
+    if (pattern.find("{image}") != std::string_view::npos) {
+        Value names = Value::array();
+        for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) names.push(one);
+        parameters.push(path_parameter("image", "Which image of the atlas.",
+                                       object({{"type", "string"}, {"enum", names}}),
+                                       "base_color"));
+    }
+    switch (route.endpoint) {
+        case Endpoint::species_list:
+            add_query_parameters(schema<SpeciesFilter>(), "", parameters);
+            break;
+        case Endpoint::mushroom_glb:
+        case Endpoint::mushroom_json:
+            add_query_parameters(schema<MushroomParams>(), "", parameters);
+            parameters.push(version_parameter());
+            break;
+        case Endpoint::surface:
+            add_query_parameters(schema<SurfaceAddress>(), "", parameters);
+            parameters.push(version_parameter());
+            break;
+        default:
+            break;
+    }
+    for (Value& parameter :
+         parameters.items())  // a filter has no species of its own to take defaults from
+        if (route.endpoint == Endpoint::species_list)
+            if (Value* leaf = parameter.find("schema")) leaf->erase("x-default-from");
+    return parameters;
+}
+
+/// Body of POST /v1/mushrooms.glb: mix or model, beside the nested parameters.
+Value order_schema() {
+    Value out = schema<MushroomParams>();
+    Value properties = object({
+        {"mix",
+         object({{"type", "object"},
+                 {"minProperties", 1},
+                 {"maxProperties", most_species},
+                 {"additionalProperties", object({{"type", "number"}, {"exclusiveMinimum", 0}})},
+                 {"description", "Species ids and their weights."}})},
+        {"model", reference("schemas/model")},
+        {"v", object({{"type", "string"},
+                      {"description", "Version token; another than today's is 410."}})},
+    });
+    for (const auto& [key, property] : out.find("properties")->members())
+        properties.set(key, property);
+    out.set("properties", std::move(properties));
+    out.set("oneOf", Value(Value::Array{object({{"required", Value(Value::Array{"mix"})}}),
+                                        object({{"required", Value(Value::Array{"model"})}})}));
+    return out;
+}
+
+Value list_of(Value items) { return object({{"type", "array"}, {"items", std::move(items)}}); }
+
+Value typed(const char* type) { return object({{"type", type}}); }
+
+Value objects(std::initializer_list<Value::Member> properties) {
+    Value required = Value::array();
+    for (const auto& property : properties) required.push(property.first);
+    return object({{"type", "object"},
+                   {"properties", object(properties)},
+                   {"required", std::move(required)}});
+}
+
+Value triple() {
+    return object(
+        {{"type", "array"}, {"items", typed("number")}, {"minItems", 3}, {"maxItems", 3}});
+}
+
+Value schemas() {
+    const Value whole = typed("integer"), text = typed("string");
+    const Value pair =
+        object({{"type", "array"}, {"items", typed("number")}, {"minItems", 2}, {"maxItems", 2}});
+    Value pair_or_null = pair;
+    pair_or_null.set("type", Value(Value::Array{"array", "null"}));
+    Value problem = objects(
+        {{"type", text}, {"title", text}, {"status", whole}, {"detail", text}, {"instance", text}});
+    problem.find("properties")
+        ->set("errors", list_of(objects({{"parameter", text}, {"detail", text}})));
+    problem.find("properties")
+        ->set("canonical", object({{"type", "string"},
+                                   {"description", "On 410: the address of today's answer."}}));
+    Value links = object({{"type", "object"}, {"additionalProperties", text}});
+    return object({
+        {"mushroom_params", schema<MushroomParams>()},
+        {"mushroom_order", order_schema()},
+        {"model", schema<Model>()},
+        {"species", schema<Species>()},
+        {"species_list", objects({{"species", list_of(objects({{"id", text},
+                                                               {"scientific_name", text},
+                                                               {"common_name", text},
+                                                               {"family", text},
+                                                               {"form", text},
+                                                               {"cap_diameter_m", pair_or_null},
+                                                               {"height_m", pair},
+                                                               {"substrate", text},
+                                                               {"season", list_of(whole)},
+                                                               {"links", links}}))}})},
+        {"about",
+         objects(
+             {{"name", text}, {"version", text}, {"generator_version", whole}, {"links", links}})},
+        {"mushroom_description",
+         objects(
+             {{"canonical", text},
+              {"v", text},
+              {"mix", list_of(objects({{"id", text}, {"weight", typed("number")}}))},
+              {"effective", reference("schemas/mushroom_params")},
+              {"estimate", objects({{"vertices", whole}, {"triangles", whole}, {"bytes", whole}})},
+              {"bounds_m", objects({{"min", triple()}, {"max", triple()}})},
+              {"certificate", objects({{"simple", typed("boolean")}, {"method", text}})}})},
+        {"inspection",
+         objects({{"generator", text},
+                  {"canonical", text},
+                  {"effective", typed("object")},
+                  {"counts", object({{"type", "object"}, {"additionalProperties", whole}})}})},
+        {"problem", std::move(problem)},
+    });
+}
+
+Value body_schema(Endpoint endpoint) {
+    switch (endpoint) {
+        case Endpoint::root:
+            return reference("schemas/about");
+        case Endpoint::species_list:
+            return reference("schemas/species_list");
+        case Endpoint::species:
+            return reference("schemas/species");
+        case Endpoint::mushroom_json:
+            return reference("schemas/mushroom_description");
+        case Endpoint::inspect:
+            return reference("schemas/inspection");
+        case Endpoint::mushroom_schema:
+        case Endpoint::openapi:
+            return typed("object");
+        case Endpoint::mushroom_glb:
+        case Endpoint::mushroom_post:
+        case Endpoint::surface:
+            return object({{"type", "string"}, {"format", "binary"}});
+        default:
+            return typed("string");
+    }
+}
+
+/// Which problems a route may answer with.
+std::set<int> problems_of(Endpoint endpoint) {
+    switch (endpoint) {
+        case Endpoint::livez:
+        case Endpoint::metrics:
+            return {};
+        case Endpoint::readyz:
+            return {503};
+        case Endpoint::page:
+        case Endpoint::docs:
+        case Endpoint::root:
+        case Endpoint::openapi:
+        case Endpoint::mushroom_schema:
+        case Endpoint::species_list:
+            return {400, 405, 414, 429, 431, 500, 503};
+        case Endpoint::asset:
+        case Endpoint::species:
+            return {400, 404, 405, 414, 429, 431, 500, 503};
+        case Endpoint::inspect:
+            return {400, 405, 408, 411, 413, 414, 415, 429, 431, 500, 503, 504};
+        case Endpoint::mushroom_post:
+            return {400, 404, 405, 408, 410, 411, 413, 414, 415, 422, 429, 431, 500, 503, 504};
+        default:
+            return {400, 404, 405, 410, 414, 422, 429, 431, 500, 503, 504};
+    }
+}
+
+Value operation(const Route& route, const Atlas& atlas) {
+    Value out = object({{"operationId", route.id}, {"summary", route.summary}});
+    Value parameters = parameters_of(route, atlas);
+    if (!parameters.items().empty()) out.set("parameters", std::move(parameters));
+    if (*route.takes) {
+        Value content =
+            object({{"schema", route.endpoint == Endpoint::mushroom_post
+                                   ? reference("schemas/mushroom_order")
+                                   : object({{"type", "string"}, {"format", "binary"}})}});
+        if (route.endpoint == Endpoint::mushroom_post)
+            content.set(
+                "example",
+                object({{"mix", object({{example_id(atlas), 1}})}, {"age", 0.6}, {"seed", 7}}));
+        out.set("requestBody", object({{"required", true},
+                                       {"content", object({{route.takes, std::move(content)}})}}));
+    }
+    Value success = object({{"description", route.summary}});
+    if (route.endpoint == Endpoint::mushroom_glb || route.endpoint == Endpoint::mushroom_json ||
+        route.endpoint == Endpoint::mushroom_post || route.endpoint == Endpoint::surface) {
+        Value headers = Value::object();
+        for (const char* header : {"ETag", "Cache-Control", "Content-Location", "Cache-Status",
+                                   "Server-Timing", "X-Request-Id"})
+            headers.set(header, object({{"schema", typed("string")}}));
+        success.set("headers", std::move(headers));
+    }
+    success.set("content",
+                object({{route.answers, object({{"schema", body_schema(route.endpoint)}})}}));
+    Value responses = object({{"200", std::move(success)}});
+    if (std::string_view(route.method) == "GET" && !problems_of(route.endpoint).empty() &&
+        route.endpoint != Endpoint::readyz)
+        responses.set(
+            "304",
+            object(
+                {{"description",
+                  "Not modified: the ETag of If-None-Match is today's. Nothing was generated."}}));
+    for (const int status : problems_of(route.endpoint))
+        responses.set(std::to_string(status),
+                      reference("responses/" + std::string(problem_type(status).slug)));
+    out.set("responses", std::move(responses));
+    return out;
+}
+
+}  // namespace
+
+Value mushroom_schema() { return schema_document<MushroomParams>("Parameters of a mushroom"); }
+
+Value openapi(const Atlas& atlas, std::string_view version) {
+    Value paths = Value::object();
+    for (const Route& route : routes()) {
+        const char* method = std::string_view(route.method) == "GET" ? "get" : "post";
+        paths.set(route.pattern, object({{method, operation(route, atlas)}}));
+    }
+    Value responses = Value::object();
+    for (const ProblemType& type : problem_types())
+        responses.set(
+            type.slug,
+            object({{"description", type.meaning},
+                    {"content",
+                     object({{"application/problem+json",
+                              object({{"schema", reference("schemas/problem")},
+                                      {"example",
+                                       object({{"type", std::string("/problems/") + type.slug},
+                                               {"title", type.title},
+                                               {"status", type.status},
+                                               {"detail", type.meaning},
+                                               {"instance", "8f14e45fceea167a"}})}})}})}}));
+    return object({
+        {"openapi", "3.1.0"},
+        {"info", object({{"title", "Sporeprint"},
+                         {"version", version},
+                         {"description",
+                          "Grows mushrooms on demand and answers with game-ready GLB files. The "
+                          "same request gives the same bytes. "
+                          "For pictures, never for identifying mushrooms to eat."},
+                         {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
+        {"servers", Value(Value::Array{object({{"url", "/"}})})},
+        {"security", Value::array()},
+        {"paths", std::move(paths)},
+        {"components", object({{"schemas", schemas()}, {"responses", std::move(responses)}})},
+    });
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,17 @@
+// OpenAPI 3.1 from the table of routes and the descriptions of parameters; nothing is told twice.
+#pragma once
+
+#include <string_view>
+
+#include "core/atlas/atlas.h"
+#include "core/params/value.h"
+
+namespace sporeprint::api {
+
+/// The whole document.
+[[nodiscard]] Value openapi(const Atlas& atlas, std::string_view version);
+
+/// JSON Schema of a mushroom's query parameters, nested: the page's controls.
+[[nodiscard]] Value mushroom_schema();
+
+}  // namespace sporeprint::api

@@ -1,0 +1,31 @@
+// A request target taken apart: path segments and query parameters, percent-decoded strictly.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/params/problems.h"
+
+namespace sporeprint::api {
+
+/// Longest target accepted, in bytes (414 beyond).
+inline constexpr std::size_t longest_target = 4096;
+
+struct Target {
+    std::string path;                   ///< decoded, as asked
+    std::vector<std::string> segments;  ///< of the path, each decoded after splitting
+    std::vector<std::pair<std::string, std::string>>
+        query;  ///< decoded pairs in order; '+' is a plus sign
+};
+
+/// Takes a request target apart: origin form, or absolute form whose scheme and host are passed over.
+///
+/// problems  malformed escapes, control characters, bytes that are no UTF-8, empty parameters and parameters without '='
+[[nodiscard]] Target split_target(std::string_view target, std::vector<Problem>& problems);
+
+/// Replaces each %XX. Returns false, and leaves `out` unspecified, if a '%' is not followed by two hexadecimal digits.
+[[nodiscard]] bool percent_decode(std::string_view text, std::string& out);
+
+}  // namespace sporeprint::api

@@ -1,0 +1,127 @@
+#include "api/routes.h"
+
+#include <algorithm>
+#include <array>
+
+#include "api/text.h"
+#include "core/params/messages.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr const char* json = "application/json";
+constexpr const char* glb = "model/gltf-binary";
+
+constexpr std::array<Route, 16> table = {{
+    {Endpoint::page, "GET", "/", "page", "The viewer page.", "text/html", ""},
+    {Endpoint::docs, "GET", "/docs", "docs", "A page that shows this document.", "text/html", ""},
+    {Endpoint::asset, "GET", "/assets/{name}", "asset", "A file of the viewer page.",
+     "application/octet-stream", ""},
+    {Endpoint::root, "GET", "/v1", "about", "Name, version and links.", json, ""},
+    {Endpoint::species_list, "GET", "/v1/species", "list_species",
+     "The species of the atlas, filtered.", json, ""},
+    {Endpoint::species, "GET", "/v1/species/{id}", "get_species", "The template of a species.",
+     json, ""},
+    {Endpoint::mushroom_schema, "GET", "/v1/mushrooms/schema", "mushroom_schema",
+     "JSON Schema of the query parameters of a mushroom.", "application/schema+json", ""},
+    {Endpoint::mushroom_glb, "GET", "/v1/mushrooms/{mix}.glb", "get_mushroom",
+     "Grows a mushroom and answers with a GLB file.", glb, ""},
+    {Endpoint::mushroom_json, "GET", "/v1/mushrooms/{mix}.json", "describe_mushroom",
+     "What would be grown: canonical address, effective parameters, cost and bounds.", json, ""},
+    {Endpoint::mushroom_post, "POST", "/v1/mushrooms.glb", "post_mushroom",
+     "Grows a mushroom from a body: a mix, or a whole model of your own.", glb, json},
+    {Endpoint::surface, "GET", "/v1/surfaces/mushrooms/{mix}/{image}.jpg", "get_surface",
+     "One image of a mushroom's atlas; what textures=linked points to.", "image/jpeg", ""},
+    {Endpoint::inspect, "POST", "/v1/inspect", "inspect",
+     "Reads a GLB of Sporeprint and answers with the request that made it.", json, glb},
+    {Endpoint::openapi, "GET", "/openapi.json", "openapi", "This document.", json, ""},
+    {Endpoint::livez, "GET", "/livez", "livez",
+     "Whether the process lives; never queued behind work.", "text/plain", ""},
+    {Endpoint::readyz, "GET", "/readyz", "readyz",
+     "Whether it takes requests: atlas loaded, one mushroom grown, neither draining nor saturated.",
+     json, ""},
+    {Endpoint::metrics, "GET", "/metrics", "metrics", "Counters as Prometheus text.", "text/plain",
+     ""},
+}};
+
+/// Whether a segment of a path fits one of a pattern; keeps what the {name} stands for.
+bool fits(std::string_view segment, std::string_view pattern, std::vector<std::string>& captured) {
+    if (!pattern.starts_with('{')) return segment == pattern;
+    const std::string_view ending = pattern.substr(pattern.find('}') + 1);
+    if (!segment.ends_with(ending) || (ending.empty() && segment.empty())) return false;
+    captured.emplace_back(segment.substr(0, segment.size() - ending.size()));
+    return true;
+}
+
+bool served_below(const Route& route) {
+    return route.endpoint == Endpoint::livez || route.endpoint == Endpoint::readyz ||
+           route.endpoint == Endpoint::metrics;
+}
+
+}  // namespace
+
+std::span<const Route> routes() { return table; }
+
+Match match_route(std::string_view method, std::span<const std::string> segments) {
+    Match match;
+    for (const Route& route : table) {
+        if (served_below(route)) continue;
+        const std::vector<std::string_view> pattern =
+            split(std::string_view(route.pattern).substr(1), '/');
+        if (pattern.size() != segments.size()) continue;
+        std::vector<std::string> captured;
+        bool fitting = true;
+        for (std::size_t i = 0; fitting && i < pattern.size(); ++i)
+            fitting = fits(segments[i], pattern[i], captured);
+        if (!fitting) continue;
+        match.allow =
+            std::string_view(route.method) == "GET" ? "GET, HEAD, OPTIONS" : "POST, OPTIONS";
+        if (method == route.method ||
+            (method == "HEAD" && std::string_view(route.method) == "GET")) {
+            match.route = &route;
+            match.captured = std::move(captured);
+        }
+        return match;
+    }
+    return match;
+}
+
+std::string closest_route(std::span<const std::string> segments) {
+    std::string asked;
+    for (const std::string& segment : segments) (asked += '/') += segment;
+    std::vector<std::string> candidates;
+    for (const Route& route : table) {
+        const std::vector<std::string_view> pattern =
+            split(std::string_view(route.pattern).substr(1), '/');
+        std::string candidate;
+        for (std::size_t i = 0; i < pattern.size(); ++i) {
+            candidate += '/';
+            if (!pattern[i].starts_with('{')) {
+                candidate += pattern[i];
+                continue;
+            }
+            const std::string_view ending = pattern[i].substr(pattern[i].find('}') + 1);
+            std::string stem = i < segments.size()
+                                   ? segments[i]
+                                   : std::string(pattern[i].substr(0, pattern[i].find('}') + 1));
+            if (!ending.empty()) stem = stem.substr(0, stem.rfind('.'));
+            (candidate += stem) += ending;
+        }
+        if (candidate != asked) candidates.push_back(std::move(candidate));
+    }
+    return std::string(closest(asked, candidates));
+}
+
+std::size_t longest_body(const Route& route) {
+    switch (route.endpoint) {
+        case Endpoint::inspect:
+            return 64u << 20;
+        case Endpoint::mushroom_post:
+            return 4u << 20;  // images may be uploaded
+        default:
+            return 256u << 10;
+    }
+}
+
+}  // namespace sporeprint::api

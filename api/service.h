@@ -1,0 +1,82 @@
+// The meaning of the service: plan() answers what it can in microseconds and describes the rest as a Job.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <variant>
+
+#include "api/http.h"
+#include "core/atlas/atlas.h"
+
+namespace sporeprint::api {
+
+struct ServiceOptions {
+    std::size_t cache_bytes = 256u << 20;
+    std::size_t image_cache_bytes = 128u << 20;
+    std::filesystem::path assets;  ///< folder of the built page; empty for none
+    std::string allow_origin = "*";
+    std::uint64_t most_vertices = 2'000'000;  ///< budget of one request
+    std::uint64_t most_texels = 3u * 2048u * 2048u;
+};
+
+/// Counted since start; read at any time.
+struct Counters {
+    std::atomic<std::uint64_t> generated{0}, painted{0};
+    std::atomic<std::uint64_t> glb_hits{0}, glb_misses{0}, glb_not_modified{0};
+    std::atomic<std::uint64_t> image_hits{0}, image_misses{0};
+    std::atomic<std::uint64_t> glb_cache_bytes{0}, glb_cache_entries{0}, glb_evictions{0};
+    std::atomic<std::uint64_t> image_cache_bytes{0}, image_cache_entries{0}, image_evictions{0};
+};
+
+/// How a planned job came to its answer, for Cache-Status.
+enum class Outcome { made, collapsed };
+
+/// Milliseconds per step, for Server-Timing; negative means not taken.
+struct Timing {
+    double queue = -1, resolve = -1, build = -1, paint = -1, pack = -1;
+};
+
+class Service {
+  public:
+    Service(std::shared_ptr<const Atlas> atlas, ServiceOptions options);
+    ~Service();
+    Service(const Service&) = delete;
+    Service& operator=(const Service&) = delete;
+
+    /// Parses, checks, makes the canonical text, compares ETags, looks into the caches. Never blocks, never throws.
+    [[nodiscard]] std::variant<Answer, Job> plan(const Request& request);
+
+    /// Called once per flight with what the job returned: fills the cache.
+    void finish(const Key& key, const Answer& answer);
+
+    /// The shared answer of a job made ready for one of those who waited (Cache-Status, Server-Timing, request id; no body for HEAD).
+    [[nodiscard]] Answer deliver(const Request& request, const Answer& shared, Outcome outcome,
+                                 const Timing& timing) const;
+
+    /// problem+json for faults that are found before or beside plan() (408, 413, 414, 429, 431, 500, 503, 504 …).
+    [[nodiscard]] Answer problem(const Request& request, int status, std::string_view detail,
+                                 std::vector<Header> extra = {}) const;
+
+    /// An exception thrown by Job::run as an answer (the one table); unknown exceptions are 500 without detail.
+    [[nodiscard]] Answer problem(const Request& request, std::exception_ptr error) const;
+
+    /// Grows one mushroom, to know that it can: for /readyz.
+    [[nodiscard]] bool self_test();
+
+    /// Whether a body of this size may come to this target (413), in bytes.
+    [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view target) const;
+
+    [[nodiscard]] const Counters& counters() const;
+
+  private:
+    struct Parts;
+    std::unique_ptr<Parts> parts_;
+};
+
+/// plan + run inline: HTTP behaviour without sockets, for tests and tools.
+[[nodiscard]] Answer handle(Service& service, const Request& request);
+
+}  // namespace sporeprint::api

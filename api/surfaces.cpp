@@ -1,0 +1,91 @@
+#include "api/surfaces.h"
+
+#include <cmath>
+
+#include "api/mix.h"
+#include "core/params/canonical.h"
+#include "core/params/messages.h"
+#include "core/params/query.h"
+
+namespace sporeprint::api {
+
+static_assert(well_described<PaintedWeathering>());
+static_assert(well_described<SurfaceAddress>());
+
+double quantised_age(double age) { return std::floor(age * 64.0 + 0.5) / 64.0; }
+
+SurfaceAddress surface_address(const MushroomOrder& order, const PaintParams& painted) {
+    const MushroomParams& params = order.params;
+    SurfaceAddress address;
+    address.seed = params.seed;
+    address.age = quantised_age(params.age);
+    address.variation = params.variation;
+    address.texture_size = {painted.side};
+    address.ornaments = params.ornaments;
+    address.hymenium = params.hymenium;
+    address.weathering = {params.weathering.fade, params.weathering.wetness};
+    address.metrics = painted.metrics;
+    return address;
+}
+
+PaintParams painted_at(const SurfaceAddress& address, const Mix& mix, const Atlas& atlas) {
+    MushroomOrder order;
+    order.mix = mix;
+    order.params.seed = address.seed;
+    order.params.age = address.age;
+    order.params.variation = address.variation;
+    order.params.ornaments = address.ornaments;
+    order.params.hymenium = address.hymenium;
+    order.params.weathering.fade = address.weathering.fade;
+    order.params.weathering.wetness = address.weathering.wetness;
+    PaintParams painted = paint_params(order, atlas, address.metrics);
+    painted.side = address.texture_size;
+    return painted;
+}
+
+std::string image_key(const PaintParams& painted) {
+    std::string key = "paint " + std::to_string(generator_version) + " ";
+    canonical(painted, key);
+    return key;
+}
+
+SurfaceRequest read_surface(std::string_view mix, std::string_view image,
+                            std::span<const std::pair<std::string, std::string>> query,
+                            const Atlas& atlas, Faults& faults) {
+    SurfaceRequest request;
+    request.mix = read_mix(mix, atlas, faults);
+    std::vector<std::string> kinds;
+    for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) {
+        kinds.emplace_back(one);
+        if (image == one) request.kind = static_cast<ImageKind>(i);
+    }
+    if (!request.kind) {
+        const std::string_view meant = closest(image, kinds);
+        faults.add(404, "image",
+                   in_quotes(image) + " is not one of " + enum_names<ImageKind>() +
+                       (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+    }
+    std::vector<std::pair<std::string, std::string>> rest;
+    for (const auto& pair : query) {
+        if (pair.first != "v")
+            rest.push_back(pair);
+        else if (request.version)
+            faults.add(400, "v", "given more than once");
+        else
+            request.version = pair.second;
+    }
+    std::vector<Problem> problems;
+    read_query(rest, request.address, problems);
+    faults.add(400, problems);
+    request.address.age = quantised_age(request.address.age);
+    request.address.variation += 0.0;  // -0 is 0
+    return request;
+}
+
+std::string canonical_address(const Mix& mix, ImageKind kind, const SurfaceAddress& address) {
+    std::string out = "/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + name(kind) + ".jpg";
+    const std::string query = query_text(address);
+    return query.empty() ? out : out + '?' + query;
+}
+
+}  // namespace sporeprint::api

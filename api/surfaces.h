@@ -1,0 +1,105 @@
+// Addresses of images: what paint depends on, quantised, so that any server can paint a linked texture anew.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "api/errors.h"
+#include "core/atlas/atlas.h"
+#include "core/grow/mushroom.h"
+#include "core/surface/paint.h"
+
+namespace sporeprint::api {
+
+/// How `name` is described in T, so that nothing is described twice.
+template <class T>
+constexpr Info info_of(std::string_view name) {
+    Info found{.name = ""};
+    T::fields([&](auto, const Info& info) {
+        if (name == info.name) found = info;
+    });
+    return found;
+}
+
+/// What of the weather is painted.
+struct PaintedWeathering {
+    std::optional<double> fade, wetness;
+
+    static constexpr void fields(auto visit) {
+        using P = PaintedWeathering;
+        visit(&P::fade, info_of<WeatheringOf<Maybe>>("fade"));
+        visit(&P::wetness, info_of<WeatheringOf<Maybe>>("wetness"));
+    }
+    bool operator==(const PaintedWeathering&) const = default;
+};
+
+/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom that paint reads, and the lengths of the shape.
+struct SurfaceAddress {
+    std::uint32_t seed = 1;
+    double age = 38.0 / 64.0;
+    double variation = 0.5;
+    Choice<16, 32, 64, 128, 256, 512, 1024, 2048> texture_size{1024};
+    OrnamentsOf<Maybe> ornaments;
+    HymeniumOf<Maybe> hymenium;
+    PaintedWeathering weathering;
+    SurfaceMetrics metrics;
+
+    static constexpr void fields(auto visit) {
+        using S = SurfaceAddress;
+        using P = MushroomParams;
+        visit(&S::seed, info_of<P>("seed"));
+        visit(
+            &S::age,
+            Info{.name = "age",
+                 .min = 0,
+                 .max = 1,
+                 .doc = "From button (0) through maturity (0.6) to decay (1), in steps of 1/64."});
+        visit(&S::variation, info_of<P>("variation"));
+        visit(&S::texture_size,
+              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+        visit(&S::ornaments, info_of<P>("ornaments"));
+        visit(&S::hymenium, info_of<P>("hymenium"));
+        visit(&S::weathering, info_of<P>("weathering"));
+        visit(&S::metrics,
+              Info{.name = "metrics",
+                   .doc = "Lengths of the shape in steps of 2 %: step n is 1.02^n metres."});
+    }
+    bool operator==(const SurfaceAddress&) const = default;
+};
+
+/// Age in the steps that images know.
+[[nodiscard]] double quantised_age(double age);
+
+/// The address that paints what `painted` (the paint_params of `order`) paints.
+[[nodiscard]] SurfaceAddress surface_address(const MushroomOrder& order,
+                                             const PaintParams& painted);
+
+/// What an address paints: equal to the paint_params of the order that it was made from.
+///
+/// throws  Impossible: what the species cannot have
+[[nodiscard]] PaintParams painted_at(const SurfaceAddress& address, const Mix& mix,
+                                     const Atlas& atlas);
+
+/// Key of an image set: the very text under which core's recipe asks its Memo, so that embedded and linked images are one.
+[[nodiscard]] std::string image_key(const PaintParams& painted);
+
+struct SurfaceRequest {
+    Mix mix;
+    std::optional<ImageKind> kind;
+    SurfaceAddress address;
+    std::optional<std::string> version;
+};
+
+/// Reads {mix}, {image} and query of an address under /v1/surfaces/mushrooms; the age is quantised.
+[[nodiscard]] SurfaceRequest read_surface(
+    std::string_view mix, std::string_view image,
+    std::span<const std::pair<std::string, std::string>> query, const Atlas& atlas, Faults& faults);
+
+/// Canonical address of an image without version.
+[[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind,
+                                            const SurfaceAddress& address);
+
+}  // namespace sporeprint::api

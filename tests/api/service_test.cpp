@@ -1,0 +1,896 @@
+#include "api/service.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+#include <zlib.h>
+
+#include <atomic>
+#include <filesystem>
+#include <fstream>
+#include <thread>
+
+#include "api/encoding.h"
+#include "api/errors.h"
+#include "api/mushrooms.h"
+#include "core/grow/mushroom.h"
+#include "core/params/query.h"
+#include "core/params/reader.h"
+#include "tests/api/support.h"
+
+namespace sporeprint::api {
+namespace {
+
+using test::errors_of;
+using test::first_species;
+using test::get;
+using test::header;
+using test::json_of;
+using test::names;
+using test::post;
+using test::request;
+using test::small;
+using test::text_of;
+
+std::string second_species() { return built_in_atlas()->entries()[1].species.id.string(); }
+
+class ServiceTest : public testing::Test {
+  protected:
+    Answer ask(const Request& one) { return handle(service_, one); }
+    Answer ask(std::string target, std::vector<Header> headers = {}) {
+        return handle(service_, get(std::move(target), std::move(headers)));
+    }
+    std::uint64_t generated() const { return service_.counters().generated; }
+
+    Service service_{built_in_atlas(), ServiceOptions{}};
+};
+
+void expect_problem(const Answer& answer, int status) {
+    EXPECT_EQ(answer.status, status) << text_of(answer);
+    EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
+    EXPECT_EQ(header(answer, "Cache-Control"), "no-store");
+    for (const char* absent : {"ETag", "Cache-Status", "Content-Location"})
+        EXPECT_EQ(header(answer, absent), "") << absent;
+    const Value body = json_of(answer);
+    EXPECT_EQ(body.find("status")->as_number(), status);
+    EXPECT_EQ(body.find("type")->as_string(),
+              std::string("/problems/") + problem_type(status).slug);
+    EXPECT_EQ(body.find("title")->as_string(), problem_type(status).title);
+    EXPECT_FALSE(body.find("detail")->as_string().empty());
+    EXPECT_EQ(body.find("instance")->as_string(), "test-1");
+    EXPECT_EQ(header(answer, "X-Request-Id"), "test-1");
+    EXPECT_EQ(header(answer, "Access-Control-Allow-Origin"), "*");
+    EXPECT_EQ(header(answer, "X-Content-Type-Options"), "nosniff");
+}
+
+// --- Errors -----------------------------------------------------------------------------
+
+TEST_F(ServiceTest, faults_of_an_address_are_named) {
+    const struct {
+        std::string query;
+        int status;
+        const char* parameter;
+        const char* words;
+    } cases[] = {
+        {"age=1.7", 400, "age", "1.7 is outside 0..1"},
+        {"sed=3", 400, "sed", "did you mean 'seed'?"},
+        {"age=", 400, "age", "expected a number"},
+        {"age=.5", 400, "age", "expected a number"},
+        {"age=+1", 400, "age", "expected a number"},
+        {"age=0x1", 400, "age", "expected a number"},
+        {"age=1e999", 400, "age", ""},
+        {"age=nan", 400, "age", "expected a number"},
+        {"age= 1", 400, "age", ""},
+        {"age=0.1&age=0.1", 400, "age", "more than once"},
+        {"v=1&v=1", 400, "v", "more than once"},
+        {"seed=-1", 400, "seed", "outside"},
+        {"seed=4294967296", 400, "seed", "outside"},
+        {"seed=1.5", 400, "seed", "whole number"},
+        {"lod=4", 400, "lod", "4 is outside 0..3"},
+        {"texture_size=300", 400, "texture_size", "128, 256"},
+        {"textures=fast", 400, "textures", "embedded, linked, none"},
+        {"weathering.fade=2", 400, "weathering.fade", "outside"},
+        {"weathering=1", 400, "weathering", "unknown"},
+        {"fade=1", 400, "fade", "unknown"},
+        {"deformation.zone_from=0.9&deformation.zone_to=0.5", 400, "deformation.zone_to", ""},
+        {"age", 400, "age", "no value"},
+        {"age=%zz", 400, "age", "hexadecimal"},
+        {"age=0.1&&seed=2", 400, "query", "empty"},
+    };
+    for (const auto& [query, status, parameter, words] : cases) {
+        for (const char* ending : {".glb?", ".json?"}) {
+            const Answer answer = ask("/v1/mushrooms/" + first_species() + ending + query);
+            expect_problem(answer, status);
+            EXPECT_TRUE(names(answer, parameter, words)) << query << '\n' << text_of(answer);
+        }
+    }
+}
+
+TEST_F(ServiceTest, all_problems_come_in_one_answer_and_the_strongest_status_wins) {
+    const Answer answer = ask("/v1/mushrooms/xyzzy.glb?age=1.7&sed=3&v=old");
+    expect_problem(answer, 404);
+    EXPECT_EQ(errors_of(answer).size(), 3u) << text_of(answer);
+    EXPECT_TRUE(names(answer, "mix", "unknown species"));
+    EXPECT_TRUE(names(answer, "age"));
+    EXPECT_TRUE(names(answer, "sed"));
+
+    const Answer two = ask("/v1/mushrooms/" + first_species() + ".glb?age=1.7&sed=3");
+    expect_problem(two, 400);
+    EXPECT_EQ(json_of(two).find("detail")->as_string(), "2 parameters are invalid");
+}
+
+TEST_F(ServiceTest, unknown_species_and_routes_are_told_what_was_probably_meant) {
+    const std::string id = first_species();
+    const Answer species = ask("/v1/mushrooms/" + id.substr(0, id.size() - 2) + ".glb");
+    expect_problem(species, 404);
+    EXPECT_TRUE(names(species, "mix", "did you mean '" + id + "'?")) << text_of(species);
+    const Answer route = ask("/v1/specis");
+    expect_problem(route, 404);
+    EXPECT_NE(text_of(route).find("did you mean '/v1/species'?"), std::string::npos);
+    expect_problem(ask("/v1/species/xyzzy"), 404);
+    expect_problem(ask("/v1/colonies/" + id + ".glb"), 404);
+    expect_problem(ask("/nothing?a=1"), 404);
+    expect_problem(ask("/assets/none.js"), 404);
+}
+
+TEST_F(ServiceTest, methods_are_405_with_allow) {
+    const std::pair<Request, const char*> cases[] = {
+        {request("POST", "/v1/species"), "GET, HEAD, OPTIONS"},
+        {request("DELETE", small()), "GET, HEAD, OPTIONS"},
+        {request("GET", "/v1/mushrooms.glb"), "POST, OPTIONS"},
+        {request("HEAD", "/v1/inspect"), "POST, OPTIONS"},
+        {request("BREW", "/"), "GET, HEAD, OPTIONS"},
+    };
+    for (const auto& [one, allow] : cases) {
+        const Answer answer = ask(one);
+        expect_problem(answer, 405);
+        EXPECT_EQ(header(answer, "Allow"), allow);
+    }
+}
+
+TEST_F(ServiceTest, preflights_are_answered) {
+    const Answer answer = ask(
+        request("OPTIONS", "/v1/mushrooms.glb",
+                {{"Origin", "https://example.org"}, {"Access-Control-Request-Method", "POST"}}));
+    EXPECT_EQ(answer.status, 204);
+    EXPECT_FALSE(answer.has_body);
+    EXPECT_EQ(header(answer, "Access-Control-Allow-Methods"), "POST, OPTIONS");
+    EXPECT_EQ(header(answer, "Access-Control-Allow-Origin"), "*");
+    EXPECT_NE(header(answer, "Access-Control-Allow-Headers").find("Content-Type"),
+              std::string::npos);
+    EXPECT_EQ(header(answer, "Access-Control-Max-Age"), "86400");
+    EXPECT_EQ(ask(request("OPTIONS", "*")).status, 204);
+    EXPECT_EQ(ask(request("OPTIONS", small("&age=9"))).status, 204);
+}
+
+TEST_F(ServiceTest, a_long_address_is_414) {
+    expect_problem(ask("/v1/species?x=" + std::string(4096, 'a')), 414);
+    EXPECT_NE(ask("/v1/species?x=" + std::string(4096 - 14, 'a')).status, 414);
+}
+
+TEST_F(ServiceTest, bodies_of_another_type_or_encoding_are_415_and_large_ones_413) {
+    expect_problem(ask(post("{}", "/v1/mushrooms.glb", "text/plain")), 415);
+    expect_problem(ask(post("{}", "/v1/mushrooms.glb", "")), 415);
+    expect_problem(ask(post("x", "/v1/inspect", "application/json")), 415);
+    Request encoded = post("{}");
+    encoded.headers.emplace_back("content-encoding", "gzip");
+    expect_problem(ask(encoded), 415);
+    expect_problem(ask(post(std::string((4u << 20) + 1, ' '))), 413);
+    EXPECT_EQ(service_.most_body("POST", "/v1/mushrooms.glb"), 4u << 20);
+    EXPECT_EQ(service_.most_body("POST", "/v1/inspect?x=1"), 64u << 20);
+    EXPECT_EQ(service_.most_body("POST", "/nothing"), 256u << 10);
+}
+
+TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
+    const std::string mix = "\"mix\":{\"" + first_species() + "\":1}";
+    const struct {
+        std::string body;
+        int status;
+        const char* parameter;
+        const char* words;
+    } cases[] = {
+        {"", 400, "", ""},
+        {"[]", 400, "", "expected an object"},
+        {"{" + mix, 400, "", ""},
+        {"{" + mix + ",\"age\":1e999}", 400, "", ""},
+        {std::string(100'000, '['), 400, "", ""},
+        {"{" + mix + "," + mix + "}", 400, "/mix", ""},
+        {"{}", 400, "mix", "is missing"},
+        {"{" + mix + ",\"model\":{}}", 400, "mix", "not both"},
+        {"{\"mix\":{\"xyzzy\":1}}", 404, "mix", "unknown species"},
+        {"{\"mix\":{\"" + first_species() + "\":0}}", 400, "mix", "greater than 0"},
+        {"{\"mix\":{\"" + first_species() + "\":\"1\"}}", 400, "mix", "not a number"},
+        {"{" + mix + ",\"age\":1.7}", 400, "/age", "1.7 is outside 0..1"},
+        {"{" + mix + ",\"age\":\"old\"}", 400, "/age", "expected a number"},
+        {"{" + mix + ",\"age\":null}", 400, "/age", ""},
+        {"{" + mix + ",\"sed\":1}", 400, "/sed", "did you mean 'seed'?"},
+        {"{" + mix + ",\"weathering\":{\"fade\":2}}", 400, "/weathering/fade", "outside"},
+        {"{" + mix + ",\"weathering\":{\"fade\":null}}", 400, "/weathering/fade", ""},
+        {"{" + mix + ",\"v\":1}", 400, "/v", "expected text"},
+        {"{\"model\":{\"silhouette\":{\"cap\":[{\"r\":-1}]}}}", 400, "/model/silhouette/cap/0/r",
+         "outside"},
+        {"{\"model\":{\"surface\":{\"cap\":{\"image\":\"?\"}}}}", 400, "/model/surface/cap/image",
+         "base64"},
+        {"{\"model\":{\"form\":\"branched\"}}", 400, "/model/form", "swept"},
+    };
+    for (const auto& [body, status, parameter, words] : cases) {
+        const Answer answer = ask(post(body));
+        expect_problem(answer, status);
+        EXPECT_TRUE(names(answer, parameter, words)) << body.substr(0, 200) << '\n'
+                                                     << text_of(answer);
+    }
+    expect_problem(ask(post("{" + mix + "}", "/v1/mushrooms.glb?age=0.5")), 400);
+}
+
+TEST_F(ServiceTest, what_is_impossible_is_422) {
+    const Answer mix =
+        ask("/v1/mushrooms/" + first_species() + ":0.5," + second_species() + ":0.5.glb");
+    expect_problem(mix, 422);
+    EXPECT_TRUE(names(mix, "mix"));
+
+    const Value model = write(built_in_atlas()->entries()[0].species.stages[0].model);
+    const Answer linked = ask(post("{\"textures\":\"linked\",\"model\":" + dump(model) + "}"));
+    expect_problem(linked, 422);
+    EXPECT_TRUE(names(linked, "/textures"));
+
+    // Pores asked of a species without pores, or gills of one without gills: one of the two each species lacks.
+    const Answer anatomy = ask(small("&hymenium.pores_per_mm=2&hymenium.blades=20"));
+    expect_problem(anatomy, 422);
+    EXPECT_TRUE(names(anatomy, "hymenium.pores_per_mm") || names(anatomy, "hymenium.blades"))
+        << text_of(anatomy);
+    EXPECT_EQ(generated(), 0u);
+}
+
+TEST_F(ServiceTest, a_crossing_outline_is_422_and_points_into_the_model) {
+    Value model = write(built_in_atlas()->entries()[0].species.stages[0].model);
+    Value* cap = model.find("silhouette")->find("cap");
+    const double r = cap->items()[1].find("r")->as_number();
+    cap->items()[1].set("r", cap->items()[cap->items().size() - 2].find("r")->as_number());
+    cap->items()[cap->items().size() - 2].set("r", r);
+    const Answer answer = ask(post("{\"model\":" + dump(model) + "}"));
+    EXPECT_EQ(answer.status, 422) << text_of(answer);
+    bool points = false;
+    for (const std::string& error : errors_of(answer))
+        points = points || error.starts_with("/model/silhouette");
+    EXPECT_TRUE(points) << text_of(answer);
+}
+
+TEST(ServiceBudget, what_costs_too_much_is_422_before_any_work) {
+    ServiceOptions options;
+    options.most_vertices = 100;
+    options.most_texels = 3 * 256 * 256;
+    Service service(built_in_atlas(), options);
+    const std::string address = "/v1/mushrooms/" + first_species() + ".glb";
+    const Answer answer = handle(service, get(address));
+    expect_problem(answer, 422);
+    EXPECT_TRUE(names(answer, "lod"));
+    EXPECT_TRUE(names(answer, "texture_size"));
+    const Answer posted = handle(service, post("{\"mix\":{\"" + first_species() + "\":1}}"));
+    EXPECT_TRUE(names(posted, "/lod"));
+    const Answer image =
+        handle(service, get("/v1/surfaces/mushrooms/" + first_species() + "/normal.jpg"));
+    expect_problem(image, 422);
+    EXPECT_TRUE(names(image, "texture_size"));
+    EXPECT_EQ(service.counters().generated, 0u);
+}
+
+// --- Documents --------------------------------------------------------------------------
+
+TEST_F(ServiceTest, the_root_tells_who_it_is) {
+    const Value root = json_of(ask("/v1"));
+    EXPECT_EQ(root.find("name")->as_string(), "sporeprint");
+    EXPECT_EQ(root.find("generator_version")->as_number(), generator_version);
+    for (const auto& [name, link] : root.find("links")->members())
+        if (name != "docs") EXPECT_EQ(ask(link.as_string()).status, 200) << link.as_string();
+}
+
+TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
+    const Value body = json_of(ask("/v1/species"));
+    const auto& list = body.find("species")->items();
+    ASSERT_EQ(list.size(), built_in_atlas()->entries().size());
+    for (const Value& row : list) {
+        for (const char* member : {"id", "scientific_name", "common_name", "family", "form",
+                                   "cap_diameter_m", "height_m", "substrate", "season", "links"})
+            EXPECT_NE(row.find(member), nullptr) << member;
+        const Answer self = ask(row.find("links")->find("self")->as_string());
+        EXPECT_EQ(self.status, 200);
+        std::vector<Problem> problems;
+        static_cast<void>(read_json<Species>(text_of(self), problems));
+        EXPECT_TRUE(problems.empty())
+            << (problems.empty() ? "" : problems[0].path + problems[0].message);
+        EXPECT_EQ(ask(request("HEAD", row.find("links")->find("model")->as_string())).status, 200);
+    }
+}
+
+TEST_F(ServiceTest, species_are_filtered) {
+    const auto ids = [&](const std::string& query) {
+        std::vector<std::string> out;
+        const Answer answer = ask("/v1/species?" + query);
+        EXPECT_EQ(answer.status, 200) << query;
+        const Value body = json_of(answer);
+        for (const Value& row : body.find("species")->items())
+            out.push_back(row.find("id")->as_string());
+        return out;
+    };
+    const auto atlas = built_in_atlas();
+    const auto matching = [&](auto predicate) {
+        std::vector<std::string> out;
+        for (const AtlasEntry& entry : atlas->entries())
+            if (predicate(entry.species.facts)) out.push_back(entry.species.id.string());
+        return out;
+    };
+    EXPECT_EQ(ids("form=agaric"),
+              matching([](const Facts& facts) { return facts.form == GrowthForm::agaric; }));
+    EXPECT_EQ(ids("family=swept").size(), atlas->entries().size());
+    EXPECT_EQ(ids("family=branched").size(), 0u);
+    EXPECT_EQ(ids("month=9"), matching([](const Facts& facts) {
+                  return std::count(facts.season.begin(), facts.season.end(), 9) > 0;
+              }));
+    EXPECT_EQ(ids("min_diameter_m=0.1"), matching([](const Facts& facts) {
+                  return facts.cap_diameter_m && facts.cap_diameter_m->to >= 0.1;
+              }));
+    EXPECT_EQ(ids("max_diameter_m=0.1"), matching([](const Facts& facts) {
+                  return facts.cap_diameter_m && facts.cap_diameter_m->to <= 0.1;
+              }));
+    const std::string colour = atlas->entries()[0].species.facts.colour.string();
+    EXPECT_FALSE(ids("colour=" + colour).empty());
+    EXPECT_TRUE(ids("substrate=marble").empty());
+    for (const char* query :
+         {"form=tree", "month=13", "month=1.5", "min_diameter_m=x", "colour=red&colour=red",
+          "colr=red", "min_diameter_m=0.2&max_diameter_m=0.1"})
+        expect_problem(ask(std::string("/v1/species?") + query), 400);
+}
+
+TEST_F(ServiceTest, documents_are_conditional_and_compressed) {
+    for (const std::string target :
+         {"/v1", "/v1/species", "/v1/species?form=agaric", "/v1/mushrooms/schema", "/openapi.json",
+          "/v1/species/" + first_species(), "/v1/mushrooms/" + first_species() + ".json"}) {
+        const Answer plain = ask(target);
+        ASSERT_EQ(plain.status, 200) << target;
+        EXPECT_EQ(header(plain, "Vary"), "Accept-Encoding") << target;
+        EXPECT_EQ(header(plain, "Content-Encoding"), "");
+        EXPECT_EQ(header(plain, "Cache-Control"),
+                  "public, max-age=3600, stale-while-revalidate=86400");
+        const std::string etag = header(plain, "ETag");
+
+        const Answer zipped = ask(target, {{"Accept-Encoding", "br, gzip"}});
+        EXPECT_EQ(header(zipped, "Content-Encoding"), "gzip") << target;
+        EXPECT_EQ(header(zipped, "ETag"), etag.substr(0, etag.size() - 1) + "-gz\"") << target;
+        EXPECT_EQ(text_of(zipped).substr(0, 2), "\x1f\x8b");
+        EXPECT_LT(size_of(zipped.body), size_of(plain.body));
+
+        const Answer unchanged = ask(target, {{"If-None-Match", "\"x\", W/" + etag}});
+        EXPECT_EQ(unchanged.status, 304) << target;
+        EXPECT_FALSE(unchanged.has_body);
+        EXPECT_EQ(header(unchanged, "ETag"), etag);
+        EXPECT_EQ(header(unchanged, "Vary"), "Accept-Encoding");
+        const Answer unchanged_zipped =
+            ask(target, {{"If-None-Match", header(zipped, "ETag")}, {"Accept-Encoding", "gzip"}});
+        EXPECT_EQ(unchanged_zipped.status, 304);
+        EXPECT_EQ(header(unchanged_zipped, "ETag"), header(zipped, "ETag"));
+        EXPECT_EQ(ask(target, {{"If-None-Match", header(zipped, "ETag")}}).status, 200)
+            << "another variant";
+        EXPECT_EQ(ask(target, {{"If-None-Match", "*"}}).status, 304);
+        if (target.find('?') == std::string::npos && target.find(".json") == std::string::npos)
+            expect_problem(ask(target + "?nonsense=1"), 400);
+    }
+}
+
+TEST(ServiceAssets, the_page_and_its_files_are_served) {
+    const std::filesystem::path folder =
+        std::filesystem::temp_directory_path() /
+        ("sporeprint-assets-" + std::to_string(reinterpret_cast<std::uintptr_t>(&folder)));
+    std::filesystem::create_directories(folder);
+    const auto write_file = [&](const char* name, std::string_view text) {
+        std::ofstream(folder / name) << text;
+    };
+    write_file("index.html", "<!doctype html><title>page</title>");
+    write_file("docs.html", "<!doctype html><title>docs</title>");
+    write_file("app-3F9A1C02.js", "let answer = 42;");
+    write_file("favicon.svg", "<svg xmlns='http://www.w3.org/2000/svg'/>");
+    write_file(".hidden", "secret");
+    ServiceOptions options;
+    options.assets = folder;
+    Service service(built_in_atlas(), options);
+    std::filesystem::remove_all(folder);  // read once, at start
+
+    const Answer page = handle(service, get("/?species=x&age=0.5"));
+    EXPECT_EQ(page.status, 200);
+    EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
+    EXPECT_EQ(header(page, "Cache-Control"), "no-cache");
+    EXPECT_NE(text_of(page).find("page"), std::string::npos);
+    EXPECT_NE(text_of(handle(service, get("/docs"))).find("docs"), std::string::npos);
+    const Answer script = handle(service, get("/assets/app-3F9A1C02.js"));
+    EXPECT_EQ(header(script, "Content-Type"), "text/javascript; charset=utf-8");
+    EXPECT_EQ(header(script, "Cache-Control"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(header(handle(service, get("/assets/favicon.svg")), "Content-Type"), "image/svg+xml");
+    for (const char* target :
+         {"/assets/.hidden", "/assets/..%2Findex.html", "/assets/../index.html", "/assets/"})
+        EXPECT_EQ(handle(service, get(target)).status, 404) << target;
+    const Answer head = handle(service, request("HEAD", "/"));
+    EXPECT_TRUE(head.has_body);
+    EXPECT_EQ(size_of(head.body), size_of(page.body));
+}
+
+TEST_F(ServiceTest, without_a_page_the_root_gives_a_hint) {
+    const Answer answer = ask("/");
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_NE(text_of(answer).find("/v1/species"), std::string::npos);
+    expect_problem(ask("/docs"), 404);
+}
+
+// --- Mushrooms --------------------------------------------------------------------------
+
+TEST_F(ServiceTest, a_mushroom_comes_with_all_its_headers) {
+    const Answer answer = ask(small("&seed=7"));
+    ASSERT_EQ(answer.status, 200) << text_of(answer);
+    EXPECT_EQ(text_of(answer).substr(0, 4), "glTF");
+    EXPECT_EQ(header(answer, "Content-Type"), "model/gltf-binary");
+    EXPECT_EQ(header(answer, "Content-Disposition"),
+              "inline; filename=\"" + first_species() + "-7.glb\"");
+    EXPECT_EQ(header(answer, "Cache-Control"),
+              "public, max-age=3600, stale-while-revalidate=86400");
+    EXPECT_EQ(header(answer, "Cache-Status"),
+              "sporeprint-images; fwd=miss; stored, sporeprint; fwd=miss; stored");
+    EXPECT_EQ(header(answer, "Cross-Origin-Resource-Policy"), "cross-origin");
+    EXPECT_EQ(header(answer, "Timing-Allow-Origin"), "*");
+    EXPECT_EQ(header(answer, "X-Request-Id"), "test-1");
+    EXPECT_NE(header(answer, "Access-Control-Expose-Headers").find("Content-Location"),
+              std::string::npos);
+    EXPECT_EQ(header(answer, "Vary"), "");
+    const std::string timing = header(answer, "Server-Timing");
+    for (const char* step : {"resolve;dur=", "build;dur=", "paint;dur=", "pack;dur="})
+        EXPECT_NE(timing.find(step), std::string::npos) << timing;
+    EXPECT_EQ(timing.find("queue"), std::string::npos);
+    const std::string where = header(answer, "Content-Location");
+    EXPECT_TRUE(where.starts_with("/v1/mushrooms/" + first_species() +
+                                  ".glb?seed=7&lod=3&texture_size=128&v="))
+        << where;
+    EXPECT_EQ(header(ask(where), "Cache-Control"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(header(ask(small("&seed=7"), {{"Accept-Encoding", "gzip"}}), "Content-Encoding"), "");
+}
+
+TEST_F(ServiceTest, a_second_request_is_a_hit_that_shares_the_bytes) {
+    const Answer first = ask(small()), second = ask(small());
+    EXPECT_EQ(header(second, "Cache-Status"), "sporeprint; hit");
+    EXPECT_EQ(header(second, "Server-Timing"), "");
+    ASSERT_EQ(first.body.size(), second.body.size());
+    for (std::size_t i = 0; i < first.body.size(); ++i)
+        EXPECT_EQ(first.body[i].owner, second.body[i].owner);
+    EXPECT_EQ(generated(), 1u);
+    EXPECT_EQ(service_.counters().glb_hits, 1u);
+    EXPECT_EQ(service_.counters().glb_misses, 1u);
+    EXPECT_EQ(service_.counters().glb_cache_entries, 1u);
+    EXPECT_GE(service_.counters().glb_cache_bytes, size_of(first.body));
+}
+
+TEST_F(ServiceTest, a_change_of_shape_finds_its_images) {
+    static_cast<void>(ask(small()));
+    const Answer bent = ask(small("&deformation.lean_deg=20"));
+    ASSERT_EQ(bent.status, 200) << text_of(bent);
+    EXPECT_EQ(header(bent, "Cache-Status"), "sporeprint-images; hit, sporeprint; fwd=miss; stored");
+    EXPECT_EQ(service_.counters().painted, 1u);
+    EXPECT_EQ(service_.counters().image_hits, 1u);
+}
+
+TEST_F(ServiceTest, a_conditional_request_generates_nothing) {
+    const MushroomOrder order = [&] {
+        MushroomOrder one;
+        one.mix = {{first_species(), 1000}};
+        one.params.lod = 3;
+        one.params.texture_size = {128};
+        one.params.seed = 77;
+        return one;
+    }();
+    const std::string version = version_token(order.mix, *built_in_atlas());
+    const std::string etag = etag_of(key_of(order, Product::glb, version));
+    for (const Request& one : {get(small("&seed=77"), {{"If-None-Match", etag}}),
+                               get(small("&seed=77"), {{"if-none-match", "W/" + etag}}),
+                               get(small("&seed=77"), {{"If-None-Match", "*"}}),
+                               request("HEAD", small("&seed=77"), {{"If-None-Match", etag}})}) {
+        const Answer answer = ask(one);
+        EXPECT_EQ(answer.status, 304);
+        EXPECT_FALSE(answer.has_body);
+        EXPECT_TRUE(answer.body.empty());
+        EXPECT_EQ(header(answer, "ETag"), etag);
+        EXPECT_EQ(header(answer, "Cache-Status"), "sporeprint; hit; detail=not-modified");
+        EXPECT_EQ(header(answer, "Content-Type"), "");
+        EXPECT_EQ(header(answer, "Content-Location"),
+                  with_version(canonical_address(order), version));
+        EXPECT_NE(header(answer, "Cache-Control"), "");
+    }
+    EXPECT_EQ(generated(), 0u);
+    EXPECT_EQ(service_.counters().glb_not_modified, 4u);
+    EXPECT_EQ(header(ask(small("&seed=77")), "ETag"), etag);
+    EXPECT_EQ(ask(small("&seed=78"), {{"If-None-Match", etag}}).status, 200);
+    // Even '*' does not make the impossible exist.
+    EXPECT_EQ(
+        ask(small("&hymenium.pores_per_mm=2&hymenium.blades=20"), {{"If-None-Match", "*"}}).status,
+        422);
+}
+
+TEST_F(ServiceTest, head_agrees_with_get_and_never_generates) {
+    const Answer cold = ask(request("HEAD", small()));
+    EXPECT_EQ(cold.status, 200);
+    EXPECT_FALSE(cold.has_body);
+    EXPECT_EQ(generated(), 0u);
+    const Answer got = ask(small());
+    const Answer warm = ask(request("HEAD", small()));
+    EXPECT_TRUE(warm.has_body);
+    EXPECT_EQ(size_of(warm.body), size_of(got.body));
+    for (const char* same :
+         {"ETag", "Content-Type", "Content-Location", "Content-Disposition", "Cache-Control"}) {
+        EXPECT_EQ(header(cold, same), header(got, same)) << same;
+        EXPECT_EQ(header(warm, same), header(got, same)) << same;
+    }
+    EXPECT_EQ(ask(request("HEAD", small("&age=9"))).status, 400);
+    EXPECT_EQ(ask(request("HEAD", small("&hymenium.pores_per_mm=2&hymenium.blades=20"))).status,
+              422);
+    const Answer described = ask(request("HEAD", "/v1/mushrooms/" + first_species() + ".json",
+                                         {{"Accept-Encoding", "gzip"}}));
+    EXPECT_FALSE(described.has_body);
+    EXPECT_EQ(header(described, "Content-Encoding"), "gzip");
+    EXPECT_EQ(header(described, "ETag"), header(ask("/v1/mushrooms/" + first_species() + ".json",
+                                                    {{"Accept-Encoding", "gzip"}}),
+                                                "ETag"));
+    EXPECT_EQ(generated(), 2u);
+}
+
+TEST_F(ServiceTest, a_post_equal_to_a_get_is_the_same_resource) {
+    const Answer got = ask(small("&age=0.25&weathering.fade=0.5&seed=9"));
+    const Answer posted =
+        ask(post("{\"weathering\":{\"fade\":5e-1},\"seed\":9,\"mix\":{\"" + first_species() +
+                 "\":17},\"lod\":3,\"texture_size\":128,\"age\":0.250}"));
+    ASSERT_EQ(posted.status, 200) << text_of(posted);
+    for (const char* same : {"ETag", "Content-Location", "Content-Disposition"})
+        EXPECT_EQ(header(posted, same), header(got, same));
+    EXPECT_EQ(header(posted, "Cache-Status"), "sporeprint; hit");
+    EXPECT_EQ(text_of(posted), text_of(got));
+
+    Service fresh(built_in_atlas(), ServiceOptions{});
+    const Answer elsewhere = handle(fresh, post("{\"mix\":{\"" + first_species() +
+                                                "\":1},\"lod\":3,\"texture_size\":128,\"age\":0.25,"
+                                                "\"seed\":9,\"weathering\":{\"fade\":0.5}}"));
+    EXPECT_EQ(text_of(elsewhere), text_of(got));
+}
+
+TEST_F(ServiceTest, a_model_of_ones_own_is_grown) {
+    const Value model = write(built_in_atlas()->entries()[0].species.stages.back().model);
+    const std::string body =
+        "{\"lod\":3,\"texture_size\":128,\"seed\":3,\"model\":" + dump(model) + "}";
+    const Answer answer = ask(post(body));
+    ASSERT_EQ(answer.status, 200) << text_of(answer);
+    EXPECT_EQ(header(answer, "Content-Location"), "");
+    EXPECT_EQ(header(answer, "Content-Disposition"), "inline; filename=\"model-3.glb\"");
+    EXPECT_EQ(header(ask(post(body)), "Cache-Status"), "sporeprint; hit");
+    Request conditional = post(body);
+    conditional.headers.emplace_back("If-None-Match", header(answer, "ETag"));
+    EXPECT_EQ(ask(conditional).status, 304);
+}
+
+TEST_F(ServiceTest, versions_of_yesterday_are_410_with_the_address_of_today) {
+    const std::string canonical = header(ask(request("HEAD", small())), "Content-Location");
+    for (const char* version : {"0-00000000", "", "x", "%3Cscript%3E"}) {
+        const Answer answer = ask(small(std::string("&v=") + version));
+        expect_problem(answer, 410);
+        EXPECT_EQ(json_of(answer).find("canonical")->as_string(), canonical);
+    }
+    EXPECT_EQ(ask(canonical).status, 200);
+    EXPECT_EQ(header(ask(canonical), "ETag"), header(ask(small()), "ETag"))
+        << "v is no part of the request";
+    const Answer stronger = ask(small("&v=x&hymenium.pores_per_mm=2&hymenium.blades=20"));
+    expect_problem(stronger, 422);
+    EXPECT_TRUE(names(stronger, "v"));
+    const Answer posted = ask(post("{\"v\":\"x\",\"mix\":{\"" + first_species() + "\":1}}"));
+    expect_problem(posted, 410);
+    EXPECT_TRUE(names(posted, "/v"));
+}
+
+TEST_F(ServiceTest, the_description_tells_what_would_be_made) {
+    const std::string address =
+        "/v1/mushrooms/" + first_species() + ":3.json?lod=2&age=0.9&texture_size=256";
+    const Answer answer = ask(address);
+    ASSERT_EQ(answer.status, 200) << text_of(answer);
+    const Value body = json_of(answer);
+    const Answer glb =
+        ask(body.find("canonical")->as_string() + "&v=" + body.find("v")->as_string());
+    EXPECT_EQ(glb.status, 200);
+    EXPECT_EQ(header(glb, "Cache-Control"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(body.at_pointer("/mix/0/id")->as_string(), first_species());
+    EXPECT_EQ(body.at_pointer("/mix/0/weight")->as_number(), 1.0);
+    EXPECT_EQ(body.at_pointer("/effective/age")->as_number(), 0.9);
+    EXPECT_NE(body.at_pointer("/effective/deformation/bend_deg"), nullptr);
+    EXPECT_EQ(body.at_pointer("/certificate/simple")->as_bool(), true);
+    EXPECT_EQ(body.at_pointer("/certificate/method")->as_string(), "exact");
+    for (int axis = 0; axis < 3; ++axis) {
+        const std::string at = "/" + std::to_string(axis);
+        EXPECT_LT(body.at_pointer("/bounds_m/min" + at)->as_number(),
+                  body.at_pointer("/bounds_m/max" + at)->as_number());
+    }
+    const Answer inspected = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
+    const Value found = json_of(inspected);
+    EXPECT_EQ(body.at_pointer("/estimate/vertices")->as_number(),
+              found.at_pointer("/counts/vertices")->as_number());
+    EXPECT_EQ(body.at_pointer("/estimate/triangles")->as_number(),
+              found.at_pointer("/counts/triangles")->as_number());
+    EXPECT_NEAR(body.at_pointer("/estimate/bytes")->as_number(),
+                static_cast<double>(size_of(glb.body)),
+                0.5 * static_cast<double>(size_of(glb.body)));
+}
+
+TEST_F(ServiceTest, collapsed_requests_say_so_and_keep_their_own_headers) {
+    const Request plain = get(small());
+    const Request versioned = get(header(ask(request("HEAD", small())), "Content-Location"));
+    auto first = service_.plan(plain), second = service_.plan(versioned);
+    ASSERT_TRUE(std::holds_alternative<Job>(first));
+    ASSERT_TRUE(std::holds_alternative<Job>(second));
+    EXPECT_EQ(std::get<Job>(first).key, std::get<Job>(second).key);
+    EXPECT_GT(std::get<Job>(first).cost.vertices, 0u);
+    EXPECT_GT(std::get<Job>(first).cost.texels, 0u);
+    const Answer shared = std::get<Job>(first).run(
+        {}, [](Step) {}, in_turn);
+    service_.finish(std::get<Job>(first).key, shared);
+    const Answer made = service_.deliver(plain, shared, Outcome::made, {.queue = 1.25});
+    const Answer collapsed =
+        service_.deliver(versioned, shared, Outcome::collapsed, {.queue = 0.5});
+    EXPECT_EQ(header(made, "Cache-Control"), "public, max-age=3600, stale-while-revalidate=86400");
+    EXPECT_EQ(header(collapsed, "Cache-Control"), "public, max-age=31536000, immutable");
+    EXPECT_EQ(header(made, "Server-Timing"), "queue;dur=1.25");
+    EXPECT_TRUE(header(made, "Cache-Status").ends_with("sporeprint; fwd=miss; stored"));
+    EXPECT_TRUE(header(collapsed, "Cache-Status").ends_with("sporeprint; fwd=miss; collapsed"));
+}
+
+TEST(ServiceCache, an_answer_too_large_to_keep_is_not_said_to_be_stored) {
+    ServiceOptions options;
+    options.cache_bytes = 8'000;
+    Service service(built_in_atlas(), options);
+    const Answer answer = handle(service, get(small("&textures=none")));
+    EXPECT_EQ(header(answer, "Cache-Status"), "sporeprint; fwd=miss");
+    EXPECT_EQ(service.counters().glb_cache_entries, 0u);
+}
+
+TEST_F(ServiceTest, a_stopped_job_is_503_and_leaves_nothing_behind) {
+    auto planned = service_.plan(get(small()));
+    ASSERT_TRUE(std::holds_alternative<Job>(planned));
+    std::stop_source stop;
+    stop.request_stop();
+    try {
+        static_cast<void>(std::get<Job>(planned).run(
+            stop.get_token(), [](Step) {}, in_turn));
+        FAIL() << "not cancelled";
+    } catch (...) {
+        const Answer answer = service_.problem(get(small()), std::current_exception());
+        expect_problem(answer, 503);
+        EXPECT_EQ(header(answer, "Retry-After"), "1");
+    }
+    EXPECT_EQ(ask(small()).status, 200);
+}
+
+TEST_F(ServiceTest, unknown_exceptions_are_500_without_details) {
+    const Answer answer =
+        service_.problem(get("/"), std::make_exception_ptr(std::runtime_error("secret path")));
+    expect_problem(answer, 500);
+    EXPECT_EQ(text_of(answer).find("secret"), std::string::npos);
+    expect_problem(service_.problem(get("/"), std::make_exception_ptr(GenerationError("secret"))),
+                   500);
+    const Answer saturated =
+        service_.problem(get("/"), 503, "the queue is full", {{"Retry-After", "2"}});
+    expect_problem(saturated, 503);
+    EXPECT_EQ(header(saturated, "Retry-After"), "2");
+    EXPECT_EQ(
+        header(service_.problem(
+                   {.method = "GET", .target = "/", .headers = {}, .body = {}, .id = "bad id\r\n"},
+                   408, ""),
+               "X-Request-Id"),
+        "");
+}
+
+TEST_F(ServiceTest, the_self_test_grows_a_mushroom) { EXPECT_TRUE(service_.self_test()); }
+
+// --- One meaning, one address -----------------------------------------------------------
+
+/// A random order as query pairs in random order, spelt in random ways.
+struct Spelling {
+    std::string target, other;
+};
+
+Spelling random_spelling() {
+    std::vector<std::pair<std::string, double>> values;
+    const auto maybe = [&](const char* name, double value) {
+        if (*rc::gen::arbitrary<bool>()) values.emplace_back(name, value);
+    };
+    maybe("seed", *rc::gen::inRange(0, 100000));
+    maybe("age", *rc::gen::inRange(0, 1001) / 1000.0);
+    maybe("size", 0.25 + *rc::gen::inRange(0, 100) / 40.0);
+    maybe("variation", *rc::gen::inRange(0, 11) / 10.0);
+    maybe("lod", *rc::gen::inRange(0, 4));
+    maybe("weathering.fade", *rc::gen::inRange(0, 101) / 100.0);
+    maybe("deformation.lean_deg", *rc::gen::inRange(0, 30) + 0.5);
+    maybe("deformation.twist_deg", -*rc::gen::inRange(0, 30) / 4.0);
+    const auto spelt = [](double value, int how) {
+        const std::string plain = number_text(value);
+        if (how == 0) return plain;
+        if (how == 1)
+            return plain.find_first_of(".e") == std::string::npos ? plain + ".000"
+                   : plain.find('e') == std::string::npos         ? plain + "00"
+                                                                  : plain;
+        return plain.find('e') == std::string::npos
+                   ? plain + (*rc::gen::arbitrary<bool>() ? "e0" : "E+00")
+                   : plain;
+    };
+    const std::string path = "/v1/mushrooms/" + first_species() + ".glb";
+    Spelling out{path, path + ":"};
+    out.other = "/v1/mushrooms/" + first_species() + ":" +
+                std::to_string(*rc::gen::inRange(1, 1000)) + ".glb";
+    const auto append = [](std::string& target, const std::string& pair) {
+        target += (target.find('?') == std::string::npos ? '?' : '&') + pair;
+    };
+    for (const auto& [name, value] : values) append(out.target, name + '=' + number_text(value));
+    std::reverse(values.begin(), values.end());
+    for (const auto& [name, value] : values) {
+        std::string encoded = name;
+        if (*rc::gen::arbitrary<bool>())
+            encoded = percent_encoded(name.substr(0, 1)) == name.substr(0, 1)
+                          ? "%" + std::string(1, "0123456789ABCDEF"[name[0] >> 4]) +
+                                "0123456789ABCDEF"[name[0] & 15] + name.substr(1)
+                          : name;
+        append(out.other, encoded + '=' + spelt(value, *rc::gen::inRange(0, 3)));
+    }
+    return out;
+}
+
+RC_GTEST_PROP(CanonicalAddressProperty,
+              equal_meaning_has_one_key_one_tag_and_one_address_that_is_its_own, ()) {
+    static Service service(built_in_atlas(), ServiceOptions{});
+    const auto [target, other] = random_spelling();
+    auto one = service.plan(get(target)), two = service.plan(get(other));
+    RC_ASSERT(one.index() == two.index());
+    if (std::holds_alternative<Job>(one))
+        RC_ASSERT(std::get<Job>(one).key == std::get<Job>(two).key);
+    const Answer first = handle(service, request("HEAD", target)),
+                 second = handle(service, request("HEAD", other));
+    RC_ASSERT(first.status == second.status);
+    if (first.status != 200) return;
+    RC_ASSERT(header(first, "ETag") == header(second, "ETag"));
+    const std::string canonical = header(first, "Content-Location");
+    RC_ASSERT(canonical == header(second, "Content-Location"));
+    const Answer again = handle(service, request("HEAD", canonical));
+    RC_ASSERT(header(again, "Content-Location") == canonical);
+    RC_ASSERT(header(again, "ETag") == header(first, "ETag"));
+    // Another meaning, another tag.
+    const Answer changed = handle(
+        service, request("HEAD", canonical.substr(0, canonical.rfind("v=")) + "textures=none"));
+    RC_ASSERT(header(changed, "ETag") != header(first, "ETag"));
+}
+
+TEST_F(ServiceTest, a_negative_zero_is_zero) {
+    const Answer plus = ask(request("HEAD", small("&deformation.twist_deg=0"))),
+                 minus = ask(request("HEAD", small("&deformation.twist_deg=-0.0")));
+    EXPECT_EQ(header(plus, "ETag"), header(minus, "ETag"));
+    EXPECT_EQ(header(plus, "Content-Location"), header(minus, "Content-Location"));
+    Service other(built_in_atlas(), ServiceOptions{});
+    EXPECT_EQ(text_of(ask(small("&textures=none&deformation.twist_deg=0"))),
+              text_of(handle(other, get(small("&textures=none&deformation.twist_deg=-0.0")))));
+}
+
+// --- Surfaces and inspection ------------------------------------------------------------
+
+TEST_F(ServiceTest, linked_textures_are_where_the_file_says) {
+    const Answer embedded = ask(small());
+    const Answer linked = ask(small("&textures=linked"));
+    ASSERT_EQ(linked.status, 200) << text_of(linked);
+    EXPECT_EQ(header(linked, "Cache-Status"), "sporeprint; fwd=miss; stored");
+    const std::string file = text_of(linked);
+    int found = 0;
+    for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
+        std::string address = file.substr(at, file.find('"', at) - at);
+        const Answer image = ask(address);
+        ASSERT_EQ(image.status, 200) << address << text_of(image);
+        EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
+        EXPECT_EQ(header(image, "Cache-Control"), "public, max-age=31536000, immutable");
+        EXPECT_EQ(header(image, "Content-Location"), address);
+        EXPECT_EQ(header(image, "Cache-Status"), "sporeprint-images; hit")
+            << "the embedded file painted it";
+        EXPECT_EQ(text_of(image).substr(0, 2), "\xff\xd8");
+        EXPECT_NE(text_of(embedded).find(text_of(image)), std::string::npos)
+            << "the same bytes as embedded";
+        EXPECT_EQ(ask(address, {{"If-None-Match", header(image, "ETag")}}).status, 304);
+        Service other(built_in_atlas(), ServiceOptions{});
+        const Answer elsewhere = handle(other, get(address));
+        EXPECT_EQ(header(elsewhere, "Cache-Status"), "sporeprint-images; fwd=miss; stored");
+        EXPECT_EQ(text_of(elsewhere), text_of(image));
+        EXPECT_EQ(header(elsewhere, "ETag"), header(image, "ETag"));
+        EXPECT_NE(header(elsewhere, "Server-Timing").find("paint;dur="), std::string::npos);
+        ++found;
+    }
+    EXPECT_EQ(found, 3);
+    EXPECT_EQ(service_.counters().painted, 1u);
+}
+
+TEST_F(ServiceTest, the_three_images_of_an_atlas_are_one_flight) {
+    const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
+    const std::string query = ".jpg?texture_size=128";
+    auto colour = service_.plan(get(path + "base_color" + query)),
+         normal = service_.plan(get(path + "normal" + query));
+    ASSERT_TRUE(std::holds_alternative<Job>(colour));
+    EXPECT_EQ(std::get<Job>(colour).key, std::get<Job>(normal).key);
+    const Answer shared = std::get<Job>(colour).run(
+        {}, [](Step) {}, in_turn);
+    const Answer one =
+        service_.deliver(get(path + "base_color" + query), shared, Outcome::made, {});
+    const Answer two =
+        service_.deliver(get(path + "normal" + query), shared, Outcome::collapsed, {});
+    EXPECT_NE(text_of(one), text_of(two));
+    EXPECT_NE(header(one, "ETag"), header(two, "ETag"));
+    EXPECT_EQ(header(one, ":digest"), "");
+    EXPECT_EQ(header(two, "Cache-Status"), "sporeprint-images; fwd=miss; collapsed");
+    EXPECT_EQ(text_of(ask(path + "normal" + query)), text_of(two));
+    const Answer head = ask(request("HEAD", path + "orm" + query));
+    EXPECT_EQ(size_of(head.body), size_of(ask(path + "orm" + query).body));
+}
+
+TEST_F(ServiceTest, faults_of_image_addresses_are_named) {
+    const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
+    expect_problem(ask(path + "colour.jpg"), 404);
+    expect_problem(ask("/v1/surfaces/mushrooms/xyzzy/normal.jpg"), 404);
+    for (const char* query : {"age=2", "texture_size=100", "textures=none", "weathering.waves=0.5",
+                              "metrics.cap_arc=1000", "metrics.cap=1", "seed=1&seed=1"})
+        expect_problem(ask(path + "normal.jpg?" + query), 400);
+    const Answer old = ask(path + "normal.jpg?age=0.6&v=x");
+    expect_problem(old, 410);
+    EXPECT_TRUE(json_of(old).find("canonical")->as_string().starts_with(path + "normal.jpg?v="));
+    expect_problem(ask("/v1/surfaces/mushrooms/" + first_species() + ":1," + second_species() +
+                       ":1/normal.jpg"),
+                   422);
+}
+
+TEST_F(ServiceTest, inspection_gives_the_request_back) {
+    const std::string asked = small("&seed=5&age=0.3&weathering.fade=0.25");
+    const Answer glb = ask(asked);
+    ASSERT_EQ(glb.status, 200);
+    const Answer answer = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
+    ASSERT_EQ(answer.status, 200) << text_of(answer);
+    EXPECT_EQ(header(answer, "Cache-Control"), "no-store");
+    EXPECT_EQ(header(answer, "ETag"), "");
+    const Value body = json_of(answer);
+    const std::string canonical = body.find("canonical")->as_string();
+    EXPECT_EQ(canonical.find("v="), std::string::npos);
+    EXPECT_EQ(text_of(ask(canonical)), text_of(glb));
+    EXPECT_EQ(body.at_pointer("/effective/seed")->as_number(), 5);
+    EXPECT_EQ(body.at_pointer("/effective/weathering/fade")->as_number(), 0.25);
+    EXPECT_EQ(body.at_pointer("/counts/bytes")->as_number(),
+              static_cast<double>(size_of(glb.body)));
+    EXPECT_GT(body.at_pointer("/counts/triangles")->as_number(), 0);
+    EXPECT_EQ(body.at_pointer("/counts/images")->as_number(), 3);
+}
+
+TEST_F(ServiceTest, what_is_no_glb_of_ours_is_400) {
+    const std::string glb = text_of(ask(small()));
+    std::string another = glb;
+    const std::size_t at = another.find("/v1/mushrooms/");
+    ASSERT_NE(at, std::string::npos);
+    another.replace(at, 4, "evil");
+    for (const std::string& file :
+         {std::string(), std::string("glTF"), glb.substr(0, 100), glb.substr(0, glb.size() - 1),
+          std::string(1000, '\0'), another})
+        expect_problem(ask(post(file, "/v1/inspect", "model/gltf-binary")), 400);
+}
+
+TEST_F(ServiceTest, any_thread_may_ask_at_any_time) {
+    std::atomic<int> wrong{0};
+    std::vector<std::jthread> threads;
+    for (int t = 0; t < 8; ++t)
+        threads.emplace_back([&, t] {
+            for (int i = 0; i < 12; ++i) {
+                const Answer answer = handle(
+                    service_, get(small("&textures=none&seed=" + std::to_string((t + i) % 4))));
+                if (answer.status != 200 || text_of(answer).substr(0, 4) != "glTF") ++wrong;
+                static_cast<void>(service_.counters().glb_cache_bytes.load());
+            }
+        });
+    threads.clear();
+    EXPECT_EQ(wrong, 0);
+    EXPECT_EQ(service_.counters().glb_cache_entries, 4u);
+}
+
+}  // namespace
+}  // namespace sporeprint::api

@@ -1,0 +1,87 @@
+// Small words for tests of the api room: requests, answers, JSON.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/service.h"
+#include "core/atlas/atlas.h"
+#include "core/params/value.h"
+
+namespace sporeprint::api::test {
+
+inline Request request(std::string method, std::string target, std::vector<Header> headers = {},
+                       std::string body = {}) {
+    return {std::move(method), std::move(target), std::move(headers), std::move(body), "test-1"};
+}
+
+inline Request get(std::string target, std::vector<Header> headers = {}) {
+    return request("GET", std::move(target), std::move(headers));
+}
+
+inline Request post(std::string body, std::string target = "/v1/mushrooms.glb",
+                    std::string type = "application/json") {
+    return request("POST", std::move(target), {{"Content-Type", std::move(type)}}, std::move(body));
+}
+
+inline std::string header(const Answer& answer, std::string_view name) {
+    std::string found;
+    int count = 0;
+    for (const auto& [key, value] : answer.headers)
+        if (key == name) {
+            found = value;
+            ++count;
+        }
+    EXPECT_LE(count, 1) << name << " is sent more than once";
+    return found;
+}
+
+inline std::string text_of(const Answer& answer) {
+    std::string out;
+    for (const Slice& slice : answer.body)
+        out.append(reinterpret_cast<const char*>(slice.data()), slice.size);
+    return out;
+}
+
+inline Value json_of(const Answer& answer) {
+    std::vector<Problem> problems;
+    Value value = parse(text_of(answer), problems);
+    EXPECT_TRUE(problems.empty()) << text_of(answer);
+    return value;
+}
+
+/// "parameter: detail" of each of a problem's errors.
+inline std::vector<std::string> errors_of(const Answer& answer) {
+    std::vector<std::string> out;
+    const Value body = json_of(answer);
+    if (const Value* errors = body.find("errors"))
+        for (const Value& error : errors->items())
+            out.push_back(error.find("parameter")->as_string() + ": " +
+                          error.find("detail")->as_string());
+    return out;
+}
+
+/// Whether any of the errors begins with `parameter: ` and holds `words`.
+inline bool names(const Answer& answer, std::string_view parameter, std::string_view words = "") {
+    for (const std::string& error : errors_of(answer))
+        if (error.starts_with(std::string(parameter) + ": ") &&
+            error.find(words) != std::string::npos)
+            return true;
+    return false;
+}
+
+/// A species of the built-in atlas, and its address at the smallest cost.
+inline std::string first_species() {
+    return built_in_atlas()->entries().front().species.id.string();
+}
+
+inline std::string small(std::string_view more = "") {
+    return "/v1/mushrooms/" + first_species() + ".glb?lod=3&texture_size=128" + std::string(more);
+}
+
+}  // namespace sporeprint::api::test

@@ -1,0 +1,95 @@
+#include "api/surfaces.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck/gtest.h>
+
+#include "api/mix.h"
+#include "api/query.h"
+#include "core/params/canonical.h"
+#include "tests/api/support.h"
+
+namespace sporeprint::api {
+namespace {
+
+double share() { return *rc::gen::inRange(0, 1001) / 1000.0; }
+
+/// A random order of one species, with overrides of what that species has.
+MushroomOrder random_order(const Atlas& atlas) {
+    const auto& entries = atlas.entries();
+    MushroomOrder order;
+    order.mix = {{entries[static_cast<std::size_t>(
+                              *rc::gen::inRange<int>(0, static_cast<int>(entries.size())))]
+                      .species.id.string(),
+                  1000}};
+    order.params.seed = *rc::gen::arbitrary<std::uint32_t>();
+    order.params.age = share();
+    order.params.variation = share();
+    order.params.size = 0.25 + 3.75 * share();
+    order.params.lod = *rc::gen::inRange(0, 4);
+    order.params.texture_size.value = 128 << *rc::gen::inRange(0, 5);
+    order.params.deformation.bend_deg = 20.0 * share();
+    if (*rc::gen::arbitrary<bool>()) order.params.weathering.fade = share();
+    if (*rc::gen::arbitrary<bool>()) order.params.weathering.wetness = share();
+    const Individual individual = resolve(order, atlas);
+    const auto maybe = [](auto& mine, const auto& own, double value) {
+        if (own && *rc::gen::arbitrary<bool>()) mine = value;
+    };
+    maybe(order.params.ornaments.warts, individual.effective.ornaments.warts, share());
+    maybe(order.params.ornaments.ring, individual.effective.ornaments.ring, share());
+    maybe(order.params.hymenium.relief, individual.effective.hymenium.relief, share());
+    return order;
+}
+
+RC_GTEST_PROP(SurfaceAddressProperty, an_address_paints_what_its_order_paints, ()) {
+    const auto atlas = built_in_atlas();
+    const MushroomOrder order = random_order(*atlas);
+    const PaintParams painted =
+        paint_params(order, *atlas, surface_metrics(resolve(order, *atlas)));
+    const SurfaceAddress address = surface_address(order, painted);
+
+    // Through its text and back, as another server reads it.
+    const std::string text = canonical_address(order.mix, ImageKind::normal, address);
+    RC_ASSERT(text.size() <= longest_target);
+    std::vector<Problem> problems;
+    const Target target = split_target(text, problems);
+    RC_ASSERT(problems.empty());
+    Faults faults;
+    const std::string image = target.segments.back().substr(0, target.segments.back().rfind('.'));
+    const SurfaceRequest read =
+        read_surface(target.segments[3], image, target.query, *atlas, faults);
+    RC_ASSERT(faults.empty());
+    RC_ASSERT(read.kind == ImageKind::normal);
+    RC_ASSERT(read.mix == order.mix);
+    RC_ASSERT(read.address == address);
+    RC_ASSERT(canonical_address(read.mix, *read.kind, read.address) == text);
+
+    const PaintParams again = painted_at(read.address, read.mix, *atlas);
+    RC_ASSERT(canonical_text(again) == canonical_text(painted));
+    RC_ASSERT(again == painted);
+}
+
+TEST(SurfaceAddress, shape_alone_does_not_change_it) {
+    const auto atlas = built_in_atlas();
+    MushroomOrder order;
+    order.mix = {{test::first_species(), 1000}};
+    const auto address_of = [&] {
+        return surface_address(
+            order, paint_params(order, *atlas, surface_metrics(resolve(order, *atlas))));
+    };
+    const SurfaceAddress before = address_of();
+    order.params.deformation.bend_deg = 30;
+    order.params.deformation.lean_deg = 10;
+    order.params.weathering.waves = 0.5;
+    order.params.age += 0.0001;
+    EXPECT_EQ(address_of(), before);
+}
+
+TEST(SurfaceAddress, ages_come_in_steps_of_a_sixty_fourth) {
+    EXPECT_EQ(quantised_age(0.6), SurfaceAddress{}.age);
+    EXPECT_EQ(quantised_age(0.0), 0.0);
+    EXPECT_EQ(quantised_age(1.0), 1.0);
+    for (int i = 0; i <= 64; ++i) EXPECT_EQ(quantised_age(i / 64.0), i / 64.0);
+}
+
+}  // namespace
+}  // namespace sporeprint::api
