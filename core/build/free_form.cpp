@@ -64,18 +64,12 @@ FreeForm::FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<
     std::erase_if(displaced_, [](const Displaced& d) { return d.by == glm::dvec3(0.0); });
 }
 
-bool FreeForm::contains(const glm::dvec3& p) const {
-    const glm::dvec3 q = p - corner_;
-    return q.x > 0.0 && q.y > 0.0 && q.z > 0.0 && q.x < size_.x && q.y < size_.y && q.z < size_.z;
-}
-
-void FreeForm::apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const {
-    if (displaced_.empty() || !contains(p)) return;
+void FreeForm::move(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const {
     const glm::dvec3 s = (p - corner_) / size_;
-    glm::dvec3 move(0.0), by_x(0.0), by_y(0.0), by_z(0.0);
+    glm::dvec3 offset(0.0), by_x(0.0), by_y(0.0), by_z(0.0);
     for (const Displaced& d : displaced_) {
         const Weight x = bernstein(degree_[0], d.index[0], s.x), y = bernstein(degree_[1], d.index[1], s.y), z = bernstein(degree_[2], d.index[2], s.z);
-        move += x.value * y.value * z.value * d.by;
+        offset += x.value * y.value * z.value * d.by;
         by_x += x.derivative * y.value * z.value * d.by;
         by_y += x.value * y.derivative * z.value * d.by;
         by_z += x.value * y.value * z.derivative * d.by;
@@ -83,7 +77,7 @@ void FreeForm::apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const
     by_x /= size_.x;
     by_y /= size_.y;
     by_z /= size_.z;
-    p += move;
+    p += offset;
     first += first.x * by_x + first.y * by_y + first.z * by_z;
     second += second.x * by_x + second.y * by_y + second.z * by_z;
 }

@@ -20,15 +20,22 @@ public:
     /// source  [Sederberg1986], in displacement form: no displacement is the exact identity
     FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree, std::vector<Displaced> displaced);
 
-    [[nodiscard]] bool contains(const glm::dvec3& p) const;
+    [[nodiscard]] bool contains(const glm::dvec3& p) const {
+        const glm::dvec3 q = p - corner_;
+        return q.x > 0.0 && q.y > 0.0 && q.z > 0.0 && q.x < size_.x && q.y < size_.y && q.z < size_.z;
+    }
 
     /// Moves `p` and the two directions with it, by the Jacobian at p; nothing happens outside the box.
-    void apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const;
+    void apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const {
+        if (contains(p)) move(p, first, second);
+    }
 
     /// Upper bound of the norm of the displacement's derivative anywhere; below 1 the map is injective and keeps orientation.
     [[nodiscard]] double stretch_bound() const;
 
 private:
+    void move(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const;
+
     glm::dvec3 corner_, size_;
     std::array<int, 3> degree_;
     std::vector<Displaced> displaced_;

@@ -1,6 +1,7 @@
 #include "core/build/ornaments.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -32,18 +33,20 @@ glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
 /// A closed solid made of a grid of corners: rows from its base to its tip, columns round it, the first column repeated.
 struct Solid {
     std::vector<glm::dvec3> corners;  ///< [row][column]
+    std::vector<glm::dvec3> normals;  ///< worked out by append()
     int rows = 0, columns = 0;        ///< columns without the repeated one
     bool loops = false;               ///< the last row meets the first (a ring); else the base is closed by a polygon
 };
 
 /// Appends a solid: normals by area over what shares a place, texture from the veil's strip.
-void append(Mesh& mesh, const Solid& solid, const glm::dvec3& fallback, bool textured) {
+void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured) {
     const int row = solid.columns + 1;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * row + j); };
     const auto& p = solid.corners;
     const bool pointed = !solid.loops;  // its last row is one place
-    std::vector<glm::dvec3> normals(p.size(), glm::dvec3(0.0));
+    std::vector<glm::dvec3>& normals = solid.normals;
+    normals.assign(p.size(), glm::dvec3(0.0));
     glm::dvec3 tip(0.0);
     const auto add = [&](std::size_t a, std::size_t b, std::size_t c) {
         const glm::dvec3 n = glm::cross(p[b] - p[a], p[c] - p[a]);
@@ -106,6 +109,7 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
     const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
     const double length = ground.outline.cap.length();
     const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
+    Solid solid;
     for (const Patch& patch : patches(style, ground.seed, purpose)) {
         const double scale = patch_scale(patch, amount);
         if (scale <= 0.0) continue;
@@ -119,26 +123,31 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
         glm::dvec3 centre(at.r * c, at.y, at.r * s);
         if (!on_stem && !ground.waves.flat()) centre.y += ground.waves.at(patch.sigma, patch.theta).height;
         const AxisStation station = ground.deformer.frozen_station(on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
-        Solid solid{{}, between + 2, sides, false};
+        solid.rows = between + 2;
+        solid.columns = sides;
+        solid.corners.clear();
         Random random(ground.seed, corner_purpose + purpose, patch.id);
-        std::vector<double> reach;
-        for (int j = 0; j < 7; ++j) reach.push_back(random.uniform(0.78, 1.12));
+        // Seven draws whatever the detail; a coarser outline takes some of them, so that its corners lie on the finer one.
+        std::array<double, 7> reach{};
+        for (double& r : reach) r = random.uniform(0.78, 1.12);
         const double tip_round = 0.25 * random.symmetric();
         const double tip_outward = 0.25 * random.symmetric() + 1.1 * style.lift;
+        std::array<glm::dvec3, 7> rim{};
+        for (int j = 0; j < sides; ++j) {
+            const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
+            rim[static_cast<std::size_t>(j)] = radius * reach[static_cast<std::size_t>(j * 7 / sides)] * (turn.cosine * round + turn.sine * style.elongation * outward);
+        }
+        const glm::dvec3 tip = radius * (tip_round * round + tip_outward * style.elongation * outward);
         for (int i = 0; i < solid.rows; ++i) {
             const double up = static_cast<double>(i) / (solid.rows - 1);
             const double narrowing = 1.0 - up * (0.45 + 0.55 * up);
-            for (int j = 0; j <= sides; ++j) {
-                const int corner = j % sides;
-                const auto turn = sine_cosine(patch.spin + 2.0 * pi * corner / sides);
-                const double r = radius * narrowing * reach[static_cast<std::size_t>(corner * 7 / sides)];
-                const glm::dvec3 flat = (r * turn.cosine + tip_round * radius * up) * round +
-                                        (r * turn.sine * style.elongation + tip_outward * style.elongation * radius * up) * outward;
-                const double lift = i == 0 ? -0.25 * radius : height * up;
-                SurfacePoint point{centre + flat + lift * normal, meridian, azimuth};
+            const glm::dvec3 middle = centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * normal;
+            for (int j = 0; j < sides; ++j) {
+                SurfacePoint point{middle + narrowing * rim[static_cast<std::size_t>(j)], meridian, azimuth};
                 ground.deformer.apply(point, station);
                 solid.corners.push_back(point.position);
             }
+            solid.corners.push_back(solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
         }
         const glm::dvec3 fallback = unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
         append(mesh, solid, fallback, ground.textured);
@@ -191,7 +200,7 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
         y -= width / rings * turn.cosine;
     }
     // The veil tears off level with its edge, which is thicker.
-    Solid solid{{}, 2 * (rings + 1), ground.detail.columns, true};
+    Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool lower = i <= rings;
         const Station& at = line[static_cast<std::size_t>(lower ? i : solid.rows - 1 - i)];

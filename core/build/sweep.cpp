@@ -187,8 +187,9 @@ Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t s
     const Deformer deformer(model, shape, outline, seed);
     const Waves waves(model.weathering.waves, greatest_radius(outline.cap), detail.columns, seed);
     Mesh mesh;
-    const int rings = detail.stem_rings + detail.hymenium_rings + detail.cap_rings;
-    const auto vertices = static_cast<std::size_t>(rings * (detail.columns + 1));
+    const int rings = detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
+    const int pieces = detail.patch_sides > 0 ? model.warts.count + model.scales.count + model.volva.count : 0;
+    const auto vertices = static_cast<std::size_t>(rings * (detail.columns + 1) + pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
     mesh.indices.reserve(vertices * 6);

@@ -92,10 +92,15 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             patch.id = id;
             // A crowded piece is smaller, a badly crowded one never formed.
             double room = patch.radius;
-            for (const Patch& other : out)
+            for (const Patch& other : out) {
+                // Too far along the meridian to matter, whatever the rest of the way.
+                const double along_only = patch.sigma > other.sigma ? patch.sigma - other.sigma : other.sigma - patch.sigma;
+                if (along_only >= 0.8 * style.elongation * (patch.radius + other.radius)) continue;
                 room = std::min(room, distance(patch, other, style.elongation) / 0.8 - other.radius);
-            if (room < 0.45 * patch.radius) continue;
-            patch.radius = room;
+            }
+            // Continuous in the style's size, so that nothing pops while the cap grows.
+            patch.radius = room * smooth_step(0.2, 0.5, room / patch.radius);
+            if (!(patch.radius > 0.0)) continue;
             out.push_back(patch);
         }
     }
