@@ -31,8 +31,7 @@ done | xargs -P "$jobs" -L 1 sh -c '"$0" "$1" "$2" > "$3" || echo "failed: $?" >
 
 reference=build/hash/out/g++:-O3:auto
 grown=$(grep -cE '^[0-9a-f]{16} ' "$reference" || true)
-echo "$grown of $requests random requests were grown, the others refused"
-if [ "$grown" -ge $((requests / 2)) ]; then verdict ok 'most random requests are possible'; else verdict bad 'most random requests are possible'; fi
+if [ "$grown" -eq "$requests" ]; then verdict ok "$grown random mushrooms"; else verdict bad "$grown of $requests random mushrooms"; fi
 for out in build/hash/out/*; do
     if cmp -s "$reference" "$out"; then
         verdict ok "$(basename "$out")"

@@ -1,5 +1,6 @@
-// Prints a hash of the GLB of each of many random requests, from core alone. Builds by other compilers and
-// runs with other instruction sets must print the same text: tests/hasher/four_ways.sh compares them.
+// Prints a hash of the GLB of each of many random requests, from core alone, until `count` of them were grown;
+// what a species cannot have is refused, and printed too. Builds by other compilers and runs with other
+// instruction sets must print the same text: tests/hasher/four_ways.sh compares them.
 //   hasher [count] [simd name]     hasher --simd-names
 
 #include <charconv>
@@ -64,22 +65,21 @@ MushroomOrder random_order(std::uint32_t number, const Atlas& atlas) {
     order.params.texture_size.value = 128;
     const std::uint32_t textures = random.bits() % 8;
     if (textures == 0) order.params.textures = Textures::none;
-    // Half of the requests leave everything to the species: what a species is not able to have is refused.
     if (random.bits() % 2 == 0) draw_overrides(order.params, Info{.name = ""}, random);
     return order;
 }
 
-std::string line_of(const MushroomOrder& order, const Atlas& atlas) {
+/// Prints the line of one request and returns whether a mushroom was grown.
+bool print_line(const MushroomOrder& order, const Atlas& atlas) {
     const std::string request = order.mix.front().id + '?' + query_text(order.params);
     try {
         const Mushroom mushroom = grow_mushroom(order, atlas);
-        char text[64];
-        std::snprintf(text, sizeof text, "%016llx %8zu  ",
-                      static_cast<unsigned long long>(hash_of(mushroom.glb)),
-                      size_of(mushroom.glb));
-        return text + request;
+        std::printf("%016llx %8zu  %s\n", static_cast<unsigned long long>(hash_of(mushroom.glb)),
+                    size_of(mushroom.glb), request.c_str());
+        return true;
     } catch (const InvalidInput& refusal) {
-        return "refused  " + request + "  " + refusal.what();
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+        return false;
     }
 }
 
@@ -103,8 +103,9 @@ int main(int argc, char** argv) try {
     if (arguments.size() > 1) force_simd(arguments[1]);
 
     const auto atlas = built_in_atlas();
-    for (std::uint32_t number = 0; number < count; ++number) {
-        std::puts(line_of(random_order(number, *atlas), *atlas).c_str());
+    for (std::uint32_t number = 0, grown = 0; grown < count; ++number) {
+        if (number > 100 * count) throw GenerationError("hardly any random request can be grown");
+        if (print_line(random_order(number, *atlas), *atlas)) ++grown;
     }
     return 0;
 } catch (const std::exception& error) {
