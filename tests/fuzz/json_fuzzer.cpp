@@ -23,6 +23,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     expect(problems.empty() && dump(again) == own, "what we write reads back the same");
 
     const Model model = read_all<Model>(json, problems);
+    check(model, Info{.name = ""}, "", problems);
     if (!problems.empty()) return 0;
     const Model copy = read_all<Model>(write(model), problems);
     std::string before, after;
