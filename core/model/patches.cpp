@@ -40,15 +40,24 @@ Rings rings_between(double from, double to, int count) {
     return out;
 }
 
+// What the distance between two pieces needs, worked out once for each.
+struct Place {
+    double sigma, radius;  // radius of its circle round the axis; both in shares of the meridian
+    SineCosine turn;
+};
+
+Place place_of(const Patch& patch) {
+    return {patch.sigma, sine(quarter_turn * patch.sigma) / quarter_turn, sine_cosine(patch.theta)};
+}
+
 // Distance on the hemisphere in shares of its meridian, lengths along the meridian shrunk by the elongation.
-double distance(const Patch& a, const Patch& b, double elongation) {
+double distance(const Place& a, const Place& b, double elongation) {
     const double along = (a.sigma - b.sigma) / elongation;
-    double turn = a.theta > b.theta ? a.theta - b.theta : b.theta - a.theta;
-    if (turn > pi) turn = 2.0 * pi - turn;
-    // The chord between the two on the circle half-way: never longer than the way over the pole.
-    const double radius = sine(quarter_turn * 0.5 * (a.sigma + b.sigma)) / quarter_turn;
-    const double across = 2.0 * radius * sine(0.5 * turn);
-    return std::sqrt(along * along + across * across);
+    // The chord on the circle half-way between: never longer than the way over the pole.
+    const double radius = 0.5 * (a.radius + b.radius);
+    const double x = radius * (a.turn.cosine - b.turn.cosine);
+    const double y = radius * (a.turn.sine - b.turn.sine);
+    return std::sqrt(along * along + x * x + y * y);
 }
 
 }  // namespace
@@ -60,6 +69,8 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
     if (style.count <= 0 || to - from < 1e-6) return out;
     const Rings rings = rings_between(from, to, style.count);
     out.reserve(static_cast<std::size_t>(style.count));
+    std::vector<Place> places;
+    places.reserve(out.capacity());
     std::uint32_t id = 0;
     for (std::size_t ring = 0; ring < rings.pieces.size(); ++ring) {
         Random phase_stream(seed, purpose, 0x80000000U + static_cast<std::uint32_t>(ring));
@@ -92,16 +103,18 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             patch.id = id;
             // A crowded piece is smaller, a badly crowded one never formed.
             double room = patch.radius;
-            for (const Patch& other : out) {
+            const Place place = place_of(patch);
+            for (std::size_t other = 0; other < out.size(); ++other) {
                 // Too far along the meridian to matter, whatever the rest of the way.
-                const double along_only = patch.sigma > other.sigma ? patch.sigma - other.sigma : other.sigma - patch.sigma;
-                if (along_only >= 0.8 * style.elongation * (patch.radius + other.radius)) continue;
-                room = std::min(room, distance(patch, other, style.elongation) / 0.8 - other.radius);
+                const double along_only = patch.sigma > out[other].sigma ? patch.sigma - out[other].sigma : out[other].sigma - patch.sigma;
+                if (along_only >= 0.8 * style.elongation * (patch.radius + out[other].radius)) continue;
+                room = std::min(room, distance(place, places[other], style.elongation) / 0.8 - out[other].radius);
             }
             // Continuous in the style's size, so that nothing pops while the cap grows.
             patch.radius = room * smooth_step(0.2, 0.5, room / patch.radius);
             if (!(patch.radius > 0.0)) continue;
             out.push_back(patch);
+            places.push_back(place);
         }
     }
     return out;

@@ -24,37 +24,74 @@ HWY_INLINE Rgb ramp_colour(const CapPlan& plan, VF along) {
     return colour;
 }
 
-/// coarse: broad unevenness of the ramp, mottle, and a spare field of middling size, each about -1..1
-HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, VF uneven, VF mottle, VF middle) {
-    const VF one = set(1.0F);
-    Texel out;
+/// The fields of a cap that vary slowly enough to be sampled at every other texel; the first three come from the grid.
+HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) {
     const VF px = p.radius * p.cosine;
     const VF pz = p.radius * p.sine;
+    if ((plan.fields & (1U << cap_bump)) != 0) {
+        const VF f = set(cap_bump_frequency[0]);
+        fields[cap_bump] = noise3(px * f, p.height * f, pz * f, plan.seed[0]) * set(plan.bumps[0]);
+    }
+    if ((plan.fields & (1U << cap_patch)) != 0) {
+        const VF f = set(plan.patch_frequency);
+        fields[cap_patch] = noise3(px * f, p.height * f, pz * f, plan.seed[4]);
+    }
+    constexpr unsigned round_fields = (1U << cap_streak) | (1U << cap_fibre) | (1U << cap_vein);
+    if ((plan.fields & round_fields) == 0) return;
     const VF turn = turn_of(p.cosine, p.sine);
     const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
+    if ((plan.fields & (1U << cap_streak)) != 0) {
+        const VF coarse = periodic_noise2(turn * set(46.0F), p.rho * set(1.7F) + fields[cap_middle] * set(0.12F), 46, plan.seed[5]);
+        const VF thin = periodic_noise2(turn * set(131.0F), p.rho * set(2.9F), 131, plan.seed[6]);
+        const VF streak = coarse + thin * set(0.7F) * shown(round_texels * set(1.0F / 131.0F), 5.0F);
+        fields[cap_streak] = smooth(streak, -0.05F, 1.9F) * smooth(p.rho, 0.02F, 6.0F);
+    }
+    if ((plan.fields & (1U << cap_fibre)) != 0) {
+        const float n = static_cast<float>(plan.fibril_count);
+        const VF a = periodic_noise2(turn * set(n) + fields[cap_uneven] * set(0.6F), p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
+        fields[cap_fibre] = a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F);
+    }
+    if ((plan.fields & (1U << cap_vein)) != 0) {
+        const VF y = p.rho * set(plan.vein_rows) + fields[cap_middle] * set(0.38F);
+        const VF x = turn + fields[cap_uneven] * set(0.012F);
+        const Cells net = cells(x - hn::Floor(x), hn::Max(y, set(0.0F)), 0.0F, plan.vein_columns / plan.vein_rows, 1.0F, 0.40F, plan.seed[9]);
+        fields[cap_vein] = smooth(net.border, 0.02F, 3.2F);
+    }
+}
+
+/// fields: those of cap_fields() at this texel
+HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
+    const VF one = set(1.0F);
+    const VF zero = set(0.0F);
+    Texel out;
+    const VF uneven = fields[cap_uneven];
+    const VF mottle = fields[cap_mottle];
+    const VF middle = fields[cap_middle];
 
     // Fine unevenness of the skin.
-    VF height = set(0.0F);
-    VF fine = set(0.0F);
-    float frequency = plan.bump_frequency;
-    for (std::size_t octave = 0; octave < 3; ++octave, frequency *= 2.17F) {
+    VF fine = zero;
+    VF height = zero;
+    if ((plan.fields & (1U << cap_bump)) != 0) {
+        fine = fields[cap_bump];
+        height = fine * set(0.16F / cap_bump_frequency[0]);
+    }
+    for (std::size_t octave = 1; octave < 3; ++octave) {
         if (plan.bumps[octave] <= 0.0F) continue;
-        const VF f = set(frequency);
-        const VF n = noise3(px * f, p.height * f, pz * f, plan.seed[0] + static_cast<std::uint32_t>(octave));
-        fine = fine + n * set(plan.bumps[octave]);
-        height = height + n * set(plan.bumps[octave] * 0.16F / frequency);
+        const VF f = set(cap_bump_frequency[octave]);
+        const VF g = f * p.radius;
+        const VF n = noise3(g * p.cosine, p.height * f, g * p.sine, plan.seed[octave]) * set(plan.bumps[octave]);
+        fine = fine + n;
+        height = height + n * set(0.16F / cap_bump_frequency[octave]);
     }
 
     const VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F));
     Rgb colour = ramp_colour(plan, unit(along));
-    VF shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) + set(plan.grain) * fine;
-    VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
+    VF shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) + set(0.10F) * fine;
+    VF occlusion = one + hn::Min(fine, zero) * set(0.25F);
     VF rough = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
 
     if (plan.patches > 0.0F) {
-        const VF f = set(plan.patch_frequency);
-        const VF n = noise3(px * f, p.height * f, pz * f, plan.seed[4]) + set(0.25F) * middle;
-        const VF patch = smooth(n, plan.patch_threshold - 0.05F, 10.0F) * set(plan.patch_weight);
+        const VF patch = smooth(fields[cap_patch] + set(0.25F) * middle, plan.patch_threshold - 0.05F, 10.0F) * set(plan.patch_weight);
         colour = mix(colour, rgb(plan.patch_colour), patch);
         rough = rough + patch * set(0.05F);
         height = height + patch * set(0.0012F);
@@ -67,46 +104,38 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, VF uneven, V
         height = height - soft * set(0.02F * plan.zones / plan.zone_count);
     }
     if (plan.streaks > 0.0F) {
-        const VF coarse = periodic_noise2(turn * set(46.0F), p.rho * set(1.7F) + middle * set(0.12F), 46, plan.seed[5]);
-        const VF thin = periodic_noise2(turn * set(131.0F), p.rho * set(2.9F), 131, plan.seed[6]) * shown(round_texels * set(1.0F / 131.0F), 4.0F);
-        const VF streak = smooth(coarse + thin * set(0.7F), -0.05F, 1.9F) * smooth(p.rho, 0.02F, 6.0F);
-        shade = shade * (one - set(0.55F * plan.streaks) * streak);
-        height = height - streak * set(0.0015F * plan.streaks);
+        shade = shade * (one - set(0.55F * plan.streaks) * fields[cap_streak]);
+        height = height - fields[cap_streak] * set(0.0015F * plan.streaks);
     }
-    if (plan.fibrils > 0.0F) {
-        const float n = static_cast<float>(plan.fibril_count);
-        const VF visible = shown(round_texels * set(1.0F / n), 4.5F);
-        const VF visible2 = shown(round_texels * set(0.5F / n), 4.5F);
-        const VF a = periodic_noise2(turn * set(n) + uneven * set(0.6F), p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
-        const VF b = periodic_noise2(turn * set(2.0F * n) + middle * set(0.5F), p.rho * set(8.0F), 2 * plan.fibril_count, plan.seed[8]);
-        const VF fibre = a * visible * set(0.75F) + b * visible2 * set(0.55F);
-        shade = shade * (one + set(0.42F * plan.fibrils) * fibre);
-        height = height + fibre * p.radius * set(0.22F * 6.2831853F * plan.fibrils / n);
-        occlusion = occlusion + hn::Min(fibre, set(0.0F)) * set(0.3F * plan.fibrils);
-        rough = rough + fibre * set(0.04F * plan.fibrils);
+    if (plan.fibrils > 0.0F || plan.striae > 0.0F) {
+        const VF turn = turn_of(p.cosine, p.sine);
+        const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
+        if (plan.fibrils > 0.0F) {
+            const float n = 2.0F * static_cast<float>(plan.fibril_count);
+            const VF b = periodic_noise2(turn * set(n) + middle * set(0.5F), p.rho * set(8.0F), 2 * plan.fibril_count, plan.seed[8]);
+            const VF fibre = fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) * set(0.55F);
+            shade = shade * (one + set(0.42F * plan.fibrils) * fibre);
+            height = height + fibre * p.radius * set(0.44F * 6.2831853F * plan.fibrils / n);
+            occlusion = occlusion + hn::Min(fibre, zero) * set(0.3F * plan.fibrils);
+            rough = rough + fibre * set(0.04F * plan.fibrils);
+        }
+        if (plan.striae > 0.0F) {
+            const float n = static_cast<float>(plan.striae_count);
+            const VF reach = (p.rho - set(1.0F - plan.striae)) * set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) + middle * set(0.16F);
+            const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
+            const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + middle * set(0.14F));
+            const VF deep = groove * strength;
+            height = height - deep * p.radius * set(0.30F * 6.2831853F / n);
+            shade = shade * (one - set(0.34F) * deep);
+            occlusion = occlusion * (one - set(0.30F) * deep);
+        }
     }
     if (plan.veins > 0.0F) {
-        const VF y = p.rho * set(plan.vein_rows) + middle * set(0.38F);
-        const VF x = turn + uneven * set(0.012F);
-        const VF wrapped = x - hn::Floor(x);
-        const Cells net = cells(wrapped, hn::Max(y, set(0.0F)), 0.0F, plan.vein_columns / plan.vein_rows, 0.42F, plan.seed[9]);
-        const VF ridge = one - smooth(net.border, 0.02F, 3.2F);
         const VF strength = set(plan.veins) * (one - smooth(p.rho + mottle * set(0.12F), 0.30F, 1.55F));
-        const VF cup = (one - ridge) * strength;
+        const VF cup = fields[cap_vein] * strength;
         height = height - cup * set(0.30F / plan.vein_rows);
         occlusion = occlusion * (one - set(0.45F) * cup);
-        shade = shade * (one - set(0.30F) * cup) * (one + set(0.10F) * ridge * strength);
-    }
-    if (plan.striae > 0.0F) {
-        const float n = static_cast<float>(plan.striae_count);
-        const VF wander = periodic_noise2(turn * set(31.0F), p.rho * set(3.0F), 31, plan.seed[10]);
-        const VF reach = (p.rho - set(1.0F - plan.striae)) * set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) + wander * set(0.22F);
-        const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
-        const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + wander * set(0.16F));
-        const VF deep = groove * strength;
-        height = height - deep * p.radius * set(0.30F * 6.2831853F / n);
-        shade = shade * (one - set(0.34F) * deep);
-        occlusion = occlusion * (one - set(0.30F) * deep);
+        shade = shade * (one + set(0.10F) * strength - set(0.40F) * cup);
     }
 
     out.colour = shaded(colour, hn::Max(shade, set(0.05F)) * set(plan.lightness));
@@ -123,10 +152,9 @@ HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
     const VF dy = y - set(patch.y);
     const VF a = (dx * set(patch.along_x) + dy * set(patch.along_y)) * set(patch.per_length);
     const VF b = (dy * set(patch.along_x) - dx * set(patch.along_y)) * set(patch.per_width);
-    const VF window = one - smooth(a * a + b * b, 2.2F, 1.0F);
-    if (hn::AllTrue(Floats(), window <= set(0.0F))) return;
-    const VF grain = noise2(a * set(4.1F), b * set(4.1F), patch.seed);
+    const VF window = one - smooth(a * a + b * b, patch_window * patch_window - 0.6F, 1.0F / 0.6F);
     if (patch.kind == 0) {
+        const VF grain = noise2(a * set(4.1F), b * set(4.1F), patch.seed);
         VF far = set(0.0F);
         for (std::size_t side = 0; side < 6; ++side) far = hn::Max(far, a * set(patch.side_x[side]) + b * set(patch.side_y[side]));
         far = far + grain * set(0.16F);
@@ -142,10 +170,10 @@ HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
         texel.colour = shaded(texel.colour, one - set(0.16F) * foot);
     } else {
         // A tongue of skin: broad at the root, ragged and pointed at the tip, standing off there.
-        const VF thread = noise2(a * set(1.3F), b * set(5.3F), patch.seed ^ 0x5bd1e995U);
+        const VF thread = noise2(a * set(1.5F), b * set(5.3F), patch.seed);
         const VF taper = one - set(0.62F) * smooth(a, -0.35F, 0.8F);
         const VF side = hn::Abs(b) / hn::Max(taper, set(0.1F));
-        const VF far = hn::Max(side, hn::Abs(a)) + (grain + thread) * set(0.17F);
+        const VF far = hn::Max(side, hn::Abs(a)) + thread * set(0.24F);
         const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) * smooth(a, -1.0F, 1.2F);
         const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window * set(patch.shown) * smooth(a, -0.2F, 1.0F);
         const VF tip = smooth(a + thread * set(0.45F), -0.05F, 1.1F);

@@ -20,7 +20,7 @@ struct Slot {
 
 /// Number in -1..1 that belongs to a whole number.
 HWY_INLINE VF lot(VF whole, std::uint32_t seed) {
-    const VU h = hn::BitCast(Words(), hn::ConvertTo(Ints(), whole)) * word(prime_x);
+    const VU h = whole_bits(whole) * word(prime_x);
     return upper_part(hash(hn::Xor(hash(h), word(seed))));
 }
 
@@ -31,11 +31,10 @@ HWY_INLINE VF wrapped(VF x, float period) {
 }
 
 /// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from its own radius outwards.
-HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn) {
+HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const VF wander = periodic_noise2(turn * set(37.0F), share * set(3.2F), 37, plan.seed[1]);
-    const VF x = turn * set(n) + wander * set(n * 0.0022F);
+    const VF x = turn * set(n) + wander * set(n * 0.0020F);
     const VF gap = p.radius * set(6.2831853F / n);
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
     VF room = one;                                        // share of the gap between two blades
@@ -62,10 +61,9 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
 }
 
 /// Ridges: blunt folds; from each grows a fork that swings out to the middle of the gap, and another from each half.
-HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn) {
+HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const VF wander = periodic_noise2(turn * set(23.0F), share * set(2.6F), 23, plan.seed[1]);
     const VF x = turn * set(n) + wander * set(0.34F);
     const VF gap = p.radius * set(6.2831853F / n);
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
@@ -96,7 +94,7 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
 }
 
 HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
-    const Cells cell = cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow / plan.pore_rows, 0.30F, plan.seed[5]);
+    const Cells cell = cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow / plan.pore_rows, 1.0F, 0.30F, plan.seed[5]);
     // Each tube has its own width.
     const VF width = set(0.16F) + set(0.06F) * lower_part(hash(cell.id));
     Slot slot;
@@ -106,21 +104,32 @@ HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
     return slot;
 }
 
-/// coarse: broad and middling unevenness, each about -1..1
-HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, VF uneven, VF middle) {
+/// The field of a lower face that is sampled at every other texel; the first two come from the grid.
+HWY_INLINE void hymenium_fields(const HymeniumPlan& plan, const DiscPoint& p, VF* fields) {
+    if ((plan.fields & (1U << hymenium_bump)) == 0) return;
+    const VF f = set(hymenium_bump_frequency[0]);
+    fields[hymenium_bump] = noise2(p.x * f, p.y * f, plan.seed[0]) * set(plan.bumps[0]);
+}
+
+/// fields: those of hymenium_fields() at this texel
+HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;
-    const VF turn = turn_of(p.cosine, p.sine);
+    const VF uneven = fields[hymenium_uneven];
+    const VF middle = fields[hymenium_middle];
     const VF share = hn::Max(p.rho - set(plan.disc.inner), set(0.0F)) * set(1.0F / (1.0F - plan.disc.inner));
     VF fine = set(0.0F);
     VF height = set(0.0F);
-    float frequency = plan.bump_frequency;
-    for (std::size_t octave = 0; octave < 2; ++octave, frequency *= 2.3F) {
-        if (plan.bumps[octave] <= 0.0F) continue;
-        const VF f = set(frequency);
-        const VF n = noise2(p.x * f, p.y * f, plan.seed[0] + static_cast<std::uint32_t>(octave));
-        fine = fine + n * set(plan.bumps[octave]);
-        height = height + n * set(plan.bumps[octave] * 0.14F / frequency);
+    if ((plan.fields & (1U << hymenium_bump)) != 0) {
+        fine = fields[hymenium_bump];
+        height = fine * set(0.14F / hymenium_bump_frequency[0]);
+    }
+    // Gills and pores have fine detail of their own.
+    if (plan.pattern == 0 && plan.bumps[1] > 0.0F) {
+        const VF f = set(hymenium_bump_frequency[1]);
+        const VF n = noise2(p.x * f, p.y * f, plan.seed[6]) * set(plan.bumps[1]);
+        fine = fine + n;
+        height = height + n * set(0.14F / hymenium_bump_frequency[1]);
     }
     const VF cloud = uneven * set(0.7F) + middle * set(0.5F) + fine * set(0.35F);
     VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.2F);
@@ -131,8 +140,9 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, VF
         colour = mix(colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
         height = height * set(0.35F + plan.relief);
     } else {
-        const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn)
-                          : plan.pattern == 2 ? ridges(plan, p, share, turn)
+        const VF turn = turn_of(p.cosine, p.sine);
+        const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn, middle)
+                          : plan.pattern == 2 ? ridges(plan, p, share, turn, middle)
                                               : pores(plan, share, turn);
         const float mean_depth = plan.pattern == 3 ? 0.5F : 0.45F;
         const VF depth = mix(set(mean_depth), slot.depth, slot.visible);

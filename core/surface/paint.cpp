@@ -105,13 +105,10 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.seed = seeds<12>(params.seed, cap_purpose);
     plan.lightness = single(params.lightness);
     plan.roughness = single(cap.roughness);
-    plan.bump_frequency = 21.0F;
-    double frequency = 21.0;
-    for (float& bump : plan.bumps) {
-        bump = single(cap.bumps) * shown_of(1.0 / (frequency * static_cast<double>(plan.disc.per_texel)));
-        frequency *= 2.17;
-    }
-    plan.grain = 0.10F;
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.bumps[i] = single(cap.bumps) * shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) * static_cast<double>(plan.disc.per_texel)));
+    plan.fields = 7U;
+    if (plan.bumps[0] > 0.0F) plan.fields |= 1U << cap_bump;
     std::vector<Colour> ramp = cap.ramp;
     if (ramp.empty()) ramp.push_back(Colour{128, 128, 128});
     if (ramp.size() > most_ramp_steps + 1) ramp.resize(most_ramp_steps + 1);
@@ -144,6 +141,10 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.vein_columns = single(2.0 * pi * 7.0 * sine(std::min(static_cast<double>(plan.disc.bend), 0.5 * pi)) * static_cast<double>(plan.disc.sphere));
     plan.striae = single(cap.striae);
     plan.striae_count = std::clamp(params.hymenium.blades, 8, 400);
+    if (plan.streaks > 0.0F) plan.fields |= 1U << cap_streak;
+    if (plan.fibrils > 0.0F) plan.fields |= 1U << cap_fibre;
+    if (plan.patches > 0.0F) plan.fields |= 1U << cap_patch;
+    if (plan.veins > 0.0F) plan.fields |= 1U << cap_vein;
     return plan;
 }
 
@@ -164,12 +165,10 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.depth = light_of(face.depth);
     plan.roughness = single(face.roughness);
     plan.relief = single(params.hymenium.relief);
-    plan.bump_frequency = 30.0F;
-    double frequency = 30.0;
-    for (float& bump : plan.bumps) {
-        bump = 0.6F * shown_of(1.0 / (frequency * static_cast<double>(plan.disc.per_texel)));
-        frequency *= 2.3;
-    }
+    for (std::size_t i = 0; i < 2; ++i)
+        plan.bumps[i] = 0.6F * shown_of(1.0 / (static_cast<double>(hymenium_bump_frequency[i]) * static_cast<double>(plan.disc.per_texel)));
+    plan.fields = 3U;
+    if (plan.bumps[0] > 0.0F) plan.fields |= 1U << hymenium_bump;
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
     plan.mottle = single(face.mottle);
@@ -197,7 +196,6 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     const double aspect = std::clamp(length / circumference, 0.02, 40.0);
     const double along = aspect / (share * frame.width);
     const double round = 1.0 / (share * frame.height);
-    const double coarse = std::max(along, round);
     plan.seed = seeds<12>(params.seed, stem_purpose);
     plan.aspect = single(aspect);
     plan.texel_along = single(along);
@@ -208,19 +206,22 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.band_colour = light_of(stem.band_colour);
     plan.net_colour = light_of(stem.net_colour);
     plan.roughness = single(stem.roughness);
-    constexpr double bump_cells[3] = {24, 52, 113};
-    for (std::size_t i = 0; i < 3; ++i) plan.bumps[i] = single(stem.bumps) * shown_of(1.0 / (bump_cells[i] * coarse));
+    const double stretch = std::clamp(1.6 * round / along, 0.05, 1.0);
+    plan.stretch = single(stretch);
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.bumps[i] = single(stem.bumps) * shown_of(1.0 / (stem_bump_cells[i] * std::max(round, along * stretch)));
+    plan.fields = 3U;
+    if (plan.bumps[0] > 0.0F) plan.fields |= 1U << stem_bump;
     if (!stem.image.empty()) return plan;
     plan.base_stain = single(stem.base_stain);
     plan.fibrils = single(stem.fibrils);
-    constexpr double fibre_cells[3] = {17, 46, 109};
-    constexpr double slender[3] = {0.16, 0.10, 0.08};
     const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};
     for (std::size_t i = 0; i < 3; ++i)
-        plan.fibres[i] = single(weights[i]) * shown_of(1.0 / (fibre_cells[i] * std::max(round, along * slender[i])));
+        plan.fibres[i] = single(weights[i]) * shown_of(1.0 / (stem_fibre_cells[i] * std::max(round, along * static_cast<double>(stem_fibre_slender[i]))));
+    if (plan.fibrils > 0.0F) plan.fields |= (1U << stem_fibre) | (1U << stem_furrow);
     plan.bands = single(stem.bands);
     plan.net = single(stem.net);
-    plan.net_shown = shown_of(1.0 / (26.0 * std::max(round, along / 2.1)) - 1.0);
+    plan.net_shown = shown_of(1.0 / (static_cast<double>(net_columns) * std::max(round, along / static_cast<double>(net_stretch))) - 1.0);
     return plan;
 }
 
@@ -265,7 +266,7 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
         one.per_width = single(1.0 / width);
         one.relief = single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
         one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
-        one.reach = single(1.8 * std::max(length, width));
+        one.reach = patch_window * single(std::max(length, width));
         Random stream(params.seed, outline_purpose + static_cast<std::uint32_t>(kind), patch.id);
         one.seed = stream.bits();
         for (std::size_t side = 0; side < 6; ++side) {
@@ -343,6 +344,8 @@ PaintPlan paint_plan(const PaintParams& params) {
     plan.given[1] = given_image(params.surface.hymenium.image, plan.frames[1], "/surface/hymenium/image");
     plan.given[2] = given_image(params.surface.stem.image, plan.frames[2], "/surface/stem/image");
     const auto coarse = seeds<5>(params.seed, coarse_purpose);
+    plan.disc_step = plan.side >= 512 ? 2 : 1;
+    plan.strip_step = std::clamp(plan.side / 256, 1, 8);
     plan.coarse_cells = std::min(64, plan.side / 2);
     fill(plan.cap_fields[0], plan.cap.disc, plan.frames[0], plan.coarse_cells, 2.3F, coarse[0]);
     fill(plan.cap_fields[1], plan.cap.disc, plan.frames[0], plan.coarse_cells, 5.5F, coarse[1]);

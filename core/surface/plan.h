@@ -8,6 +8,13 @@
 
 namespace sporeprint {
 
+/// Fields of slowly varying noise that are sampled sparsely and stretched over the texels between.
+enum CapField { cap_uneven, cap_mottle, cap_middle, cap_bump, cap_streak, cap_fibre, cap_patch, cap_vein };
+enum HymeniumField { hymenium_uneven, hymenium_middle, hymenium_bump };
+enum StemField { stem_broad, stem_middle, stem_bump, stem_fibre, stem_furrow };
+enum VeilField { veil_thread, veil_cloud };
+inline constexpr int most_fields = 8;
+
 /// A colour in linear light.
 struct Light {
     float r = 0.0F, g = 0.0F, b = 0.0F;
@@ -71,9 +78,8 @@ struct CapPlan {
     float striae = 0.0F;
     int striae_count = 60;
     std::array<float, 3> bumps{};  ///< by octave, already limited to what the texels can show
-    float bump_frequency = 20.0F;
-    float grain = 0.0F;
     float roughness = 0.6F;
+    unsigned fields = 0;           ///< bit of each CapField that is used
 };
 
 struct HymeniumPlan {
@@ -94,7 +100,7 @@ struct HymeniumPlan {
     float pore_grow = 0.0F;     ///< more of them at the rim
     float pore_shown = 0.0F;    ///< 0 when pores are smaller than texels
     std::array<float, 2> bumps{};
-    float bump_frequency = 24.0F;
+    unsigned fields = 0;
 };
 
 struct StemPlan {
@@ -102,6 +108,7 @@ struct StemPlan {
     float aspect = 2.0F;         ///< length over circumference
     float texel_along = 0.0F;    ///< in circumferences
     float texel_round = 0.0F;
+    float stretch = 1.0F;        ///< cells of fine noise are this much rarer along a thin stem, whose texels are long
     Light top, base, stain, band_colour, net_colour;
     float base_stain = 0.0F;
     float fibrils = 0.0F;
@@ -111,7 +118,16 @@ struct StemPlan {
     std::array<float, 3> fibres{};  ///< by octave, already limited
     float net_shown = 1.0F;
     float roughness = 0.75F;
+    unsigned fields = 0;
 };
+
+inline constexpr std::array<int, 3> stem_bump_cells = {26, 83, 190};
+inline constexpr std::array<int, 3> stem_fibre_cells = {17, 46, 109};
+inline constexpr std::array<float, 3> stem_fibre_slender = {0.16F, 0.10F, 0.08F};
+inline constexpr std::array<float, 3> cap_bump_frequency = {21.0F, 52.0F, 118.0F};
+inline constexpr std::array<float, 2> hymenium_bump_frequency = {30.0F, 62.0F};
+inline constexpr float net_columns = 26.0F;
+inline constexpr float net_stretch = 2.1F;
 
 struct VeilPlan {
     std::array<std::uint32_t, 4> seed{};
@@ -128,11 +144,14 @@ struct PatchPlan {
     float per_length = 0.0F, per_width = 0.0F;
     float relief = 0.0F;                  ///< height in arcs
     float shown = 0.0F;                   ///< 0..1
-    float reach = 0.0F;                   ///< in disc radii
+    float reach = 0.0F;                   ///< in disc radii, along the rows
     std::array<float, 6> side_x{}, side_y{};
     std::uint32_t seed = 0;
     int kind = 0;                         ///< 0 wart, 1 scale
 };
+
+/// Beyond this distance, in half lengths and widths, a patch leaves no trace.
+inline constexpr float patch_window = 1.45F;
 
 struct PaintPlan {
     int side = 0;
@@ -143,6 +162,8 @@ struct PaintPlan {
     VeilPlan veil;
     float fade = 0.0F;
     float wetness = 0.0F;
+    int disc_step = 1;   ///< texels between the samples of a disc's fields: 1 or 2
+    int strip_step = 1;  ///< along a strip: 1, 2, 4 or 8
     int coarse_cells = 64;
     std::array<CoarseField, 3> cap_fields;
     std::array<CoarseField, 2> hymenium_fields;

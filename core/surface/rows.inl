@@ -6,6 +6,9 @@
 #define SPOREPRINT_CORE_SURFACE_ROWS_INL
 #endif
 
+#include <algorithm>
+#include <cstring>
+
 #include "core/surface/cap.inl"
 #include "core/surface/hymenium.inl"
 #include "core/surface/stem.inl"
@@ -16,19 +19,29 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int widest = 2048;
 inline constexpr int margin = 8;  // of each row of heights, for the neighbours of its ends
+inline constexpr int padded = widest + 32;  // else the planes of a row would compete for the same lines of the cache
 
 /// One row of painted texels.
 struct Row {
-    HWY_ALIGN float height[widest + 2 * margin];
-    HWY_ALIGN float red[widest], green[widest], blue[widest];
-    HWY_ALIGN float roughness[widest], occlusion[widest];
-    HWY_ALIGN float coarse[3][widest];
+    HWY_ALIGN float height[padded];
+    HWY_ALIGN float red[padded], green[padded], blue[padded];
+    HWY_ALIGN float roughness[padded], occlusion[padded], uneven[padded];
+    HWY_ALIGN float cosine[padded], sine[padded], widening[padded];
 };
 
-/// What a worker needs besides the plan: three rows, and one row of bytes per channel.
+/// One row of sparse samples of slowly varying fields.
+struct SparseRow {
+    int y = -1000;
+    HWY_ALIGN float field[most_fields][widest / 2 + 32];
+};
+
+/// What a worker needs besides the plan: three rows, the sparse rows above and below, and one row of bytes per channel.
 struct Workbench {
     Row rows[3];
-    HWY_ALIGN std::uint8_t bytes[9][widest];
+    SparseRow sparse[2];
+    HWY_ALIGN float field[most_fields][padded];
+    HWY_ALIGN float spare[padded];
+    HWY_ALIGN std::uint8_t bytes[9][padded];
 };
 
 HWY_INLINE void store_texel(const Texel& texel, Row& row, std::size_t x) {
@@ -57,21 +70,30 @@ HWY_INLINE VF lane_numbers() {
     return hn::Load(Floats(), numbers);
 }
 
-// Stretches a coarse field over one row of texels by bilinear interpolation.
-void expand(const CoarseField& field, int cells, const Frame& frame, int y, float* out) {
-    const int step = frame.width / cells;
-    const float per_step = 1.0F / static_cast<float>(step);
-    const float at = (static_cast<float>(y) + 0.5F) * per_step;
+// One row of a coarse field at every `step`-th texel, the first at texel 0, by bilinear interpolation.
+void expand(const CoarseField& field, int cells, const Frame& frame, int y, int step, int count, float* out) {
+    const float per_texel = static_cast<float>(cells) / static_cast<float>(frame.width);
+    const float at = (static_cast<float>(y) + 0.5F) * per_texel;
     const int j = at < 0.0F ? 0 : static_cast<int>(at) >= cells ? cells - 1 : static_cast<int>(at);
     const float weight = at - static_cast<float>(j);
     const float* upper = field.values.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(cells + 1);
     const float* lower = upper + cells + 1;
-    for (int i = 0; i < cells; ++i) {
+    for (int k = 0; k < count; ++k) {
+        const float across = (static_cast<float>(k * step) + 0.5F) * per_texel;
+        const int i = static_cast<int>(across) >= cells ? cells - 1 : static_cast<int>(across);
         const float left = upper[i] + (lower[i] - upper[i]) * weight;
         const float right = upper[i + 1] + (lower[i + 1] - upper[i + 1]) * weight;
-        const float slope = (right - left) * per_step;
-        float* to = out + static_cast<std::size_t>(i) * static_cast<std::size_t>(step);
-        for (int k = 0; k < step; ++k) to[k] = left + (static_cast<float>(k) + 0.5F) * slope;
+        out[k] = left + (right - left) * (across - static_cast<float>(i));
+    }
+}
+
+// Twice as many samples: each, and the mean of it and the next. `from` holds one more sample than is doubled.
+HWY_INLINE void doubled(const float* from, std::size_t count, float* to) {
+    const Floats f;
+    for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
+        const VF here = hn::LoadU(f, from + i);
+        const VF next = hn::LoadU(f, from + i + 1);
+        hn::StoreInterleaved2(here, (here + next) * set(0.5F), f, to + 2 * i);
     }
 }
 
@@ -112,125 +134,254 @@ HWY_INLINE Rgb sampled(const GivenImage& image, VF u, VF v) {
 }
 
 /// Bleaching and water, on everything that has been painted.
-HWY_INLINE void weather(const PaintPlan& plan, VF exposure, VF uneven, Texel& texel) {
+HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& colour, VF& roughness) {
     const VF one = set(1.0F);
     if (plan.fade > 0.0F) {
         // The strongest channel gains a little, the others follow it: red turns orange, then straw.
-        const VF w = unit(set(plan.fade) * exposure * (one + uneven * set(0.5F)));
-        const VF most = hn::Max(hn::Max(texel.colour.r, texel.colour.g), texel.colour.b);
+        const VF w = unit(set(plan.fade * exposure) * (one + uneven * set(0.5F)));
+        const VF most = hn::Max(hn::Max(colour.r, colour.g), colour.b);
         const VF bright = most + (set(0.82F) - most) * w * set(0.35F);
         Rgb pale;
-        pale.r = bright;
-        pale.g = mix(texel.colour.g, bright, set(0.62F));
-        pale.b = mix(texel.colour.b, bright, set(0.26F));
-        pale.r = mix(texel.colour.r, bright, set(0.95F));
-        texel.colour = mix(texel.colour, pale, w * set(0.85F));
-        texel.roughness = texel.roughness + w * set(0.10F);
+        pale.r = mix(colour.r, bright, set(0.95F));
+        pale.g = mix(colour.g, bright, set(0.62F));
+        pale.b = mix(colour.b, bright, set(0.26F));
+        colour = mix(colour, pale, w * set(0.85F));
+        roughness = roughness + w * set(0.10F);
     }
     if (plan.wetness > 0.0F) {
         const VF w = set(plan.wetness) * unit(set(0.85F) + uneven * set(0.4F));
         const VF dark = w * set(0.42F);
-        texel.colour.r = texel.colour.r * (one - dark * (one - texel.colour.r));
-        texel.colour.g = texel.colour.g * (one - dark * (one - texel.colour.g));
-        texel.colour.b = texel.colour.b * (one - dark * (one - texel.colour.b));
-        texel.roughness = mix(texel.roughness, set(0.10F), w * set(0.85F));
-        texel.height = texel.height * (one - w * set(0.25F));
+        colour.r = colour.r * (one - dark * (one - colour.r));
+        colour.g = colour.g * (one - dark * (one - colour.g));
+        colour.b = colour.b * (one - dark * (one - colour.b));
+        roughness = mix(roughness, set(0.10F), w * set(0.85F));
+    }
+}
+
+/// Place of texels x, x + 1, ... on a disc, in its radii from the pole.
+HWY_INLINE VF disc_place(const Frame& frame, VF texel) {
+    return ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(0.5F)) * set(1.0F / (0.5F - frame.inset));
+}
+
+/// Texels `from` to `until` of a row that are painted; those outside repeat the nearest. Multiples of eight, or the whole row.
+struct Stretch {
+    std::size_t from, until;
+};
+
+// On a disc what lies well beyond the rim is never looked at, but for the smallest mips.
+Stretch painted_stretch(const PaintPlan& plan, int part, int y) {
+    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const std::size_t width = static_cast<std::size_t>(frame.width);
+    if (part >= 2 || width < 64) return {0, width};
+    const float radius = (0.5F - frame.inset) * static_cast<float>(frame.width) * 1.03F + 3.0F;
+    const float dy = static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(frame.height);
+    const float square = radius * radius - dy * dy;
+    HWY_ALIGN float half[8] = {};
+    hn::Store(hn::Sqrt(set(square > 0.0F ? square : 0.0F)), Floats(), half);
+    const float from = 0.5F * static_cast<float>(frame.width) - half[0] - 8.0F;
+    const std::size_t first = from < 0.0F ? 0 : static_cast<std::size_t>(from) / 8 * 8;
+    return {first, width - first};
+}
+
+// Samples the fields of a disc along one row, at every disc_step-th texel.
+const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& bench) {
+    SparseRow& row = bench.sparse[y & 1];
+    if (row.y == y) return row;
+    row.y = y;
+    const Floats f;
+    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const int step = plan.disc_step;
+    const int count = frame.width / step + 1;
+    const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
+    const std::size_t grids = part == 0 ? 3 : 2;
+    for (std::size_t i = 0; i < grids; ++i)
+        expand(part == 0 ? plan.cap_fields[i] : plan.hymenium_fields[i], plan.coarse_cells, frame, y * step, step, count, row.field[i]);
+    if (used >> grids == 0) return row;
+    const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+    const VF down = disc_place(frame, set(static_cast<float>(y * step)));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(count); i += hn::Lanes(f)) {
+        VF fields[most_fields];
+        for (std::size_t k = 0; k < grids; ++k) fields[k] = hn::Load(f, row.field[k] + i);
+        const VF texel = (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step));
+        const DiscPoint p = disc_point_of(disc, disc_place(frame, texel), down);
+        if (part == 0)
+            cap_fields(plan.cap, p, fields);
+        else
+            hymenium_fields(plan.hymenium, p, fields);
+        for (std::size_t k = grids; k < most_fields; ++k)
+            if ((used >> k & 1U) != 0) hn::Store(fields[k], f, row.field[k] + i);
+    }
+    return row;
+}
+
+// The fields of a disc at every texel of a row, into bench.field.
+void disc_fields(const PaintPlan& plan, int part, int y, Workbench& bench) {
+    const Floats f;
+    const std::size_t width = static_cast<std::size_t>(plan.frames[static_cast<std::size_t>(part)].width);
+    const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
+    const int half = (y + 2) / 2 - 1;  // floor, for y >= -2
+    const bool between = plan.disc_step == 2 && y != 2 * half;
+    const SparseRow& above = sparse_row(plan, part, plan.disc_step == 2 ? half : y, bench);
+    const SparseRow& below = between ? sparse_row(plan, part, half + 1, bench) : above;
+    for (std::size_t k = 0; k < most_fields; ++k) {
+        if ((used >> k & 1U) == 0) continue;
+        const float* from = above.field[k];
+        if (between) {
+            for (std::size_t i = 0; i < width / 2 + 1; i += hn::Lanes(f))
+                hn::Store((hn::Load(f, above.field[k] + i) + hn::Load(f, below.field[k] + i)) * set(0.5F), f, bench.spare + i);
+            from = bench.spare;
+        }
+        if (plan.disc_step == 2) {
+            doubled(from, width / 2, bench.field[k]);
+        } else {
+            for (std::size_t i = 0; i < width; i += hn::Lanes(f)) hn::Store(hn::Load(f, from + i), f, bench.field[k] + i);
+        }
+    }
+}
+
+// The fields of a strip at every texel of a row, into bench.field: sampled at every strip_step-th texel, then doubled.
+void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) {
+    const Floats f;
+    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const int step = part == 2 ? plan.strip_step : plan.strip_step > 1 ? 2 : 1;
+    const unsigned used = part == 2 ? plan.stem.fields : 3U;
+    const std::size_t count = static_cast<std::size_t>(frame.width / step) + 1;
+    const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
+    for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
+        VF fields[most_fields];
+        const VF texel = (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step)) + set(0.5F);
+        const VF along = (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
+        if (part == 2)
+            stem_fields(plan.stem, unit(along), across, fields);
+        else
+            veil_fields(plan.veil, along, across, fields);
+        for (std::size_t k = 0; k < most_fields; ++k)
+            if ((used >> k & 1U) != 0) hn::Store(fields[k], f, bench.field[k] + i);
+    }
+    for (int left = step; left > 1; left /= 2) {
+        const std::size_t samples = static_cast<std::size_t>(frame.width / left);
+        for (std::size_t k = 0; k < most_fields; ++k) {
+            if ((used >> k & 1U) == 0) continue;
+            doubled(bench.field[k], samples, bench.spare);
+            // The sample after the last stays the last of the doubled row.
+            const float last = bench.field[k][samples];
+            for (std::size_t i = 0; i < 2 * samples; i += hn::Lanes(f)) hn::Store(hn::Load(f, bench.spare + i), f, bench.field[k] + i);
+            bench.field[k][2 * samples] = last;
+        }
+    }
+}
+
+// Lays the warts and scales that cross one row over its texels.
+void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& row) {
+    const Frame& frame = plan.frames[0];
+    const float reach = (0.5F - frame.inset) * static_cast<float>(frame.width);
+    for (const int index : plan.patches_by_row[static_cast<std::size_t>(y)]) {
+        const PatchPlan& patch = plan.patches[static_cast<std::size_t>(index)];
+        // The chord of the patch's ellipse along this row.
+        const float dy = down - patch.y;
+        const float l = patch.per_length * patch.per_length;
+        const float w = patch.per_width * patch.per_width;
+        const float ax = patch.along_x;
+        const float ay = patch.along_y;
+        const float square = ax * ax * l + ay * ay * w;
+        const float cross = dy * ax * ay * (l - w);
+        const float rest = dy * dy * (ay * ay * l + ax * ax * w) - patch_window * patch_window;
+        const float inside = cross * cross - square * rest;
+        if (inside <= 0.0F) continue;
+        HWY_ALIGN float root[8] = {};
+        hn::Store(hn::Sqrt(set(inside)), Floats(), root);
+        const float middle = (patch.x - cross / square) * reach + 0.5F * static_cast<float>(frame.width);
+        const float half = root[0] / square * reach + 1.0F;
+        const float begin = middle - half < 0.0F ? 0.0F : middle - half;
+        const float end = middle + half > static_cast<float>(frame.width) ? static_cast<float>(frame.width) : middle + half;
+        for (std::size_t x = static_cast<std::size_t>(begin) / 8 * 8; static_cast<float>(x) < end; x += hn::Lanes(Floats())) {
+            Texel texel = load_texel(row, x);
+            lay_patch(patch, plan.veil, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down_places, texel);
+            store_texel(texel, row, x);
+        }
     }
 }
 
 // Paints the texels of one row; y may lie one row outside of the chart.
-void paint_row(const PaintPlan& plan, int part, int y, Row& row) {
+void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
-    const float per_x = 1.0F / static_cast<float>(frame.width);
-    const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
+    VF fields[most_fields];
     if (part < 2) {
         const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
-        const float reach = 0.5F - frame.inset;
-        const VF down = set((v - 0.5F) / reach);
-        const int fields = part == 0 ? 3 : 2;
-        for (int i = 0; i < fields; ++i)
-            expand(part == 0 ? plan.cap_fields[static_cast<std::size_t>(i)] : plan.hymenium_fields[static_cast<std::size_t>(i)], plan.coarse_cells, frame, y, row.coarse[i]);
+        const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
+        const VF down = disc_place(frame, set(static_cast<float>(y)));
+        disc_fields(plan, part, y, bench);
         const GivenImage& given = plan.given[static_cast<std::size_t>(part)];
-        for (std::size_t x = 0; x < width; x += lanes) {
-            const VF across = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) - set(0.5F)) * set(1.0F / reach);
-            const DiscPoint p = disc_point_of(disc, across, down);
-            const VF c0 = hn::Load(f, row.coarse[0] + x);
-            const VF c1 = hn::Load(f, row.coarse[1] + x);
-            Texel texel;
-            if (part == 0)
-                texel = cap_texel(plan.cap, p, c0, c1, hn::Load(f, row.coarse[2] + x));
-            else
-                texel = hymenium_texel(plan.hymenium, p, c0, c1);
-            if (!given.empty()) {
-                const VF u = set(0.5F) + set(0.5F) * p.rho * p.cosine;
-                const VF w = set(0.5F) + set(0.5F) * p.rho * p.sine;
-                texel.colour = sampled(given, u, w);
-            }
+        const Stretch stretch = painted_stretch(plan, part, y);
+        for (std::size_t x = stretch.from; x < stretch.until; x += lanes) {
+            const DiscPoint p = disc_point_of(disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
+            for (std::size_t k = 0; k < most_fields; ++k)
+                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
+            Texel texel = part == 0 ? cap_texel(plan.cap, p, fields) : hymenium_texel(plan.hymenium, p, fields);
+            if (!given.empty()) texel.colour = sampled(given, set(0.5F) + set(0.5F) * p.rho * p.cosine, set(0.5F) + set(0.5F) * p.rho * p.sine);
             store_texel(texel, row, x);
+            hn::Store(p.cosine, f, row.cosine + x);
+            hn::Store(p.sine, f, row.sine + x);
+            hn::Store(p.widening, f, row.widening + x);
+            hn::Store(fields[1], f, row.uneven + x);
         }
         if (part == 0 && y >= 0 && y < frame.height) {
-            for (const int index : plan.patches_by_row[static_cast<std::size_t>(y)]) {
-                const PatchPlan& patch = plan.patches[static_cast<std::size_t>(index)];
-                const float middle = (patch.x * reach + 0.5F) * static_cast<float>(frame.width);
-                const float half = patch.reach * reach * static_cast<float>(frame.width) + 1.0F;
-                const float begin = middle - half < 0.0F ? 0.0F : middle - half;
-                const float end = middle + half > static_cast<float>(frame.width) ? static_cast<float>(frame.width) : middle + half;
-                for (std::size_t x = static_cast<std::size_t>(begin) / 8 * 8; static_cast<float>(x) < end; x += lanes) {
-                    const VF across = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) - set(0.5F)) * set(1.0F / reach);
-                    Texel texel = load_texel(row, x);
-                    lay_patch(patch, plan.veil, across, down, texel);
-                    store_texel(texel, row, x);
-                }
-            }
-        }
-        if (plan.fade > 0.0F || plan.wetness > 0.0F) {
-            for (std::size_t x = 0; x < width; x += lanes) {
-                Texel texel = load_texel(row, x);
-                weather(plan, set(part == 0 ? 1.0F : 0.35F), hn::Load(f, row.coarse[1] + x), texel);
-                store_texel(texel, row, x);
-            }
+            HWY_ALIGN float place[8];
+            hn::Store(down, f, place);
+            lay_patches(plan, y, down, place[0], row);
         }
     } else {
         const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
+        const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
         const float down = (v - frame.inset) * inner;
         const float turned = down < 0.0F ? down + 1.0F : down >= 1.0F ? down - 1.0F : down;
-        const float across = down < 0.0F ? 0.0F : down > 1.0F ? 1.0F : down;
+        const float edge = down < 0.0F ? 0.0F : down > 1.0F ? 1.0F : down;
+        const VF across = set(part == 2 ? turned : edge);
+        strip_fields(plan, part, across, bench);
+        const unsigned used = part == 2 ? plan.stem.fields : 3U;
         const GivenImage& given = plan.given[2];
+        const float per_x = 1.0F / static_cast<float>(frame.width);
         for (std::size_t x = 0; x < width; x += lanes) {
             const VF along = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) - set(frame.inset)) * set(inner);
+            for (std::size_t k = 0; k < most_fields; ++k)
+                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
             Texel texel;
             if (part == 2) {
-                texel = stem_texel(plan.stem, unit(along), set(turned));
-                if (!given.empty()) texel.colour = sampled(given, along, set(turned));
+                texel = stem_texel(plan.stem, unit(along), across, fields);
+                if (!given.empty()) texel.colour = sampled(given, along, across);
             } else {
-                texel = veil_texel(plan.veil, along - hn::Floor(along), set(across));
+                texel = veil_texel(plan.veil, along, across, fields);
             }
-            weather(plan, set(part == 2 ? 0.45F : 0.6F), set(0.0F), texel);
             store_texel(texel, row, x);
+            hn::Store(fields[1], f, row.uneven + x);
         }
     }
-    for (int i = 0; i < margin; ++i) {
-        row.height[i] = row.height[margin];
-        row.height[margin + frame.width + i] = row.height[margin + frame.width - 1];
-    }
+    // Slopes at the ends of the painted stretch look one texel further.
+    const Stretch painted = painted_stretch(plan, part, y);
+    row.height[margin + painted.from - 1] = row.height[margin + painted.from];
+    row.height[margin + painted.until] = row.height[margin + painted.until - 1];
 }
 
 /// 0..1 to 0..255, rounded.
 HWY_INLINE void store_byte(VF value, std::uint8_t* to) {
     const hn::Rebind<std::uint8_t, Floats> bytes;
-    const VI whole = hn::ConvertTo(Ints(), unit(value) * set(255.0F) + set(0.5F));
-    hn::StoreU(hn::DemoteTo(bytes, whole), bytes, to);
+    const VU whole = hn::And(whole_bits(unit(value) * set(255.0F)), word(255U));
+    hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(Ints(), whole)), bytes, to);
 }
 
 /// The sRGB transfer function: a polynomial of the square root, within 0.0004 of the standard.
 HWY_INLINE VF srgb(VF light) {
     const VF x = unit(light);
     const VF s = hn::Sqrt(x);
-    VF curve = set(srgb_curve[0]);
-    for (std::size_t i = 1; i < 7; ++i) curve = curve * s + set(srgb_curve[i]);
+    VF curve = set(srgb_curve[0]) * s + set(srgb_curve[1]);
+    curve = curve * s + set(srgb_curve[2]);
+    curve = curve * s + set(srgb_curve[3]);
+    curve = curve * s + set(srgb_curve[4]);
+    curve = curve * s + set(srgb_curve[5]);
+    curve = curve * s + set(srgb_curve[6]);
     return hn::IfThenElse(x < set(0.0031308F), x * set(12.92F), curve);
 }
 
@@ -242,45 +393,58 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
     const std::size_t width = static_cast<std::size_t>(frame.width);
     const VF one = set(1.0F);
     const VF half = set(0.5F);
-    const float reach = 0.5F - frame.inset;
-    const float per_x = 1.0F / static_cast<float>(frame.width);
-    const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
-    for (std::size_t x = 0; x < width; x += lanes) {
+    const float exposure[4] = {1.0F, 0.35F, 0.45F, 0.6F};
+    const float film = 1.0F - 0.25F * plan.wetness;  // water levels the relief
+    const bool is_disc = part < 2;
+    const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+    const float step_x = part == 2 ? plan.stem.texel_along : plan.veil.texel;
+    const float step_y = part == 2 ? plan.stem.texel_round : plan.veil.texel;
+    // A disc's lengths are those of its meridian, which begins at `inner`.
+    const VF per_x = set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
+    const VF per_y = set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
+    // The rows above and below may end a little earlier: only painted neighbours count.
+    const Stretch here = painted_stretch(plan, part, y);
+    const Stretch over = painted_stretch(plan, part, y - 1);
+    const Stretch under = painted_stretch(plan, part, y + 1);
+    const std::size_t first = std::max(here.from, std::max(over.from, under.from));
+    const Stretch stretch = {first, is_disc ? width - first : width};
+    for (std::size_t x = stretch.from; x < stretch.until; x += lanes) {
         const float* at = row.height + margin + x;
-        const VF right = hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1);
-        const VF down = hn::Load(f, below.height + margin + x) - hn::Load(f, above.height + margin + x);
+        const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * per_x;
+        const VF down = (hn::Load(f, below.height + margin + x) - hn::Load(f, above.height + margin + x)) * per_y;
         VF nx, ny;
-        if (part < 2) {
-            const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
-            const VF across = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) - half) * set(1.0F / reach);
-            const DiscPoint p = disc_point_of(disc, across, set((v - 0.5F) / reach));
-            // Slopes along the meridian and round the axis, in true lengths; then along the tangent dP/du and across it.
-            const float per_length = 0.5F / disc.per_texel;
-            const float radial_unit = 1.0F / (1.0F - disc.inner);
-            const VF hx = right * set(per_length);
-            const VF hy = down * set(per_length);
-            const VF meridian = (hx * p.cosine + hy * p.sine) * set(1.0F / radial_unit);
-            const VF k = hn::Max(p.radius, set(1e-4F)) / hn::Max(p.rho, set(1e-4F)) * set(1.0F / radial_unit);
-            const VF round = (hy * p.cosine - hx * p.sine) * set(1.0F / radial_unit) / hn::Max(k, set(0.02F));
-            const VF ks = k * p.sine;
-            const VF length = one / hn::Sqrt(p.cosine * p.cosine + ks * ks + set(1e-9F));
-            nx = (ks * round - p.cosine * meridian) * length;
-            ny = (ks * meridian + p.cosine * round) * length;
+        if (is_disc) {
+            // Slopes along the meridian and round the axis in true lengths, then along the tangent dP/du and across it.
+            const VF cosine = hn::Load(f, row.cosine + x);
+            const VF sine = hn::Load(f, row.sine + x);
+            const VF k = hn::Max(hn::Load(f, row.widening + x) * set(1.0F - disc.inner), set(0.02F));
+            const VF meridian = right * cosine + down * sine;
+            const VF round = down * cosine - right * sine;  // still to be divided by k
+            const VF ks = k * sine;
+            const VF inverse = one / (k * hn::Sqrt(cosine * cosine + ks * ks));
+            nx = (sine * round - cosine * meridian) * k * inverse;
+            ny = (ks * k * meridian + cosine * round) * inverse;
         } else {
-            const float step_x = part == 2 ? plan.stem.texel_along : plan.veil.texel;
-            const float step_y = part == 2 ? plan.stem.texel_round : plan.veil.texel;
-            nx = set(0.0F) - right * set(0.5F / step_x);
-            ny = down * set(0.5F / step_y);
+            nx = set(0.0F) - right;
+            ny = down;
         }
         const VF length = half / hn::Sqrt(one + nx * nx + ny * ny);
-        store_byte(srgb(hn::Load(f, row.red + x)), bench.bytes[0] + x);
-        store_byte(srgb(hn::Load(f, row.green + x)), bench.bytes[1] + x);
-        store_byte(srgb(hn::Load(f, row.blue + x)), bench.bytes[2] + x);
+        Rgb colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x), hn::Load(f, row.blue + x)};
+        VF roughness = hn::Load(f, row.roughness + x);
+        weather(plan, exposure[part], hn::Load(f, row.uneven + x), colour, roughness);
+        store_byte(srgb(colour.r), bench.bytes[0] + x);
+        store_byte(srgb(colour.g), bench.bytes[1] + x);
+        store_byte(srgb(colour.b), bench.bytes[2] + x);
         store_byte(half + nx * length, bench.bytes[3] + x);
         store_byte(half + ny * length, bench.bytes[4] + x);
         store_byte(half + length, bench.bytes[5] + x);
-        store_byte(clamped(hn::Load(f, row.occlusion + x), 0.0F, 1.0F), bench.bytes[6] + x);
-        store_byte(clamped(hn::Load(f, row.roughness + x), 0.04F, 1.0F), bench.bytes[7] + x);
+        store_byte(hn::Load(f, row.occlusion + x), bench.bytes[6] + x);
+        store_byte(hn::Max(roughness, set(0.04F)), bench.bytes[7] + x);
+    }
+    for (std::size_t channel = 0; channel < 8; ++channel) {
+        std::uint8_t* const line = bench.bytes[channel];
+        std::memset(line, line[stretch.from], stretch.from);
+        std::memset(line + stretch.until, line[stretch.until - 1], width - stretch.until);
     }
     const hn::ScalableTag<std::uint8_t> bytes;
     const std::size_t byte_lanes = hn::Lanes(bytes);
@@ -306,12 +470,19 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
 /// Paints rows `from` to `to` (exclusive) of a part's chart.
 void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory, const PaintTarget& target) {
     Workbench& bench = *static_cast<Workbench*>(memory);
-    const auto row = [&](int y) -> Row& { return bench.rows[(y + 3) % 3]; };
-    paint_row(plan, part, from - 1, row(from - 1));
-    paint_row(plan, part, from, row(from));
+    for (SparseRow& row : bench.sparse) row.y = -1000;
+    Row* above = &bench.rows[0];
+    Row* row = &bench.rows[1];
+    Row* below = &bench.rows[2];
+    paint_row(plan, part, from - 1, *above, bench);
+    paint_row(plan, part, from, *row, bench);
     for (int y = from; y < to; ++y) {
-        paint_row(plan, part, y + 1, row(y + 1));
-        resolve_row(plan, part, y, row(y - 1), row(y), row(y + 1), bench, target);
+        paint_row(plan, part, y + 1, *below, bench);
+        resolve_row(plan, part, y, *above, *row, *below, bench, target);
+        Row* const free = above;
+        above = row;
+        row = below;
+        below = free;
     }
 }
 

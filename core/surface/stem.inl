@@ -12,41 +12,64 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// along  0 at the ground, 1 at the top; turn 0..1. Heights are in circumferences.
-HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn) {
-    const VF one = set(1.0F);
-    Texel out;
+/// The fields of a stem that vary slowly along it: broad and middling clouds, the first bumps, fibres and the furrows they leave.
+HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields) {
     const VF length = along * set(plan.aspect);
     const VF broad = periodic_noise2(turn * set(4.0F), length * set(3.0F), 4, plan.seed[0]);
-    const VF middle = periodic_noise2(turn * set(11.0F), length * set(8.0F), 11, plan.seed[1]);
-    VF height = set(0.0F);
-    VF fine = set(0.0F);
-    constexpr int bump_cells[3] = {24, 52, 113};
-    for (std::size_t octave = 0; octave < 3; ++octave) {
+    fields[stem_broad] = broad;
+    fields[stem_middle] = periodic_noise2(turn * set(11.0F), length * set(8.0F * plan.stretch), 11, plan.seed[1]);
+    if ((plan.fields & (1U << stem_bump)) != 0) {
+        const float n = static_cast<float>(stem_bump_cells[0]);
+        fields[stem_bump] = periodic_noise2(turn * set(n), length * set(n * plan.stretch), stem_bump_cells[0], plan.seed[2]) * set(plan.bumps[0]);
+    }
+    if ((plan.fields & (1U << stem_fibre)) != 0) {
+        // Coarse wrinkles come only with strong fibres.
+        VF fibre = set(0.0F);
+        VF furrow = set(0.0F);
+        for (std::size_t octave = 0; octave < 3; ++octave) {
+            if (plan.fibres[octave] <= 0.0F) continue;
+            const int cells_round = stem_fibre_cells[octave];
+            const float n = static_cast<float>(cells_round);
+            const VF v = periodic_noise2(turn * set(n) + broad * set(0.5F), length * set(n * stem_fibre_slender[octave]), cells_round, plan.seed[5 + octave]) *
+                         set(plan.fibres[octave]);
+            fibre = fibre + v;
+            furrow = furrow + v * set(0.20F / n);
+        }
+        fields[stem_fibre] = fibre;
+        fields[stem_furrow] = furrow;
+    }
+}
+
+/// along  0 at the ground, 1 at the top; turn 0..1. Heights are in circumferences.
+HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* fields) {
+    const VF one = set(1.0F);
+    const VF zero = set(0.0F);
+    Texel out;
+    const VF length = along * set(plan.aspect);
+    const VF broad = fields[stem_broad];
+    const VF middle = fields[stem_middle];
+    VF fine = zero;
+    VF height = zero;
+    if ((plan.fields & (1U << stem_bump)) != 0) {
+        fine = fields[stem_bump];
+        height = fine * set(0.16F / static_cast<float>(stem_bump_cells[0]));
+    }
+    for (std::size_t octave = 1; octave < 3; ++octave) {
         if (plan.bumps[octave] <= 0.0F) continue;
-        const float n = static_cast<float>(bump_cells[octave]);
-        const VF v = periodic_noise2(turn * set(n), length * set(n), bump_cells[octave], plan.seed[2 + octave]);
-        fine = fine + v * set(plan.bumps[octave]);
-        height = height + v * set(plan.bumps[octave] * 0.16F / n);
+        const float n = static_cast<float>(stem_bump_cells[octave]);
+        const VF v = periodic_noise2(turn * set(n), length * set(n * plan.stretch), stem_bump_cells[octave], plan.seed[2 + octave]) * set(plan.bumps[octave]);
+        fine = fine + v;
+        height = height + v * set(0.16F / n);
     }
     Rgb colour = mix(rgb(plan.base), rgb(plan.top), smooth(along + broad * set(0.07F), 0.0F, 1.0F));
     VF shade = one + middle * set(0.05F) + fine * set(0.06F);
-    VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
+    VF occlusion = one + hn::Min(fine, zero) * set(0.25F);
 
     if (plan.fibrils > 0.0F) {
-        // Coarse wrinkles come only with strong fibres.
-        constexpr int fibre_cells[3] = {17, 46, 109};
-        constexpr float slender[3] = {0.16F, 0.10F, 0.08F};
-        VF fibre = set(0.0F);
-        for (std::size_t octave = 0; octave < 3; ++octave) {
-            if (plan.fibres[octave] <= 0.0F) continue;
-            const float n = static_cast<float>(fibre_cells[octave]);
-            const VF v = periodic_noise2(turn * set(n) + broad * set(0.5F), length * set(n * slender[octave]), fibre_cells[octave], plan.seed[5 + octave]);
-            fibre = fibre + v * set(plan.fibres[octave]);
-            height = height + v * set(plan.fibres[octave] * plan.fibrils * 0.20F / n);
-        }
+        const VF fibre = fields[stem_fibre];
+        height = height + fields[stem_furrow] * set(plan.fibrils);
         shade = shade * (one + fibre * set(0.30F * plan.fibrils));
-        occlusion = occlusion + hn::Min(fibre, set(0.0F)) * set(0.25F * plan.fibrils);
+        occlusion = occlusion + hn::Min(fibre, zero) * set(0.25F * plan.fibrils);
     }
     if (plan.bands > 0.0F) {
         // Snake skin: the skin has torn into zig-zag belts.
@@ -57,14 +80,16 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn) {
         height = height + belt * set(0.003F * plan.bands);
     }
     if (plan.net > 0.0F) {
-        constexpr float columns = 26.0F;
-        const VF y = length * set(columns / 2.1F) + middle * set(0.30F);
-        const Cells mesh = cells(turn, hn::Max(y, set(0.0F)), columns, 0.0F, 0.36F, plan.seed[8]);
-        const VF thread = one - smooth(mesh.border, 0.03F, 5.5F);
-        const VF strength = set(plan.net * plan.net_shown) * (set(0.10F) + set(0.90F) * smooth(along + broad * set(0.10F), 0.30F, 2.1F));
+        const VF strength = set(plan.net * plan.net_shown) * smooth(along + broad * set(0.10F) + middle * set(0.05F), 0.16F, 1.5F);
+        const VF y = length * set(net_columns / net_stretch) + middle * set(0.30F);
+        VF thread = zero;
+        if (!hn::AllTrue(Floats(), strength <= zero)) {
+            const Cells mesh = cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch, 0.34F, plan.seed[8]);
+            thread = one - smooth(mesh.border, 0.03F, 4.5F);
+        }
         const VF up = thread * strength;
         colour = mix(colour, rgb(plan.net_colour), up * set(0.9F));
-        height = height + up * set(0.20F / columns);
+        height = height + up * set(0.20F / net_columns);
         occlusion = occlusion * (one - set(0.22F) * strength * (one - thread));
         shade = shade * (one - set(0.08F) * strength * (one - thread));
     }
@@ -82,13 +107,18 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn) {
     return out;
 }
 
+HWY_INLINE void veil_fields(const VeilPlan& plan, VF turn, VF across, VF* fields) {
+    fields[veil_thread] = periodic_noise2(turn * set(92.0F), across * set(1.6F), 92, plan.seed[0]) *
+                          shown(set(1.0F / (92.0F * plan.texel)), 4.0F);
+    fields[veil_cloud] = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
+}
+
 /// turn 0..1 along the strip; across 0 at the attachment, 1 at the edge. Heights are in lengths of the strip.
-HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across) {
+HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;
-    const VF thread = periodic_noise2(turn * set(92.0F), across * set(1.6F), 92, plan.seed[0]) *
-                      shown(set(1.0F / (92.0F * plan.texel)), 4.0F);
-    const VF cloud = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
+    const VF thread = fields[veil_thread];
+    const VF cloud = fields[veil_cloud];
     const VF grain = periodic_noise2(turn * set(160.0F), across * set(160.0F * plan.across), 160, plan.seed[2]) *
                      shown(set(1.0F / (160.0F * plan.texel)), 4.0F);
     Rgb colour = mix(rgb(plan.colour), rgb(plan.tip), smooth(across + cloud * set(0.18F) + thread * set(0.10F), 0.35F, 1.5F));
