@@ -153,7 +153,7 @@ Mix read_mix(std::string_view text, const Atlas& atlas, Faults& faults) {
     return checked(std::move(weights), atlas, faults, clean);
 }
 
-Mix read_mix(const Value& json, const Atlas& atlas, Faults& faults) {
+Mix read_mix_object(const Value& json, const Atlas& atlas, Faults& faults) {
     if (!json.is_object() || json.members().empty()) {
         faults.add(
             400, "mix",

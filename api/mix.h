@@ -34,7 +34,7 @@ using Weights = std::vector<std::pair<std::string, double>>;
 [[nodiscard]] Mix read_mix(std::string_view text, const Atlas& atlas, Faults& faults);
 
 /// Reads {"mix":{id:weight}} of a body; the same rules.
-[[nodiscard]] Mix read_mix(const Value& json, const Atlas& atlas, Faults& faults);
+[[nodiscard]] Mix read_mix_object(const Value& json, const Atlas& atlas, Faults& faults);
 
 /// "unknown species 'amanita'; did you mean 'amanita_muscaria'?"
 [[nodiscard]] std::string unknown_species(std::string_view id, const Atlas& atlas);

@@ -73,7 +73,7 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Faults&
         faults.add(400, "mix",
                    "is missing; give {\"mix\":{\"species id\":1}} or a whole {\"model\":{...}}");
     else if (mix)
-        request.order.mix = read_mix(*mix, atlas, faults);
+        request.order.mix = read_mix_object(*mix, atlas, faults);
     else
         read(*model, request.order.model.emplace(), Info{.name = ""}, "/model", problems);
     if (const Value* version = json.find("v")) {

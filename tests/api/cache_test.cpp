@@ -139,7 +139,9 @@ TEST(Cache, many_keys_that_come_once_do_not_push_out_one_that_comes_often) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(cache.find("often"));
     for (int i = 0; i < 10'000; ++i) {
         cache.insert("once " + std::to_string(i), sized(5'000));
-        if (i % 100 == 0) EXPECT_TRUE(cache.find("often")) << i;
+        if (i % 100 == 0) {
+            EXPECT_TRUE(cache.find("often")) << i;
+        }
     }
 }
 

@@ -75,7 +75,7 @@ TEST(ReadMix, reads_ids_and_weights_of_the_atlas) {
     EXPECT_EQ(mix_text(read_mix(b + ":3," + a + ":7e-0", *atlas, faults)),
               a + ":0.7," + b + ":0.3");
     EXPECT_EQ(mix_text(read_mix(a + ":5", *atlas, faults)), a);
-    EXPECT_EQ(mix_text(read_mix(Value::object().set(b, 1).set(a, 1), *atlas, faults)),
+    EXPECT_EQ(mix_text(read_mix_object(Value::object().set(b, 1).set(a, 1), *atlas, faults)),
               a + ":0.5," + b + ":0.5");
     EXPECT_TRUE(faults.empty());
 }
@@ -128,7 +128,7 @@ TEST(ReadMix, of_a_body_refuses_what_is_no_object_of_numbers) {
                               Value::object().set(test::first_species(), "1"),
                               Value::object().set(test::first_species(), -1)}) {
         Faults faults;
-        EXPECT_TRUE(read_mix(json, *atlas, faults).empty());
+        EXPECT_TRUE(read_mix_object(json, *atlas, faults).empty());
         EXPECT_EQ(faults.status(), 400) << dump(json);
     }
 }

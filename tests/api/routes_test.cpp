@@ -58,7 +58,7 @@ TEST(Routes, an_unknown_path_is_told_the_one_probably_meant) {
         {"/v1/mushrooms/boletus_edulis", "/v1/mushrooms/boletus_edulis.glb"},
         {"/v1/mushrooms/boletus_edulis.gltf", "/v1/mushrooms/boletus_edulis.glb"},
         {"/v1/mushroom/boletus_edulis.glb", "/v1/mushrooms/boletus_edulis.glb"},
-        {"/openapi", "/openapi.json"},
+        {"/openapi.jsn", "/openapi.json"},
         {"/metric", "/metrics"},
         {"/something/quite/different", ""},
     };

@@ -191,8 +191,8 @@ TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
         {"", 400, "", ""},
         {"[]", 400, "", "expected an object"},
         {"{" + mix, 400, "", ""},
-        {"{" + mix + ",\"age\":1e999}", 400, "", ""},
-        {std::string(100'000, '['), 400, "", ""},
+        {"{" + mix + ",\"age\":1e999}", 400, "/age", "too large"},
+        {std::string(100'000, '['), 400, "/0/0/0", "deeper than 32"},
         {"{" + mix + "," + mix + "}", 400, "/mix", ""},
         {"{}", 400, "mix", "is missing"},
         {"{" + mix + ",\"model\":{}}", 400, "mix", "not both"},
@@ -280,7 +280,7 @@ TEST_F(ServiceTest, the_root_tells_who_it_is) {
     EXPECT_EQ(root.find("name")->as_string(), "sporeprint");
     EXPECT_EQ(root.find("generator_version")->as_number(), generator_version);
     for (const auto& [name, link] : root.find("links")->members())
-        if (name != "docs") EXPECT_EQ(ask(link.as_string()).status, 200) << link.as_string();
+        EXPECT_EQ(ask(link.as_string()).status, name == "docs" ? 404 : 200) << link.as_string();
 }
 
 TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
@@ -341,9 +341,10 @@ TEST_F(ServiceTest, species_are_filtered) {
 }
 
 TEST_F(ServiceTest, documents_are_conditional_and_compressed) {
-    for (const std::string target :
-         {"/v1", "/v1/species", "/v1/species?form=agaric", "/v1/mushrooms/schema", "/openapi.json",
-          "/v1/species/" + first_species(), "/v1/mushrooms/" + first_species() + ".json"}) {
+    for (const std::string& target : std::vector<std::string>{
+             "/v1", "/v1/species", "/v1/species?form=agaric", "/v1/mushrooms/schema",
+             "/openapi.json", "/v1/species/" + first_species(),
+             "/v1/mushrooms/" + first_species() + ".json"}) {
         const Answer plain = ask(target);
         ASSERT_EQ(plain.status, 200) << target;
         EXPECT_EQ(header(plain, "Vary"), "Accept-Encoding") << target;
@@ -607,6 +608,7 @@ TEST_F(ServiceTest, the_description_tells_what_would_be_made) {
                   body.at_pointer("/bounds_m/max" + at)->as_number());
     }
     const Answer inspected = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
+    ASSERT_EQ(inspected.status, 200) << text_of(inspected);
     const Value found = json_of(inspected);
     EXPECT_EQ(body.at_pointer("/estimate/vertices")->as_number(),
               found.at_pointer("/counts/vertices")->as_number());

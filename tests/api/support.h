@@ -66,10 +66,11 @@ inline std::vector<std::string> errors_of(const Answer& answer) {
     return out;
 }
 
-/// Whether any of the errors begins with `parameter: ` and holds `words`.
+/// Whether any of the errors is about `parameter` (or what is below it) and holds `words`.
 inline bool names(const Answer& answer, std::string_view parameter, std::string_view words = "") {
     for (const std::string& error : errors_of(answer))
-        if (error.starts_with(std::string(parameter) + ": ") &&
+        if ((error.starts_with(std::string(parameter) + ": ") ||
+             error.starts_with(std::string(parameter) + "/")) &&
             error.find(words) != std::string::npos)
             return true;
     return false;
