@@ -1,10 +1,11 @@
 // The ground of the stage: a sheet of ruled paper that fades out, and the sun's shadow on it.
-// Both face upwards only, so that a look from below meets the mushroom and nothing else.
+// They face upwards only, so that a look from below meets the mushroom and nothing else.
 import {
     CircleGeometry,
     Color,
     Group,
     Mesh,
+    MeshBasicMaterial,
     ShaderMaterial,
     ShadowMaterial,
     type ColorRepresentation,
@@ -57,7 +58,15 @@ export class Ground extends Group {
         shadow.receiveShadow = true;
         this.ruled.renderOrder = -2;
         shadow.renderOrder = -1;
-        this.add(this.ruled, shadow);
+        // What grows below the ground is hidden from above, and seen from below.
+        const earth = new Mesh(disc, new MeshBasicMaterial({
+            colorWrite: false,
+            polygonOffset: true,
+            polygonOffsetFactor: 2,
+            polygonOffsetUnits: 8,
+        }));
+        earth.renderOrder = -3;
+        this.add(earth, this.ruled, shadow);
     }
 
     /** Fits the sheet to a model: `radius` in metres, a line every `spacing` metres. */

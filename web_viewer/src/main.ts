@@ -23,7 +23,7 @@ interface TestHandle {
     readonly renderer: { frames: number; calls: number; triangles: number; geometries: number; textures: number };
     readonly counts: { triangles: number; vertices: number; drawCalls: number; textures: number };
     /** Metres. */
-    readonly size: { width: number; height: number; depth: number };
+    readonly size: { above: number; width: number; height: number; depth: number };
 }
 
 declare global {
@@ -228,10 +228,10 @@ class Page {
     }
 
     private showDimensions(): void {
-        const { width, height, depth } = this.stage.size;
+        const { above, width, depth } = this.stage.size;
         
         byId("dimensions").textContent =
-            `${centimetres(height, 1)} tall, ${centimetres(Math.max(width, depth), 1)} across`;
+            `${centimetres(above, 1)} tall, ${centimetres(Math.max(width, depth), 1)} across`;
     }
 
     private showScale(): void {

@@ -71,7 +71,7 @@ export function words(name: string): string {
 
 /** The sign a person reads for a unit of the schema. */
 export function unitSign(unit: string): string {
-    return { deg: "°", degree: "°", degrees: "°", pixel: "px", pixels: "px" }[unit] ?? unit;
+    return { deg: "°", degree: "°", degrees: "°", pixel: "px", pixels: "px", texels: "px" }[unit] ?? unit;
 }
 
 function resolved(schema: Schema, root: Schema): Schema {
@@ -108,7 +108,7 @@ function fieldOf(
     const types = Array.isArray(schema.type) ? schema.type : [schema.type];
     const field: Field = {
         name,
-        label: schema.title ?? words(last),
+        label: words(schema.title ?? last),
         kind: "text",
         integer: types.includes("integer"),
         min: schema.minimum,
@@ -172,7 +172,7 @@ export function groupsOf(root: Schema): Group[] {
             const own = fromSpecies || sub["x-default-from"] === "species";
             if (propertiesOf(sub, root).size > 0) {
                 const groupKey = at.join(".");
-                groupAt(groupKey, sub.title ?? words(at.join(" · ")), sub.description);
+                groupAt(groupKey, words(sub.title ?? at.join(" · ")), sub.description);
                 walk(sub, at, own);
                 continue;
             }

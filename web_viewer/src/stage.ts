@@ -26,6 +26,8 @@ import { niceStep } from "./schema";
 const sunDirection = new Vector3(-0.55, 1.3, 0.66).normalize();
 
 export interface Size {
+    /** Metres above the ground, where there is something. */
+    above: number;
     width: number;
     height: number;
     depth: number;
@@ -53,15 +55,15 @@ export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
     const room = new RoomEnvironment();
     const generator = new PMREMGenerator(renderer);
     scene.environment = generator.fromScene(room, 0.04).texture;
-    scene.environmentIntensity = 0.62;
+    scene.environmentIntensity = 0.5;
     generator.dispose();
     room.dispose();
-    const sun = new DirectionalLight(0xfff2dd, 2.3);
+    const sun = new DirectionalLight(0xfff2dd, 2.1);
     sun.castShadow = true;
     sun.shadow.mapSize.set(1024, 1024);
     sun.shadow.radius = 7;
     // Light that the paper throws back: gills and pores are seen by it.
-    const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 0.9);
+    const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 0.7);
     scene.add(sun, sun.target, bounce);
     return { renderer, scene, sun };
 }
@@ -126,7 +128,8 @@ export class Stage {
     /** Size of what is shown, metres. */
     get size(): Size {
         const size = this.bounds.getSize(new Vector3());
-        return { width: size.x, height: size.y, depth: size.z };
+        const above = this.bounds.max.y > 0 ? this.bounds.max.y - Math.max(this.bounds.min.y, 0) : size.y;
+        return { above, width: size.x, height: size.y, depth: size.z };
     }
 
     get pixelsPerMetre(): number {
