@@ -43,6 +43,12 @@ bool is_visible(std::string_view text) {
     });
 }
 
+bool is_version(std::string_view text) {
+    const auto digit = [](char c) { return c >= '0' && c <= '9'; };
+    return text.size() == 8 && text.starts_with("HTTP/") && digit(text[5]) && text[6] == '.' &&
+           digit(text[7]);
+}
+
 Scan refused(Scan scan, int status, std::string detail) {
     scan.state = Scan::State::refused;
     scan.status = status;
@@ -140,7 +146,7 @@ Scan scan_head(std::string_view bytes) {
         return too_long_uri(std::move(scan));
     }
     if (!is_token(scan.head.method) || !is_visible(scan.head.target) || scan.head.target.empty() ||
-        !version.starts_with("HTTP/"))
+        !is_version(version))
         return refused(std::move(scan), 400, "the request line is malformed");
     if (version != "HTTP/1.1" && version != "HTTP/1.0")
         return refused(std::move(scan), 505, "HTTP/1.1 is spoken here");

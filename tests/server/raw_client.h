@@ -1,0 +1,127 @@
+// A client that sends exactly the bytes it is told, and reads answers as a strict client would.
+#pragma once
+
+#include <arpa/inet.h>
+#include <netinet/in.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace sporeprint::server {
+
+class RawClient {
+  public:
+    explicit RawClient(int port, int receive_buffer = 0)
+        : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
+        if (receive_buffer > 0)
+            setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
+        sockaddr_in address{};
+        address.sin_family = AF_INET;
+        address.sin_port = htons(static_cast<std::uint16_t>(port));
+        address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
+    }
+    ~RawClient() { close(); }
+    RawClient(const RawClient&) = delete;
+    RawClient& operator=(const RawClient&) = delete;
+
+    bool connected() const { return connected_; }
+
+    void close() {
+        if (socket_ >= 0) ::close(socket_);
+        socket_ = -1;
+    }
+
+    /// Sends all; returns false when the server no longer takes it.
+    bool send(std::string_view text) {
+        while (!text.empty()) {
+            const ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
+            if (sent <= 0) return false;
+            text.remove_prefix(static_cast<std::size_t>(sent));
+        }
+        return true;
+    }
+
+    struct Answer {
+        int status = 0;  ///< 0: the connection ended without an answer
+        std::vector<std::pair<std::string, std::string>> headers;
+        std::string head, body;
+
+        std::string header(std::string_view name) const {
+            for (const auto& [key, value] : headers)
+                if (key == name) return value;
+            return {};
+        }
+        std::size_t count(std::string_view name) const {
+            std::size_t found = 0;
+            for (const auto& header : headers) found += header.first == name ? 1 : 0;
+            return found;
+        }
+    };
+
+    /// Reads one answer: as many bytes of body as its length says, none after HEAD, 204 and 304.
+    Answer receive(bool to_head = false) {
+        Answer answer;
+        std::size_t end = 0;
+        while ((end = buffer_.find("\r\n\r\n")) == std::string::npos)
+            if (!more()) return answer;
+        answer.head = buffer_.substr(0, end + 2);
+        buffer_.erase(0, end + 4);
+        answer.status = std::atoi(answer.head.substr(9, 3).c_str());
+        std::size_t at = answer.head.find("\r\n") + 2;
+        while (at < answer.head.size()) {
+            const std::size_t stop = answer.head.find("\r\n", at);
+            const std::string line = answer.head.substr(at, stop - at);
+            const std::size_t colon = line.find(": ");
+            answer.headers.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+            at = stop + 2;
+        }
+        if (to_head || answer.status == 204 || answer.status == 304 || answer.status == 100)
+            return answer;
+        const std::size_t length =
+            std::strtoull(answer.header("Content-Length").c_str(), nullptr, 10);
+        while (buffer_.size() < length)
+            if (!more()) break;
+        answer.body = buffer_.substr(0, length);
+        buffer_.erase(0, length);
+        return answer;
+    }
+
+    Answer ask(std::string_view request, bool to_head = false) {
+        send(request);
+        return receive(to_head);
+    }
+
+    /// Whether the server ends the connection without another byte within `patience`.
+    bool ends(std::chrono::milliseconds patience = std::chrono::seconds(10)) {
+        pollfd polled{socket_, POLLIN, 0};
+        if (!buffer_.empty() || ::poll(&polled, 1, static_cast<int>(patience.count())) <= 0)
+            return false;
+        char byte = 0;
+        return ::recv(socket_, &byte, 1, 0) <= 0;
+    }
+
+  private:
+    bool more() {
+        pollfd polled{socket_, POLLIN, 0};
+        if (::poll(&polled, 1, 20'000) <= 0) return false;
+        char bytes[65536];
+        const ssize_t got = ::recv(socket_, bytes, sizeof bytes, 0);
+        if (got <= 0) return false;
+        buffer_.append(bytes, static_cast<std::size_t>(got));
+        return true;
+    }
+
+    int socket_;
+    bool connected_ = false;
+    std::string buffer_;
+};
+
+}  // namespace sporeprint::server

@@ -1,0 +1,517 @@
+#include "server/transport.h"
+
+#include <fcntl.h>
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <mutex>
+#include <optional>
+#include <semaphore>
+#include <stdexcept>
+#include <thread>
+
+#include "tests/server/raw_client.h"
+
+namespace sporeprint::server {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+
+api::Answer text_answer(const std::string& text, int status = 200) {
+    api::Answer answer;
+    answer.status = status;
+    answer.headers = {{"Content-Type", "text/plain"}};
+    answer.body = {slice_of(text)};
+    return answer;
+}
+
+/// A transport on a free port whose answers the test decides.
+struct Fixture {
+    explicit Fixture(std::function<api::Answer(const api::Request&, const Gone&)> answer,
+                     TransportOptions options = quick()) {
+        options.port = 0;
+        Handlers handlers;
+        handlers.answer = std::move(answer);
+        handlers.refuse = [](const api::Request&, int status, std::string_view detail) {
+            api::Answer refusal = text_answer(std::string(detail), status);
+            refusal.headers[0].second = "application/problem+json";
+            return refusal;
+        };
+        handlers.most_body = [](std::string_view, std::string_view target) {
+            return target == "/large" ? std::size_t{64} << 20 : std::size_t{1000};
+        };
+        handlers.served = [this](const Served& one) {
+            const std::lock_guard lock(mutex);
+            served.push_back(one);
+            changed.notify_all();
+        };
+        transport.emplace(options, std::move(handlers));
+        transport->start();
+    }
+    ~Fixture() { transport.reset(); }
+
+    static TransportOptions quick() {
+        TransportOptions options;
+        options.idle = 400ms;
+        options.silence = 300ms;
+        options.head = 900ms;
+        options.body = 900ms;
+        options.blocked_write = 400ms;
+        return options;
+    }
+
+    int port() const { return transport->port(); }
+
+    Served wait_for_served(std::size_t count = 1) {
+        std::unique_lock lock(mutex);
+        changed.wait_for(lock, 20s, [&] { return served.size() >= count; });
+        return served.size() >= count ? served[count - 1] : Served{};
+    }
+
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<Served> served;
+    std::optional<Transport> transport;
+};
+
+api::Answer echo(const api::Request& request, const Gone&) {
+    std::string text = request.method + ' ' + request.target + '\n';
+    for (const auto& [name, value] : request.headers) text += name + '=' + value + '\n';
+    return text_answer(text + '[' + request.body + ']');
+}
+
+TEST(Transport, AnswersOneRequestAfterAnotherOnOneConnection) {
+    Fixture server(echo);
+    RawClient client(server.port());
+    for (int i = 0; i < 3; ++i) {
+        const auto answer = client.ask("GET /a?b=%20 HTTP/1.1\r\nHost: here\r\n\r\n");
+        EXPECT_EQ(answer.status, 200);
+        EXPECT_EQ(answer.body, "GET /a?b=%20\nHost=here\n[]");
+        EXPECT_EQ(answer.header("Content-Length"), std::to_string(answer.body.size()));
+        EXPECT_EQ(answer.header("Connection"), "");
+        EXPECT_TRUE(answer.header("Date").ends_with(" GMT")) << answer.head;
+        EXPECT_EQ(answer.header("Date").size(), 29u);
+        EXPECT_EQ(answer.count("Accept-Ranges"), 0u);
+    }
+    const Served served = server.wait_for_served(3);
+    EXPECT_EQ(served.status, 200);
+    EXPECT_EQ(served.target, "/a?b=%20");
+    EXPECT_EQ(served.peer, "127.0.0.1");
+    EXPECT_GT(served.bytes, 100u);
+    EXPECT_TRUE(served.complete);
+    EXPECT_EQ(served.id.size(), 16u);
+}
+
+TEST(Transport, AnswersPipelinedRequestsInOrder) {
+    Fixture server(echo);
+    RawClient client(server.port());
+    client.send(
+        "POST /1 HTTP/1.1\r\nContent-Length: 3\r\n\r\nabcGET /2 HTTP/1.1\r\n\r\nGET /3 HTTP/1.1");
+    EXPECT_EQ(client.receive().body, "POST /1\nContent-Length=3\n[abc]");
+    EXPECT_EQ(client.receive().body, "GET /2\n[]");
+    client.send("\r\n\r\n");
+    EXPECT_EQ(client.receive().body, "GET /3\n[]");
+}
+
+TEST(Transport, SendsSlicesOneAfterAnother) {
+    std::string large(3 << 20, 'x');
+    for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<char>(i * 31 >> 3);
+    const Slice whole = slice_of(large);
+    Fixture server([&](const api::Request&, const Gone&) {
+        api::Answer answer = text_answer("head,");
+        answer.body.push_back(whole);
+        answer.body.push_back(Slice());
+        answer.body.push_back(Slice(whole.owner, 1000, 5));
+        return answer;
+    });
+    RawClient client(server.port());
+    for (int i = 0; i < 3; ++i)
+        EXPECT_TRUE(client.ask("GET / HTTP/1.1\r\n\r\n").body ==
+                    "head," + large + large.substr(1000, 5));
+}
+
+TEST(Transport, GivesHeadTheLengthButNoBody) {
+    Fixture server([](const api::Request& request, const Gone&) {
+        api::Answer answer = text_answer("12345");
+        answer.has_body = request.target == "/known";
+        return answer;
+    });
+    RawClient client(server.port());
+    const auto known = client.ask("HEAD /known HTTP/1.1\r\n\r\n", true);
+    EXPECT_EQ(known.status, 200);
+    EXPECT_EQ(known.header("Content-Length"), "5");
+    EXPECT_EQ(known.count("Accept-Ranges"), 0u);
+    const auto unknown = client.ask("HEAD /unknown HTTP/1.1\r\n\r\n", true);
+    EXPECT_EQ(unknown.status, 200);
+    EXPECT_EQ(unknown.count("Content-Length"), 0u);
+    EXPECT_EQ(client.ask("GET /known HTTP/1.1\r\n\r\n").body, "12345") << "nothing left in between";
+}
+
+TEST(Transport, SendsNotModifiedWithoutLengthOrBody) {
+    Fixture server([](const api::Request&, const Gone&) {
+        api::Answer answer;
+        answer.status = 304;
+        answer.headers = {{"ETag", "\"a\""}};
+        answer.has_body = false;
+        return answer;
+    });
+    RawClient client(server.port());
+    for (int i = 0; i < 2; ++i) {
+        const auto answer = client.ask("GET / HTTP/1.1\r\n\r\n");
+        EXPECT_EQ(answer.status, 304);
+        EXPECT_EQ(answer.header("ETag"), "\"a\"");
+        EXPECT_EQ(answer.count("Content-Length"), 0u);
+        EXPECT_EQ(answer.count("Content-Type"), 0u);
+    }
+}
+
+TEST(Transport, SendsNoHeaderTwiceAndNoneThatBreaksTheHead) {
+    Fixture server([](const api::Request&, const Gone&) {
+        api::Answer answer = text_answer("x");
+        answer.headers.insert(answer.headers.end(), {{"content-length", "99"},
+                                                     {"Date", "never"},
+                                                     {"Vary", "A"},
+                                                     {"vary", "B"},
+                                                     {"X-One", "1"},
+                                                     {"x-one", "2"},
+                                                     {"X-Split", "a\r\nX-Evil: 1"},
+                                                     {"X-Bad\r\nX-Evil", "1"},
+                                                     {"Accept-Ranges", "none"}});
+        return answer;
+    });
+    RawClient client(server.port());
+    const auto answer = client.ask("GET / HTTP/1.1\r\n\r\n");
+    EXPECT_EQ(answer.body, "x");
+    EXPECT_EQ(answer.count("Content-Length") + answer.count("content-length"), 1u);
+    EXPECT_EQ(answer.header("Vary") + answer.header("vary"), "A, B");
+    EXPECT_EQ(answer.count("X-One") + answer.count("x-one"), 1u);
+    EXPECT_EQ(answer.head.find("Evil"), std::string::npos);
+    EXPECT_NE(answer.header("Date"), "never");
+}
+
+TEST(Transport, IgnoresRanges) {
+    Fixture server([](const api::Request&, const Gone&) { return text_answer("0123456789"); });
+    RawClient client(server.port());
+    std::string many = "0-0";
+    for (int i = 0; i < 3000; ++i) many += ",0-";
+    for (const std::string& range : {std::string("bytes=0-3000000"), std::string("bytes=2-3"),
+                                     std::string("bytes=-99999999999999999999"), "bytes=" + many}) {
+        const auto answer = client.ask("GET / HTTP/1.1\r\nRange: " + range + "\r\n\r\n");
+        EXPECT_EQ(answer.status, 200);
+        EXPECT_EQ(answer.body, "0123456789");
+        EXPECT_EQ(answer.count("Content-Range"), 0u);
+    }
+}
+
+TEST(Transport, NeverCompressesByItself) {
+    const std::string text(100'000, 'a');
+    Fixture server([&](const api::Request&, const Gone&) { return text_answer(text); });
+    RawClient client(server.port());
+    const auto answer = client.ask("GET / HTTP/1.1\r\nAccept-Encoding: br, gzip\r\n\r\n");
+    EXPECT_EQ(answer.count("Content-Encoding"), 0u);
+    EXPECT_EQ(answer.body, text);
+}
+
+TEST(Transport, PassesHeadersOnUndecoded) {
+    Fixture server(echo);
+    RawClient client(server.port());
+    EXPECT_EQ(client.ask("GET / HTTP/1.1\r\nX-A: %0d%0aB\r\nRemote_Addr: evil\r\n\r\n").body,
+              "GET /\nX-A=%0d%0aB\nRemote_Addr=evil\n[]");
+}
+
+TEST(Transport, RefusesBeforeRoutingWithAProblem) {
+    Fixture server(echo);
+    const std::vector<std::pair<std::string, int>> cases = {
+        {"GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n", 411},
+        {"POST / HTTP/1.1\r\nContent-Length: 1\r\nTransfer-Encoding: chunked\r\n\r\n", 411},
+        {"POST / HTTP/1.1\r\nContent-Length: 1\r\nContent-Length: 2\r\n\r\n", 400},
+        {"POST / HTTP/1.1\r\nContent-Encoding: gzip\r\nContent-Length: 1\r\n\r\nx", 415},
+        {"GET /" + std::string(5000, 'a') + " HTTP/1.1\r\n\r\n", 414},
+        {"GET / HTTP/1.1\r\nA: " + std::string(20000, 'a') + "\r\n\r\n", 431},
+        {"GET / HTTP/1.1\n\n", 400},
+        {"\x16\x03\x01\x02\r\n\r\n", 400},
+        {"BREW / HTTP/1.1\r\n\r\n", 501},
+        {"POST / HTTP/1.1\r\nContent-Length: 1001\r\n\r\n", 413},
+        {"POST /large HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n", 413}};
+    std::size_t count = 0;
+    for (const auto& [request, status] : cases) {
+        RawClient client(server.port());
+        const auto answer = client.ask(request);
+        EXPECT_EQ(answer.status, status) << request.substr(0, 80);
+        EXPECT_EQ(answer.header("Content-Type"), "application/problem+json");
+        EXPECT_EQ(answer.header("Connection"), "close");
+        EXPECT_FALSE(answer.body.empty());
+        EXPECT_EQ(server.wait_for_served(++count).status, status);
+    }
+}
+
+TEST(Transport, LetsAClientReadWhyItsLargeBodyWasRefused) {
+    Fixture server(echo);
+    RawClient client(server.port());
+    const std::string body(5 << 20, 'x');
+    client.send("POST / HTTP/1.1\r\nContent-Length: " + std::to_string(body.size()) + "\r\n\r\n");
+    client.send(body);
+    EXPECT_EQ(client.receive().status, 413);
+}
+
+TEST(Transport, TakesBodies) {
+    Fixture server(echo);
+    RawClient client(server.port());
+    EXPECT_EQ(
+        client
+            .ask(
+                "GET /a HTTP/1.1\r\nContent-Length: 30\r\n\r\nGET /evil HTTP/1.1\r\nX: y\r\n\r\n--")
+            .body,
+        "GET /a\nContent-Length=30\n[GET /evil HTTP/1.1\r\nX: y\r\n\r\n--]")
+        << "the body of a GET is not the next request";
+    EXPECT_EQ(client.ask("POST /b HTTP/1.1\r\n\r\n").body, "POST /b\n[]") << "no length, no body";
+
+    const std::string large(2 << 20, 'y');
+    client.send("POST /large HTTP/1.1\r\nExpect: 100-continue\r\nContent-Length: " +
+                std::to_string(large.size()) + "\r\n\r\n");
+    EXPECT_EQ(client.receive().status, 100);
+    client.send(large);
+    EXPECT_TRUE(client.receive().body.ends_with('[' + large + ']'));
+    EXPECT_EQ(client.ask("POST /b HTTP/1.1\r\nExpect: 100-continue\r\nContent-Length: 2000\r\n\r\n")
+                  .status,
+              413)
+        << "no 100 before a refusal";
+}
+
+TEST(Transport, BoundsTheMemoryOfLargeBodies) {
+    TransportOptions options = Fixture::quick();
+    options.most_body_memory = 1 << 20;
+    options.silence = 5s;
+    options.body = 5s;
+    Fixture server(echo, options);
+    RawClient first(server.port()), second(server.port());
+    first.send("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n");
+    std::this_thread::sleep_for(100ms);
+    EXPECT_EQ(second.ask("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n").status, 503);
+    first.send(std::string(1000000, 'x'));
+    EXPECT_EQ(first.receive().status, 200);
+    RawClient third(server.port());
+    third.send("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n");
+    third.send(std::string(1000000, 'x'));
+    EXPECT_EQ(third.receive().status, 200) << "what was taken is given back";
+}
+
+TEST(Transport, EndsConnectionsThatAreSilentOrDrip) {
+    Fixture server(echo);
+    RawClient silent(server.port()), half(server.port()), bodiless(server.port());
+    half.send("GET / HT");
+    bodiless.send("POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
+    const auto begun = Clock::now();
+    EXPECT_TRUE(silent.ends()) << "without a word: there was no request";
+    EXPECT_EQ(half.receive().status, 408);
+    EXPECT_EQ(bodiless.receive().status, 408);
+    RawClient dripping(server.port());
+    for (int i = 0; i < 60 && dripping.send("G"); ++i) std::this_thread::sleep_for(50ms);
+    EXPECT_EQ(dripping.receive().status, 408) << "each byte was in time, all together were not";
+    EXPECT_LT(Clock::now() - begun, 10s);
+}
+
+TEST(Transport, EndsConnectionsWhoseClientDoesNotRead) {
+    const Slice large = slice_of(std::string(64 << 20, 'z'));
+    Fixture server([&](const api::Request&, const Gone&) {
+        api::Answer answer = text_answer("");
+        answer.body = {large};
+        return answer;
+    });
+    RawClient client(server.port(), 4096);
+    client.send("GET / HTTP/1.1\r\n\r\n");
+    const Served served = server.wait_for_served();
+    EXPECT_FALSE(served.complete);
+    EXPECT_LT(served.bytes, 64u << 20);
+}
+
+TEST(Transport, SurvivesHandlersThatThrow) {
+    TransportOptions options = Fixture::quick();
+    options.port = 0;
+    Handlers handlers;
+    handlers.answer = [](const api::Request& request, const Gone&) -> api::Answer {
+        if (request.target == "/odd") throw 42;
+        throw std::runtime_error("secret detail");
+    };
+    handlers.refuse = [](const api::Request&, int, std::string_view) -> api::Answer {
+        throw std::runtime_error("secret too");
+    };
+    handlers.most_body = [](std::string_view, std::string_view) -> std::size_t {
+        throw std::runtime_error("secret as well");
+    };
+    handlers.served = [](const Served&) { throw std::runtime_error("and this"); };
+    Transport transport(options, handlers);
+    transport.start();
+    RawClient client(transport.port());
+    for (const char* target : {"/", "/odd"}) {
+        const auto answer = client.ask("GET " + std::string(target) + " HTTP/1.1\r\n\r\n");
+        EXPECT_EQ(answer.status, 500);
+        EXPECT_EQ(answer.head.find("secret"), std::string::npos);
+    }
+    EXPECT_EQ(client.ask("POST / HTTP/1.1\r\nContent-Length: 1\r\n\r\nx").status, 413);
+}
+
+TEST(Transport, TellsHandlersWhenTheClientHasLeft) {
+    std::binary_semaphore begun(0);
+    std::atomic<bool> noticed{false};
+    Fixture server([&](const api::Request&, const Gone& gone) {
+        EXPECT_FALSE(gone());
+        begun.release();
+        for (int i = 0; i < 2000 && !gone(); ++i) std::this_thread::sleep_for(5ms);
+        noticed = gone();
+        return text_answer("", client_left);
+    });
+    {
+        RawClient client(server.port());
+        client.send("GET / HTTP/1.1\r\n\r\nGET /pipelined");
+        begun.acquire();
+    }
+    const Served served = server.wait_for_served();
+    EXPECT_TRUE(noticed);
+    EXPECT_EQ(served.status, client_left);
+    EXPECT_EQ(served.bytes, 0u);
+}
+
+TEST(Transport, TakesRequestIdsThatAreSafe) {
+    Fixture server(
+        [](const api::Request& request, const Gone&) { return text_answer(request.id); });
+    RawClient client(server.port());
+    EXPECT_EQ(client.ask("GET / HTTP/1.1\r\nx-request-id: Abc_1-2\r\n\r\n").body, "Abc_1-2");
+    const std::string first = client.ask("GET / HTTP/1.1\r\nX-Request-Id: a b\r\n\r\n").body;
+    const std::string second =
+        client.ask("GET / HTTP/1.1\r\nX-Request-Id: " + std::string(65, 'a') + "\r\n\r\n").body;
+    EXPECT_EQ(first.size(), 16u);
+    EXPECT_EQ(second.size(), 16u);
+    EXPECT_NE(first, second);
+}
+
+TEST(Transport, ClosesAfterTheLastRequestOfAConnection) {
+    TransportOptions options = Fixture::quick();
+    options.most_requests = 2;
+    Fixture server(echo, options);
+    RawClient client(server.port());
+    EXPECT_EQ(client.ask("GET / HTTP/1.1\r\n\r\n").header("Connection"), "");
+    EXPECT_EQ(client.ask("GET / HTTP/1.1\r\n\r\n").header("Connection"), "close");
+    EXPECT_TRUE(client.ends());
+    RawClient modest(server.port());
+    EXPECT_EQ(modest.ask("GET / HTTP/1.1\r\nConnection: Close\r\n\r\n").header("Connection"),
+              "close");
+    EXPECT_TRUE(modest.ends());
+    RawClient old(server.port());
+    EXPECT_EQ(old.ask("GET / HTTP/1.0\r\n\r\n").status, 200);
+    EXPECT_TRUE(old.ends());
+}
+
+TEST(Transport, RefusesAPortThatIsTaken) {
+    Fixture server(echo);
+    TransportOptions options;
+    options.port = server.port();
+    try {
+        Transport second(options, {});
+        FAIL() << "two servers share a port";
+    } catch (const std::runtime_error& error) {
+        EXPECT_NE(std::string(error.what()).find("port " + std::to_string(server.port())),
+                  std::string::npos);
+        EXPECT_NE(std::string(error.what()).find("in use"), std::string::npos) << error.what();
+    }
+    options.host = "no.such.host.invalid";
+    EXPECT_THROW(Transport(options, {}), std::runtime_error);
+}
+
+TEST(Transport, MakesRoomWhenConnectionsIdle) {
+    TransportOptions options = Fixture::quick();
+    options.threads = 4;
+    options.idle = 5s;
+    Fixture server(echo, options);
+    std::vector<std::unique_ptr<RawClient>> kept;
+    for (int i = 0; i < 4; ++i) {
+        kept.push_back(std::make_unique<RawClient>(server.port()));
+        EXPECT_EQ(kept.back()->ask("GET / HTTP/1.1\r\n\r\n").status, 200);
+    }
+    const auto begun = Clock::now();
+    RawClient late(server.port());
+    EXPECT_EQ(late.ask("GET / HTTP/1.1\r\n\r\n").status, 200);
+    EXPECT_LT(Clock::now() - begun, 3s) << "an idle connection gives its thread up";
+}
+
+TEST(Transport, TurnsAwayWhatItCannotHold) {
+    TransportOptions options = Fixture::quick();
+    options.threads = 2;
+    options.waiting = 2;
+    std::counting_semaphore<> gate(0);
+    Fixture server(
+        [&](const api::Request&, const Gone&) {
+            gate.acquire();
+            return text_answer("late");
+        },
+        options);
+    std::vector<std::unique_ptr<RawClient>> clients;
+    for (std::size_t i = 0; i < 4; ++i) {
+        clients.push_back(std::make_unique<RawClient>(server.port()));
+        clients.back()->send("GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
+        const std::size_t open = std::min<std::size_t>(i + 1, 2);
+        for (int k = 0; k < 2000; ++k) {
+            const Transport::Load load = server.transport->load();
+            if (load.open == open && load.waiting == i + 1 - open) break;
+            std::this_thread::sleep_for(5ms);
+        }
+    }
+    RawClient surplus(server.port());
+    surplus.send("GET / HTTP/1.1\r\n\r\n");
+    EXPECT_EQ(surplus.receive().status, 503);
+    EXPECT_EQ(server.transport->load().refused, 1u);
+    gate.release(4);
+    for (auto& client : clients) EXPECT_EQ(client->receive().body, "late");
+}
+
+TEST(Transport, DrainsWhatHasBegun) {
+    std::counting_semaphore<> gate(0), begun(0);
+    Fixture server([&](const api::Request&, const Gone&) {
+        begun.release();
+        gate.acquire();
+        return text_answer("done");
+    });
+    RawClient working(server.port()), idle(server.port());
+    working.send("GET / HTTP/1.1\r\n\r\n");
+    begun.acquire();
+    std::atomic<bool> drained{false};
+    std::jthread drain([&] {
+        server.transport->drain();
+        drained = true;
+    });
+    EXPECT_TRUE(idle.ends());
+    EXPECT_FALSE(drained);
+    gate.release();
+    const auto answer = working.receive();
+    EXPECT_EQ(answer.body, "done");
+    EXPECT_EQ(answer.header("Connection"), "close");
+    drain.join();
+    EXPECT_FALSE(RawClient(server.port()).connected());
+}
+
+TEST(Transport, ServesManyAtOnce) {
+    Fixture server(echo);
+    std::atomic<int> good{0};
+    std::vector<std::jthread> threads;
+    for (int thread = 0; thread < 32; ++thread)
+        threads.emplace_back([&, thread] {
+            for (int round = 0; round < 5; ++round) {
+                RawClient client(server.port());
+                for (int i = 0; i < 10; ++i) {
+                    const std::string target =
+                        "/" + std::to_string(thread) + '/' + std::to_string(i);
+                    if (client.ask("GET " + target + " HTTP/1.1\r\n\r\n").body ==
+                        "GET " + target + "\n[]")
+                        ++good;
+                }
+            }
+        });
+    threads.clear();
+    EXPECT_EQ(good, 32 * 50);
+}
+
+}  // namespace
+}  // namespace sporeprint::server
