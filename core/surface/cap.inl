@@ -24,6 +24,9 @@ HWY_INLINE Rgb ramp_colour(const CapPlan& plan, VF along) {
     return colour;
 }
 
+// Cells grow from the pole outwards.
+HWY_INLINE VF one_over_stretch(VF rho) { return set(1.25F) - set(0.45F) * rho; }
+
 /// The fields of a cap that vary slowly enough to be sampled at every other texel; the first three come from the grid.
 HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) {
     const VF px = p.radius * p.cosine;
@@ -52,9 +55,12 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
         fields[cap_fibre] = a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F);
     }
     if ((plan.fields & (1U << cap_vein)) != 0) {
-        const VF y = p.rho * set(plan.vein_rows) + fields[cap_middle] * set(0.38F);
-        const VF x = turn + fields[cap_uneven] * set(0.012F);
-        const Cells net = cells(x - hn::Floor(x), hn::Max(y, set(0.0F)), 0.0F, plan.vein_columns / plan.vein_rows, 1.0F, 0.40F, plan.seed[9]);
+        // In the plane of the disc, drawn out along the meridians by a warp, so that most veins run outwards.
+        const VF rows = set(plan.vein_rows);
+        const VF draw = one_over_stretch(p.rho);
+        const VF x = p.x * rows * draw + fields[cap_uneven] * set(0.50F);
+        const VF y = p.y * rows * draw + fields[cap_middle] * set(0.30F) + fields[cap_mottle] * set(0.35F);
+        const Cells net = plane_cells(x, y, 0.45F, plan.seed[9]);
         fields[cap_vein] = smooth(net.border, 0.02F, 3.2F);
     }
 }
@@ -91,7 +97,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     VF rough = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
 
     if (plan.patches > 0.0F) {
-        const VF patch = smooth(fields[cap_patch] + set(0.25F) * middle, plan.patch_threshold - 0.05F, 10.0F) * set(plan.patch_weight);
+        const VF patch = smooth(fields[cap_patch] + set(0.14F) * middle + set(0.05F) * fine, plan.patch_threshold - 0.09F, 5.5F) * set(plan.patch_weight);
         colour = mix(colour, rgb(plan.patch_colour), patch);
         rough = rough + patch * set(0.05F);
         height = height + patch * set(0.0012F);
@@ -125,9 +131,9 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
             const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
             const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + middle * set(0.14F));
             const VF deep = groove * strength;
-            height = height - deep * p.radius * set(0.30F * 6.2831853F / n);
-            shade = shade * (one - set(0.34F) * deep);
-            occlusion = occlusion * (one - set(0.30F) * deep);
+            height = height - deep * p.radius * set(0.17F * 6.2831853F / n);
+            shade = shade * (one - set(0.26F) * deep);
+            occlusion = occlusion * (one - set(0.20F) * deep);
         }
     }
     if (plan.veins > 0.0F) {
@@ -165,23 +171,25 @@ HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
         colour = shaded(colour, one + grain * set(0.12F) - set(0.10F) * far);
         texel.colour = mix(texel.colour, colour, cover);
         texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
-        texel.height = texel.height + (up * set(patch.relief) + grain * set(0.15F * patch.relief)) * cover;
+        // A wart that leans is higher on one side.
+        texel.height = texel.height + (up + grain * set(0.15F) + a * set(0.3F * patch.lift)) * set(patch.relief) * cover;
         texel.occlusion = texel.occlusion * (one - set(0.38F) * foot);
         texel.colour = shaded(texel.colour, one - set(0.16F) * foot);
     } else {
         // A tongue of skin: broad at the root, ragged and pointed at the tip, standing off there.
         const VF thread = noise2(a * set(1.5F), b * set(5.3F), patch.seed);
-        const VF taper = one - set(0.62F) * smooth(a, -0.35F, 0.8F);
+        const VF tipwards = a * set(patch.lift);
+        const VF taper = one - set(0.62F) * smooth(tipwards, -0.35F, 0.8F);
         const VF side = hn::Abs(b) / hn::Max(taper, set(0.1F));
         const VF far = hn::Max(side, hn::Abs(a)) + thread * set(0.24F);
-        const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) * smooth(a, -1.0F, 1.2F);
-        const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window * set(patch.shown) * smooth(a, -0.2F, 1.0F);
-        const VF tip = smooth(a + thread * set(0.45F), -0.05F, 1.1F);
+        const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) * smooth(tipwards, -1.0F, 1.2F);
+        const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window * set(patch.shown) * smooth(tipwards, -0.2F, 1.0F);
+        const VF tip = smooth(tipwards + thread * set(0.45F), -0.05F, 1.1F);
         Rgb colour = mix(rgb(veil.colour), rgb(veil.tip), tip);
         colour = shaded(colour, one + thread * set(0.22F));
         texel.colour = mix(texel.colour, colour, cover);
         texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
-        texel.height = texel.height + (unit(a * set(0.5F) + set(0.5F)) + thread * set(0.2F)) * set(patch.relief) * cover;
+        texel.height = texel.height + (unit(tipwards * set(0.5F) + set(0.5F)) + thread * set(0.2F)) * set(patch.relief) * cover;
         texel.occlusion = texel.occlusion * (one - set(0.45F) * foot);
         texel.colour = shaded(texel.colour, one - set(0.30F) * foot);
     }

@@ -34,8 +34,9 @@ HWY_INLINE VF wrapped(VF x, float period) {
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const VF x = turn * set(n) + wander * set(n * 0.0020F);
+    const VF x = turn * set(n) + wander * set(n * 0.0013F);
     const VF gap = p.radius * set(6.2831853F / n);
+    const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel));
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
     VF room = one;                                        // share of the gap between two blades
     float scale = 1.0F;
@@ -52,11 +53,11 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
         room = room * (one - set(0.5F) * grown);
     }
     const VF half = gap * room * set(0.5F);
-    const VF edge = hn::Min(set(plan.blade), half * set(0.42F));
-    const VF soft = set(plan.disc.per_texel * 0.75F / (1.0F - plan.disc.inner));
+    const VF edge = hn::Min(set(plan.blade), half * set(0.36F));
+    const VF soft = gap * set(0.75F) / hn::Max(gap_texels, set(0.5F));
     Slot slot;
     slot.depth = unit((distance * gap - edge) / hn::Max(half - edge, soft));
-    slot.visible = shown(gap * room * set((1.0F - plan.disc.inner) / plan.disc.per_texel), 4.0F);
+    slot.visible = shown(gap_texels * room, 4.0F);
     return slot;
 }
 
@@ -64,8 +65,9 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const VF x = turn * set(n) + wander * set(0.34F);
+    const VF x = turn * set(n) + wander * set(n * 0.0095F);
     const VF gap = p.radius * set(6.2831853F / n);
+    const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel));
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
     VF room = one;
     const float hidden = 1.0F - plan.forking;
@@ -84,17 +86,17 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
     }
     const VF half = gap * room * set(0.5F);
     Slot slot;
-    slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.18F, 1.35F);
+    slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.12F, 1.15F);
     // Cross veins, low and thin.
     const VF vein = periodic_noise2(turn * set(2.0F * n) + wander * set(0.6F), share * set(13.0F), 2 * plan.blades, plan.seed[4]);
     const VF cross = (one - smooth(hn::Abs(vein), 0.03F, 5.5F)) * set(0.55F * plan.forking);
     slot.depth = slot.depth * (one - cross);
-    slot.visible = shown(gap * room * set((1.0F - plan.disc.inner) / plan.disc.per_texel), 4.0F);
+    slot.visible = shown(gap_texels * room, 4.0F);
     return slot;
 }
 
 HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
-    const Cells cell = cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow / plan.pore_rows, 1.0F, 0.30F, plan.seed[5]);
+    const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow / plan.pore_rows, 1.0F, 0.30F, plan.seed[5]);
     // Each tube has its own width.
     const VF width = set(0.16F) + set(0.06F) * lower_part(hash(cell.id));
     Slot slot;
@@ -141,20 +143,20 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
         height = height * set(0.35F + plan.relief);
     } else {
         const VF turn = turn_of(p.cosine, p.sine);
-        const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn, middle)
-                          : plan.pattern == 2 ? ridges(plan, p, share, turn, middle)
+        const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn, uneven)
+                          : plan.pattern == 2 ? ridges(plan, p, share, turn, uneven + middle * set(0.22F))
                                               : pores(plan, share, turn);
         const float mean_depth = plan.pattern == 3 ? 0.5F : 0.45F;
         const VF depth = mix(set(mean_depth), slot.depth, slot.visible);
         const VF deep = depth * depth;
         // Edge, face, and depth of the slot; what is deep is only as dark as the relief makes it.
-        const VF on_edge = (one - smooth(slot.depth, 0.0F, plan.pattern == 3 ? 2.6F : 4.0F)) * slot.visible + (one - slot.visible) * set(0.2F);
+        const VF on_edge = (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible + (one - slot.visible) * set(0.2F);
         colour = mix(colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
         colour = mix(colour, rgb(plan.edge), on_edge);
         occlusion = occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
         const VF period = plan.pattern == 3 ? set(1.0F / plan.pore_rows) : p.radius * set(6.2831853F / static_cast<float>(plan.blades));
         const VF rise = (one - depth * depth) * slot.visible * period;
-        height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.34F : 0.26F) * plan.relief);
+        height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
     }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);
     out.colour = shaded(colour, hn::Max(shade, set(0.05F)));

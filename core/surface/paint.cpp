@@ -138,9 +138,9 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.streaks = single(cap.streaks);
     plan.veins = single(cap.veins);
     plan.vein_rows = 7.0F;
-    plan.vein_columns = single(2.0 * pi * 7.0 * sine(std::min(static_cast<double>(plan.disc.bend), 0.5 * pi)) * static_cast<double>(plan.disc.sphere));
     plan.striae = single(cap.striae);
-    plan.striae_count = std::clamp(params.hymenium.blades, 8, 400);
+    // Few gills show through a thin cap one by one, with the shorter ones between; many run together.
+    plan.striae_count = std::min(2 * params.hymenium.blades, 54 + params.hymenium.blades / 2);
     if (plan.streaks > 0.0F) plan.fields |= 1U << cap_streak;
     if (plan.fibrils > 0.0F) plan.fields |= 1U << cap_fibre;
     if (plan.patches > 0.0F) plan.fields |= 1U << cap_patch;
@@ -175,10 +175,10 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.blades = params.hymenium.blades;
     plan.tiers = params.hymenium.tiers;
     plan.forking = single(params.hymenium.forking);
-    // The bottom of a slot as deep as `relief` times 2.2 its width sees that little of the sky.
-    const double steep = 2.2 * params.hymenium.relief;
+    // The bottom of a slot as deep as `steep` times its width sees that little of the sky; ridges are shallow folds.
+    const double steep = (face.pattern == HymeniumPattern::ridges ? 0.6 : 1.6) * params.hymenium.relief;
     plan.slot_occlusion = single(std::sqrt(1.0 + steep * steep) - steep);
-    plan.blade = single(0.21 * 2.0 * pi * outer / unit / (params.hymenium.blades * (1 << params.hymenium.tiers)));
+    plan.blade = single(0.13 * 2.0 * pi * outer / unit / (params.hymenium.blades * (1 << params.hymenium.tiers)));
     const double rows = std::max(3.0, arc * params.hymenium.pores_per_mm * 1000.0);
     plan.pore_rows = single(rows);
     plan.pore_from = single(2.0 * pi * inner / arc * rows);
@@ -259,9 +259,9 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
         one.kind = kind;
         one.x = single(patch.sigma * turn.cosine);
         one.y = single(patch.sigma * turn.sine);
-        const double outwards = style.lift < 0.0 ? -1.0 : 1.0;
-        one.along_x = single(outwards * turn.cosine);
-        one.along_y = single(outwards * turn.sine);
+        one.along_x = single(turn.cosine);
+        one.along_y = single(turn.sine);
+        one.lift = single(std::clamp(3.0 * style.lift, -1.0, 1.0));
         one.per_length = single(1.0 / length);
         one.per_width = single(1.0 / width);
         one.relief = single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);

@@ -73,8 +73,7 @@ struct CapPlan {
     Light patch_colour;
     float streaks = 0.0F;
     float veins = 0.0F;
-    float vein_rows = 8.0F;
-    float vein_columns = 20.0F;  ///< at the rim
+    float vein_rows = 8.0F;  ///< cells of the net from pole to rim
     float striae = 0.0F;
     int striae_count = 60;
     std::array<float, 3> bumps{};  ///< by octave, already limited to what the texels can show
@@ -140,9 +139,10 @@ struct VeilPlan {
 /// A painted wart or scale on the cap's disc.
 struct PatchPlan {
     float x = 0.0F, y = 0.0F;             ///< centre, in disc radii
-    float along_x = 0.0F, along_y = 0.0F; ///< unit vector to the tip
+    float along_x = 0.0F, along_y = 0.0F; ///< unit vector away from the apex
     float per_length = 0.0F, per_width = 0.0F;
     float relief = 0.0F;                  ///< height in arcs
+    float lift = 1.0F;                    ///< which end is the tip: 1 the outer, -1 the inner, between neither quite
     float shown = 0.0F;                   ///< 0..1
     float reach = 0.0F;                   ///< in disc radii, along the rows
     std::array<float, 6> side_x{}, side_y{};

@@ -143,8 +143,8 @@ HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& c
         const VF bright = most + (set(0.82F) - most) * w * set(0.35F);
         Rgb pale;
         pale.r = mix(colour.r, bright, set(0.95F));
-        pale.g = mix(colour.g, bright, set(0.62F));
-        pale.b = mix(colour.b, bright, set(0.26F));
+        pale.g = mix(colour.g, bright, set(0.50F));
+        pale.b = mix(colour.b, bright, set(0.11F));
         colour = mix(colour, pale, w * set(0.85F));
         roughness = roughness + w * set(0.10F);
     }

@@ -84,7 +84,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
         const VF y = length * set(net_columns / net_stretch) + middle * set(0.30F);
         VF thread = zero;
         if (!hn::AllTrue(Floats(), strength <= zero)) {
-            const Cells mesh = cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch, 0.34F, plan.seed[8]);
+            const Cells mesh = ring_cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch, 0.34F, plan.seed[8]);
             thread = one - smooth(mesh.border, 0.03F, 4.5F);
         }
         const VF up = thread * strength;

@@ -98,19 +98,57 @@ struct Cells {
     VU id;      ///< of the cell
 };
 
+// The points of nearby cells, seen from a texel.
+template <int Most>
+struct Neighbours {
+    VF dx[Most];
+    VF dy[Most];
+    VF nearest, near_x, near_y;
+    VU id;
+    int count = 0;
+
+    HWY_INLINE void add(VF x, VF y, VU cell) {
+        dx[count] = x;
+        dy[count] = y;
+        const VF far = x * x + y * y;
+        if (count == 0) {
+            nearest = far;
+            near_x = x;
+            near_y = y;
+            id = cell;
+        } else {
+            const auto closer = far < nearest;
+            nearest = hn::IfThenElse(closer, far, nearest);
+            near_x = hn::IfThenElse(closer, x, near_x);
+            near_y = hn::IfThenElse(closer, y, near_y);
+            id = hn::IfThenElse(hn::RebindMask(Words(), closer), cell, id);
+        }
+        ++count;
+    }
+
+    // Distance to the nearest bisector between the nearest point and another.
+    HWY_INLINE Cells found() const {
+        VF border = set(1e9F);
+        for (int k = 0; k < Most; ++k) {
+            const VF ex = dx[k] - near_x;
+            const VF ey = dy[k] - near_y;
+            const VF apart = ex * ex + ey * ey;
+            const VF twice = dx[k] * dx[k] + dy[k] * dy[k] - nearest;
+            const VF square = twice * twice / hn::Max(apart, set(1e-6F));
+            border = hn::IfThenElse(apart > set(1e-6F), hn::Min(border, square), border);
+        }
+        return {hn::Sqrt(border) * set(0.5F), id};
+    }
+};
+
 /// Cells with one point each, in rows across y; row j has floor(from + grow * (j + 0.5)) of them round the turn, at least 3.
 /// So they neither stretch where a surface widens nor break where the turn closes. Cells are `tall` times as long as wide.
 ///
 /// source  [Worley1996]; the border distance is that to the bisector, true in the metric of the surface. Of each row only the
 ///         two nearest points are looked at: enough for jitter below 0.4 near the borders, where it is read
-HWY_INLINE Cells cells(VF turn, VF y, float from, float grow, float tall, float jitter, std::uint32_t seed) {
+HWY_INLINE Cells ring_cells(VF turn, VF y, float from, float grow, float tall, float jitter, std::uint32_t seed) {
     const VF row = hn::Floor(y);
-    VF dx[6];
-    VF dy[6];
-    VF nearest = set(1e9F);
-    VF near_x = set(0.0F);
-    VF near_y = set(0.0F);
-    VU id = word(0);
+    Neighbours<6> all;
     for (int j = 0; j < 3; ++j) {
         const VF this_row = row + set(static_cast<float>(j - 1));
         const VF count = grow == 0.0F ? set(from) : hn::Max(hn::Floor(set(from) + set(grow) * (this_row + set(0.5F))), set(3.0F));
@@ -124,31 +162,29 @@ HWY_INLINE Cells cells(VF turn, VF y, float from, float grow, float tall, float 
             VF wrapped = this_column;
             wrapped = wrapped + hn::IfThenElseZero(wrapped < set(0.0F), count);
             wrapped = wrapped - hn::IfThenElseZero(wrapped >= count, count);
-            VU h = whole_bits(wrapped) * word(prime_x);
-            h = hash(hn::Xor(h, row_bits));
-            const int k = 2 * j + i;
-            dx[k] = this_column + set(0.5F) + upper_part(h) * set(jitter) - x;
-            dy[k] = (this_row + set(0.5F) + lower_part(h) * set(jitter) - y) * set(tall);
-            const VF far = dx[k] * dx[k] + dy[k] * dy[k];
-            const auto closer = far < nearest;
-            nearest = hn::IfThenElse(closer, far, nearest);
-            near_x = hn::IfThenElse(closer, dx[k], near_x);
-            near_y = hn::IfThenElse(closer, dy[k], near_y);
-            id = hn::IfThenElse(hn::RebindMask(Words(), closer), h, id);
+            const VU h = hash(hn::Xor(whole_bits(wrapped) * word(prime_x), row_bits));
+            all.add(this_column + set(0.5F) + upper_part(h) * set(jitter) - x,
+                    (this_row + set(0.5F) + lower_part(h) * set(jitter) - y) * set(tall), h);
         }
     }
-    VF border = set(1e9F);
-    for (int k = 0; k < 6; ++k) {
-        const VF ex = dx[k] - near_x;
-        const VF ey = dy[k] - near_y;
-        const VF apart = ex * ex + ey * ey;
-        const VF far = dx[k] * dx[k] + dy[k] * dy[k];
-        // Square of the distance, kept with its sign out of sight: far >= nearest.
-        const VF twice = far - nearest;
-        const VF square = twice * twice / hn::Max(apart, set(1e-6F));
-        border = hn::IfThenElse(apart > set(1e-6F), hn::Min(border, square), border);
+    return all.found();
+}
+
+/// Cells of the plane, one unit in size.
+HWY_INLINE Cells plane_cells(VF x, VF y, float jitter, std::uint32_t seed) {
+    const VF column = hn::Floor(x);
+    const VF row = hn::Floor(y);
+    Neighbours<9> all;
+    for (int j = 0; j < 3; ++j) {
+        const VF this_row = row + set(static_cast<float>(j - 1));
+        const VU row_bits = whole_bits(this_row) * word(prime_y) + word(seed);
+        for (int i = 0; i < 3; ++i) {
+            const VF this_column = column + set(static_cast<float>(i - 1));
+            const VU h = hash(hn::Xor(whole_bits(this_column) * word(prime_x), row_bits));
+            all.add(this_column + set(0.5F) + upper_part(h) * set(jitter) - x, this_row + set(0.5F) + lower_part(h) * set(jitter) - y, h);
+        }
     }
-    return {hn::Sqrt(border) * set(0.5F), id};
+    return all.found();
 }
 
 }  // namespace HWY_NAMESPACE

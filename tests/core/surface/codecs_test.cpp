@@ -1,0 +1,151 @@
+#include "core/surface/codecs.h"
+
+#include <gtest/gtest.h>
+#include <png.h>
+#include <webp/encode.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+#include "core/params/problems.h"
+
+namespace sporeprint {
+namespace {
+
+// A smooth slope of colours, so that lossy codecs keep it closely.
+Bytes slope(int width, int height) {
+    Bytes rgb;
+    for (int y = 0; y < height; ++y)
+        for (int x = 0; x < width; ++x) {
+            rgb.push_back(static_cast<std::uint8_t>(40 + 150 * x / width));
+            rgb.push_back(static_cast<std::uint8_t>(60 + 120 * y / height));
+            rgb.push_back(100);
+        }
+    return rgb;
+}
+
+Bytes png_of(const Bytes& pixels, int width, int height, png_uint_32 format) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = format;
+    png_alloc_size_t size = 0;
+    EXPECT_NE(png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, nullptr), 0);
+    Bytes file(size);
+    EXPECT_NE(png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr), 0);
+    file.resize(size);
+    return file;
+}
+
+Bytes webp_of(const Bytes& rgb, int width, int height) {
+    std::uint8_t* out = nullptr;
+    const std::size_t size = WebPEncodeLosslessRGB(rgb.data(), width, height, 3 * width, &out);
+    const Bytes file(out, out + size);
+    WebPFree(out);
+    return file;
+}
+
+std::string refusal(const Bytes& file) {
+    try {
+        (void)decoded_picture(file, "/surface/cap/image");
+    } catch (const InvalidInput& error) {
+        EXPECT_EQ(error.problems().at(0).path, "/surface/cap/image");
+        return error.problems().at(0).message;
+    }
+    return "";
+}
+
+TEST(Codecs, PngAndLosslessWebpComeBackExactly) {
+    const Bytes rgb = slope(61, 40);
+    for (const Bytes& file : {png_of(rgb, 61, 40, PNG_FORMAT_RGB), webp_of(rgb, 61, 40)}) {
+        const Picture picture = decoded_picture(file, "/image");
+        EXPECT_EQ(picture.width, 61);
+        EXPECT_EQ(picture.height, 40);
+        EXPECT_TRUE(picture.rgb == rgb);
+    }
+}
+
+TEST(Codecs, JpegComesBackClosely) {
+    const Bytes rgb = slope(64, 48);
+    const Picture picture = decoded_picture(jpeg(rgb, 64, 48, 92, Chroma::full), "/image");
+    ASSERT_EQ(picture.rgb.size(), rgb.size());
+    for (std::size_t i = 0; i < rgb.size(); ++i) EXPECT_NEAR(picture.rgb[i], rgb[i], 6);
+}
+
+TEST(Codecs, JpegIsTheSameEveryTime) {
+    const Bytes rgb = slope(64, 64);
+    EXPECT_TRUE(jpeg(rgb, 64, 64, 88, Chroma::halved) == jpeg(rgb, 64, 64, 88, Chroma::halved));
+}
+
+TEST(Codecs, TransparencyIsDroppedAndItsColourKept) {
+    Bytes rgba;
+    for (int i = 0; i < 16; ++i) {
+        const std::uint8_t alpha = i % 2 == 0 ? 0 : 128;
+        rgba.insert(rgba.end(), {200, 100, 50, alpha});
+    }
+    const Picture picture = decoded_picture(png_of(rgba, 4, 4, PNG_FORMAT_RGBA), "/image");
+    for (std::size_t i = 0; i < picture.rgb.size(); i += 3) {
+        EXPECT_EQ(picture.rgb[i], 200);
+        EXPECT_EQ(picture.rgb[i + 1], 100);
+        EXPECT_EQ(picture.rgb[i + 2], 50);
+    }
+}
+
+TEST(Codecs, WhatIsNoImageIsRefused) {
+    EXPECT_EQ(refusal({}), "neither a PNG, a JPEG nor a WebP file");
+    EXPECT_EQ(refusal({'h', 'e', 'l', 'l', 'o'}), "neither a PNG, a JPEG nor a WebP file");
+    EXPECT_EQ(refusal({'G', 'I', 'F', '8', '9', 'a'}), "neither a PNG, a JPEG nor a WebP file");
+}
+
+TEST(Codecs, BrokenFilesAreRefused) {
+    const Bytes rgb = slope(64, 64);
+    Bytes files[] = {png_of(rgb, 64, 64, PNG_FORMAT_RGB), jpeg(rgb, 64, 64, 90, Chroma::full), webp_of(rgb, 64, 64)};
+    for (Bytes& file : files) {
+        for (const std::size_t kept : {std::size_t{12}, file.size() / 2}) {
+            const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(kept));
+            EXPECT_NE(refusal(cut), "");
+        }
+    }
+}
+
+TEST(Codecs, AnImageOfTheLargestSizeIsTaken) {
+    const Bytes rgb(3 * 2048 * 2048, 77);
+    EXPECT_EQ(decoded_picture(png_of(rgb, 2048, 2048, PNG_FORMAT_RGB), "/image").width, 2048);
+}
+
+TEST(Codecs, LargerImagesAreRefusedByTheirHeaderAlone) {
+    const Bytes wide(3 * 2049 * 2, 77);
+    const std::string too_wide = "the image is 2049 x 2 pixels; at most 2048 x 2048 are allowed";
+    EXPECT_EQ(refusal(png_of(wide, 2049, 2, PNG_FORMAT_RGB)), too_wide);
+    EXPECT_EQ(refusal(jpeg(wide, 2049, 2, 90, Chroma::full)), too_wide);
+    EXPECT_EQ(refusal(webp_of(wide, 2049, 2)), too_wide);
+}
+
+TEST(Codecs, ABombIsRefusedBeforeItsPixelsAreDecoded) {
+    // The header promises 60000 x 60000 pixels: 10 GB that are never asked for.
+    Bytes bomb = png_of(slope(8, 8), 8, 8, PNG_FORMAT_RGB);
+    const std::uint8_t side[4] = {0, 0, 0xEA, 0x60};
+    std::memcpy(&bomb[16], side, 4);
+    std::memcpy(&bomb[20], side, 4);
+    // The checksum of the header chunk, worked out anew.
+    std::uint32_t crc = 0xFFFFFFFFU;
+    for (std::size_t i = 12; i < 29; ++i) {
+        crc ^= bomb[i];
+        for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xEDB88320U : crc >> 1U;
+    }
+    crc = ~crc;
+    for (std::size_t i = 0; i < 4; ++i) bomb[29 + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+    EXPECT_EQ(refusal(bomb), "the image is 60000 x 60000 pixels; at most 2048 x 2048 are allowed");
+}
+
+TEST(Codecs, AJpegOfEndlessScansIsRefused) {
+    Bytes file = jpeg(slope(16, 16), 16, 16, 90, Chroma::full);
+    for (int i = 0; i < 100; ++i) file.insert(file.end(), {0xFF, 0xDA});
+    EXPECT_EQ(refusal(file), "the JPEG file has too many scans");
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,462 @@
+#include "core/surface/paint.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstddef>
+#include <cstdlib>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/math/noise.h"
+#include "core/params/problems.h"
+#include "core/surface/charts.h"
+#include "core/surface/codecs.h"
+
+namespace sporeprint {
+namespace {
+
+// A mushroom that wears everything at once, coarse enough to show on a small atlas.
+PaintParams motley(HymeniumPattern pattern, int side = 256) {
+    PaintParams params;
+    params.seed = 7;
+    params.side = side;
+    params.metrics.cap_radius = quantised_length(0.05);
+    params.metrics.cap_arc = quantised_length(0.06);
+    params.metrics.hymenium_arc = quantised_length(0.042);
+    params.metrics.hymenium_inner = quantised_length(0.01);
+    params.metrics.stem_length = quantised_length(0.10);
+    params.metrics.stem_radius = quantised_length(0.01);
+    CapSurface& cap = params.surface.cap;
+    cap.ramp = {{200, 22, 29}, {120, 70, 90}, {226, 71, 30}};
+    cap.fibrils = 0.4;
+    cap.fibril_count = 24;
+    cap.zones = 0.4;
+    cap.patches = 0.3;
+    cap.patch_size = 0.02;
+    cap.streaks = 0.4;
+    cap.veins = 0.4;
+    cap.striae = 0.3;
+    cap.bumps = 0.6;
+    params.surface.hymenium.pattern = pattern;
+    params.surface.hymenium.mottle = 0.5;
+    params.surface.hymenium.edge = {120, 20, 20};
+    params.hymenium.blades = 20;
+    params.hymenium.tiers = 1;
+    params.hymenium.forking = 0.5;
+    params.hymenium.pores_per_mm = 0.4;
+    StemSurface& stem = params.surface.stem;
+    stem.bands = 0.5;
+    stem.net = 0.6;
+    stem.bumps = 0.6;
+    params.warts.count = 30;
+    params.warts.size = 0.08;
+    params.ornaments.warts = 0.7;
+    params.scales.count = 40;
+    params.scales.size = 0.08;
+    params.scales.lift = 0.2;
+    params.ornaments.scales = 0.7;
+    params.fade = 0.3;
+    params.wetness = 0.3;
+    return params;
+}
+
+constexpr HymeniumPattern all_patterns[] = {HymeniumPattern::smooth, HymeniumPattern::gills, HymeniumPattern::ridges, HymeniumPattern::pores};
+
+// Mean difference of two atlases in levels of 255, over all images.
+double difference(const RawImages& a, const RawImages& b) {
+    double sum = 0.0;
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < 3; ++i) {
+        count += a.rgb[i].size();
+        for (std::size_t k = 0; k < a.rgb[i].size(); ++k) sum += std::abs(static_cast<int>(a.rgb[i][k]) - static_cast<int>(b.rgb[i][k]));
+    }
+    return sum / static_cast<double>(count);
+}
+
+struct Texel {
+    int r, g, b;
+};
+
+Texel texel(const RawImages& images, ImageKind kind, int x, int y) {
+    const Bytes& rgb = images.rgb[static_cast<std::size_t>(kind)];
+    const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(images.side) + static_cast<std::size_t>(x));
+    return {rgb[at], rgb[at + 1], rgb[at + 2]};
+}
+
+// Every number below a described struct: visit(path, info, number).
+template <class T, class Visit>
+void for_each_number(T& value, const std::string& path, const Visit& visit) {
+    T::fields([&](auto member, const Info& info) {
+        auto& sub = value.*member;
+        using Sub = std::remove_cvref_t<decltype(sub)>;
+        const std::string name = path + "/" + info.name;
+        if constexpr (Described<Sub>)
+            for_each_number(sub, name, visit);
+        else if constexpr (Number<Sub>)
+            visit(name, info, sub);
+    });
+}
+
+template <class T, class Visit>
+void for_each_colour(T& value, const std::string& path, const Visit& visit) {
+    T::fields([&](auto member, const Info& info) {
+        auto& sub = value.*member;
+        using Sub = std::remove_cvref_t<decltype(sub)>;
+        const std::string name = path + "/" + info.name;
+        if constexpr (Described<Sub>)
+            for_each_colour(sub, name, visit);
+        else if constexpr (std::is_same_v<Sub, Colour>)
+            visit(name, sub);
+    });
+}
+
+class Paint : public ::testing::Test {
+protected:
+    void TearDown() override { force_simd("auto"); }
+};
+
+TEST_F(Paint, GivesEqualBytesWithEveryInstructionSet) {
+    for (const HymeniumPattern pattern : all_patterns) {
+        for (const int side : {16, 128, 512}) {
+            if (side == 512 && pattern != HymeniumPattern::gills) continue;
+            const PaintParams params = motley(pattern, side);
+            force_simd("scalar");
+            const RawImages expected = paint_raw(params);
+            for (const std::string& name : simd_names()) {
+                force_simd(name);
+                const RawImages found = paint_raw(params);
+                for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(found.rgb[i] == expected.rgb[i]) << name << ' ' << side;
+            }
+        }
+    }
+}
+
+TEST_F(Paint, GivesEqualFilesHoweverTheWorkIsShared) {
+    const PaintParams params = motley(HymeniumPattern::gills);
+    const ImageSet alone = paint(params);
+    const ImageSet again = paint(params);
+    const ImageSet shared = paint(params, [](std::span<const std::function<void()>> pieces) {
+        std::vector<std::jthread> threads;
+        for (std::size_t i = pieces.size(); i > 0; --i) threads.emplace_back(pieces[i - 1]);
+    });
+    for (std::size_t i = 0; i < 3; ++i) {
+        EXPECT_TRUE(*alone.files[i].owner == *again.files[i].owner);
+        EXPECT_TRUE(*alone.files[i].owner == *shared.files[i].owner);
+    }
+}
+
+TEST_F(Paint, WritesThreeJpegFilesOfTheAtlas) {
+    for (const int side : {16, 64, 256}) {
+        const ImageSet files = paint(motley(HymeniumPattern::pores, side));
+        for (const Slice& file : files.files) {
+            const Picture picture = decoded_picture({file.data(), file.size}, "/image");
+            EXPECT_EQ(picture.width, side);
+            EXPECT_EQ(picture.height, side);
+        }
+    }
+}
+
+TEST_F(Paint, RefusesASideThatIsNoPowerOfTwo) {
+    for (const int side : {0, 8, 100, 4096}) {
+        PaintParams params;
+        params.side = side;
+        EXPECT_THROW((void)paint(params), InvalidInput) << side;
+    }
+}
+
+TEST_F(Paint, WithoutReliefTheNormalsAreFlat) {
+    PaintParams params;
+    params.side = 256;
+    params.surface.cap.bumps = 0.0;
+    params.surface.stem.bumps = 0.0;
+    params.surface.stem.fibrils = 0.0;
+    const RawImages images = paint_raw(params);
+    for (int y = 0; y < 128; ++y)
+        for (int x = 0; x < 128; ++x) {
+            const Texel normal = texel(images, ImageKind::normal, x, y);
+            ASSERT_NEAR(normal.r, 128, 1);
+            ASSERT_NEAR(normal.g, 128, 1);
+            ASSERT_NEAR(normal.b, 255, 1);
+        }
+    for (int y = 128; y < 224; ++y)
+        for (int x = 0; x < 256; ++x) {
+            const Texel normal = texel(images, ImageKind::normal, x, y);
+            ASSERT_NEAR(normal.r, 128, 1);
+            ASSERT_NEAR(normal.g, 128, 1);
+            ASSERT_NEAR(normal.b, 255, 1);
+        }
+}
+
+TEST_F(Paint, NormalsAreUnitVectorsThatPointOutwards) {
+    const RawImages images = paint_raw(motley(HymeniumPattern::gills));
+    for (int y = 0; y < images.side; ++y)
+        for (int x = 0; x < images.side; ++x) {
+            const Texel n = texel(images, ImageKind::normal, x, y);
+            const double nx = n.r / 127.5 - 1.0, ny = n.g / 127.5 - 1.0, nz = n.b / 127.5 - 1.0;
+            ASSERT_NEAR(nx * nx + ny * ny + nz * nz, 1.0, 0.03);
+            ASSERT_GE(nz, -0.01);
+        }
+}
+
+TEST_F(Paint, ABumpFacesAwayFromItsMiddle) {
+    // One great wart: to its right the normal points right, above it (smaller v) the normal points up.
+    PaintParams params;
+    params.side = 512;
+    params.surface.cap.bumps = 0.0;
+    params.warts.count = 1;
+    params.warts.size = 0.3;
+    params.warts.height = 2.0;
+    params.ornaments.warts = 1.0;
+    const Patch wart = patches(params.warts, params.seed, wart_purpose).at(0);
+    const RawImages images = paint_raw(params);
+    const TexturePoint middle = disc_point(swept_charts[0], wart.sigma, std::cos(wart.theta), std::sin(wart.theta));
+    const int cx = static_cast<int>(middle.u * 512.0), cy = static_cast<int>(middle.v * 512.0);
+    const int reach = static_cast<int>(0.8 * wart.radius * 0.47 * 256.0);
+    double right = 0.0, up = 0.0;
+    for (int y = -reach; y <= reach; ++y)
+        for (int x = -reach; x <= reach; ++x) {
+            if (cx + x < 0 || cx + x >= 256 || cy + y < 0 || cy + y >= 256) continue;
+            const Texel n = texel(images, ImageKind::normal, cx + x, cy + y);
+            right += (n.r - 128) * x;
+            up -= (n.g - 128) * y;
+        }
+    EXPECT_GT(right, 0.0);
+    EXPECT_GT(up, 0.0);
+}
+
+TEST_F(Paint, OrmHasNoMetal) {
+    const RawImages images = paint_raw(motley(HymeniumPattern::ridges));
+    for (std::size_t i = 2; i < images.rgb[2].size(); i += 3) ASSERT_EQ(images.rgb[2][i], 0);
+}
+
+TEST_F(Paint, EveryNumberChangesThePicture) {
+    std::vector<RawImages> before;
+    for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(motley(pattern)));
+    PaintParams walked = motley(HymeniumPattern::smooth);
+    std::vector<std::string> names;
+    for_each_number(walked, "", [&](const std::string& name, const Info&, auto&) { names.push_back(name); });
+    for (const std::string& wanted : names) {
+        if (wanted == "/side" || wanted == "/ornaments/ring") continue;
+        bool changed = false;
+        for (std::size_t p = 0; p < 4 && !changed; ++p) {
+            PaintParams params = motley(all_patterns[p]);
+            for_each_number(params, "", [&](const std::string& name, const Info& info, auto& number) {
+                if (name != wanted) return;
+                using N = std::remove_cvref_t<decltype(number)>;
+                const double now = static_cast<double>(number);
+                const bool rises = now < 0.5 * (info.min + info.max);
+                if constexpr (std::is_integral_v<N>)
+                    number = static_cast<N>(now + (wanted.starts_with("/metrics") ? 20.0 : now < info.max ? 1.0 : -1.0));
+                else
+                    number = rises ? now + 0.3 * (info.max - now) : now - 0.3 * (now - info.min);
+            });
+            changed = difference(before[p], paint_raw(params)) > 1e-3;
+        }
+        EXPECT_TRUE(changed) << wanted;
+    }
+}
+
+TEST_F(Paint, EveryColourChangesThePicture) {
+    std::vector<RawImages> before;
+    for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(motley(pattern)));
+    PaintParams walked = motley(HymeniumPattern::smooth);
+    std::vector<std::string> names;
+    for_each_colour(walked, "", [&](const std::string& name, Colour&) { names.push_back(name); });
+    EXPECT_EQ(names.size(), 11U);
+    for (const std::string& wanted : names) {
+        bool changed = false;
+        for (std::size_t p = 0; p < 4 && !changed; ++p) {
+            PaintParams params = motley(all_patterns[p]);
+            for_each_colour(params, "", [&](const std::string& name, Colour& colour) {
+                if (name == wanted) colour = Colour{20, 200, 240};
+            });
+            changed = difference(before[p], paint_raw(params)) > 0.02;
+        }
+        EXPECT_TRUE(changed) << wanted;
+    }
+}
+
+TEST_F(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
+    for (const HymeniumPattern pattern : {HymeniumPattern::gills, HymeniumPattern::ridges}) {
+        const PaintParams start = motley(pattern);
+        const RawImages before = paint_raw(start);
+        PaintParams walked = start;
+        std::vector<std::string> names;
+        for_each_number(walked, "", [&](const std::string& name, const Info&, auto& number) {
+            if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(number)>>) names.push_back(name);
+        });
+        for (const std::string& wanted : names) {
+            PaintParams params = start;
+            for_each_number(params, "", [&](const std::string& name, const Info& info, auto& number) {
+                using N = std::remove_cvref_t<decltype(number)>;
+                if (name == wanted) number = static_cast<N>(static_cast<double>(number) + 0.0005 * (info.max - info.min));
+            });
+            EXPECT_LT(difference(before, paint_raw(params)), 0.5) << wanted;
+        }
+    }
+}
+
+TEST_F(Paint, TheAgesOfTheRampGoFromApexToMargin) {
+    PaintParams params;
+    params.side = 512;
+    params.surface.cap.ramp = {{255, 0, 0}, {0, 0, 255}};
+    params.surface.cap.ramp_noise = 0.0;
+    const RawImages images = paint_raw(params);
+    const Texel apex = texel(images, ImageKind::base_color, 128, 128);
+    const Texel margin = texel(images, ImageKind::base_color, 247, 128);
+    EXPECT_GT(apex.r, 230);
+    EXPECT_LT(apex.b, 40);
+    EXPECT_GT(margin.b, 230);
+    EXPECT_LT(margin.r, 40);
+}
+
+TEST_F(Paint, TheStemClosesWithoutASeam) {
+    // Once round the stem the picture goes on as anywhere else: the step over the seam is no larger than its neighbours.
+    PaintParams params = motley(HymeniumPattern::gills, 512);
+    const RawImages images = paint_raw(params);
+    const Chart& chart = swept_charts[2];
+    const double top = chart.v * 512.0, height = chart.height * 512.0;
+    const int first = static_cast<int>(std::ceil(top + height * chart.inset - 0.5));
+    const int rows = static_cast<int>(height * (1.0 - 2.0 * chart.inset));
+    const auto step = [&](int a, int b) {
+        double sum = 0.0;
+        for (int x = 20; x < 492; ++x) {
+            const Texel p = texel(images, ImageKind::base_color, x, a);
+            const Texel q = texel(images, ImageKind::base_color, x, b);
+            sum += std::abs(p.r - q.r) + std::abs(p.g - q.g) + std::abs(p.b - q.b);
+        }
+        return sum / 472.0;
+    };
+    double usual = 0.0;
+    for (int y = first; y < first + rows; ++y) usual = std::max(usual, step(y, y + 1));
+    EXPECT_LE(step(first + rows - 1, first), 2.0 * usual);
+    // Beyond the seam the strip goes on with its other end.
+    EXPECT_LE(step(first - 2, first - 2 + rows), 2.0 * usual);
+}
+
+TEST_F(Paint, BleedsBeyondEveryRim) {
+    PaintParams params;
+    params.side = 512;
+    params.surface.cap.ramp = {{255, 255, 255}, {30, 60, 200}};
+    params.surface.cap.ramp_noise = 0.0;
+    const RawImages images = paint_raw(params);
+    for (int i = 0; i < 64; ++i) {
+        const double angle = 2.0 * 3.14159265 * i / 64.0;
+        const auto at = [&](double radius) {
+            const TexturePoint p = disc_point(swept_charts[0], radius, std::cos(angle), std::sin(angle));
+            return texel(images, ImageKind::base_color, static_cast<int>(p.u * 512.0), static_cast<int>(p.v * 512.0));
+        };
+        const Texel inside = at(0.99), outside = at(1.04);
+        EXPECT_NEAR(inside.r, outside.r, 26);
+        EXPECT_NEAR(inside.g, outside.g, 26);
+        EXPECT_NEAR(inside.b, outside.b, 26);
+    }
+}
+
+TEST_F(Paint, GillsAreAsManyAsAsked) {
+    PaintParams params;
+    params.side = 1024;
+    params.metrics = motley(HymeniumPattern::gills).metrics;
+    params.hymenium.blades = 40;
+    params.hymenium.tiers = 0;
+    params.surface.hymenium.mottle = 0.0;
+    const RawImages images = paint_raw(params);
+    int crossings = 0;
+    bool was_dark = false;
+    for (int i = 0; i < 7200; ++i) {
+        const double angle = 2.0 * 3.14159265 * i / 7200.0;
+        const TexturePoint p = disc_point(swept_charts[1], 0.8, std::cos(angle), std::sin(angle));
+        const int occlusion = texel(images, ImageKind::orm, static_cast<int>(p.u * 1024.0), static_cast<int>(p.v * 1024.0)).r;
+        const bool dark = was_dark ? occlusion < 190 : occlusion < 165;
+        if (dark && !was_dark) ++crossings;
+        was_dark = dark;
+    }
+    EXPECT_NEAR(crossings, 40, 1);
+}
+
+TEST_F(Paint, DeeperGillsAreDarkerBetween) {
+    double last = 256.0;
+    for (const double relief : {0.0, 0.5, 1.0}) {
+        PaintParams params = motley(HymeniumPattern::gills);
+        params.hymenium.relief = relief;
+        const RawImages images = paint_raw(params);
+        double sum = 0.0;
+        for (int y = 0; y < 128; ++y)
+            for (int x = 128; x < 256; ++x) sum += texel(images, ImageKind::orm, x, y).r;
+        sum /= 128.0 * 128.0;
+        EXPECT_LT(sum, last);
+        last = sum;
+    }
+}
+
+TEST_F(Paint, WaterDarkensAndSmooths) {
+    PaintParams params = motley(HymeniumPattern::gills);
+    params.wetness = 0.0;
+    const RawImages dry = paint_raw(params);
+    params.wetness = 1.0;
+    const RawImages wet = paint_raw(params);
+    double light = 0.0, rough = 0.0;
+    for (std::size_t i = 0; i < dry.rgb[0].size(); ++i) light += static_cast<double>(wet.rgb[0][i]) - static_cast<double>(dry.rgb[0][i]);
+    for (std::size_t i = 1; i < dry.rgb[2].size(); i += 3) rough += static_cast<double>(wet.rgb[2][i]) - static_cast<double>(dry.rgb[2][i]);
+    EXPECT_LT(light, 0.0);
+    EXPECT_LT(rough, 0.0);
+}
+
+// A given picture: quarters of four colours.
+Upload quarters(int side) {
+    Bytes rgb(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+            std::uint8_t* p = &rgb[3 * static_cast<std::size_t>(y * side + x)];
+            p[0] = x < side / 2 ? 220 : 30;
+            p[1] = y < side / 2 ? 200 : 40;
+            p[2] = 90;
+        }
+    return uploaded(jpeg(rgb, side, side, 95, Chroma::full));
+}
+
+TEST_F(Paint, AGivenImageIsMappedOnTheDiscInsteadOfThePainting) {
+    for (const int side : {64, 2048}) {
+        PaintParams params;
+        params.side = 512;
+        params.surface.cap.image = quarters(side);
+        const RawImages images = paint_raw(params);
+        const int places[4][2] = {{70, 70}, {186, 70}, {70, 186}, {186, 186}};
+        for (const auto& place : places) {
+            const Texel found = texel(images, ImageKind::base_color, place[0], place[1]);
+            EXPECT_NEAR(found.r, place[0] < 128 ? 220 : 30, 6);
+            EXPECT_NEAR(found.g, place[1] < 128 ? 200 : 40, 6);
+            EXPECT_NEAR(found.b, 90, 8);
+        }
+    }
+}
+
+TEST_F(Paint, AGivenImageIsStretchedOverTheStem) {
+    PaintParams params;
+    params.side = 512;
+    params.surface.stem.image = quarters(128);
+    const RawImages images = paint_raw(params);
+    const int places[4][2] = {{100, 290}, {400, 290}, {100, 410}, {400, 410}};
+    for (const auto& place : places) {
+        const Texel found = texel(images, ImageKind::base_color, place[0], place[1]);
+        EXPECT_NEAR(found.r, place[0] < 256 ? 220 : 30, 6);
+        EXPECT_NEAR(found.g, place[1] < 352 ? 200 : 40, 6);
+    }
+}
+
+TEST_F(Paint, AnUnreadableImageIsRefusedByItsPlace) {
+    PaintParams params;
+    params.surface.stem.image = uploaded({1, 2, 3, 4});
+    try {
+        (void)paint(params);
+        FAIL();
+    } catch (const InvalidInput& error) {
+        ASSERT_EQ(error.problems().size(), 1U);
+        EXPECT_EQ(error.problems()[0].path, "/surface/stem/image");
+    }
+}
+
+}  // namespace
+}  // namespace sporeprint
