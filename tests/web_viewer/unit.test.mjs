@@ -135,6 +135,7 @@ test("seasons and numbers are said as a person says them", () => {
     assert.equal(page.seasonText([7, 8, 9, 10]), "Jul–Oct");
     assert.equal(page.seasonText([11, 12, 1, 2]), "Nov–Feb");
     assert.equal(page.seasonText([9]), "Sep");
+    assert.equal(page.seasonText([4, 5, 6, 8, 9, 10, 11]), "Apr–Jun, Aug–Nov");
     assert.equal(page.kilobytes(340_200), "340 kB");
     assert.equal(page.kilobytes(1_240_000), "1.24 MB");
 });

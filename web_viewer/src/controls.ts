@@ -121,7 +121,7 @@ class Control {
         if (typeof value !== "number" || entry.type !== "number" || this.settings.values.has(this.field.name)) {
             return String(value);
         }
-        return String(Number(value.toPrecision(4 + (this.field.integer ? 8 : 0))));
+        return String(this.field.integer ? value : Number(value.toPrecision(3)));
     }
 
     private fill(range: HTMLInputElement, value: Value | undefined): void {

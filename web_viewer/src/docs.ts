@@ -230,10 +230,10 @@ function routeSection(id: string, verb: string, path: string, item: PathItem, op
             make("td", {}, answer.description ?? ""));
     });
     if (answers.length > 0) {
-        section.append(make("h3", {}, "Answers"),
+        section.append(make("details", {}, make("summary", {}, `Answers: ${Object.keys(operation.responses ?? {}).join(", ")}`),
             make("div", { class: "scroll" }, make("table", {},
                 make("thead", {}, make("tr", {}, ...["Status", "Type", "Meaning"].map((name) => make("th", { scope: "col" }, name)))),
-                make("tbody", {}, ...answers))));
+                make("tbody", {}, ...answers)))));
     }
     return section;
 }
@@ -246,14 +246,16 @@ async function open(): Promise<void> {
     const { title = "API", version = "", description, summary } = root.info ?? {};
     const sections: HTMLElement[] = [];
     const groups = new Map<string, HTMLElement[]>();
-    for (const [path, raw] of Object.entries(root.paths ?? {})) {
-        const item = raw;
+    // What the service is for comes first, what keeps it running last.
+    const isProduct = (path: string): boolean => path.startsWith("/v1/");
+    const paths = Object.entries(root.paths ?? {}).sort(([a], [b]) => Number(isProduct(b)) - Number(isProduct(a)));
+    for (const [path, item] of paths) {
         for (const verb of verbs) {
             const operation = item[verb];
             if (!operation) continue;
             const id = `${verb}${path.replace(/[^a-z0-9]+/gi, "-")}`;
             sections.push(routeSection(id, verb, path, item, operation));
-            const tag = operation.tags?.[0] ?? path.split("/").filter((part) => part && part !== "v1")[0]?.replace(/[^a-z].*$/, "") ?? "page";
+            const tag = operation.tags?.[0] ?? (isProduct(path) ? path.split("/")[2]?.replace(/\W.*$/, "") : undefined) ?? "service";
             const link = make("a", { href: `#${id}`, title: operation.summary }, make("span", { class: `verb ${verb}` }, verb.toUpperCase()), path);
             groups.set(tag, [...(groups.get(tag) ?? []), link]);
         }

@@ -16,14 +16,17 @@ export interface Species {
 
 const months = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
 
-/** "Jul–Oct" of [7, 8, 9, 10]; also over the turn of the year. */
+/** "Jul–Oct" of [7, 8, 9, 10], "Apr–Jun, Sep" of [4, 5, 6, 9]; also over the turn of the year. */
 export function seasonText(season: readonly number[] = []): string {
-    const first = season.find((month) => !season.includes(month === 1 ? 12 : month - 1));
-    if (first === undefined) return season.length === 12 ? "all year" : "";
-    let last = first;
-    while (season.includes((last % 12) + 1)) last = (last % 12) + 1;
-    const from = months[first - 1] ?? "";
-    return first === last ? from : `${from}–${months[last - 1]}`;
+    if (season.length === 12) return "all year";
+    const starts = season.filter((month) => !season.includes(month === 1 ? 12 : month - 1));
+    const runs = starts.map((first) => {
+        let last = first;
+        while (season.includes((last % 12) + 1)) last = (last % 12) + 1;
+        const from = months[first - 1] ?? "";
+        return first === last ? from : `${from}–${months[last - 1]}`;
+    });
+    return runs.join(", ");
 }
 
 function span(range: [number, number] | null | undefined): string {

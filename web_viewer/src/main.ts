@@ -235,7 +235,7 @@ class Page {
     }
 
     private showScale(): void {
-        const { metres, pixels } = scaleBar(this.stage.pixelsPerMetre, 64);
+        const { metres, pixels } = scaleBar(this.stage.pixelsPerMetre, 50);
         byId("scale-bar").style.width = `${pixels.toFixed(1)}px`;
         const text = centimetres(metres);
         const label = byId("scale-text");

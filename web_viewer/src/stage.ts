@@ -61,7 +61,7 @@ export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
     const sun = new DirectionalLight(0xfff2dd, 2.1);
     sun.castShadow = true;
     sun.shadow.mapSize.set(1024, 1024);
-    sun.shadow.radius = 7;
+    sun.shadow.radius = 5;
     // Light that the paper throws back: gills and pores are seen by it.
     const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 0.7);
     scene.add(sun, sun.target, bounce);
