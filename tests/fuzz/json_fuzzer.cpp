@@ -17,6 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<Problem> problems;
     const Value json = parse(text, problems);
     if (!problems.empty()) return 0;
+    expect(text.find('\0') == std::string_view::npos, "a zero byte is no JSON");
 
     const std::string own = dump(json);
     const Value again = parse(own, problems);
