@@ -568,6 +568,26 @@ TEST_F(ServiceTest, a_model_of_ones_own_is_grown) {
     EXPECT_EQ(ask(conditional).status, 304);
 }
 
+TEST_F(ServiceTest, images_of_ones_own_are_painted_and_what_is_no_image_is_named) {
+    Value model = write(built_in_atlas()->entries()[0].species.stages.back().model);
+    const auto with_image = [&](const std::string& base64) {
+        model.find("surface")->find("cap")->set("image", base64);
+        return post("{\"lod\":3,\"texture_size\":128,\"model\":" + dump(model) + "}");
+    };
+    const Answer plain =
+        ask(post("{\"lod\":3,\"texture_size\":128,\"model\":" + dump(model) + "}"));
+    // A red PNG of one pixel.
+    const Answer red =
+        ask(with_image("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8DwHwAFBQIAX8j"
+                       "x0gAAAABJRU5ErkJggg=="));
+    ASSERT_EQ(red.status, 200) << text_of(red);
+    EXPECT_NE(header(red, "ETag"), header(plain, "ETag"));
+    EXPECT_NE(text_of(red), text_of(plain));
+    const Answer noise = ask(with_image("AAAABBBBCCCC"));
+    expect_problem(noise, 400);
+    EXPECT_TRUE(names(noise, "/model/surface/cap/image")) << text_of(noise);
+}
+
 TEST_F(ServiceTest, versions_of_yesterday_are_410_with_the_address_of_today) {
     const std::string canonical = header(ask(request("HEAD", small())), "Content-Location");
     for (const char* version : {"0-00000000", "", "x", "%3Cscript%3E"}) {
