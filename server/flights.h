@@ -2,6 +2,7 @@
 // in the air get its result; when all have left, it is stopped. Knows nothing of what is made.
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
 #include <exception>
@@ -58,8 +59,18 @@ class Flights {
     /// most_waiters  continuations that may wait in all
     Flights(Slots& slots, std::size_t most_waiters) : slots_(slots), most_waiters_(most_waiters) {}
 
-    /// Every flight has to have ended: destroy the slots' users first, then this, then the slots.
-    ~Flights() = default;
+    /// Stops what is in the air and returns when it has ended; by then nobody may wait any more.
+    ~Flights() {
+        std::vector<std::shared_ptr<Flight>> flights;
+        {
+            const std::lock_guard lock(mutex_);
+            for (const auto& [key, flight] : flights_)
+                if (!flight->landed) flights.push_back(flight);
+        }
+        for (const auto& flight : flights) cancel(*flight);
+        std::unique_lock lock(mutex_);
+        ended_.wait(lock, [&] { return flying_ == 0; });
+    }
     Flights(const Flights&) = delete;
     Flights& operator=(const Flights&) = delete;
 
@@ -90,6 +101,7 @@ class Flights {
                     slots_.submit([this, flight] { fly(flight); });
                 if (!ticket) return std::nullopt;
                 flight->ticket = *ticket;
+                ++flying_;
                 flights_.emplace(key, flight);
                 return seat(*flight, std::move(then), false);
             }
@@ -119,10 +131,7 @@ class Flights {
                 flights_.erase(found);
             }
         }
-        if (empty) {
-            slots_.withdraw(empty->ticket);
-            empty->stop.request_stop();
-        }
+        if (empty) cancel(*empty);
         return true;
     }
 
@@ -162,7 +171,24 @@ class Flights {
         return {flight.key, flight.number, number};
     }
 
+    /// Takes a flight out of the queue, or asks the running one to stop.
+    void cancel(Flight& flight) {
+        flight.stop.request_stop();
+        if (slots_.withdraw(flight.ticket)) has_ended();
+    }
+
+    void has_ended() {
+        const std::lock_guard lock(mutex_);
+        --flying_;
+        ended_.notify_all();  // under the lock: the destructor may be waiting
+    }
+
     void fly(const std::shared_ptr<Flight>& flight) {
+        land(flight);
+        has_ended();
+    }
+
+    void land(const std::shared_ptr<Flight>& flight) {
         std::shared_ptr<const Result> result;
         std::exception_ptr error;
         if (!flight->stop.stop_requested()) {
@@ -218,6 +244,8 @@ class Flights {
     std::map<std::uint64_t, std::string> landed_;  ///< when, key; kept for open glances
     std::set<std::uint64_t> glances_;
     std::size_t waiters_ = 0;
+    std::size_t flying_ = 0;  ///< tasks in the slots, those that nobody waits for included
+    std::condition_variable ended_;
     std::uint64_t last_number_ = 0;
 };
 

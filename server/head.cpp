@@ -149,7 +149,7 @@ Scan scan_head(std::string_view bytes) {
         !is_version(version))
         return refused(std::move(scan), 400, "the request line is malformed");
     if (version != "HTTP/1.1" && version != "HTTP/1.0")
-        return refused(std::move(scan), 505, "HTTP/1.1 is spoken here");
+        return refused(std::move(scan), 400, "HTTP/1.1 is spoken here");
     if (!complete) {
         if (bytes.size() >= longest_head)
             return refused(std::move(scan), 431,

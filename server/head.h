@@ -38,8 +38,9 @@ struct Scan {
 ///
 /// bytes    from the first byte of a request on; may hold more than its head
 /// returns  incomplete while the empty line is missing and nothing is wrong yet; refused with
-///          400 (malformed, a bare line feed, folded or repeated framing headers), 411 (any
-///          Transfer-Encoding), 414, 415 (any Content-Encoding), 431, 501 (unknown method), 505
+///          400 (malformed, a bare line feed, folded or repeated framing headers, another
+///          version), 411 (any Transfer-Encoding), 414, 415 (any Content-Encoding), 431, 501
+///          (unknown method)
 /// cost     O(bytes), at most longest_head of them
 /// source   RFC 9112 sections 2 to 6; differs: a server may be lenient in many places, this is not
 [[nodiscard]] Scan scan_head(std::string_view bytes);

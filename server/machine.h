@@ -1,0 +1,34 @@
+// What the machine grants this process and what the process takes: processors, memory, time.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+
+namespace sporeprint::server {
+
+/// Processors that may be used at once: those this process may run on, and no more than the quota
+/// of its control group, rounded up; at least 1.
+[[nodiscard]] std::size_t granted_processors();
+
+/// The quota in a cgroup v2 file cpu.max, "150000 100000" is 1.5; nothing for "max" or else.
+[[nodiscard]] std::optional<double> quota_in(std::string_view cpu_max);
+
+struct Usage {
+    std::uint64_t resident_bytes = 0;
+    double cpu_seconds = 0;
+    double started = 0;  ///< seconds since 1970
+    std::size_t open_files = 0;
+};
+[[nodiscard]] Usage usage();
+
+/// The folder this program stands in.
+[[nodiscard]] std::filesystem::path program_folder();
+
+/// Bounds the arenas of malloc, so that what many threads free is used again.
+void bound_malloc();
+
+}  // namespace sporeprint::server

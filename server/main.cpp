@@ -1,0 +1,246 @@
+// The program: options in, a running service out. It ends on SIGTERM or SIGINT, gracefully.
+#include <pthread.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <sstream>
+#include <string>
+#include <thread>
+
+#include "api/service.h"
+#include "core/math/noise.h"
+#include "server/health.h"
+#include "server/log.h"
+#include "server/machine.h"
+#include "server/metrics.h"
+#include "server/options.h"
+#include "server/reception.h"
+#include "server/transport.h"
+
+namespace {
+
+using namespace sporeprint;
+using namespace sporeprint::server;
+
+constexpr int wrong_usage = 2, failed = 1, fine = 0;
+
+int complain(const std::string& sentence, int code) {
+    std::fprintf(stderr, "sporeprint: %s\n", sentence.c_str());
+    return code;
+}
+
+/// The text of a file.
+///
+/// throws  std::runtime_error when it cannot be read
+std::string text_of(const std::string& file) {
+    std::ifstream in(file);
+    std::ostringstream text;
+    text << in.rdbuf();
+    if (!in || in.bad()) throw std::runtime_error("--config: " + file + " cannot be read");
+    return text.str();
+}
+
+/// The folder of the built page: the one given, or where a build or an installation has it.
+std::filesystem::path page_folder(const Options& options) {
+    namespace fs = std::filesystem;
+    if (!options.assets.empty()) return options.assets.string();
+    const fs::path here = program_folder();
+    std::error_code ignored;
+    for (const fs::path& folder :
+         {here / "../../../web_viewer/dist", here / "../share/sporeprint/web_viewer",
+          here / "web_viewer", fs::path("/usr/share/sporeprint/web_viewer")})
+        if (fs::exists(folder / "index.html", ignored)) return fs::canonical(folder, ignored);
+    return {};
+}
+
+bool is_loopback(std::string_view host) {
+    return host == "localhost" || host == "::1" || host.starts_with("127.");
+}
+
+std::string address_of(std::string_view host, int port) {
+    const bool bare_v6 = host.find(':') != std::string_view::npos;
+    return "http://" + (bare_v6 ? '[' + std::string(host) + ']' : std::string(host)) + ':' +
+           std::to_string(port) + '/';
+}
+
+/// What api says of itself at /v1.
+std::string generator_version(api::Service& service) {
+    api::Request request;
+    request.method = "GET";
+    request.target = "/v1";
+    const auto planned = service.plan(request);
+    const auto* answer = std::get_if<api::Answer>(&planned);
+    if (!answer || answer->body.empty()) return "unknown";
+    const Slice& slice = answer->body.front();
+    std::vector<Problem> ignored;
+    const Value about = parse({reinterpret_cast<const char*>(slice.data()), slice.size}, ignored);
+    const Value* version = about.find("generator_version");
+    if (!version) return "unknown";
+    return version->is_string() ? version->as_string() : dump(*version);
+}
+
+/// Waits for SIGTERM or SIGINT, which every thread has blocked; at most so long.
+bool is_asked_to_stop(const sigset_t& signals, std::chrono::milliseconds patience) {
+    const timespec time{patience.count() / 1000, (patience.count() % 1000) * 1'000'000};
+    return sigtimedwait(&signals, nullptr, &time) > 0;
+}
+
+int serve(const Options& options) {
+    sigset_t signals;
+    sigemptyset(&signals);
+    sigaddset(&signals, SIGTERM);
+    sigaddset(&signals, SIGINT);
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by every thread made from here on
+    signal(SIGPIPE, SIG_IGN);
+
+    force_simd(options.simd);
+    const std::shared_ptr<const Atlas> atlas =
+        options.atlas.empty() ? built_in_atlas() : atlas_from(options.atlas.string());
+
+    api::ServiceOptions service_options;
+    service_options.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
+    service_options.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
+    service_options.assets = page_folder(options);
+    service_options.allow_origin = options.allow_origin.string();
+    api::Service service(atlas, service_options);
+
+    ReceptionOptions reception_options;
+    reception_options.slots =
+        options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
+    reception_options.metrics = options.metrics_port == 0;
+    Log log(options.log_level);
+    Metrics metrics(SPOREPRINT_VERSION, generator_version(service));
+    Reception reception(service, metrics, log, reception_options);
+
+    TransportOptions transport_options;
+    transport_options.host = options.host.string();
+    transport_options.port = options.port;
+    Transport transport(transport_options, reception.handlers());
+    std::optional<Transport> metrics_transport;
+    if (options.metrics_port != 0) {
+        transport_options.port = options.metrics_port;
+        transport_options.threads = 8;
+        transport_options.waiting = 32;
+        metrics_transport.emplace(transport_options, reception.metrics_handlers());
+    }
+    reception.watch(&transport);
+    if (!service.self_test())
+        return complain("the first thing made for a test could not be made; not starting", failed);
+    reception.open();
+    transport.start();
+    if (metrics_transport) metrics_transport->start();
+
+    if (!is_loopback(options.host))
+        std::fprintf(
+            stderr,
+            "sporeprint: WARNING: listening on %s, beyond this machine. There are no keys "
+            "and no quotas yet:\n"
+            "sporeprint: WARNING: anyone who can reach this port can use it. Put a reverse "
+            "proxy in front.\n",
+            options.host.string().c_str());
+    if (service_options.assets.empty())
+        std::fprintf(stderr, "sporeprint: the page is not built; the API is served without it\n");
+    std::printf("Sporeprint is ready at %s\n", address_of(options.host, transport.port()).c_str());
+    std::fflush(stdout);
+    log.event(LogLevel::info, "ready",
+              {{"version", Value(SPOREPRINT_VERSION)},
+               {"port", Value(transport.port())},
+               {"slots", Value(reception_options.slots)}});
+
+    while (!is_asked_to_stop(signals, std::chrono::hours(1))) continue;
+    log.event(LogLevel::info, "stopping: no new connections, finishing what has begun");
+    reception.close();
+    std::atomic<bool> drained{false};
+    const std::jthread drain([&] {
+        transport.drain();
+        if (metrics_transport) metrics_transport->drain();
+        drained = true;
+    });
+    while (!drained)
+        if (is_asked_to_stop(signals, std::chrono::milliseconds(20))) _exit(failed);  // asked twice
+    log.event(LogLevel::info, "stopped");
+    return fine;
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("Grows mushrooms on demand and answers with GLB files, over HTTP.", "sporeprint");
+    app.set_version_flag("--version", "sporeprint " SPOREPRINT_VERSION, "Print the version");
+    app.set_help_flag("--help,-h", "Print this help");
+    const std::vector<OptionLine> lines = option_lines();
+    std::vector<std::string> texts(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        app.add_option(lines[i].flag, texts[i], lines[i].help)->type_name("");
+    std::string config, health;
+    bool print_config = false;
+    app.add_option(
+           "--config", config,
+           "JSON file with any of these options, named like cache_mb (or SPOREPRINT_CONFIG)")
+        ->type_name("FILE");
+    app.add_flag("--print-config", print_config,
+                 "Print all options as such a file, where they come to, and end");
+    app.add_option("--health", health,
+                   "Ask a running server: 0 if this address answers 200, else 1")
+        ->type_name("URL");
+    app.footer(
+        "Each option is also a variable, --cache-mb is SPOREPRINT_CACHE_MB; a flag wins over a "
+        "variable,\na variable over the file.");
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& done) {
+        return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+        return complain(std::string(error.what()) + "; --help lists the options", wrong_usage);
+    }
+
+    if (!health.empty()) {
+        std::string why;
+        return is_healthy(health, why) ? fine : complain(health + ": " + why, failed);
+    }
+    Given flags;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (app.count(lines[i].flag) > 0) flags.emplace_back(lines[i].name, texts[i]);
+    const auto variable = [](const char* name) -> const char* { return std::getenv(name); };
+    if (const char* file = variable("SPOREPRINT_CONFIG"); config.empty() && file) config = file;
+
+    Options options;
+    try {
+        options = options_from(config, config.empty() ? std::string() : text_of(config),
+                               given_by_environment(variable), flags);
+    } catch (const InvalidInput& invalid) {
+        for (const Problem& problem : invalid.problems())
+            complain(problem.path + ": " + problem.message, wrong_usage);
+        return wrong_usage;
+    } catch (const std::runtime_error& error) {
+        return complain(error.what(), wrong_usage);
+    }
+    if (print_config) {
+        std::printf("%s\n", config_text(options).c_str());
+        return fine;
+    }
+    try {
+        return serve(options);
+    } catch (const InvalidInput& invalid) {  // an instruction set or a template that is no good
+        for (const Problem& problem : invalid.problems())
+            complain((problem.path == "simd" ? "--simd" : problem.path) + ": " + problem.message,
+                     wrong_usage);
+        return wrong_usage;
+    }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+    try {
+        bound_malloc();
+        return run(argc, argv);
+    } catch (const std::exception& error) {
+        return complain(error.what(), failed);
+    }
+}

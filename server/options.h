@@ -1,0 +1,123 @@
+// The options, each described once: flag, SPOREPRINT_* variable, key of the configuration file,
+// range, default and help all come from here.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "core/params/describe.h"
+
+namespace sporeprint::server {
+
+enum class LogLevel { debug, info, warning, error, off };
+
+constexpr const char* name(LogLevel level) {
+    switch (level) {
+        case LogLevel::debug:
+            return "debug";
+        case LogLevel::info:
+            return "info";
+        case LogLevel::warning:
+            return "warning";
+        case LogLevel::error:
+            return "error";
+        case LogLevel::off:
+            return "off";
+    }
+    return nullptr;
+}
+
+struct Options {
+    Text<255> host = "127.0.0.1";
+    int port = 8080;
+    int cache_mb = 256;
+    int image_cache_mb = 128;
+    int threads = 0;
+    Text<1023> atlas;
+    Text<1023> assets;
+    int metrics_port = 0;
+    LogLevel log_level = LogLevel::info;
+    Text<15> simd = "auto";
+    Text<255> allow_origin = "*";
+
+    static constexpr void fields(auto visit) {
+        using O = Options;
+        visit(&O::host, Info{.name = "host",
+                             .doc = "Name or address to listen on; 0.0.0.0 for every interface."});
+        visit(&O::port, Info{.name = "port",
+                             .min = 0,
+                             .max = 65535,
+                             .doc = "TCP port to listen on; 0 takes any that is free."});
+        visit(&O::cache_mb, Info{.name = "cache_mb",
+                                 .unit = "MiB",
+                                 .min = 0,
+                                 .max = 1048576,
+                                 .doc = "Memory for finished files."});
+        visit(&O::image_cache_mb, Info{.name = "image_cache_mb",
+                                       .unit = "MiB",
+                                       .min = 0,
+                                       .max = 1048576,
+                                       .doc = "Memory for painted images."});
+        visit(&O::threads,
+              Info{.name = "threads",
+                   .min = 0,
+                   .max = 1024,
+                   .doc = "Files made at once; 0 takes as many as there are processors."});
+        visit(&O::atlas,
+              Info{.name = "atlas", .doc = "Folder of templates that replace those compiled in."});
+        visit(&O::assets,
+              Info{.name = "assets",
+                   .doc = "Folder of the built page; found beside the program by itself."});
+        visit(&O::metrics_port,
+              Info{.name = "metrics_port",
+                   .min = 0,
+                   .max = 65535,
+                   .doc = "Port of its own for /metrics; 0 answers it on the main port."});
+        visit(&O::log_level, Info{.name = "log_level", .doc = "Least level that is logged."});
+        visit(&O::simd,
+              Info{.name = "simd", .doc = "Instruction set to use; the bytes made are the same."});
+        visit(&O::allow_origin,
+              Info{.name = "allow_origin",
+                   .doc = "Access-Control-Allow-Origin of every answer; empty sends none."});
+    }
+
+    void check(const std::string& path, std::vector<Problem>& problems) const;
+    bool operator==(const Options&) const = default;
+};
+
+static_assert(well_described<Options>());
+
+/// Name and text of options that were given, in order.
+using Given = std::vector<std::pair<std::string, std::string>>;
+
+/// One option as help shows it.
+struct OptionLine {
+    std::string name;      ///< "cache_mb", the key of the file
+    std::string flag;      ///< "--cache-mb"
+    std::string variable;  ///< "SPOREPRINT_CACHE_MB"
+    std::string help;      ///< with what is allowed and the default
+};
+[[nodiscard]] std::vector<OptionLine> option_lines();
+
+/// The SPOREPRINT_* variables that are set and not empty, by option name; others are not ours.
+///
+/// variable  like std::getenv: nullptr for what is not set
+[[nodiscard]] Given given_by_environment(const char* (*variable)(const char*));
+
+/// Puts together what was given; a flag wins over a variable, that over the file.
+///
+/// file_name    for messages
+/// file         text of the configuration file, a JSON object; empty for none
+/// environment  by option name
+/// flags        by option name
+/// throws       InvalidInput with every problem: path is the flag, variable or file and key, the
+///              message has the value and what is allowed
+[[nodiscard]] Options options_from(const std::string& file_name, std::string_view file,
+                                   const Given& environment, const Given& flags);
+
+/// The options as a configuration file.
+[[nodiscard]] std::string config_text(const Options& options);
+
+}  // namespace sporeprint::server

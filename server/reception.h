@@ -1,0 +1,81 @@
+// The reception: what stands between sockets and service. Health and metrics are answered at once,
+// kept answers too; work goes to the flights, and who asked for it waits here, not longer than
+// allowed.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "api/service.h"
+#include "server/flights.h"
+#include "server/log.h"
+#include "server/metrics.h"
+#include "server/slots.h"
+#include "server/transport.h"
+
+namespace sporeprint::server {
+
+struct ReceptionOptions {
+    std::size_t slots = 1;            ///< jobs at once
+    std::size_t longest_queue = 128;  ///< jobs that wait for a slot; 503 beyond
+    std::size_t most_waiters =
+        192;  ///< requests that wait for jobs; fewer than the transport's threads
+    std::chrono::milliseconds deadline{20'000};  ///< 504 beyond
+    bool metrics = true;                         ///< whether /metrics is answered here
+};
+
+class Reception {
+  public:
+    /// service, metrics, log  outlive this
+    Reception(api::Service& service, Metrics& metrics, Log& log, ReceptionOptions options);
+    ~Reception() = default;
+    Reception(const Reception&) = delete;
+    Reception& operator=(const Reception&) = delete;
+
+    /// For the main transport.
+    [[nodiscard]] Handlers handlers();
+
+    /// For a port of its own: /metrics and health only.
+    [[nodiscard]] Handlers metrics_handlers();
+
+    /// From here on /readyz may say yes.
+    void open() { ready_ = true; }
+
+    /// From here on /readyz says no.
+    void close() { ready_ = false; }
+
+    /// Where the metrics find the connections.
+    void watch(const Transport* transport) { transport_ = transport; }
+
+    [[nodiscard]] bool is_ready() const;
+
+  private:
+    struct Made {
+        api::Answer answer;
+        api::Timing timing;
+    };
+    using Answers = Flights<Made>;
+
+    api::Answer answer(const api::Request& request, const Gone& gone);
+    api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);
+    api::Answer delivered(const api::Request& request, const Answers::Landing& landing);
+    api::Answer plain(const api::Request& request, const std::string& text,
+                      std::string type = "text/plain; charset=utf-8") const;
+    void report(const Served& served);
+    [[nodiscard]] Gauges gauges() const;
+
+    api::Service& service_;
+    Metrics& metrics_;
+    Log& log_;
+    const ReceptionOptions options_;
+    std::atomic<bool> ready_{false};
+    std::atomic<const Transport*> transport_{nullptr};
+    Slots slots_;
+    Answers flights_;  ///< ends before the slots do
+};
+
+}  // namespace sporeprint::server

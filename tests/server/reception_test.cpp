@@ -1,0 +1,209 @@
+#include "server/reception.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <memory>
+#include <thread>
+
+#include "core/atlas/atlas.h"
+
+namespace sporeprint::server {
+namespace {
+
+using namespace std::chrono_literals;
+
+const std::string small = "/v1/mushrooms/amanita_muscaria.glb?lod=3&texture_size=128&seed=";
+const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=2048&seed=";
+
+/// The real service behind a reception, asked without sockets.
+struct House {
+    explicit House(ReceptionOptions options = {}) : reception(service, metrics, log, options) {
+        handlers = reception.handlers();
+        reception.open();
+    }
+
+    api::Answer ask(
+        const std::string& target, const std::string& method = "GET",
+        const Gone& gone = [] { return false; }) {
+        api::Request request;
+        request.method = method;
+        request.target = target;
+        request.id = "test";
+        return handlers.answer(request, gone);
+    }
+
+    api::Service service{built_in_atlas(), {}};
+    Metrics metrics{"1.2.3", "7"};
+    Log log{LogLevel::off};
+    Reception reception;
+    Handlers handlers;
+};
+
+std::string text_of(const api::Answer& answer) {
+    std::string text;
+    for (const Slice& slice : answer.body)
+        text.append(reinterpret_cast<const char*>(slice.data()), slice.size);
+    return text;
+}
+
+std::string header(const api::Answer& answer, std::string_view name) {
+    for (const auto& [key, value] : answer.headers)
+        if (key == name) return value;
+    return {};
+}
+
+TEST(Reception, MakesOnceWhatManyAskForAtTheSameTime) {
+    ReceptionOptions options;
+    options.slots = 4;
+    House house(options);
+    std::atomic<int> collapsed{0}, good{0};
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 64; ++i)
+            threads.emplace_back([&] {
+                const api::Answer answer = house.ask(small + "9");
+                if (answer.status == 200 && size_of(answer.body) > 1000) ++good;
+                if (header(answer, "Cache-Status").ends_with("collapsed")) ++collapsed;
+            });
+    }
+    EXPECT_EQ(good, 64);
+    EXPECT_EQ(house.service.counters().generated, 1u);
+    const api::Answer again = house.ask(small + "9");
+    EXPECT_EQ(header(again, "Cache-Status"), "sporeprint; hit");
+    EXPECT_EQ(house.service.counters().generated, 1u);
+}
+
+TEST(Reception, AnswersHealthAndWhatIsKeptWhileAllSlotsWork) {
+    House house;
+    ASSERT_EQ(house.ask(small + "1").status, 200);
+    std::atomic<int> running{0};
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < 16; ++i)
+        threads.emplace_back([&, i] {
+            ++running;
+            EXPECT_EQ(house.ask(heavy + std::to_string(i)).status, 200);
+            --running;
+        });
+    while (running < 16) std::this_thread::yield();
+    const auto begun = std::chrono::steady_clock::now();
+    EXPECT_EQ(text_of(house.ask("/livez")), "alive\n");
+    EXPECT_EQ(house.ask(small + "1").status, 200);
+    const auto took = std::chrono::steady_clock::now() - begun;
+    const int still_running = running;
+    EXPECT_LT(took, 2s);
+    EXPECT_GT(still_running, 0) << "the work has to outlast the question";
+}
+
+TEST(Reception, SaysReadyOnlyWhenItIs) {
+    House house;
+    EXPECT_EQ(house.ask("/readyz").status, 200);
+    EXPECT_EQ(house.ask("/readyz", "HEAD").status, 200);
+    house.reception.close();
+    const api::Answer answer = house.ask("/readyz");
+    EXPECT_EQ(answer.status, 503);
+    EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
+    EXPECT_EQ(header(answer, "Retry-After"), "1");
+    EXPECT_EQ(house.ask("/livez").status, 200);
+    const api::Answer posted = house.ask("/livez", "POST");
+    EXPECT_EQ(posted.status, 405);
+    EXPECT_EQ(header(posted, "Allow"), "GET, HEAD");
+}
+
+TEST(Reception, CountsForPrometheus) {
+    House house;
+    house.ask(small + "5");
+    Served served;
+    served.method = "GET";
+    served.status = 200;
+    served.milliseconds = 3;
+    for (const char* target :
+         {"/v1/species/amanita_muscaria", "/nowhere", "/nowhere/else", "/livez"}) {
+        served.target = target;
+        house.handlers.served(served);
+    }
+    const api::Answer answer = house.ask("/metrics");
+    EXPECT_TRUE(header(answer, "Content-Type").starts_with("text/plain; version=0.0.4"));
+    const std::string text = text_of(answer);
+    for (const char* line :
+         {"sporeprint_generated_total 1",
+          "sporeprint_build_info{version=\"1.2.3\",generator_version=\"7\"} 1",
+          "route=\"UNKNOWN\",method=\"GET\",code=\"200\"} 2", "route=\"/v1/species/{id}\"",
+          "route=\"/livez\"", "sporeprint_cache_requests_total{cache=\"glb\",result=\"miss\"} 1",
+          "sporeprint_queue_depth 0", "sporeprint_request_span_seconds_count{span=\"paint\"} 1",
+          "process_resident_memory_bytes ", "sporeprint_http_request_duration_seconds_bucket"})
+        EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
+}
+
+TEST(Reception, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
+    ReceptionOptions options;
+    options.metrics = false;
+    House house(options);
+    EXPECT_EQ(house.ask("/metrics").status, 404);
+    house.handlers = house.reception.metrics_handlers();
+    EXPECT_EQ(house.ask("/metrics").status, 200);
+    EXPECT_EQ(house.ask("/livez").status, 200);
+    EXPECT_EQ(house.ask("/v1/species").status, 404);
+}
+
+TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
+    ReceptionOptions options;
+    options.longest_queue = 0;
+    House house(options);
+    std::atomic<int> good{0}, turned_away{0};
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 12; ++i)
+            threads.emplace_back([&, i] {
+                const api::Answer answer = house.ask(heavy + std::to_string(i));
+                if (answer.status == 200) ++good;
+                if (answer.status == 503 && header(answer, "Retry-After") == "1") ++turned_away;
+            });
+    }
+    EXPECT_EQ(good + turned_away, 12);
+    EXPECT_GE(good, 1);
+    EXPECT_GE(turned_away, 1);
+    EXPECT_EQ(house.ask(heavy + "99").status, 200) << "it recovers";
+}
+
+TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
+    ReceptionOptions options;
+    options.deadline = 1ms;
+    House late(options);
+    const api::Answer answer = late.ask(heavy + "1");
+    EXPECT_EQ(answer.status, 504);
+    EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
+
+    House left;  // one slot: the second has to wait for the first
+    std::jthread first([&] {
+        for (int i = 0; i < 8; ++i) left.ask(heavy + std::to_string(i));
+    });
+    std::atomic<bool> is_gone{false};
+    int status = 0;
+    std::jthread second([&] {
+        for (int i = 100; i < 140 && status != client_left; ++i)
+            status =
+                left.ask(heavy + std::to_string(i), "GET", [&] { return is_gone.load(); }).status;
+    });
+    is_gone = true;
+    second.join();
+    first.join();
+    EXPECT_EQ(status, client_left);
+}
+
+TEST(Reception, RefusesWithProblems) {
+    House house;
+    api::Request request;
+    request.id = "abc";
+    for (const int status : {400, 408, 411, 413, 414, 415, 431, 501, 503}) {
+        const api::Answer answer = house.handlers.refuse(request, status, "why");
+        EXPECT_EQ(answer.status, status);
+        EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
+        EXPECT_EQ(header(answer, "Retry-After"), status == 503 ? "1" : "");
+        EXPECT_NE(text_of(answer).find("\"abc\""), std::string::npos);
+        EXPECT_EQ(text_of(answer).find("nternal error"), std::string::npos);
+    }
+}
+
+}  // namespace
+}  // namespace sporeprint::server
