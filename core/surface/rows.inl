@@ -183,6 +183,10 @@ Stretch painted_stretch(const PaintPlan& plan, int part, int y) {
     return {first, width - first};
 }
 
+HWY_INLINE void clear(VF* fields) {
+    for (std::size_t k = 0; k < most_fields; ++k) fields[k] = set(0.0F);
+}
+
 // Samples the fields of a disc along one row, at every disc_step-th texel.
 const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& bench) {
     SparseRow& row = bench.sparse[y & 1];
@@ -201,6 +205,7 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& b
     const VF down = disc_place(frame, set(static_cast<float>(y * step)));
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); i += hn::Lanes(f)) {
         VF fields[most_fields];
+        clear(fields);
         for (std::size_t k = 0; k < grids; ++k) fields[k] = hn::Load(f, row.field[k] + i);
         const VF texel = (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step));
         const DiscPoint p = disc_point_of(disc, disc_place(frame, texel), down);
@@ -249,6 +254,7 @@ void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) 
     const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
     for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
         VF fields[most_fields];
+        clear(fields);
         const VF texel = (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step)) + set(0.5F);
         const VF along = (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
         if (part == 2)
@@ -309,6 +315,7 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     VF fields[most_fields];
+    clear(fields);
     if (part < 2) {
         const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
         const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;

@@ -105,25 +105,27 @@ struct Neighbours {
     VF dy[Most];
     VF nearest, near_x, near_y;
     VU id;
-    int count = 0;
+    int count;
+
+    // Not a constructor: the compiler would build that without the instruction set.
+    HWY_INLINE void begin() {
+        nearest = set(1e9F);
+        near_x = set(0.0F);
+        near_y = set(0.0F);
+        id = word(0);
+        count = 0;
+    }
 
     HWY_INLINE void add(VF x, VF y, VU cell) {
         dx[count] = x;
         dy[count] = y;
-        const VF far = x * x + y * y;
-        if (count == 0) {
-            nearest = far;
-            near_x = x;
-            near_y = y;
-            id = cell;
-        } else {
-            const auto closer = far < nearest;
-            nearest = hn::IfThenElse(closer, far, nearest);
-            near_x = hn::IfThenElse(closer, x, near_x);
-            near_y = hn::IfThenElse(closer, y, near_y);
-            id = hn::IfThenElse(hn::RebindMask(Words(), closer), cell, id);
-        }
         ++count;
+        const VF far = x * x + y * y;
+        const auto closer = far < nearest;
+        nearest = hn::IfThenElse(closer, far, nearest);
+        near_x = hn::IfThenElse(closer, x, near_x);
+        near_y = hn::IfThenElse(closer, y, near_y);
+        id = hn::IfThenElse(hn::RebindMask(Words(), closer), cell, id);
     }
 
     // Distance to the nearest bisector between the nearest point and another.
@@ -149,6 +151,7 @@ struct Neighbours {
 HWY_INLINE Cells ring_cells(VF turn, VF y, float from, float grow, float tall, float jitter, std::uint32_t seed) {
     const VF row = hn::Floor(y);
     Neighbours<6> all;
+    all.begin();
     for (int j = 0; j < 3; ++j) {
         const VF this_row = row + set(static_cast<float>(j - 1));
         const VF count = grow == 0.0F ? set(from) : hn::Max(hn::Floor(set(from) + set(grow) * (this_row + set(0.5F))), set(3.0F));
@@ -175,6 +178,7 @@ HWY_INLINE Cells plane_cells(VF x, VF y, float jitter, std::uint32_t seed) {
     const VF column = hn::Floor(x);
     const VF row = hn::Floor(y);
     Neighbours<9> all;
+    all.begin();
     for (int j = 0; j < 3; ++j) {
         const VF this_row = row + set(static_cast<float>(j - 1));
         const VU row_bits = whole_bits(this_row) * word(prime_y) + word(seed);
