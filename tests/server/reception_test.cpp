@@ -128,7 +128,7 @@ TEST(Reception, CountsForPrometheus) {
     for (const char* line :
          {"sporeprint_generated_total 1",
           "sporeprint_build_info{version=\"1.2.3\",generator_version=\"7\"} 1",
-          "route=\"UNKNOWN\",method=\"GET\",code=\"200\"} 2", "route=\"/v1/species/{id}\"",
+          "{code=\"200\",method=\"GET\",route=\"UNKNOWN\"} 2", "route=\"/v1/species/{id}\"",
           "route=\"/livez\"", "sporeprint_cache_requests_total{cache=\"glb\",result=\"miss\"} 1",
           "sporeprint_queue_depth 0", "sporeprint_request_span_seconds_count{span=\"paint\"} 1",
           "process_resident_memory_bytes ", "sporeprint_http_request_duration_seconds_bucket"})
@@ -163,7 +163,13 @@ TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
     EXPECT_EQ(good + turned_away, 12);
     EXPECT_GE(good, 1);
     EXPECT_GE(turned_away, 1);
-    EXPECT_EQ(house.ask(heavy + "99").status, 200) << "it recovers";
+    api::Answer again = house.ask(heavy + "99");
+    for (int i = 0; i < 1000 && again.status == 503;
+         ++i) {  // its last job has to put its tools away
+        std::this_thread::sleep_for(5ms);
+        again = house.ask(heavy + "99");
+    }
+    EXPECT_EQ(again.status, 200) << "it recovers";
 }
 
 TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
