@@ -31,7 +31,8 @@ Mix checked(Weights weights, const Atlas& atlas, Faults& faults, bool clean) {
         return {};
     }
     for (std::size_t i = 0; i < weights.size(); ++i) {
-        const auto& [id, weight] = weights[i];
+        const std::string& id = weights[i].first;
+        const double weight = weights[i].second;
         const bool repeated =
             std::any_of(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(i),
                         [&](const auto& other) { return other.first == id; });

@@ -632,8 +632,9 @@ TEST_F(ServiceTest, the_description_tells_what_would_be_made) {
     const Value found = json_of(inspected);
     EXPECT_EQ(body.at_pointer("/estimate/vertices")->as_number(),
               found.at_pointer("/counts/vertices")->as_number());
-    EXPECT_EQ(body.at_pointer("/estimate/triangles")->as_number(),
-              found.at_pointer("/counts/triangles")->as_number());
+    EXPECT_NEAR(body.at_pointer("/estimate/triangles")->as_number(),
+                found.at_pointer("/counts/triangles")->as_number(),
+                0.1 * found.at_pointer("/counts/triangles")->as_number());
     EXPECT_NEAR(body.at_pointer("/estimate/bytes")->as_number(),
                 static_cast<double>(size_of(glb.body)),
                 0.5 * static_cast<double>(size_of(glb.body)));
