@@ -28,11 +28,11 @@ struct Target {
 
 // "scalar" is whichever plain C++ fallback the compiler can build.
 constexpr Target targets[] = {
-    {"scalar", HWY_TARGETS & (HWY_SCALAR | HWY_EMU128)},
-    {"ssse3", HWY_TARGETS & HWY_SSSE3},
-    {"sse4", HWY_TARGETS & HWY_SSE4},
-    {"avx2", HWY_TARGETS & HWY_AVX2},
-    {"avx3", HWY_TARGETS & HWY_AVX3},
+    {"scalar", HWY_TARGETS&(HWY_SCALAR | HWY_EMU128)},
+    {"ssse3", HWY_TARGETS& HWY_SSSE3},
+    {"sse4", HWY_TARGETS& HWY_SSE4},
+    {"avx2", HWY_TARGETS& HWY_AVX2},
+    {"avx3", HWY_TARGETS& HWY_AVX3},
 };
 
 // What the processor has, whatever is forced just now.
@@ -50,19 +50,21 @@ void check_lengths(std::size_t x, std::size_t y, std::size_t out) {
 
 }  // namespace
 
-void gradient_noise(std::span<const float> x, std::span<const float> y, std::uint32_t seed, std::span<float> out) {
+void gradient_noise(std::span<const float> x, std::span<const float> y, std::uint32_t seed,
+                    std::span<float> out) {
     check_lengths(x.size(), y.size(), out.size());
     HWY_DYNAMIC_DISPATCH(noise2_batch)(x.data(), y.data(), seed, out.data(), out.size());
 }
 
-void gradient_noise(std::span<const float> x, std::span<const float> y, std::span<const float> z, std::uint32_t seed,
-                    std::span<float> out) {
+void gradient_noise(std::span<const float> x, std::span<const float> y, std::span<const float> z,
+                    std::uint32_t seed, std::span<float> out) {
     check_lengths(x.size(), y.size(), out.size());
     check_lengths(x.size(), z.size(), out.size());
     HWY_DYNAMIC_DISPATCH(noise3_batch)(x.data(), y.data(), z.data(), seed, out.data(), out.size());
 }
 
-void periodic_noise(std::span<const float> x, std::span<const float> y, int period, std::uint32_t seed, std::span<float> out) {
+void periodic_noise(std::span<const float> x, std::span<const float> y, int period,
+                    std::uint32_t seed, std::span<float> out) {
     check_lengths(x.size(), y.size(), out.size());
     if (period < 1 || period > 65536) throw InvalidInput("", "the period is outside 1..65536");
     HWY_DYNAMIC_DISPATCH(periodic_batch)(x.data(), y.data(), period, seed, out.data(), out.size());
@@ -83,7 +85,8 @@ void force_simd(std::string_view name) {
     }
     for (const Target& target : targets) {
         if (name != target.name) continue;
-        if ((target.bits & have) == 0) throw InvalidInput("simd", "this processor has no " + std::string(name));
+        if ((target.bits & have) == 0)
+            throw InvalidInput("simd", "this processor has no " + std::string(name));
         hwy::SetSupportedTargetsForTest(target.bits);
         return;
     }

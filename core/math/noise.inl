@@ -1,5 +1,7 @@
-// Gradient noise and its hash on vectors of floats, once per instruction set: included by noise.cpp and by core/surface only.
-// Products and sums stay apart and every operation is exact or correctly rounded, so that all instruction sets agree.
+// Gradient noise and its hash on vectors of floats, once per instruction set: included by
+// noise.cpp and by core/surface only.
+// Products and sums stay apart and every operation is exact or correctly rounded, so that all
+// instruction sets agree.
 #if defined(SPOREPRINT_CORE_MATH_NOISE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_MATH_NOISE_INL
 #undef SPOREPRINT_CORE_MATH_NOISE_INL
@@ -28,7 +30,9 @@ using VU = hn::Vec<Words>;
 
 HWY_INLINE VF set(float value) { return hn::Set(Floats(), value); }
 HWY_INLINE VU word(std::uint32_t value) { return hn::Set(Words(), value); }
-HWY_INLINE VF clamped(VF x, float low, float high) { return hn::Min(hn::Max(x, set(low)), set(high)); }
+HWY_INLINE VF clamped(VF x, float low, float high) {
+    return hn::Min(hn::Max(x, set(low)), set(high));
+}
 HWY_INLINE VF unit(VF x) { return clamped(x, 0.0F, 1.0F); }
 HWY_INLINE VF mix(VF a, VF b, VF weight) { return a + (b - a) * weight; }
 
@@ -38,7 +42,8 @@ HWY_INLINE VF smooth(VF x, float from, float slope) {
     return t * t * (set(3.0F) - set(2.0F) * t);
 }
 
-/// Bits that stand for a whole number, |x| < 2^22; neighbours are neighbours. Cheaper than a conversion, and as exact.
+/// Bits that stand for a whole number, |x| < 2^22; neighbours are neighbours. Cheaper than a
+/// conversion, and as exact.
 HWY_INLINE VU whole_bits(VF x) { return hn::BitCast(Words(), x + set(12582912.0F)); }
 
 /// Quintic with two flat derivatives at 0 and 1.
@@ -50,14 +55,17 @@ HWY_INLINE VU hash(VU h) {
 }
 
 /// Hash bits as a number: all of them, and the lower half. -1 <= x <= 1
-HWY_INLINE VF upper_part(VU h) { return hn::ConvertTo(Floats(), hn::BitCast(Ints(), h)) * set(1.0F / 2147483648.0F); }
+HWY_INLINE VF upper_part(VU h) {
+    return hn::ConvertTo(Floats(), hn::BitCast(Ints(), h)) * set(1.0F / 2147483648.0F);
+}
 HWY_INLINE VF lower_part(VU h) { return upper_part(hn::ShiftLeft<16>(h)); }
 
 inline constexpr std::uint32_t prime_x = 0x9E3779B1U;
 inline constexpr std::uint32_t prime_y = 0x85EBCA77U;
 inline constexpr std::uint32_t prime_z = 0xC2B2AE3DU;
 
-// Gradient times offset, not yet scaled to 1. Each component is the hash from another bit on: what follows its own bits is too
+// Gradient times offset, not yet scaled to 1. Each component is the hash from another bit on: what
+// follows its own bits is too
 // small to matter.
 HWY_INLINE VF slope2(VU h, VF dx, VF dy) {
     h = hash(h);
@@ -129,10 +137,14 @@ HWY_INLINE VF noise3(VF x, VF y, VF z, std::uint32_t seed) {
     const VU h11 = hn::Xor(hy1, hz1);
     const VF u = fade(fx);
     const VF v = fade(fy);
-    const VF n00 = mix(slope3(hn::Xor(hx0, h00), fx, fy, fz), slope3(hn::Xor(hx1, h00), gx, fy, fz), u);
-    const VF n10 = mix(slope3(hn::Xor(hx0, h10), fx, gy, fz), slope3(hn::Xor(hx1, h10), gx, gy, fz), u);
-    const VF n01 = mix(slope3(hn::Xor(hx0, h01), fx, fy, gz), slope3(hn::Xor(hx1, h01), gx, fy, gz), u);
-    const VF n11 = mix(slope3(hn::Xor(hx0, h11), fx, gy, gz), slope3(hn::Xor(hx1, h11), gx, gy, gz), u);
+    const VF n00 =
+        mix(slope3(hn::Xor(hx0, h00), fx, fy, fz), slope3(hn::Xor(hx1, h00), gx, fy, fz), u);
+    const VF n10 =
+        mix(slope3(hn::Xor(hx0, h10), fx, gy, fz), slope3(hn::Xor(hx1, h10), gx, gy, fz), u);
+    const VF n01 =
+        mix(slope3(hn::Xor(hx0, h01), fx, fy, gz), slope3(hn::Xor(hx1, h01), gx, fy, gz), u);
+    const VF n11 =
+        mix(slope3(hn::Xor(hx0, h11), fx, gy, gz), slope3(hn::Xor(hx1, h11), gx, gy, gz), u);
     return mix(mix(n00, n10, v), mix(n01, n11, v), fade(fz)) * set(1.8F / 2147483648.0F);
 }
 

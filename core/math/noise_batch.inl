@@ -30,24 +30,30 @@ HWY_INLINE std::size_t lanes_left(std::size_t at, std::size_t count) {
     return count - at < lanes ? count - at : lanes;
 }
 
-void noise2_batch(const float* x, const float* y, std::uint32_t seed, float* out, std::size_t count) {
+void noise2_batch(const float* x, const float* y, std::uint32_t seed, float* out,
+                  std::size_t count) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(Floats())) {
         const std::size_t some = lanes_left(i, count);
         store_some(noise2(load_some(x + i, some), load_some(y + i, some), seed), out + i, some);
     }
 }
 
-void noise3_batch(const float* x, const float* y, const float* z, std::uint32_t seed, float* out, std::size_t count) {
+void noise3_batch(const float* x, const float* y, const float* z, std::uint32_t seed, float* out,
+                  std::size_t count) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(Floats())) {
         const std::size_t some = lanes_left(i, count);
-        store_some(noise3(load_some(x + i, some), load_some(y + i, some), load_some(z + i, some), seed), out + i, some);
+        store_some(
+            noise3(load_some(x + i, some), load_some(y + i, some), load_some(z + i, some), seed),
+            out + i, some);
     }
 }
 
-void periodic_batch(const float* x, const float* y, int period, std::uint32_t seed, float* out, std::size_t count) {
+void periodic_batch(const float* x, const float* y, int period, std::uint32_t seed, float* out,
+                    std::size_t count) {
     for (std::size_t i = 0; i < count; i += hn::Lanes(Floats())) {
         const std::size_t some = lanes_left(i, count);
-        store_some(periodic_noise2(load_some(x + i, some), load_some(y + i, some), period, seed), out + i, some);
+        store_some(periodic_noise2(load_some(x + i, some), load_some(y + i, some), period, seed),
+                   out + i, some);
     }
 }
 

@@ -50,7 +50,8 @@ Place place_of(const Patch& patch) {
     return {patch.sigma, sine(quarter_turn * patch.sigma) / quarter_turn, sine_cosine(patch.theta)};
 }
 
-// Distance on the hemisphere in shares of its meridian, lengths along the meridian shrunk by the elongation.
+// Distance on the hemisphere in shares of its meridian, lengths along the meridian shrunk by the
+// elongation.
 double distance(const Place& a, const Place& b, double elongation) {
     const double along = (a.sigma - b.sigma) / elongation;
     // The chord on the circle half-way between: never longer than the way over the pole.
@@ -95,7 +96,8 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             patch.theta = theta;
             // The veil tears finer towards the margin, where the cap grows most.
             const double reach = (tilt - from) / (to - from);
-            patch.radius = style.size * (0.62 + 0.5 * small + 0.35 * large * large) * (1.15 - 0.4 * reach);
+            patch.radius =
+                style.size * (0.62 + 0.5 * small + 0.35 * large * large) * (1.15 - 0.4 * reach);
             patch.spin = spin;
             patch.height = style.height * height;
             // Rain takes the margin first.
@@ -106,9 +108,13 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             const Place place = place_of(patch);
             for (std::size_t other = 0; other < out.size(); ++other) {
                 // Too far along the meridian to matter, whatever the rest of the way.
-                const double along_only = patch.sigma > out[other].sigma ? patch.sigma - out[other].sigma : out[other].sigma - patch.sigma;
-                if (along_only >= 0.8 * style.elongation * (patch.radius + out[other].radius)) continue;
-                room = std::min(room, distance(place, places[other], style.elongation) / 0.8 - out[other].radius);
+                const double along_only = patch.sigma > out[other].sigma
+                                              ? patch.sigma - out[other].sigma
+                                              : out[other].sigma - patch.sigma;
+                if (along_only >= 0.8 * style.elongation * (patch.radius + out[other].radius))
+                    continue;
+                room = std::min(room, distance(place, places[other], style.elongation) / 0.8 -
+                                          out[other].radius);
             }
             // Continuous in the style's size, so that nothing pops while the cap grows.
             patch.radius = room * smooth_step(0.2, 0.5, room / patch.radius);

@@ -1,4 +1,5 @@
-// Paints the texels of the upper face: ramp, fibres, zones, patches, streaks, veins, striae, and the warts and scales on it.
+// Paints the texels of the upper face: ramp, fibres, zones, patches, streaks, veins, striae, and
+// the warts and scales on it.
 #if defined(SPOREPRINT_CORE_SURFACE_CAP_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_CAP_INL
 #undef SPOREPRINT_CORE_SURFACE_CAP_INL
@@ -27,7 +28,8 @@ HWY_INLINE Rgb ramp_colour(const CapPlan& plan, VF along) {
 // Cells grow from the pole outwards.
 HWY_INLINE VF one_over_stretch(VF rho) { return set(1.25F) - set(0.45F) * rho; }
 
-/// The fields of a cap that vary slowly enough to be sampled at every other texel; the first three come from the grid.
+/// The fields of a cap that vary slowly enough to be sampled at every other texel; the first three
+/// come from the grid.
 HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) {
     const VF px = p.radius * p.cosine;
     const VF pz = p.radius * p.sine;
@@ -44,22 +46,28 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
     const VF turn = turn_of(p.cosine, p.sine);
     const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
     if ((plan.fields & (1U << cap_streak)) != 0) {
-        const VF coarse = periodic_noise2(turn * set(46.0F), p.rho * set(1.7F) + fields[cap_middle] * set(0.12F), 46, plan.seed[5]);
+        const VF coarse =
+            periodic_noise2(turn * set(46.0F), p.rho * set(1.7F) + fields[cap_middle] * set(0.12F),
+                            46, plan.seed[5]);
         const VF thin = periodic_noise2(turn * set(131.0F), p.rho * set(2.9F), 131, plan.seed[6]);
-        const VF streak = coarse + thin * set(0.7F) * shown(round_texels * set(1.0F / 131.0F), 5.0F);
+        const VF streak =
+            coarse + thin * set(0.7F) * shown(round_texels * set(1.0F / 131.0F), 5.0F);
         fields[cap_streak] = smooth(streak, -0.05F, 1.9F) * smooth(p.rho, 0.02F, 6.0F);
     }
     if ((plan.fields & (1U << cap_fibre)) != 0) {
         const float n = static_cast<float>(plan.fibril_count);
-        const VF a = periodic_noise2(turn * set(n) + fields[cap_uneven] * set(0.6F), p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
+        const VF a = periodic_noise2(turn * set(n) + fields[cap_uneven] * set(0.6F),
+                                     p.rho * set(5.0F), plan.fibril_count, plan.seed[7]);
         fields[cap_fibre] = a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F);
     }
     if ((plan.fields & (1U << cap_vein)) != 0) {
-        // In the plane of the disc, drawn out along the meridians by a warp, so that most veins run outwards.
+        // In the plane of the disc, drawn out along the meridians by a warp, so that most veins
+        // run outwards.
         const VF rows = set(plan.vein_rows);
         const VF draw = one_over_stretch(p.rho);
         const VF x = p.x * rows * draw + fields[cap_uneven] * set(0.50F);
-        const VF y = p.y * rows * draw + fields[cap_middle] * set(0.30F) + fields[cap_mottle] * set(0.35F);
+        const VF y =
+            p.y * rows * draw + fields[cap_middle] * set(0.30F) + fields[cap_mottle] * set(0.35F);
         const Cells net = plane_cells(x, y, 0.45F, plan.seed[9]);
         fields[cap_vein] = smooth(net.border, 0.02F, 3.2F);
     }
@@ -85,19 +93,23 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         if (plan.bumps[octave] <= 0.0F) continue;
         const VF f = set(cap_bump_frequency[octave]);
         const VF g = f * p.radius;
-        const VF n = noise3(g * p.cosine, p.height * f, g * p.sine, plan.seed[octave]) * set(plan.bumps[octave]);
+        const VF n = noise3(g * p.cosine, p.height * f, g * p.sine, plan.seed[octave]) *
+                     set(plan.bumps[octave]);
         fine = fine + n;
         height = height + n * set(0.16F / cap_bump_frequency[octave]);
     }
 
     const VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F));
     Rgb colour = ramp_colour(plan, unit(along));
-    VF shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) + set(0.10F) * fine;
+    VF shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
+               set(0.10F) * fine;
     VF occlusion = one + hn::Min(fine, zero) * set(0.25F);
     VF rough = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
 
     if (plan.patches > 0.0F) {
-        const VF patch = smooth(fields[cap_patch] + set(0.14F) * middle + set(0.05F) * fine, plan.patch_threshold - 0.09F, 5.5F) * set(plan.patch_weight);
+        const VF patch = smooth(fields[cap_patch] + set(0.14F) * middle + set(0.05F) * fine,
+                                plan.patch_threshold - 0.09F, 5.5F) *
+                         set(plan.patch_weight);
         colour = mix(colour, rgb(plan.patch_colour), patch);
         rough = rough + patch * set(0.05F);
         height = height + patch * set(0.0012F);
@@ -118,8 +130,10 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
         if (plan.fibrils > 0.0F) {
             const float n = 2.0F * static_cast<float>(plan.fibril_count);
-            const VF b = periodic_noise2(turn * set(n) + middle * set(0.5F), p.rho * set(8.0F), 2 * plan.fibril_count, plan.seed[8]);
-            const VF fibre = fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) * set(0.55F);
+            const VF b = periodic_noise2(turn * set(n) + middle * set(0.5F), p.rho * set(8.0F),
+                                         2 * plan.fibril_count, plan.seed[8]);
+            const VF fibre =
+                fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) * set(0.55F);
             shade = shade * (one + set(0.42F * plan.fibrils) * fibre);
             height = height + fibre * p.radius * set(0.44F * 6.2831853F * plan.fibrils / n);
             occlusion = occlusion + hn::Min(fibre, zero) * set(0.3F * plan.fibrils);
@@ -127,8 +141,11 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         }
         if (plan.striae > 0.0F) {
             const float n = static_cast<float>(plan.striae_count);
-            const VF reach = (p.rho - set(1.0F - plan.striae)) * set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) + middle * set(0.16F);
-            const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
+            const VF reach = (p.rho - set(1.0F - plan.striae)) *
+                                 set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) +
+                             middle * set(0.16F);
+            const VF strength =
+                smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
             const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + middle * set(0.14F));
             const VF deep = groove * strength;
             height = height - deep * p.radius * set(0.17F * 6.2831853F / n);
@@ -137,7 +154,8 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         }
     }
     if (plan.veins > 0.0F) {
-        const VF strength = set(plan.veins) * (one - smooth(p.rho + mottle * set(0.12F), 0.30F, 1.55F));
+        const VF strength =
+            set(plan.veins) * (one - smooth(p.rho + mottle * set(0.12F), 0.30F, 1.55F));
         const VF cup = fields[cap_vein] * strength;
         height = height - cup * set(0.30F / plan.vein_rows);
         occlusion = occlusion * (one - set(0.45F) * cup);
@@ -151,7 +169,8 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     return out;
 }
 
-/// Lays one wart or scale over a texel: colour, roughness, a little relief, and shade round its foot.
+/// Lays one wart or scale over a texel: colour, roughness, a little relief, and shade round its
+/// foot.
 HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF y, Texel& texel) {
     const VF one = set(1.0F);
     const VF dx = x - set(patch.x);
@@ -162,17 +181,20 @@ HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
     if (patch.kind == 0) {
         const VF grain = noise2(a * set(4.1F), b * set(4.1F), patch.seed);
         VF far = set(0.0F);
-        for (std::size_t side = 0; side < 6; ++side) far = hn::Max(far, a * set(patch.side_x[side]) + b * set(patch.side_y[side]));
+        for (std::size_t side = 0; side < 6; ++side)
+            far = hn::Max(far, a * set(patch.side_x[side]) + b * set(patch.side_y[side]));
         far = far + grain * set(0.16F);
         const VF cover = (one - smooth(far, 0.86F, 5.0F)) * window * set(patch.shown);
-        const VF foot = (one - smooth(far, 0.75F, 1.4F)) * (one - cover) * window * set(patch.shown);
+        const VF foot =
+            (one - smooth(far, 0.75F, 1.4F)) * (one - cover) * window * set(patch.shown);
         const VF up = hn::Max(one - far, set(0.0F));
         Rgb colour = mix(rgb(veil.colour), rgb(veil.tip), smooth(up, 0.35F, 1.8F));
         colour = shaded(colour, one + grain * set(0.12F) - set(0.10F) * far);
         texel.colour = mix(texel.colour, colour, cover);
         texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
         // A wart that leans is higher on one side.
-        texel.height = texel.height + (up + grain * set(0.15F) + a * set(0.3F * patch.lift)) * set(patch.relief) * cover;
+        texel.height = texel.height + (up + grain * set(0.15F) + a * set(0.3F * patch.lift)) *
+                                          set(patch.relief) * cover;
         texel.occlusion = texel.occlusion * (one - set(0.38F) * foot);
         texel.colour = shaded(texel.colour, one - set(0.16F) * foot);
     } else {
@@ -182,14 +204,18 @@ HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
         const VF taper = one - set(0.62F) * smooth(tipwards, -0.35F, 0.8F);
         const VF side = hn::Abs(b) / hn::Max(taper, set(0.1F));
         const VF far = hn::Max(side, hn::Abs(a)) + thread * set(0.24F);
-        const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) * smooth(tipwards, -1.0F, 1.2F);
-        const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window * set(patch.shown) * smooth(tipwards, -0.2F, 1.0F);
+        const VF cover = (one - smooth(far, 0.80F, 4.0F)) * window * set(patch.shown) *
+                         smooth(tipwards, -1.0F, 1.2F);
+        const VF foot = (one - smooth(far, 0.80F, 1.7F)) * (one - cover) * window *
+                        set(patch.shown) * smooth(tipwards, -0.2F, 1.0F);
         const VF tip = smooth(tipwards + thread * set(0.45F), -0.05F, 1.1F);
         Rgb colour = mix(rgb(veil.colour), rgb(veil.tip), tip);
         colour = shaded(colour, one + thread * set(0.22F));
         texel.colour = mix(texel.colour, colour, cover);
         texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
-        texel.height = texel.height + (unit(tipwards * set(0.5F) + set(0.5F)) + thread * set(0.2F)) * set(patch.relief) * cover;
+        texel.height =
+            texel.height + (unit(tipwards * set(0.5F) + set(0.5F)) + thread * set(0.2F)) *
+                               set(patch.relief) * cover;
         texel.occlusion = texel.occlusion * (one - set(0.45F) * foot);
         texel.colour = shaded(texel.colour, one - set(0.30F) * foot);
     }

@@ -5,10 +5,12 @@
 
 namespace sporeprint {
 
-/// disc: the paper's planar map, the pole in the middle. strip: the paper's cylinder map, u along the part, v once round.
+/// disc: the paper's planar map, the pole in the middle. strip: the paper's cylinder map, u along
+/// the part, v once round.
 enum class ChartMap { disc, strip };
 
-/// Rectangle in texture coordinates (0..1, v down as in glTF). `inset` is the share of each side left as bleed for mips.
+/// Rectangle in texture coordinates (0..1, v down as in glTF). `inset` is the share of each side
+/// left as bleed for mips.
 struct Chart {
     ChartMap map = ChartMap::disc;
     double u = 0.0, v = 0.0, width = 1.0, height = 1.0;
@@ -17,9 +19,12 @@ struct Chart {
 
 enum class Part { cap, hymenium, stem, veil };
 
-/// Layout of the Swept family. cap: disc, pole = apex, rim = margin, radius = meridian arc / whole arc.
-/// hymenium: disc, radius = (inner + (1 - inner) * arc share) with inner = hymenium_inner_share; rim = margin.
-/// stem: strip, u = arc from the ground / whole arc, v = theta / 2 pi. veil: strip, u = theta / 2 pi, v = 0 at the attachment, 1 at the edge or tip.
+/// Layout of the Swept family. cap: disc, pole = apex, rim = margin, radius = meridian arc / whole
+/// arc.
+/// hymenium: disc, radius = (inner + (1 - inner) * arc share) with inner = hymenium_inner_share;
+/// rim = margin.
+/// stem: strip, u = arc from the ground / whole arc, v = theta / 2 pi. veil: strip, u = theta / 2
+/// pi, v = 0 at the attachment, 1 at the edge or tip.
 inline constexpr std::array<Chart, 4> swept_charts = {{
     {ChartMap::disc, 0.0, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::disc, 0.5, 0.0, 0.5, 0.5, 0.03},
@@ -34,9 +39,11 @@ inline constexpr double hymenium_inner_share = 0.15;
 struct TexturePoint {
     double u, v;
 };
-[[nodiscard]] constexpr TexturePoint disc_point(const Chart& chart, double radius, double cosine, double sine) {
+[[nodiscard]] constexpr TexturePoint disc_point(const Chart& chart, double radius, double cosine,
+                                                double sine) {
     const double reach = 0.5 - chart.inset;
-    return {chart.u + chart.width * (0.5 + reach * radius * cosine), chart.v + chart.height * (0.5 + reach * radius * sine)};
+    return {chart.u + chart.width * (0.5 + reach * radius * cosine),
+            chart.v + chart.height * (0.5 + reach * radius * sine)};
 }
 /// Texture coordinate of a strip chart; `along` and `across` 0..1.
 [[nodiscard]] constexpr TexturePoint strip_point(const Chart& chart, double along, double across) {

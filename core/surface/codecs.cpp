@@ -25,9 +25,9 @@ using TurboHandle = std::unique_ptr<void, TurboFree>;
 void check_size(long long width, long long height, const std::string& path) {
     if (width < 1 || height < 1) refuse(path, "the image has no pixels");
     if (width > largest_upload_side || height > largest_upload_side)
-        refuse(path, "the image is " + std::to_string(width) + " x " + std::to_string(height) + " pixels; at most " +
-                         std::to_string(largest_upload_side) + " x " + std::to_string(largest_upload_side) +
-                         " are allowed");
+        refuse(path, "the image is " + std::to_string(width) + " x " + std::to_string(height) +
+                         " pixels; at most " + std::to_string(largest_upload_side) + " x " +
+                         std::to_string(largest_upload_side) + " are allowed");
 }
 
 Picture empty_picture(int width, int height) {
@@ -38,7 +38,8 @@ Picture empty_picture(int width, int height) {
     return picture;
 }
 
-// A progressive file may repeat its scans thousands of times in few bytes; honest ones have about ten.
+// A progressive file may repeat its scans thousands of times in few bytes; honest ones have about
+// ten.
 bool has_too_many_scans(std::span<const std::uint8_t> file) {
     int scans = 0;
     for (std::size_t i = 0; i + 1 < file.size(); ++i)
@@ -50,15 +51,15 @@ Picture decoded_jpeg(std::span<const std::uint8_t> file, const std::string& path
     const TurboHandle handle(tjInitDecompress());
     if (!handle) throw GenerationError("no JPEG decoder");
     int width = 0, height = 0, subsampling = 0, colours = 0;
-    if (tjDecompressHeader3(handle.get(), file.data(), static_cast<unsigned long>(file.size()), &width, &height, &subsampling,
-                            &colours) != 0)
+    if (tjDecompressHeader3(handle.get(), file.data(), static_cast<unsigned long>(file.size()),
+                            &width, &height, &subsampling, &colours) != 0)
         refuse(path, "not a readable JPEG file");
     check_size(width, height, path);
     if (has_too_many_scans(file)) refuse(path, "the JPEG file has too many scans");
     Picture picture = empty_picture(width, height);
     const int flags = TJFLAG_ACCURATEDCT | TJFLAG_STOPONWARNING | TJFLAG_LIMITSCANS;
-    if (tjDecompress2(handle.get(), file.data(), static_cast<unsigned long>(file.size()), picture.rgb.data(), width, 0, height,
-                      TJPF_RGB, flags) != 0)
+    if (tjDecompress2(handle.get(), file.data(), static_cast<unsigned long>(file.size()),
+                      picture.rgb.data(), width, 0, height, TJPF_RGB, flags) != 0)
         refuse(path, "not a readable JPEG file");
     return picture;
 }
@@ -67,16 +68,19 @@ Picture decoded_png(std::span<const std::uint8_t> file, const std::string& path)
     png_image image;
     std::memset(&image, 0, sizeof image);
     image.version = PNG_IMAGE_VERSION;
-    if (png_image_begin_read_from_memory(&image, file.data(), file.size()) == 0) refuse(path, "not a readable PNG file");
+    if (png_image_begin_read_from_memory(&image, file.data(), file.size()) == 0)
+        refuse(path, "not a readable PNG file");
     struct Release {
         png_image* image;
         ~Release() { png_image_free(image); }
     } release{&image};
     check_size(image.width, image.height, path);
-    image.format = PNG_FORMAT_RGBA;  // straight alpha: the colours under it are kept, the alpha is dropped
+    image.format =
+        PNG_FORMAT_RGBA;  // straight alpha: the colours under it are kept, the alpha is dropped
     Bytes rgba(PNG_IMAGE_SIZE(image));
     Picture picture = empty_picture(static_cast<int>(image.width), static_cast<int>(image.height));
-    if (png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) == 0) refuse(path, "not a readable PNG file");
+    if (png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) == 0)
+        refuse(path, "not a readable PNG file");
     for (std::size_t from = 0, to = 0; to < picture.rgb.size(); from += 4, to += 3)
         std::memcpy(&picture.rgb[to], &rgba[from], 3);
     return picture;
@@ -84,16 +88,20 @@ Picture decoded_png(std::span<const std::uint8_t> file, const std::string& path)
 
 Picture decoded_webp(std::span<const std::uint8_t> file, const std::string& path) {
     WebPBitstreamFeatures features;
-    if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK) refuse(path, "not a readable WebP file");
+    if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK)
+        refuse(path, "not a readable WebP file");
     check_size(features.width, features.height, path);
-    if (features.has_animation != 0) refuse(path, "an animated WebP file is not an image of a surface");
+    if (features.has_animation != 0)
+        refuse(path, "an animated WebP file is not an image of a surface");
     Picture picture = empty_picture(features.width, features.height);
-    if (WebPDecodeRGBInto(file.data(), file.size(), picture.rgb.data(), picture.rgb.size(), 3 * features.width) == nullptr)
+    if (WebPDecodeRGBInto(file.data(), file.size(), picture.rgb.data(), picture.rgb.size(),
+                          3 * features.width) == nullptr)
         refuse(path, "not a readable WebP file");
     return picture;
 }
 
-bool starts_with(std::span<const std::uint8_t> file, const char* magic, std::size_t size, std::size_t at = 0) {
+bool starts_with(std::span<const std::uint8_t> file, const char* magic, std::size_t size,
+                 std::size_t at = 0) {
     return file.size() >= at + size && std::memcmp(file.data() + at, magic, size) == 0;
 }
 
@@ -103,21 +111,22 @@ Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality
     thread_local const TurboHandle handle(tjInitCompress());
     if (!handle) throw GenerationError("no JPEG encoder");
     const int subsampling = chroma == Chroma::halved ? TJSAMP_420 : TJSAMP_444;
-    Bytes file(tjBufSize(width, height, subsampling));
-    unsigned char* out = file.data();
-    unsigned long size = static_cast<unsigned long>(file.size());
-    if (tjCompress2(handle.get(), rgb.data(), width, 0, height, TJPF_RGB, &out, &size, subsampling, quality,
-                    TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0)
+    // Room for the worst case, of which only what is written is ever touched.
+    const std::size_t room = tjBufSize(width, height, subsampling);
+    const auto buffer = std::make_unique_for_overwrite<unsigned char[]>(room);
+    unsigned char* out = buffer.get();
+    unsigned long size = static_cast<unsigned long>(room);
+    if (tjCompress2(handle.get(), rgb.data(), width, 0, height, TJPF_RGB, &out, &size, subsampling,
+                    quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0)
         throw GenerationError(std::string("JPEG encoder: ") + tjGetErrorStr2(handle.get()));
-    file.resize(size);
-    file.shrink_to_fit();
-    return file;
+    return Bytes(out, out + size);
 }
 
 Picture decoded_picture(std::span<const std::uint8_t> file, const std::string& path) {
     if (starts_with(file, "\x89PNG\r\n\x1A\n", 8)) return decoded_png(file, path);
     if (starts_with(file, "\xFF\xD8\xFF", 3)) return decoded_jpeg(file, path);
-    if (starts_with(file, "RIFF", 4) && starts_with(file, "WEBP", 4, 8)) return decoded_webp(file, path);
+    if (starts_with(file, "RIFF", 4) && starts_with(file, "WEBP", 4, 8))
+        return decoded_webp(file, path);
     refuse(path, "neither a PNG, a JPEG nor a WebP file");
 }
 

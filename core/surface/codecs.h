@@ -27,9 +27,11 @@ enum class Chroma { halved, full };
 /// rgb      3 * width * height bytes
 /// quality  1..100
 /// throws   GenerationError if the encoder fails
-[[nodiscard]] Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality, Chroma chroma);
+[[nodiscard]] Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality,
+                         Chroma chroma);
 
-/// Pixels of an uploaded image, told by its first bytes; transparency is dropped, animation is refused.
+/// Pixels of an uploaded image, told by its first bytes; transparency is dropped, animation is
+/// refused.
 /// The size is read and checked before any pixel is decoded.
 ///
 /// path     what InvalidInput names, e.g. "/surface/cap/image"

@@ -1,4 +1,5 @@
-// Paints the texels of the lower face: gills with their shorter tiers, forking ridges, pores, or a smooth skin.
+// Paints the texels of the lower face: gills with their shorter tiers, forking ridges, pores, or a
+// smooth skin.
 #if defined(SPOREPRINT_CORE_SURFACE_HYMENIUM_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
 #undef SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
@@ -12,7 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// A slot between blades: how far a texel is from the edge of the nearest blade (0) to the middle of the slot (1).
+/// A slot between blades: how far a texel is from the edge of the nearest blade (0) to the middle
+/// of the slot (1).
 struct Slot {
     VF depth;    ///< 0 on an edge, 1 in the middle of the slot
     VF visible;  ///< 0 where slots are smaller than texels
@@ -30,7 +32,8 @@ HWY_INLINE VF wrapped(VF x, float period) {
     return x - hn::IfThenElseZero(x >= set(period), set(period));
 }
 
-/// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from its own radius outwards.
+/// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from
+/// its own radius outwards.
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
@@ -43,7 +46,8 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
     for (int tier = 0; tier < plan.tiers; ++tier, scale *= 2.0F) {
         const VF fine = x * set(scale);
         const VF place = hn::Floor(fine);
-        const VF chance = lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
+        const VF chance =
+            lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
         const float from = tier == 0 ? 0.30F : tier == 1 ? 0.58F : 0.78F;
         const VF begin = set(from) + chance * set(0.11F);
         const VF grown = unit((share - begin) * set(9.0F));
@@ -61,7 +65,8 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
     return slot;
 }
 
-/// Ridges: blunt folds; from each grows a fork that swings out to the middle of the gap, and another from each half.
+/// Ridges: blunt folds; from each grows a fork that swings out to the middle of the gap, and
+/// another from each half.
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
@@ -76,9 +81,12 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
         const VF fine = x * set(scale);
         const VF place = hn::Floor(fine);
         const VF within = fine - place;
-        const VF chance = lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(level));
-        const VF side = lot(wrapped(place, n * scale), plan.seed[3] + static_cast<std::uint32_t>(level));
-        const VF begin = set((level == 0 ? 0.24F : 0.66F) + hidden * 1.1F) + chance * set(level == 0 ? 0.17F : 0.10F);
+        const VF chance =
+            lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(level));
+        const VF side =
+            lot(wrapped(place, n * scale), plan.seed[3] + static_cast<std::uint32_t>(level));
+        const VF begin = set((level == 0 ? 0.24F : 0.66F) + hidden * 1.1F) +
+                         chance * set(level == 0 ? 0.17F : 0.10F);
         const VF swing = set(0.5F) * smooth(share - begin, 0.0F, 3.2F);
         const VF fork = hn::IfThenElse(side < set(0.0F), swing, one - swing);
         distance = hn::Min(distance, hn::Abs(within - fork) * set(1.0F / scale));
@@ -88,7 +96,8 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
     Slot slot;
     slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.12F, 1.15F);
     // Cross veins, low and thin.
-    const VF vein = periodic_noise2(turn * set(2.0F * n) + wander * set(0.6F), share * set(13.0F), 2 * plan.blades, plan.seed[4]);
+    const VF vein = periodic_noise2(turn * set(2.0F * n) + wander * set(0.6F), share * set(13.0F),
+                                    2 * plan.blades, plan.seed[4]);
     const VF cross = (one - smooth(hn::Abs(vein), 0.03F, 5.5F)) * set(0.55F * plan.forking);
     slot.depth = slot.depth * (one - cross);
     slot.visible = shown(gap_texels * room, 4.0F);
@@ -96,7 +105,8 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
 }
 
 HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
-    const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow / plan.pore_rows, 1.0F, 0.30F, plan.seed[5]);
+    const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from,
+                                  plan.pore_grow / plan.pore_rows, 1.0F, 0.30F, plan.seed[5]);
     // Each tube has its own width.
     const VF width = set(0.16F) + set(0.06F) * lower_part(hash(cell.id));
     Slot slot;
@@ -106,7 +116,8 @@ HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
     return slot;
 }
 
-/// The field of a lower face that is sampled at every other texel; the first two come from the grid.
+/// The field of a lower face that is sampled at every other texel; the first two come from the
+/// grid.
 HWY_INLINE void hymenium_fields(const HymeniumPlan& plan, const DiscPoint& p, VF* fields) {
     if ((plan.fields & (1U << hymenium_bump)) == 0) return;
     const VF f = set(hymenium_bump_frequency[0]);
@@ -119,7 +130,8 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
     Texel out;
     const VF uneven = fields[hymenium_uneven];
     const VF middle = fields[hymenium_middle];
-    const VF share = hn::Max(p.rho - set(plan.disc.inner), set(0.0F)) * set(1.0F / (1.0F - plan.disc.inner));
+    const VF share =
+        hn::Max(p.rho - set(plan.disc.inner), set(0.0F)) * set(1.0F / (1.0F - plan.disc.inner));
     VF fine = set(0.0F);
     VF height = set(0.0F);
     if ((plan.fields & (1U << hymenium_bump)) != 0) {
@@ -138,24 +150,33 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
     Rgb colour = rgb(plan.colour);
     if (plan.pattern == 0) {
         // A smooth face: clouds between its colours, and the finest grain.
-        colour = mix(colour, rgb(plan.depth), unit(cloud * set(0.55F * plan.mottle) + set(0.08F * plan.mottle)));
+        colour = mix(colour, rgb(plan.depth),
+                     unit(cloud * set(0.55F * plan.mottle) + set(0.08F * plan.mottle)));
         colour = mix(colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
         height = height * set(0.35F + plan.relief);
     } else {
         const VF turn = turn_of(p.cosine, p.sine);
         const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn, uneven)
-                          : plan.pattern == 2 ? ridges(plan, p, share, turn, uneven + middle * set(0.22F))
-                                              : pores(plan, share, turn);
+                          : plan.pattern == 2
+                              ? ridges(plan, p, share, turn, uneven + middle * set(0.22F))
+                              : pores(plan, share, turn);
         const float mean_depth = plan.pattern == 3 ? 0.5F : 0.45F;
-        const VF depth = mix(set(mean_depth), slot.depth, slot.visible);
+        VF depth = mix(set(mean_depth), slot.depth, slot.visible);
+        // Ridges run down the stem and are lost there.
+        if (plan.pattern == 2) depth = depth * smooth(share, 0.0F, 4.5F);
         const VF deep = depth * depth;
         // Edge, face, and depth of the slot; what is deep is only as dark as the relief makes it.
-        const VF on_edge = (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible + (one - slot.visible) * set(0.2F);
+        const VF on_edge =
+            (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +
+            (one - slot.visible) * set(0.2F);
         colour = mix(colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
         colour = mix(colour, rgb(plan.edge), on_edge);
-        occlusion = occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
-        const VF period = plan.pattern == 3 ? set(1.0F / plan.pore_rows) : p.radius * set(6.2831853F / static_cast<float>(plan.blades));
-        const VF rise = (one - depth * depth) * slot.visible * period;
+        occlusion =
+            occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
+        const VF period = plan.pattern == 3
+                              ? set(1.0F / plan.pore_rows)
+                              : p.radius * set(6.2831853F / static_cast<float>(plan.blades));
+        const VF rise = (one - deep) * slot.visible * period;
         height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
     }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);

@@ -1,11 +1,13 @@
-// All that paint may know of a shape: a few lengths, quantised so that similar shapes share their images.
+// All that paint may know of a shape: a few lengths, quantised so that similar shapes share their
+// images.
 #pragma once
 
 #include "core/params/describe.h"
 
 namespace sporeprint {
 
-/// Lengths in steps of 2 %: step n stands for 1.02^n metres. See quantised_length() and length_of_step().
+/// Lengths in steps of 2 %: step n stands for 1.02^n metres. See quantised_length() and
+/// length_of_step().
 struct SurfaceMetrics {
     int cap_arc = -150;
     int cap_radius = -150;
@@ -16,12 +18,30 @@ struct SurfaceMetrics {
 
     static constexpr void fields(auto visit) {
         using M = SurfaceMetrics;
-        visit(&M::cap_arc, Info{.name = "cap_arc", .min = -600, .max = 100, .doc = "Meridian of the upper face, apex to margin."});
-        visit(&M::cap_radius, Info{.name = "cap_radius", .min = -600, .max = 100, .doc = "Largest radius of the upper face."});
-        visit(&M::hymenium_arc, Info{.name = "hymenium_arc", .min = -600, .max = 100, .doc = "Meridian of the lower face, stem to margin."});
-        visit(&M::hymenium_inner, Info{.name = "hymenium_inner", .min = -600, .max = 100, .doc = "Radius where the lower face meets the stem."});
-        visit(&M::stem_length, Info{.name = "stem_length", .min = -600, .max = 100, .doc = "Meridian of the stem, ground to hymenium."});
-        visit(&M::stem_radius, Info{.name = "stem_radius", .min = -600, .max = 100, .doc = "Mean radius of the stem."});
+        visit(&M::cap_arc, Info{.name = "cap_arc",
+                                .min = -600,
+                                .max = 100,
+                                .doc = "Meridian of the upper face, apex to margin."});
+        visit(&M::cap_radius, Info{.name = "cap_radius",
+                                   .min = -600,
+                                   .max = 100,
+                                   .doc = "Largest radius of the upper face."});
+        visit(&M::hymenium_arc, Info{.name = "hymenium_arc",
+                                     .min = -600,
+                                     .max = 100,
+                                     .doc = "Meridian of the lower face, stem to margin."});
+        visit(&M::hymenium_inner, Info{.name = "hymenium_inner",
+                                       .min = -600,
+                                       .max = 100,
+                                       .doc = "Radius where the lower face meets the stem."});
+        visit(&M::stem_length, Info{.name = "stem_length",
+                                    .min = -600,
+                                    .max = 100,
+                                    .doc = "Meridian of the stem, ground to hymenium."});
+        visit(
+            &M::stem_radius,
+            Info{
+                .name = "stem_radius", .min = -600, .max = 100, .doc = "Mean radius of the stem."});
     }
     bool operator==(const SurfaceMetrics&) const = default;
 };

@@ -50,7 +50,8 @@ std::array<std::uint32_t, N> seeds(std::uint32_t seed, std::uint32_t purpose) {
 const std::array<float, 256>& linear_table() {
     static const std::array<float, 256> table = [] {
         std::array<float, 256> out{};
-        for (int i = 0; i < 256; ++i) out[static_cast<std::size_t>(i)] = single(srgb_to_linear(i / 255.0));
+        for (int i = 0; i < 256; ++i)
+            out[static_cast<std::size_t>(i)] = single(srgb_to_linear(i / 255.0));
         return out;
     }();
     return table;
@@ -61,7 +62,8 @@ Light light_of(Colour colour) {
     return {table[colour.r], table[colour.g], table[colour.b]};
 }
 
-// How much of a noise octave with features `texels` large can be shown: none below two, all from four on.
+// How much of a noise octave with features `texels` large can be shown: none below two, all from
+// four on.
 float shown_of(double texels) { return single(std::clamp((texels - 2.0) / 2.0, 0.0, 1.0)); }
 
 Frame frame_of(const Chart& chart, int side) {
@@ -74,9 +76,12 @@ Frame frame_of(const Chart& chart, int side) {
     return frame;
 }
 
-double disc_texel(const Frame& frame) { return 1.0 / ((0.5 - static_cast<double>(frame.inset)) * frame.width); }
+double disc_texel(const Frame& frame) {
+    return 1.0 / ((0.5 - static_cast<double>(frame.inset)) * frame.width);
+}
 
-// A piece of a sphere whose meridian is `arc` long and whose rim has radius `radius`; deeper caps go on as a cylinder.
+// A piece of a sphere whose meridian is `arc` long and whose rim has radius `radius`; deeper caps
+// go on as a cylinder.
 DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
     DiscPlan disc;
     disc.per_texel = single(disc_texel(frame));
@@ -106,7 +111,9 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.lightness = single(params.lightness);
     plan.roughness = single(cap.roughness);
     for (std::size_t i = 0; i < 3; ++i)
-        plan.bumps[i] = single(cap.bumps) * shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) * static_cast<double>(plan.disc.per_texel)));
+        plan.bumps[i] =
+            single(cap.bumps) * shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) *
+                                                static_cast<double>(plan.disc.per_texel)));
     plan.fields = 7U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << cap_bump;
     std::vector<Colour> ramp = cap.ramp;
@@ -129,7 +136,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.zones = single(cap.zones);
     plan.zone_count = single(cap.zone_count);
     plan.patches = single(cap.patches);
-    plan.patch_frequency = single(std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
+    plan.patch_frequency = single(
+        std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
     // Share of the face above a threshold of the noise: a logistic stand-in for its distribution.
     const double share = std::clamp(cap.patches, 0.01, 0.99);
     plan.patch_threshold = single(-0.20 * logarithm(share / (1.0 - share)));
@@ -139,7 +147,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.veins = single(cap.veins);
     plan.vein_rows = 7.0F;
     plan.striae = single(cap.striae);
-    // Few gills show through a thin cap one by one, with the shorter ones between; many run together.
+    // Few gills show through a thin cap one by one, with the shorter ones between; many run
+    // together.
     plan.striae_count = std::min(2 * params.hymenium.blades, 54 + params.hymenium.blades / 2);
     if (plan.streaks > 0.0F) plan.fields |= 1U << cap_streak;
     if (plan.fibrils > 0.0F) plan.fields |= 1U << cap_fibre;
@@ -166,7 +175,8 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.roughness = single(face.roughness);
     plan.relief = single(params.hymenium.relief);
     for (std::size_t i = 0; i < 2; ++i)
-        plan.bumps[i] = 0.6F * shown_of(1.0 / (static_cast<double>(hymenium_bump_frequency[i]) * static_cast<double>(plan.disc.per_texel)));
+        plan.bumps[i] = 0.6F * shown_of(1.0 / (static_cast<double>(hymenium_bump_frequency[i]) *
+                                               static_cast<double>(plan.disc.per_texel)));
     plan.fields = 3U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << hymenium_bump;
     if (!face.image.empty()) return plan;
@@ -175,15 +185,21 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.blades = params.hymenium.blades;
     plan.tiers = params.hymenium.tiers;
     plan.forking = single(params.hymenium.forking);
-    // The bottom of a slot as deep as `steep` times its width sees that little of the sky; ridges are shallow folds.
-    const double steep = (face.pattern == HymeniumPattern::ridges ? 0.6 : 1.6) * params.hymenium.relief;
+    // The bottom of a slot as deep as `steep` times its width sees that little of the sky; ridges
+    // are shallow folds.
+    const double steep =
+        (face.pattern == HymeniumPattern::ridges ? 0.6 : 1.6) * params.hymenium.relief;
     plan.slot_occlusion = single(std::sqrt(1.0 + steep * steep) - steep);
-    plan.blade = single(0.13 * 2.0 * pi * outer / unit / (params.hymenium.blades * (1 << params.hymenium.tiers)));
+    plan.blade = single(0.13 * 2.0 * pi * outer / unit /
+                        (params.hymenium.blades * (1 << params.hymenium.tiers)));
     const double rows = std::max(3.0, arc * params.hymenium.pores_per_mm * 1000.0);
     plan.pore_rows = single(rows);
     plan.pore_from = single(2.0 * pi * inner / arc * rows);
     plan.pore_grow = single(2.0 * pi * (outer - inner) / arc * rows);
-    plan.pore_shown = single(std::clamp(((1.0 - hymenium_inner_share) / (rows * static_cast<double>(plan.disc.per_texel)) - 1.6) / 2.0, 0.0, 1.0));
+    plan.pore_shown = single(std::clamp(
+        ((1.0 - hymenium_inner_share) / (rows * static_cast<double>(plan.disc.per_texel)) - 1.6) /
+            2.0,
+        0.0, 1.0));
     return plan;
 }
 
@@ -198,6 +214,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     const double round = 1.0 / (share * frame.height);
     plan.seed = seeds<12>(params.seed, stem_purpose);
     plan.aspect = single(aspect);
+    plan.ragged = single(0.10 * std::min(1.0, 1.5 / aspect));
     plan.texel_along = single(along);
     plan.texel_round = single(round);
     plan.top = light_of(stem.top);
@@ -209,7 +226,8 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     const double stretch = std::clamp(1.6 * round / along, 0.05, 1.0);
     plan.stretch = single(stretch);
     for (std::size_t i = 0; i < 3; ++i)
-        plan.bumps[i] = single(stem.bumps) * shown_of(1.0 / (stem_bump_cells[i] * std::max(round, along * stretch)));
+        plan.bumps[i] = single(stem.bumps) *
+                        shown_of(1.0 / (stem_bump_cells[i] * std::max(round, along * stretch)));
     plan.fields = 3U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << stem_bump;
     if (!stem.image.empty()) return plan;
@@ -217,11 +235,16 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.fibrils = single(stem.fibrils);
     const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};
     for (std::size_t i = 0; i < 3; ++i)
-        plan.fibres[i] = single(weights[i]) * shown_of(1.0 / (stem_fibre_cells[i] * std::max(round, along * static_cast<double>(stem_fibre_slender[i]))));
+        plan.fibres[i] =
+            single(weights[i]) *
+            shown_of(1.0 / (stem_fibre_cells[i] *
+                            std::max(round, along * static_cast<double>(stem_fibre_slender[i]))));
     if (plan.fibrils > 0.0F) plan.fields |= (1U << stem_fibre) | (1U << stem_furrow);
     plan.bands = single(stem.bands);
     plan.net = single(stem.net);
-    plan.net_shown = shown_of(1.0 / (static_cast<double>(net_columns) * std::max(round, along / static_cast<double>(net_stretch))) - 1.0);
+    plan.net_shown = shown_of(1.0 / (static_cast<double>(net_columns) *
+                                     std::max(round, along / static_cast<double>(net_stretch))) -
+                              1.0);
     return plan;
 }
 
@@ -244,7 +267,8 @@ double roundness(const DiscPlan& disc, double rho) {
     return static_cast<double>(disc.sphere) * sine(angle) / rho;
 }
 
-void add_patches(const PatchStyle& style, int kind, double amount, const PaintParams& params, PaintPlan& plan) {
+void add_patches(const PatchStyle& style, int kind, double amount, const PaintParams& params,
+                 PaintPlan& plan) {
     const std::uint32_t purpose = kind == 0 ? wart_purpose : scale_purpose;
     if (amount <= 0.0) return;
     for (const Patch& patch : patches(style, params.seed, purpose)) {
@@ -253,7 +277,8 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
         // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
         const double radius = patch.radius * (kind == 0 ? scale : 0.7 + 0.3 * scale);
         const double length = std::max(radius * style.elongation, 1e-4);
-        const double width = std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
+        const double width =
+            std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
         const SineCosine turn = sine_cosine(patch.theta);
         PatchPlan one;
         one.kind = kind;
@@ -264,7 +289,8 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
         one.lift = single(std::clamp(3.0 * style.lift, -1.0, 1.0));
         one.per_length = single(1.0 / length);
         one.per_width = single(1.0 / width);
-        one.relief = single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
+        one.relief =
+            single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
         one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
         one.reach = patch_window * single(std::max(length, width));
         Random stream(params.seed, outline_purpose + static_cast<std::uint32_t>(kind), patch.id);
@@ -272,7 +298,8 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
         for (std::size_t side = 0; side < 6; ++side) {
             const double angle = stream.uniform(-0.32, 0.32);
             const double off = stream.uniform(0.78, 1.12);
-            const SineCosine normal = sine_cosine(patch.spin + (static_cast<double>(side) / 6.0) * 2.0 * pi + angle);
+            const SineCosine normal =
+                sine_cosine(patch.spin + (static_cast<double>(side) / 6.0) * 2.0 * pi + angle);
             one.side_x[side] = single(normal.cosine / off);
             one.side_y[side] = single(normal.sine / off);
         }
@@ -289,8 +316,10 @@ void sort_patches_into_rows(PaintPlan& plan) {
         const double middle = (static_cast<double>(patch.y) * reach + 0.5) * frame.height;
         const double half = static_cast<double>(patch.reach) * reach * frame.height + 1.0;
         const int from = static_cast<int>(std::max(middle - half, 0.0));
-        const int to = static_cast<int>(std::clamp(middle + half, 0.0, static_cast<double>(frame.height)));
-        for (int y = from; y < to; ++y) plan.patches_by_row[static_cast<std::size_t>(y)].push_back(static_cast<int>(i));
+        const int to =
+            static_cast<int>(std::clamp(middle + half, 0.0, static_cast<double>(frame.height)));
+        for (int y = from; y < to; ++y)
+            plan.patches_by_row[static_cast<std::size_t>(y)].push_back(static_cast<int>(i));
     }
 }
 
@@ -310,24 +339,29 @@ GivenImage given_image(const Upload& upload, const Frame& frame, const std::stri
         GivenImage half;
         half.width = image.width / across;
         half.height = image.height / down;
-        half.light.resize(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height) * 3);
+        half.light.resize(static_cast<std::size_t>(half.width) *
+                          static_cast<std::size_t>(half.height) * 3);
         for (int y = 0; y < half.height; ++y)
             for (int x = 0; x < half.width; ++x)
                 for (int c = 0; c < 3; ++c) {
                     float sum = 0.0F;
                     for (int j = 0; j < down; ++j)
                         for (int i = 0; i < across; ++i)
-                            sum += image.light[static_cast<std::size_t>(((y * down + j) * image.width + x * across + i) * 3 + c)];
-                    half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] = sum / static_cast<float>(across * down);
+                            sum += image.light[static_cast<std::size_t>(
+                                ((y * down + j) * image.width + x * across + i) * 3 + c)];
+                    half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] =
+                        sum / static_cast<float>(across * down);
                 }
         image = std::move(half);
     }
     return image;
 }
 
-void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cells, float frequency, std::uint32_t seed) {
+void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cells, float frequency,
+          std::uint32_t seed) {
     field.values.resize(static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 1));
-    HWY_DYNAMIC_DISPATCH(fill_coarse)(disc, frame.inset, cells, frequency, seed, field.values.data());
+    HWY_DYNAMIC_DISPATCH(fill_coarse)
+    (disc, frame.inset, cells, frequency, seed, field.values.data());
 }
 
 PaintPlan paint_plan(const PaintParams& params) {
@@ -341,7 +375,8 @@ PaintPlan paint_plan(const PaintParams& params) {
     plan.fade = single(params.fade);
     plan.wetness = single(params.wetness);
     plan.given[0] = given_image(params.surface.cap.image, plan.frames[0], "/surface/cap/image");
-    plan.given[1] = given_image(params.surface.hymenium.image, plan.frames[1], "/surface/hymenium/image");
+    plan.given[1] =
+        given_image(params.surface.hymenium.image, plan.frames[1], "/surface/hymenium/image");
     plan.given[2] = given_image(params.surface.stem.image, plan.frames[2], "/surface/stem/image");
     const auto coarse = seeds<5>(params.seed, coarse_purpose);
     plan.disc_step = plan.side >= 512 ? 2 : 1;
@@ -350,8 +385,10 @@ PaintPlan paint_plan(const PaintParams& params) {
     fill(plan.cap_fields[0], plan.cap.disc, plan.frames[0], plan.coarse_cells, 2.3F, coarse[0]);
     fill(plan.cap_fields[1], plan.cap.disc, plan.frames[0], plan.coarse_cells, 5.5F, coarse[1]);
     fill(plan.cap_fields[2], plan.cap.disc, plan.frames[0], plan.coarse_cells, 8.5F, coarse[2]);
-    fill(plan.hymenium_fields[0], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 2.7F, coarse[3]);
-    fill(plan.hymenium_fields[1], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 8.0F, coarse[4]);
+    fill(plan.hymenium_fields[0], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 2.7F,
+         coarse[3]);
+    fill(plan.hymenium_fields[1], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 8.0F,
+         coarse[4]);
     if (params.surface.cap.image.empty()) {
         add_patches(params.scales, 1, params.ornaments.scales, params, plan);
         add_patches(params.warts, 0, params.ornaments.warts, params, plan);
@@ -360,9 +397,10 @@ PaintPlan paint_plan(const PaintParams& params) {
     return plan;
 }
 
-// Memory of finished paintings, lent again: fresh pages cost as much as painting them. At most four of the default size are kept.
+// Memory of finished paintings, lent again: fresh pages cost as much as painting them. At most
+// four of the default size are kept.
 class Canvases {
-public:
+  public:
     Bytes take(std::size_t size) {
         Bytes found;
         {
@@ -381,7 +419,7 @@ public:
         if (kept_.size() < most_kept) kept_.push_back(std::move(canvas));
     }
 
-private:
+  private:
     static constexpr std::size_t largest_kept = 10U << 20U;
     static constexpr std::size_t most_kept = 4;
     std::mutex mutex_;
@@ -409,7 +447,8 @@ constexpr int rows_per_piece = 128;
 int checked_side(const PaintParams& params) {
     const int side = params.side;
     if (side < 16 || side > 2048 || (side & (side - 1)) != 0)
-        throw InvalidInput("/side", std::to_string(side) + " is not a power of two from 16 to 2048");
+        throw InvalidInput("/side",
+                           std::to_string(side) + " is not a power of two from 16 to 2048");
     return side;
 }
 
@@ -423,7 +462,9 @@ void paint_canvas(const PaintParams& params, const Parallel& parallel, Canvas& c
             const int to = std::min(from + rows_per_piece, height);
             pieces.emplace_back([&plan, &target, part, from, to] {
                 thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> bench;
-                if (!bench) bench = hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(workbench_size)());
+                if (!bench)
+                    bench =
+                        hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(workbench_size)());
                 HWY_DYNAMIC_DISPATCH(paint_rows)(plan, part, from, to, bench.get(), target);
             });
         }
@@ -443,7 +484,8 @@ RawImages paint_raw(const PaintParams& params, const Parallel& parallel) {
     paint_canvas(params, parallel, canvas);
     RawImages out;
     out.side = static_cast<int>(side);
-    for (std::size_t i = 0; i < 3; ++i) out.rgb[i].assign(canvas.image(i), canvas.image(i) + canvas.size);
+    for (std::size_t i = 0; i < 3; ++i)
+        out.rgb[i].assign(canvas.image(i), canvas.image(i) + canvas.size);
     return out;
 }
 

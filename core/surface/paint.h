@@ -12,7 +12,8 @@
 
 namespace sporeprint {
 
-/// Everything that painting depends on. Equal canonical text means equal images, so its text is the key of the image cache.
+/// Everything that painting depends on. Equal canonical text means equal images, so its text is
+/// the key of the image cache.
 struct PaintParams {
     std::uint32_t seed = 1;
     double lightness = 1.0;
@@ -28,9 +29,18 @@ struct PaintParams {
 
     static constexpr void fields(auto visit) {
         using P = PaintParams;
-        visit(&P::seed, Info{.name = "seed", .min = 0, .max = 4294967295.0, .doc = "The individual."});
-        visit(&P::lightness, Info{.name = "lightness", .min = 0.4, .max = 2.5, .doc = "Factor on the linear colour of the cap: the individual's own tone."});
-        visit(&P::side, Info{.name = "side", .unit = "texels", .min = 16, .max = 2048, .doc = "Side of the square atlas, a power of two."});
+        visit(&P::seed,
+              Info{.name = "seed", .min = 0, .max = 4294967295.0, .doc = "The individual."});
+        visit(&P::lightness,
+              Info{.name = "lightness",
+                   .min = 0.4,
+                   .max = 2.5,
+                   .doc = "Factor on the linear colour of the cap: the individual's own tone."});
+        visit(&P::side, Info{.name = "side",
+                             .unit = "texels",
+                             .min = 16,
+                             .max = 2048,
+                             .doc = "Side of the square atlas, a power of two."});
         visit(&P::metrics, Info{.name = "metrics", .doc = "Lengths of the shape."});
         visit(&P::surface, Info{.name = "surface", .doc = "What is painted."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
@@ -47,9 +57,12 @@ enum class ImageKind { base_color, normal, orm };
 
 constexpr const char* name(ImageKind kind) {
     switch (kind) {
-        case ImageKind::base_color: return "base_color";
-        case ImageKind::normal: return "normal";
-        case ImageKind::orm: return "orm";
+        case ImageKind::base_color:
+            return "base_color";
+        case ImageKind::normal:
+            return "normal";
+        case ImageKind::orm:
+            return "orm";
     }
     return nullptr;
 }
@@ -57,10 +70,13 @@ constexpr const char* name(ImageKind kind) {
 /// Three encoded JPEG files, by ImageKind.
 struct ImageSet {
     std::array<Slice, 3> files;
-    [[nodiscard]] std::size_t bytes() const { return files[0].size + files[1].size + files[2].size; }
+    [[nodiscard]] std::size_t bytes() const {
+        return files[0].size + files[1].size + files[2].size;
+    }
 };
 
-/// Runs independent pieces of work, perhaps at once; returns when all are done and throws what one threw. Lent from above.
+/// Runs independent pieces of work, perhaps at once; returns when all are done and throws what one
+/// threw. Lent from above.
 using Parallel = std::function<void(std::span<const std::function<void()>>)>;
 
 /// Runs them one after another.
@@ -68,8 +84,10 @@ void in_turn(std::span<const std::function<void()>> pieces);
 
 /// Paints and encodes an atlas.
 ///
-/// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images by the layout of swept_charts, bleeding beyond every chart
-/// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 92, 4:4:4),
+/// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images by the
+/// layout of swept_charts, bleeding beyond every chart
+/// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 92,
+/// 4:4:4),
 ///          occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
 /// throws   InvalidInput if a given image cannot be read (path /surface/<part>/image); Cancelled
 /// cost     O(side^2)

@@ -1,4 +1,5 @@
-// What the paint kernels read: every parameter turned into the few numbers that a texel needs. Private to core/surface.
+// What the paint kernels read: every parameter turned into the few numbers that a texel needs.
+// Private to core/surface.
 #pragma once
 
 #include <array>
@@ -9,7 +10,16 @@
 namespace sporeprint {
 
 /// Fields of slowly varying noise that are sampled sparsely and stretched over the texels between.
-enum CapField { cap_uneven, cap_mottle, cap_middle, cap_bump, cap_streak, cap_fibre, cap_patch, cap_vein };
+enum CapField {
+    cap_uneven,
+    cap_mottle,
+    cap_middle,
+    cap_bump,
+    cap_streak,
+    cap_fibre,
+    cap_patch,
+    cap_vein
+};
 enum HymeniumField { hymenium_uneven, hymenium_middle, hymenium_bump };
 enum StemField { stem_broad, stem_middle, stem_bump, stem_fibre, stem_furrow };
 enum VeilField { veil_thread, veil_cloud };
@@ -26,14 +36,15 @@ struct Frame {
     float inset = 0.0F;
 };
 
-/// A disc's surface of revolution: a young cap is a piece of a sphere that goes over into a cylinder, a lower face is a cone.
+/// A disc's surface of revolution: a young cap is a piece of a sphere that goes over into a
+/// cylinder, a lower face is a cone.
 struct DiscPlan {
-    float per_texel = 0.0F;   ///< disc radii per texel
-    float bend = 0.0F;        ///< angle of the sphere's piece; 0 for a cone
-    float sphere = 0.0F;      ///< radius of the sphere in arcs
-    float inner = 0.0F;       ///< disc radius where the part begins
-    float cone_from = 0.0F;   ///< radius at the inner edge, in lengths of one disc radius
-    float cone_grow = 0.0F;   ///< its growth to the rim
+    float per_texel = 0.0F;  ///< disc radii per texel
+    float bend = 0.0F;       ///< angle of the sphere's piece; 0 for a cone
+    float sphere = 0.0F;     ///< radius of the sphere in arcs
+    float inner = 0.0F;      ///< disc radius where the part begins
+    float cone_from = 0.0F;  ///< radius at the inner edge, in lengths of one disc radius
+    float cone_grow = 0.0F;  ///< its growth to the rim
 };
 
 /// Smooth noise sampled on a grid over a chart and stretched over its texels.
@@ -41,7 +52,8 @@ struct CoarseField {
     std::vector<float> values;  ///< (cells + 1)^2
 };
 
-/// A given image in linear light, prefiltered to about the chart's resolution; empty when it is painted.
+/// A given image in linear light, prefiltered to about the chart's resolution; empty when it is
+/// painted.
 struct GivenImage {
     int width = 0, height = 0;
     std::vector<float> light;  ///< rgb
@@ -50,9 +62,10 @@ struct GivenImage {
 
 inline constexpr int most_ramp_steps = 5;
 
-/// 1.055 x^(1/2.4) - 0.055 as a polynomial of the square root of x, highest power first, for x in 0.0031308..1: Chebyshev nodes.
-inline constexpr std::array<float, 7> srgb_curve = {-0.58427069F, 2.24849906F, -3.55274765F, 3.03261645F,
-                                                    -1.64561153F, 1.54233637F, -0.04086402F};
+/// 1.055 x^(1/2.4) - 0.055 as a polynomial of the square root of x, highest power first, for x in
+/// 0.0031308..1: Chebyshev nodes.
+inline constexpr std::array<float, 7> srgb_curve = {
+    -0.58427069F, 2.24849906F, -3.55274765F, 3.03261645F, -1.64561153F, 1.54233637F, -0.04086402F};
 
 struct CapPlan {
     DiscPlan disc;
@@ -78,7 +91,7 @@ struct CapPlan {
     int striae_count = 60;
     std::array<float, 3> bumps{};  ///< by octave, already limited to what the texels can show
     float roughness = 0.6F;
-    unsigned fields = 0;           ///< bit of each CapField that is used
+    unsigned fields = 0;  ///< bit of each CapField that is used
 };
 
 struct HymeniumPlan {
@@ -94,20 +107,22 @@ struct HymeniumPlan {
     int tiers = 0;
     float blade = 0.0F;  ///< half thickness, in lengths of one disc radius
     float forking = 0.0F;
-    float pore_rows = 1.0F;     ///< from the inner edge to the rim
-    float pore_from = 6.0F;     ///< pores round the inner edge
-    float pore_grow = 0.0F;     ///< more of them at the rim
-    float pore_shown = 0.0F;    ///< 0 when pores are smaller than texels
+    float pore_rows = 1.0F;   ///< from the inner edge to the rim
+    float pore_from = 6.0F;   ///< pores round the inner edge
+    float pore_grow = 0.0F;   ///< more of them at the rim
+    float pore_shown = 0.0F;  ///< 0 when pores are smaller than texels
     std::array<float, 2> bumps{};
     unsigned fields = 0;
 };
 
 struct StemPlan {
     std::array<std::uint32_t, 12> seed{};
-    float aspect = 2.0F;         ///< length over circumference
-    float texel_along = 0.0F;    ///< in circumferences
+    float aspect = 2.0F;       ///< length over circumference
+    float ragged = 0.1F;       ///< how far the border of the stain strays, in lengths
+    float texel_along = 0.0F;  ///< in circumferences
     float texel_round = 0.0F;
-    float stretch = 1.0F;        ///< cells of fine noise are this much rarer along a thin stem, whose texels are long
+    float stretch =
+        1.0F;  ///< cells of fine noise are this much rarer along a thin stem, whose texels are long
     Light top, base, stain, band_colour, net_colour;
     float base_stain = 0.0F;
     float fibrils = 0.0F;
@@ -125,29 +140,29 @@ inline constexpr std::array<int, 3> stem_fibre_cells = {17, 46, 109};
 inline constexpr std::array<float, 3> stem_fibre_slender = {0.16F, 0.10F, 0.08F};
 inline constexpr std::array<float, 3> cap_bump_frequency = {21.0F, 52.0F, 118.0F};
 inline constexpr std::array<float, 2> hymenium_bump_frequency = {30.0F, 62.0F};
-inline constexpr float net_columns = 26.0F;
-inline constexpr float net_stretch = 2.1F;
+inline constexpr float net_columns = 46.0F;
+inline constexpr float net_stretch = 1.8F;
 
 struct VeilPlan {
     std::array<std::uint32_t, 4> seed{};
-    float texel = 0.0F;  ///< in lengths of the strip
-    float across = 0.1F; ///< width of the strip over its length
+    float texel = 0.0F;   ///< in lengths of the strip
+    float across = 0.1F;  ///< width of the strip over its length
     Light colour, tip;
     float roughness = 0.85F;
 };
 
 /// A painted wart or scale on the cap's disc.
 struct PatchPlan {
-    float x = 0.0F, y = 0.0F;             ///< centre, in disc radii
-    float along_x = 0.0F, along_y = 0.0F; ///< unit vector away from the apex
+    float x = 0.0F, y = 0.0F;              ///< centre, in disc radii
+    float along_x = 0.0F, along_y = 0.0F;  ///< unit vector away from the apex
     float per_length = 0.0F, per_width = 0.0F;
-    float relief = 0.0F;                  ///< height in arcs
-    float lift = 1.0F;                    ///< which end is the tip: 1 the outer, -1 the inner, between neither quite
-    float shown = 0.0F;                   ///< 0..1
-    float reach = 0.0F;                   ///< in disc radii, along the rows
+    float relief = 0.0F;  ///< height in arcs
+    float lift = 1.0F;   ///< which end is the tip: 1 the outer, -1 the inner, between neither quite
+    float shown = 0.0F;  ///< 0..1
+    float reach = 0.0F;  ///< in disc radii, along the rows
     std::array<float, 6> side_x{}, side_y{};
     std::uint32_t seed = 0;
-    int kind = 0;                         ///< 0 wart, 1 scale
+    int kind = 0;  ///< 0 wart, 1 scale
 };
 
 /// Beyond this distance, in half lengths and widths, a patch leaves no trace.

@@ -1,4 +1,5 @@
-// Paints rows of a chart into the three images: texels part by part, then normals from their heights, then bytes.
+// Paints rows of a chart into the three images: texels part by part, then normals from their
+// heights, then bytes.
 #if defined(SPOREPRINT_CORE_SURFACE_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_ROWS_INL
 #undef SPOREPRINT_CORE_SURFACE_ROWS_INL
@@ -19,7 +20,8 @@ namespace HWY_NAMESPACE {
 
 inline constexpr int widest = 2048;
 inline constexpr int margin = 8;  // of each row of heights, for the neighbours of its ends
-inline constexpr int padded = widest + 32;  // else the planes of a row would compete for the same lines of the cache
+inline constexpr int padded =
+    widest + 32;  // else the planes of a row would compete for the same lines of the cache
 
 /// One row of painted texels.
 struct Row {
@@ -35,7 +37,8 @@ struct SparseRow {
     HWY_ALIGN float field[most_fields][widest / 2 + 32];
 };
 
-/// What a worker needs besides the plan: three rows, the sparse rows above and below, and one row of bytes per channel.
+/// What a worker needs besides the plan: three rows, the sparse rows above and below, and one row
+/// of bytes per channel.
 struct Workbench {
     Row rows[3];
     SparseRow sparse[2];
@@ -58,7 +61,8 @@ HWY_INLINE Texel load_texel(const Row& row, std::size_t x) {
     const Floats f;
     Texel texel;
     texel.height = hn::Load(f, row.height + margin + x);
-    texel.colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x), hn::Load(f, row.blue + x)};
+    texel.colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x),
+                    hn::Load(f, row.blue + x)};
     texel.roughness = hn::Load(f, row.roughness + x);
     texel.occlusion = hn::Load(f, row.occlusion + x);
     return texel;
@@ -70,13 +74,16 @@ HWY_INLINE VF lane_numbers() {
     return hn::Load(Floats(), numbers);
 }
 
-// One row of a coarse field at every `step`-th texel, the first at texel 0, by bilinear interpolation.
-void expand(const CoarseField& field, int cells, const Frame& frame, int y, int step, int count, float* out) {
+// One row of a coarse field at every `step`-th texel, the first at texel 0, by bilinear
+// interpolation.
+void expand(const CoarseField& field, int cells, const Frame& frame, int y, int step, int count,
+            float* out) {
     const float per_texel = static_cast<float>(cells) / static_cast<float>(frame.width);
     const float at = (static_cast<float>(y) + 0.5F) * per_texel;
     const int j = at < 0.0F ? 0 : static_cast<int>(at) >= cells ? cells - 1 : static_cast<int>(at);
     const float weight = at - static_cast<float>(j);
-    const float* upper = field.values.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(cells + 1);
+    const float* upper =
+        field.values.data() + static_cast<std::size_t>(j) * static_cast<std::size_t>(cells + 1);
     const float* lower = upper + cells + 1;
     for (int k = 0; k < count; ++k) {
         const float across = (static_cast<float>(k * step) + 0.5F) * per_texel;
@@ -87,7 +94,8 @@ void expand(const CoarseField& field, int cells, const Frame& frame, int y, int 
     }
 }
 
-// Twice as many samples: each, and the mean of it and the next. `from` holds one more sample than is doubled.
+// Twice as many samples: each, and the mean of it and the next. `from` holds one more sample than
+// is doubled.
 HWY_INLINE void doubled(const float* from, std::size_t count, float* to) {
     const Floats f;
     for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
@@ -117,7 +125,9 @@ HWY_INLINE Rgb sampled(const GivenImage& image, VF u, VF v) {
         const float wx = cx - static_cast<float>(x0);
         const float wy = cy - static_cast<float>(y0);
         const auto at = [&](int column, int row) {
-            return image.light.data() + 3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) + static_cast<std::size_t>(column));
+            return image.light.data() +
+                   3 * (static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                        static_cast<std::size_t>(column));
         };
         const float* p00 = at(x0, y0);
         const float* p10 = at(x1, y0);
@@ -134,7 +144,8 @@ HWY_INLINE Rgb sampled(const GivenImage& image, VF u, VF v) {
 }
 
 /// Bleaching and water, on everything that has been painted.
-HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& colour, VF& roughness) {
+HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& colour,
+                        VF& roughness) {
     const VF one = set(1.0F);
     if (plan.fade > 0.0F) {
         // The strongest channel gains a little, the others follow it: red turns orange, then straw.
@@ -160,10 +171,12 @@ HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& c
 
 /// Place of texels x, x + 1, ... on a disc, in its radii from the pole.
 HWY_INLINE VF disc_place(const Frame& frame, VF texel) {
-    return ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(0.5F)) * set(1.0F / (0.5F - frame.inset));
+    return ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(0.5F)) *
+           set(1.0F / (0.5F - frame.inset));
 }
 
-/// Texels `from` to `until` of a row that are painted; those outside repeat the nearest. Multiples of eight, or the whole row.
+/// Texels `from` to `until` of a row that are painted; those outside repeat the nearest. Multiples
+/// of eight, or the whole row.
 struct Stretch {
     std::size_t from, until;
 };
@@ -199,7 +212,8 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& b
     const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
     const std::size_t grids = part == 0 ? 3 : 2;
     for (std::size_t i = 0; i < grids; ++i)
-        expand(part == 0 ? plan.cap_fields[i] : plan.hymenium_fields[i], plan.coarse_cells, frame, y * step, step, count, row.field[i]);
+        expand(part == 0 ? plan.cap_fields[i] : plan.hymenium_fields[i], plan.coarse_cells, frame,
+               y * step, step, count, row.field[i]);
     if (used >> grids == 0) return row;
     const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
     const VF down = disc_place(frame, set(static_cast<float>(y * step)));
@@ -207,7 +221,8 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& b
         VF fields[most_fields];
         clear(fields);
         for (std::size_t k = 0; k < grids; ++k) fields[k] = hn::Load(f, row.field[k] + i);
-        const VF texel = (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step));
+        const VF texel =
+            (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step));
         const DiscPoint p = disc_point_of(disc, disc_place(frame, texel), down);
         if (part == 0)
             cap_fields(plan.cap, p, fields);
@@ -222,7 +237,8 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& b
 // The fields of a disc at every texel of a row, into bench.field.
 void disc_fields(const PaintPlan& plan, int part, int y, Workbench& bench) {
     const Floats f;
-    const std::size_t width = static_cast<std::size_t>(plan.frames[static_cast<std::size_t>(part)].width);
+    const std::size_t width =
+        static_cast<std::size_t>(plan.frames[static_cast<std::size_t>(part)].width);
     const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
     const int half = (y + 2) / 2 - 1;  // floor, for y >= -2
     const bool between = plan.disc_step == 2 && y != 2 * half;
@@ -233,18 +249,22 @@ void disc_fields(const PaintPlan& plan, int part, int y, Workbench& bench) {
         const float* from = above.field[k];
         if (between) {
             for (std::size_t i = 0; i < width / 2 + 1; i += hn::Lanes(f))
-                hn::Store((hn::Load(f, above.field[k] + i) + hn::Load(f, below.field[k] + i)) * set(0.5F), f, bench.spare + i);
+                hn::Store(
+                    (hn::Load(f, above.field[k] + i) + hn::Load(f, below.field[k] + i)) * set(0.5F),
+                    f, bench.spare + i);
             from = bench.spare;
         }
         if (plan.disc_step == 2) {
             doubled(from, width / 2, bench.field[k]);
         } else {
-            for (std::size_t i = 0; i < width; i += hn::Lanes(f)) hn::Store(hn::Load(f, from + i), f, bench.field[k] + i);
+            for (std::size_t i = 0; i < width; i += hn::Lanes(f))
+                hn::Store(hn::Load(f, from + i), f, bench.field[k] + i);
         }
     }
 }
 
-// The fields of a strip at every texel of a row, into bench.field: sampled at every strip_step-th texel, then doubled.
+// The fields of a strip at every texel of a row, into bench.field: sampled at every strip_step-th
+// texel, then doubled.
 void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) {
     const Floats f;
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
@@ -255,8 +275,11 @@ void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) 
     for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
         VF fields[most_fields];
         clear(fields);
-        const VF texel = (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step)) + set(0.5F);
-        const VF along = (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
+        const VF texel =
+            (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step)) +
+            set(0.5F);
+        const VF along =
+            (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
         if (part == 2)
             stem_fields(plan.stem, unit(along), across, fields);
         else
@@ -271,7 +294,8 @@ void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) 
             doubled(bench.field[k], samples, bench.spare);
             // The sample after the last stays the last of the doubled row.
             const float last = bench.field[k][samples];
-            for (std::size_t i = 0; i < 2 * samples; i += hn::Lanes(f)) hn::Store(hn::Load(f, bench.spare + i), f, bench.field[k] + i);
+            for (std::size_t i = 0; i < 2 * samples; i += hn::Lanes(f))
+                hn::Store(hn::Load(f, bench.spare + i), f, bench.field[k] + i);
             bench.field[k][2 * samples] = last;
         }
     }
@@ -296,13 +320,19 @@ void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& 
         if (inside <= 0.0F) continue;
         HWY_ALIGN float root[8] = {};
         hn::Store(hn::Sqrt(set(inside)), Floats(), root);
-        const float middle = (patch.x - cross / square) * reach + 0.5F * static_cast<float>(frame.width);
+        const float middle =
+            (patch.x - cross / square) * reach + 0.5F * static_cast<float>(frame.width);
         const float half = root[0] / square * reach + 1.0F;
         const float begin = middle - half < 0.0F ? 0.0F : middle - half;
-        const float end = middle + half > static_cast<float>(frame.width) ? static_cast<float>(frame.width) : middle + half;
-        for (std::size_t x = static_cast<std::size_t>(begin) / 8 * 8; static_cast<float>(x) < end; x += hn::Lanes(Floats())) {
+        const float end = middle + half > static_cast<float>(frame.width)
+                              ? static_cast<float>(frame.width)
+                              : middle + half;
+        for (std::size_t x = static_cast<std::size_t>(begin) / 8 * 8; static_cast<float>(x) < end;
+             x += hn::Lanes(Floats())) {
             Texel texel = load_texel(row, x);
-            lay_patch(patch, plan.veil, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down_places, texel);
+            lay_patch(patch, plan.veil,
+                      disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down_places,
+                      texel);
             store_texel(texel, row, x);
         }
     }
@@ -324,11 +354,15 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         const GivenImage& given = plan.given[static_cast<std::size_t>(part)];
         const Stretch stretch = painted_stretch(plan, part, y);
         for (std::size_t x = stretch.from; x < stretch.until; x += lanes) {
-            const DiscPoint p = disc_point_of(disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
+            const DiscPoint p = disc_point_of(
+                disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
             for (std::size_t k = 0; k < most_fields; ++k)
                 if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
-            Texel texel = part == 0 ? cap_texel(plan.cap, p, fields) : hymenium_texel(plan.hymenium, p, fields);
-            if (!given.empty()) texel.colour = sampled(given, set(0.5F) + set(0.5F) * p.rho * p.cosine, set(0.5F) + set(0.5F) * p.rho * p.sine);
+            Texel texel = part == 0 ? cap_texel(plan.cap, p, fields)
+                                    : hymenium_texel(plan.hymenium, p, fields);
+            if (!given.empty())
+                texel.colour = sampled(given, set(0.5F) + set(0.5F) * p.rho * p.cosine,
+                                       set(0.5F) + set(0.5F) * p.rho * p.sine);
             store_texel(texel, row, x);
             hn::Store(p.cosine, f, row.cosine + x);
             hn::Store(p.sine, f, row.sine + x);
@@ -352,7 +386,9 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         const GivenImage& given = plan.given[2];
         const float per_x = 1.0F / static_cast<float>(frame.width);
         for (std::size_t x = 0; x < width; x += lanes) {
-            const VF along = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) - set(frame.inset)) * set(inner);
+            const VF along = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) -
+                              set(frame.inset)) *
+                             set(inner);
             for (std::size_t k = 0; k < most_fields; ++k)
                 if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
             Texel texel;
@@ -393,7 +429,8 @@ HWY_INLINE VF srgb(VF light) {
 }
 
 // Turns a row of texels, and the heights above and below it, into bytes.
-void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const Row& row, const Row& below, Workbench& bench, const PaintTarget& target) {
+void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const Row& row,
+                 const Row& below, Workbench& bench, const PaintTarget& target) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
@@ -407,8 +444,10 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
     const float step_x = part == 2 ? plan.stem.texel_along : plan.veil.texel;
     const float step_y = part == 2 ? plan.stem.texel_round : plan.veil.texel;
     // A disc's lengths are those of its meridian, which begins at `inner`.
-    const VF per_x = set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
-    const VF per_y = set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
+    const VF per_x =
+        set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
+    const VF per_y =
+        set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
     // The rows above and below may end a little earlier: only painted neighbours count.
     const Stretch here = painted_stretch(plan, part, y);
     const Stretch over = painted_stretch(plan, part, y - 1);
@@ -418,13 +457,17 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
     for (std::size_t x = stretch.from; x < stretch.until; x += lanes) {
         const float* at = row.height + margin + x;
         const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * per_x;
-        const VF down = (hn::Load(f, below.height + margin + x) - hn::Load(f, above.height + margin + x)) * per_y;
+        const VF down =
+            (hn::Load(f, below.height + margin + x) - hn::Load(f, above.height + margin + x)) *
+            per_y;
         VF nx, ny;
         if (is_disc) {
-            // Slopes along the meridian and round the axis in true lengths, then along the tangent dP/du and across it.
+            // Slopes along the meridian and round the axis in true lengths, then along the tangent
+            // dP/du and across it.
             const VF cosine = hn::Load(f, row.cosine + x);
             const VF sine = hn::Load(f, row.sine + x);
-            const VF k = hn::Max(hn::Load(f, row.widening + x) * set(1.0F - disc.inner), set(0.02F));
+            const VF k =
+                hn::Max(hn::Load(f, row.widening + x) * set(1.0F - disc.inner), set(0.02F));
             const VF meridian = right * cosine + down * sine;
             const VF round = down * cosine - right * sine;  // still to be divided by k
             const VF ks = k * sine;
@@ -436,7 +479,8 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
             ny = down;
         }
         const VF length = half / hn::Sqrt(one + nx * nx + ny * ny);
-        Rgb colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x), hn::Load(f, row.blue + x)};
+        Rgb colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x),
+                      hn::Load(f, row.blue + x)};
         VF roughness = hn::Load(f, row.roughness + x);
         weather(plan, exposure[part], hn::Load(f, row.uneven + x), colour, roughness);
         store_byte(srgb(colour.r), bench.bytes[0] + x);
@@ -455,14 +499,17 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
     }
     const hn::ScalableTag<std::uint8_t> bytes;
     const std::size_t byte_lanes = hn::Lanes(bytes);
-    const std::size_t at = 3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) + static_cast<std::size_t>(frame.x));
+    const std::size_t at =
+        3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) +
+             static_cast<std::size_t>(frame.x));
     std::uint8_t* const images[3] = {target.base_color + at, target.normal + at, target.orm + at};
     const auto zero = hn::Zero(bytes);
     for (std::size_t image = 0; image < 3; ++image) {
         if (width < byte_lanes) {
             for (std::size_t x = 0; x < width; ++x)
                 for (std::size_t c = 0; c < 3; ++c)
-                    images[image][3 * x + c] = image == 2 && c == 2 ? std::uint8_t{0} : bench.bytes[3 * image + c][x];
+                    images[image][3 * x + c] =
+                        image == 2 && c == 2 ? std::uint8_t{0} : bench.bytes[3 * image + c][x];
             continue;
         }
         for (std::size_t x = 0; x < width; x += byte_lanes) {
@@ -475,7 +522,8 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
 }
 
 /// Paints rows `from` to `to` (exclusive) of a part's chart.
-void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory, const PaintTarget& target) {
+void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory,
+                const PaintTarget& target) {
     Workbench& bench = *static_cast<Workbench*>(memory);
     for (SparseRow& row : bench.sparse) row.y = -1000;
     Row* above = &bench.rows[0];
@@ -496,7 +544,8 @@ void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory,
 std::size_t workbench_size() { return sizeof(Workbench); }
 
 /// Samples noise over a chart's disc at (cells + 1)^2 points, two octaves.
-void fill_coarse(const DiscPlan& disc, float inset, int cells, float frequency, std::uint32_t seed, float* out) {
+void fill_coarse(const DiscPlan& disc, float inset, int cells, float frequency, std::uint32_t seed,
+                 float* out) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
     const float reach = 0.5F - inset;
@@ -504,14 +553,20 @@ void fill_coarse(const DiscPlan& disc, float inset, int cells, float frequency, 
     for (int j = 0; j <= cells; ++j) {
         const VF y = set((static_cast<float>(j) / static_cast<float>(cells) - 0.5F) / reach);
         for (int i = 0; i <= cells; i += static_cast<int>(lanes)) {
-            const VF x = ((lane_numbers() + set(static_cast<float>(i))) * set(1.0F / static_cast<float>(cells)) - set(0.5F)) * set(1.0F / reach);
+            const VF x = ((lane_numbers() + set(static_cast<float>(i))) *
+                              set(1.0F / static_cast<float>(cells)) -
+                          set(0.5F)) *
+                         set(1.0F / reach);
             const DiscPoint p = disc_point_of(disc, x, y);
             const VF px = p.radius * p.cosine * set(frequency);
             const VF pz = p.radius * p.sine * set(frequency);
             const VF py = p.height * set(frequency);
-            const VF n = noise3(px, py, pz, seed) + noise3(px * set(2.03F), py * set(2.03F), pz * set(2.03F), seed + 7U) * set(0.5F);
+            const VF n =
+                noise3(px, py, pz, seed) +
+                noise3(px * set(2.03F), py * set(2.03F), pz * set(2.03F), seed + 7U) * set(0.5F);
             hn::Store(n, f, some);
-            for (int k = 0; k < static_cast<int>(lanes) && i + k <= cells; ++k) out[j * (cells + 1) + i + k] = some[k];
+            for (int k = 0; k < static_cast<int>(lanes) && i + k <= cells; ++k)
+                out[j * (cells + 1) + i + k] = some[k];
         }
     }
 }

@@ -1,4 +1,5 @@
-// Paints the texels of the stem and of the veil's strip: fibres, stain, bands, net; threads and grain.
+// Paints the texels of the stem and of the veil's strip: fibres, stain, bands, net; threads and
+// grain.
 #if defined(SPOREPRINT_CORE_SURFACE_STEM_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_STEM_INL
 #undef SPOREPRINT_CORE_SURFACE_STEM_INL
@@ -12,15 +13,19 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// The fields of a stem that vary slowly along it: broad and middling clouds, the first bumps, fibres and the furrows they leave.
+/// The fields of a stem that vary slowly along it: broad and middling clouds, the first bumps,
+/// fibres and the furrows they leave.
 HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields) {
     const VF length = along * set(plan.aspect);
     const VF broad = periodic_noise2(turn * set(4.0F), length * set(3.0F), 4, plan.seed[0]);
     fields[stem_broad] = broad;
-    fields[stem_middle] = periodic_noise2(turn * set(11.0F), length * set(8.0F * plan.stretch), 11, plan.seed[1]);
+    fields[stem_middle] =
+        periodic_noise2(turn * set(11.0F), length * set(8.0F * plan.stretch), 11, plan.seed[1]);
     if ((plan.fields & (1U << stem_bump)) != 0) {
         const float n = static_cast<float>(stem_bump_cells[0]);
-        fields[stem_bump] = periodic_noise2(turn * set(n), length * set(n * plan.stretch), stem_bump_cells[0], plan.seed[2]) * set(plan.bumps[0]);
+        fields[stem_bump] = periodic_noise2(turn * set(n), length * set(n * plan.stretch),
+                                            stem_bump_cells[0], plan.seed[2]) *
+                            set(plan.bumps[0]);
     }
     if ((plan.fields & (1U << stem_fibre)) != 0) {
         // Coarse wrinkles come only with strong fibres.
@@ -30,7 +35,9 @@ HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields)
             if (plan.fibres[octave] <= 0.0F) continue;
             const int cells_round = stem_fibre_cells[octave];
             const float n = static_cast<float>(cells_round);
-            const VF v = periodic_noise2(turn * set(n) + broad * set(0.5F), length * set(n * stem_fibre_slender[octave]), cells_round, plan.seed[5 + octave]) *
+            const VF v = periodic_noise2(turn * set(n) + broad * set(0.5F),
+                                         length * set(n * stem_fibre_slender[octave]), cells_round,
+                                         plan.seed[5 + octave]) *
                          set(plan.fibres[octave]);
             fibre = fibre + v;
             furrow = furrow + v * set(0.20F / n);
@@ -57,7 +64,9 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     for (std::size_t octave = 1; octave < 3; ++octave) {
         if (plan.bumps[octave] <= 0.0F) continue;
         const float n = static_cast<float>(stem_bump_cells[octave]);
-        const VF v = periodic_noise2(turn * set(n), length * set(n * plan.stretch), stem_bump_cells[octave], plan.seed[2 + octave]) * set(plan.bumps[octave]);
+        const VF v = periodic_noise2(turn * set(n), length * set(n * plan.stretch),
+                                     stem_bump_cells[octave], plan.seed[2 + octave]) *
+                     set(plan.bumps[octave]);
         fine = fine + v;
         height = height + v * set(0.16F / n);
     }
@@ -73,29 +82,38 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
     }
     if (plan.bands > 0.0F) {
         // Snake skin: the skin has torn into zig-zag belts.
-        const VF zigzag = hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) - set(0.5F);
-        const VF phase = along * set(8.0F) + zigzag * set(0.42F) + broad * set(0.35F) + middle * set(0.22F);
+        const VF zigzag =
+            hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) -
+            set(0.5F);
+        const VF phase =
+            along * set(8.0F) + zigzag * set(0.42F) + broad * set(0.35F) + middle * set(0.22F);
         const VF belt = smooth(wave(phase) + fine * set(0.3F) + middle * set(0.35F), -0.15F, 2.2F);
         colour = mix(colour, rgb(plan.band_colour), belt * set(plan.bands));
         height = height + belt * set(0.003F * plan.bands);
     }
     if (plan.net > 0.0F) {
-        const VF strength = set(plan.net * plan.net_shown) * smooth(along + broad * set(0.10F) + middle * set(0.05F), 0.16F, 1.5F);
+        const VF strength =
+            set(plan.net) * smooth(along + broad * set(0.10F) + middle * set(0.05F), 0.16F, 1.5F);
         const VF y = length * set(net_columns / net_stretch) + middle * set(0.30F);
         VF thread = zero;
-        if (!hn::AllTrue(Floats(), strength <= zero)) {
-            const Cells mesh = ring_cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch, 0.34F, plan.seed[8]);
-            thread = one - smooth(mesh.border, 0.03F, 4.5F);
+        if (plan.net_shown > 0.0F && !hn::AllTrue(Floats(), strength <= zero)) {
+            const Cells mesh = ring_cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch,
+                                          0.34F, plan.seed[8]);
+            thread = one - smooth(mesh.border, 0.02F, 3.6F);
         }
+        // Where the texels cannot show its threads, the net is their mean.
+        thread = mix(set(0.35F), thread, set(plan.net_shown));
         const VF up = thread * strength;
         colour = mix(colour, rgb(plan.net_colour), up * set(0.9F));
-        height = height + up * set(0.20F / net_columns);
+        height = height + up * set(0.15F / net_columns);
         occlusion = occlusion * (one - set(0.22F) * strength * (one - thread));
         shade = shade * (one - set(0.08F) * strength * (one - thread));
     }
     if (plan.base_stain > 0.0F) {
-        const VF ragged = along + broad * set(0.10F) + middle * set(0.06F) + fine * set(0.03F);
-        const VF stain = (one - smooth(ragged, plan.base_stain * 0.55F - 0.06F, 1.0F / (0.45F * plan.base_stain + 0.12F))) *
+        const VF ragged =
+            along + (broad + middle * set(0.6F) + fine * set(0.3F)) * set(plan.ragged);
+        const VF stain = (one - smooth(ragged, plan.base_stain * 0.55F - 0.06F,
+                                       1.0F / (0.45F * plan.base_stain + 0.12F))) *
                          set(plan.base_stain < 0.1F ? plan.base_stain * 10.0F : 1.0F);
         colour = mix(colour, rgb(plan.stain), stain * unit(set(0.86F) + middle * set(0.5F)));
         occlusion = occlusion * (one - stain * set(0.12F));
@@ -113,21 +131,26 @@ HWY_INLINE void veil_fields(const VeilPlan& plan, VF turn, VF across, VF* fields
     fields[veil_cloud] = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
 }
 
-/// turn 0..1 along the strip; across 0 at the attachment, 1 at the edge. Heights are in lengths of the strip.
+/// turn 0..1 along the strip; across 0 at the attachment, 1 at the edge. Heights are in lengths of
+/// the strip.
 HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;
     const VF thread = fields[veil_thread];
     const VF cloud = fields[veil_cloud];
-    const VF grain = periodic_noise2(turn * set(160.0F), across * set(160.0F * plan.across), 160, plan.seed[2]) *
-                     shown(set(1.0F / (160.0F * plan.texel)), 4.0F);
-    Rgb colour = mix(rgb(plan.colour), rgb(plan.tip), smooth(across + cloud * set(0.18F) + thread * set(0.10F), 0.35F, 1.5F));
+    const VF grain =
+        periodic_noise2(turn * set(160.0F), across * set(160.0F * plan.across), 160, plan.seed[2]) *
+        shown(set(1.0F / (160.0F * plan.texel)), 4.0F);
+    Rgb colour = mix(rgb(plan.colour), rgb(plan.tip),
+                     smooth(across + cloud * set(0.18F) + thread * set(0.10F), 0.35F, 1.5F));
     const VF fade_out = one - set(0.5F) * across;
-    out.colour = shaded(colour, one + thread * set(0.13F) * fade_out + cloud * set(0.05F) + grain * set(0.06F));
+    out.colour = shaded(
+        colour, one + thread * set(0.13F) * fade_out + cloud * set(0.05F) + grain * set(0.06F));
     out.height = thread * set(0.16F / 92.0F) * fade_out + grain * set(0.14F / 160.0F);
     out.roughness = set(plan.roughness) + grain * set(0.05F);
     // The fold where it hangs from the stem lies in shade.
-    out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) + hn::Min(thread, set(0.0F)) * set(0.2F);
+    out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) +
+                    hn::Min(thread, set(0.0F)) * set(0.2F);
     return out;
 }
 

@@ -1,4 +1,5 @@
-// What all painted parts share, on vectors of texels: coordinates on discs, colours, waves and cells.
+// What all painted parts share, on vectors of texels: coordinates on discs, colours, waves and
+// cells.
 #if defined(SPOREPRINT_CORE_SURFACE_TEXEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_TEXEL_INL
 #undef SPOREPRINT_CORE_SURFACE_TEXEL_INL
@@ -21,9 +22,12 @@ HWY_INLINE Rgb rgb(const Light& light) { return {set(light.r), set(light.g), set
 HWY_INLINE Rgb mix(const Rgb& a, const Rgb& b, VF weight) {
     return {mix(a.r, b.r, weight), mix(a.g, b.g, weight), mix(a.b, b.b, weight)};
 }
-HWY_INLINE Rgb shaded(const Rgb& colour, VF factor) { return {colour.r * factor, colour.g * factor, colour.b * factor}; }
+HWY_INLINE Rgb shaded(const Rgb& colour, VF factor) {
+    return {colour.r * factor, colour.g * factor, colour.b * factor};
+}
 
-/// What is known of a texel when all is painted. Height in lengths of one disc radius, or of the strip.
+/// What is known of a texel when all is painted. Height in lengths of one disc radius, or of the
+/// strip.
 struct Texel {
     Rgb colour;
     VF height, roughness, occlusion;
@@ -51,12 +55,19 @@ HWY_INLINE DiscPoint disc_point_of(const DiscPlan& plan, VF x, VF y) {
     if (plan.bend > 0.0F) {
         const VF angle = hn::Min(p.rho * set(plan.bend), set(1.5707963F));
         const VF q = angle * angle;
-        const VF sine = angle * (set(1.0F) + q * (set(-1.0F / 6.0F) + q * (set(1.0F / 120.0F) + q * (set(-1.0F / 5040.0F) + q * set(1.0F / 362880.0F)))));
-        const VF fall = q * (set(0.5F) + q * (set(-1.0F / 24.0F) + q * (set(1.0F / 720.0F) + q * set(-1.0F / 40320.0F))));
+        const VF sine =
+            angle * (set(1.0F) + q * (set(-1.0F / 6.0F) +
+                                      q * (set(1.0F / 120.0F) + q * (set(-1.0F / 5040.0F) +
+                                                                     q * set(1.0F / 362880.0F)))));
+        const VF fall =
+            q * (set(0.5F) +
+                 q * (set(-1.0F / 24.0F) + q * (set(1.0F / 720.0F) + q * set(-1.0F / 40320.0F))));
         p.radius = set(plan.sphere) * sine;
-        p.height = set(plan.sphere) * fall + hn::Max(p.rho - set(plan.sphere * 1.5707963F), set(0.0F));
+        p.height =
+            set(plan.sphere) * fall + hn::Max(p.rho - set(plan.sphere * 1.5707963F), set(0.0F));
     } else {
-        const VF share = hn::Max(p.rho - set(plan.inner), set(0.0F)) * set(1.0F / (1.0F - plan.inner));
+        const VF share =
+            hn::Max(p.rho - set(plan.inner), set(0.0F)) * set(1.0F / (1.0F - plan.inner));
         p.radius = set(plan.cone_from) + set(plan.cone_grow) * share;
         p.height = set(0.0F);
     }
@@ -90,7 +101,9 @@ HWY_INLINE VF wave(VF t) {
 }
 
 /// How well a pattern shows whose period is `texels` long: 0 below two, 1 from `full` on.
-HWY_INLINE VF shown(VF texels, float full) { return unit((texels - set(2.0F)) * set(1.0F / (full - 2.0F))); }
+HWY_INLINE VF shown(VF texels, float full) {
+    return unit((texels - set(2.0F)) * set(1.0F / (full - 2.0F)));
+}
 
 /// Where a texel lies among scattered cells.
 struct Cells {
@@ -143,18 +156,26 @@ struct Neighbours {
     }
 };
 
-/// Cells with one point each, in rows across y; row j has floor(from + grow * (j + 0.5)) of them round the turn, at least 3.
-/// So they neither stretch where a surface widens nor break where the turn closes. Cells are `tall` times as long as wide.
+/// Cells with one point each, in rows across y; row j has floor(from + grow * (j + 0.5)) of them
+/// round the turn, at least 3.
+/// So they neither stretch where a surface widens nor break where the turn closes. Cells are
+/// `tall` times as long as wide.
 ///
-/// source  [Worley1996]; the border distance is that to the bisector, true in the metric of the surface. Of each row only the
-///         two nearest points are looked at: enough for jitter below 0.4 near the borders, where it is read
-HWY_INLINE Cells ring_cells(VF turn, VF y, float from, float grow, float tall, float jitter, std::uint32_t seed) {
+/// source  [Worley1996]; the border distance is that to the bisector, true in the metric of the
+/// surface. Of each row only the
+///         two nearest points are looked at: enough for jitter below 0.4 near the borders, where
+///         it is read
+HWY_INLINE Cells ring_cells(VF turn, VF y, float from, float grow, float tall, float jitter,
+                            std::uint32_t seed) {
     const VF row = hn::Floor(y);
     Neighbours<6> all;
     all.begin();
     for (int j = 0; j < 3; ++j) {
         const VF this_row = row + set(static_cast<float>(j - 1));
-        const VF count = grow == 0.0F ? set(from) : hn::Max(hn::Floor(set(from) + set(grow) * (this_row + set(0.5F))), set(3.0F));
+        const VF count =
+            grow == 0.0F
+                ? set(from)
+                : hn::Max(hn::Floor(set(from) + set(grow) * (this_row + set(0.5F))), set(3.0F));
         // Odd rows are shifted by half a cell: the start of a hexagonal order.
         const VF half_row = this_row * set(0.5F);
         const VF x = turn * count - (half_row - hn::Floor(half_row));
@@ -185,7 +206,8 @@ HWY_INLINE Cells plane_cells(VF x, VF y, float jitter, std::uint32_t seed) {
         for (int i = 0; i < 3; ++i) {
             const VF this_column = column + set(static_cast<float>(i - 1));
             const VU h = hash(hn::Xor(whole_bits(this_column) * word(prime_x), row_bits));
-            all.add(this_column + set(0.5F) + upper_part(h) * set(jitter) - x, this_row + set(0.5F) + lower_part(h) * set(jitter) - y, h);
+            all.add(this_column + set(0.5F) + upper_part(h) * set(jitter) - x,
+                    this_row + set(0.5F) + lower_part(h) * set(jitter) - y, h);
         }
     }
     return all.found();

@@ -48,7 +48,8 @@ void paint_pixels(benchmark::State& state) {
     const PaintParams params = fly_agaric(static_cast<int>(state.range(0)));
     for (auto _ : state) benchmark::DoNotOptimize(paint_raw(params));
     state.counters["texels_per_second"] =
-        benchmark::Counter(static_cast<double>(state.range(0) * state.range(0)), benchmark::Counter::kIsIterationInvariantRate);
+        benchmark::Counter(static_cast<double>(state.range(0) * state.range(0)),
+                           benchmark::Counter::kIsIterationInvariantRate);
 }
 BENCHMARK(paint_pixels)->Arg(256)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
@@ -58,7 +59,12 @@ void paint_and_encode(benchmark::State& state) {
     for (auto _ : state) bytes = paint(params).bytes();
     state.counters["bytes"] = static_cast<double>(bytes);
 }
-BENCHMARK(paint_and_encode)->Arg(256)->Arg(512)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(paint_and_encode)
+    ->Arg(256)
+    ->Arg(512)
+    ->Arg(1024)
+    ->Arg(2048)
+    ->Unit(benchmark::kMillisecond);
 
 void paint_and_encode_pores_and_net(benchmark::State& state) {
     const PaintParams params = penny_bun(static_cast<int>(state.range(0)));
@@ -86,7 +92,10 @@ void paint_pixels_with(benchmark::State& state, const std::string& simd) {
 
 const int registered = [] {
     for (const std::string& name : simd_names())
-        if (name != "auto") benchmark::RegisterBenchmark(("paint_pixels_512/" + name).c_str(), paint_pixels_with, name)->Unit(benchmark::kMillisecond);
+        if (name != "auto")
+            benchmark::RegisterBenchmark(("paint_pixels_512/" + name).c_str(), paint_pixels_with,
+                                         name)
+                ->Unit(benchmark::kMillisecond);
     return 0;
 }();
 

@@ -33,7 +33,7 @@ Points scattered(std::size_t count) {
 }
 
 class EverySimd : public ::testing::Test {
-protected:
+  protected:
     void TearDown() override { force_simd("auto"); }
 };
 using Noise = EverySimd;
@@ -143,7 +143,8 @@ TEST_F(Noise, AnUnknownInstructionSetIsRefusedByName) {
     } catch (const InvalidInput& error) {
         ASSERT_EQ(error.problems().size(), 1U);
         EXPECT_EQ(error.problems()[0].path, "simd");
-        EXPECT_NE(error.problems()[0].message.find("'avx9' is none of auto, scalar"), std::string::npos);
+        EXPECT_NE(error.problems()[0].message.find("'avx9' is none of auto, scalar"),
+                  std::string::npos);
     }
 }
 

@@ -17,8 +17,8 @@ PatchStyle warts() {
 }
 
 bool same(const Patch& a, const Patch& b) {
-    return a.sigma == b.sigma && a.theta == b.theta && a.radius == b.radius && a.spin == b.spin && a.height == b.height &&
-           a.survival == b.survival && a.id == b.id;
+    return a.sigma == b.sigma && a.theta == b.theta && a.radius == b.radius && a.spin == b.spin &&
+           a.height == b.height && a.survival == b.survival && a.id == b.id;
 }
 
 TEST(Patches, LieWhereTheirStyleSays) {

@@ -35,7 +35,8 @@ Bytes png_of(const Bytes& pixels, int width, int height, png_uint_32 format) {
     png_alloc_size_t size = 0;
     EXPECT_NE(png_image_write_to_memory(&image, nullptr, &size, 0, pixels.data(), 0, nullptr), 0);
     Bytes file(size);
-    EXPECT_NE(png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr), 0);
+    EXPECT_NE(png_image_write_to_memory(&image, file.data(), &size, 0, pixels.data(), 0, nullptr),
+              0);
     file.resize(size);
     return file;
 }
@@ -102,7 +103,8 @@ TEST(Codecs, WhatIsNoImageIsRefused) {
 
 TEST(Codecs, BrokenFilesAreRefused) {
     const Bytes rgb = slope(64, 64);
-    Bytes files[] = {png_of(rgb, 64, 64, PNG_FORMAT_RGB), jpeg(rgb, 64, 64, 90, Chroma::full), webp_of(rgb, 64, 64)};
+    Bytes files[] = {png_of(rgb, 64, 64, PNG_FORMAT_RGB), jpeg(rgb, 64, 64, 90, Chroma::full),
+                     webp_of(rgb, 64, 64)};
     for (Bytes& file : files) {
         for (const std::size_t kept : {std::size_t{12}, file.size() / 2}) {
             const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(kept));
@@ -134,10 +136,12 @@ TEST(Codecs, ABombIsRefusedBeforeItsPixelsAreDecoded) {
     std::uint32_t crc = 0xFFFFFFFFU;
     for (std::size_t i = 12; i < 29; ++i) {
         crc ^= bomb[i];
-        for (int bit = 0; bit < 8; ++bit) crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xEDB88320U : crc >> 1U;
+        for (int bit = 0; bit < 8; ++bit)
+            crc = (crc & 1U) != 0 ? (crc >> 1U) ^ 0xEDB88320U : crc >> 1U;
     }
     crc = ~crc;
-    for (std::size_t i = 0; i < 4; ++i) bomb[29 + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+        bomb[29 + i] = static_cast<std::uint8_t>(crc >> (24 - 8 * i));
     EXPECT_EQ(refusal(bomb), "the image is 60000 x 60000 pixels; at most 2048 x 2048 are allowed");
 }
 

@@ -7,12 +7,14 @@ namespace {
 
 TEST(Metrics, EveryStepIsTheNearestToItsOwnLength) {
     // Below -581 a length is shorter than the shortest that counts, 1e-5 m.
-    for (int step = -581; step <= 100; ++step) EXPECT_EQ(quantised_length(length_of_step(step)), step);
+    for (int step = -581; step <= 100; ++step)
+        EXPECT_EQ(quantised_length(length_of_step(step)), step);
 }
 
 TEST(Metrics, AStepIsTwoPercent) {
     EXPECT_DOUBLE_EQ(length_of_step(0), 1.0);
-    for (int step = -600; step < 100; ++step) EXPECT_NEAR(length_of_step(step + 1) / length_of_step(step), 1.02, 1e-12);
+    for (int step = -600; step < 100; ++step)
+        EXPECT_NEAR(length_of_step(step + 1) / length_of_step(step), 1.02, 1e-12);
 }
 
 TEST(Metrics, LengthsAreWithinOnePercent) {

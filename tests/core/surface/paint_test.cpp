@@ -62,7 +62,8 @@ PaintParams motley(HymeniumPattern pattern, int side = 256) {
     return params;
 }
 
-constexpr HymeniumPattern all_patterns[] = {HymeniumPattern::smooth, HymeniumPattern::gills, HymeniumPattern::ridges, HymeniumPattern::pores};
+constexpr HymeniumPattern all_patterns[] = {HymeniumPattern::smooth, HymeniumPattern::gills,
+                                            HymeniumPattern::ridges, HymeniumPattern::pores};
 
 // Mean difference of two atlases in levels of 255, over all images.
 double difference(const RawImages& a, const RawImages& b) {
@@ -70,7 +71,8 @@ double difference(const RawImages& a, const RawImages& b) {
     std::size_t count = 0;
     for (std::size_t i = 0; i < 3; ++i) {
         count += a.rgb[i].size();
-        for (std::size_t k = 0; k < a.rgb[i].size(); ++k) sum += std::abs(static_cast<int>(a.rgb[i][k]) - static_cast<int>(b.rgb[i][k]));
+        for (std::size_t k = 0; k < a.rgb[i].size(); ++k)
+            sum += std::abs(static_cast<int>(a.rgb[i][k]) - static_cast<int>(b.rgb[i][k]));
     }
     return sum / static_cast<double>(count);
 }
@@ -81,7 +83,9 @@ struct Texel {
 
 Texel texel(const RawImages& images, ImageKind kind, int x, int y) {
     const Bytes& rgb = images.rgb[static_cast<std::size_t>(kind)];
-    const std::size_t at = 3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(images.side) + static_cast<std::size_t>(x));
+    const std::size_t at =
+        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(images.side) +
+             static_cast<std::size_t>(x));
     return {rgb[at], rgb[at + 1], rgb[at + 2]};
 }
 
@@ -113,7 +117,7 @@ void for_each_colour(T& value, const std::string& path, const Visit& visit) {
 }
 
 class Paint : public ::testing::Test {
-protected:
+  protected:
     void TearDown() override { force_simd("auto"); }
 };
 
@@ -127,7 +131,8 @@ TEST_F(Paint, GivesEqualBytesWithEveryInstructionSet) {
             for (const std::string& name : simd_names()) {
                 force_simd(name);
                 const RawImages found = paint_raw(params);
-                for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(found.rgb[i] == expected.rgb[i]) << name << ' ' << side;
+                for (std::size_t i = 0; i < 3; ++i)
+                    EXPECT_TRUE(found.rgb[i] == expected.rgb[i]) << name << ' ' << side;
             }
         }
     }
@@ -201,7 +206,8 @@ TEST_F(Paint, NormalsAreUnitVectorsThatPointOutwards) {
 }
 
 TEST_F(Paint, ABumpFacesAwayFromItsMiddle) {
-    // One great wart: to its right the normal points right, above it (smaller v) the normal points up.
+    // One great wart: to its right the normal points right, above it (smaller v) the normal points
+    // up.
     PaintParams params;
     params.side = 512;
     params.surface.cap.bumps = 0.0;
@@ -211,7 +217,8 @@ TEST_F(Paint, ABumpFacesAwayFromItsMiddle) {
     params.ornaments.warts = 1.0;
     const Patch wart = patches(params.warts, params.seed, wart_purpose).at(0);
     const RawImages images = paint_raw(params);
-    const TexturePoint middle = disc_point(swept_charts[0], wart.sigma, std::cos(wart.theta), std::sin(wart.theta));
+    const TexturePoint middle =
+        disc_point(swept_charts[0], wart.sigma, std::cos(wart.theta), std::sin(wart.theta));
     const int cx = static_cast<int>(middle.u * 512.0), cy = static_cast<int>(middle.v * 512.0);
     const int reach = static_cast<int>(0.8 * wart.radius * 0.47 * 256.0);
     double right = 0.0, up = 0.0;
@@ -236,22 +243,27 @@ TEST_F(Paint, EveryNumberChangesThePicture) {
     for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(motley(pattern)));
     PaintParams walked = motley(HymeniumPattern::smooth);
     std::vector<std::string> names;
-    for_each_number(walked, "", [&](const std::string& name, const Info&, auto&) { names.push_back(name); });
+    for_each_number(walked, "",
+                    [&](const std::string& name, const Info&, auto&) { names.push_back(name); });
     for (const std::string& wanted : names) {
         if (wanted == "/side" || wanted == "/ornaments/ring") continue;
         bool changed = false;
         for (std::size_t p = 0; p < 4 && !changed; ++p) {
             PaintParams params = motley(all_patterns[p]);
-            for_each_number(params, "", [&](const std::string& name, const Info& info, auto& number) {
-                if (name != wanted) return;
-                using N = std::remove_cvref_t<decltype(number)>;
-                const double now = static_cast<double>(number);
-                const bool rises = now < 0.5 * (info.min + info.max);
-                if constexpr (std::is_integral_v<N>)
-                    number = static_cast<N>(now + (wanted.starts_with("/metrics") ? 20.0 : now < info.max ? 1.0 : -1.0));
-                else
-                    number = rises ? now + 0.3 * (info.max - now) : now - 0.3 * (now - info.min);
-            });
+            for_each_number(
+                params, "", [&](const std::string& name, const Info& info, auto& number) {
+                    if (name != wanted) return;
+                    using N = std::remove_cvref_t<decltype(number)>;
+                    const double now = static_cast<double>(number);
+                    const bool rises = now < 0.5 * (info.min + info.max);
+                    if constexpr (std::is_integral_v<N>)
+                        number = static_cast<N>(now + (wanted.starts_with("/metrics") ? 20.0
+                                                       : now < info.max               ? 1.0
+                                                                                      : -1.0));
+                    else
+                        number =
+                            rises ? now + 0.3 * (info.max - now) : now - 0.3 * (now - info.min);
+                });
             changed = difference(before[p], paint_raw(params)) > 1e-3;
         }
         EXPECT_TRUE(changed) << wanted;
@@ -285,14 +297,18 @@ TEST_F(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
         PaintParams walked = start;
         std::vector<std::string> names;
         for_each_number(walked, "", [&](const std::string& name, const Info&, auto& number) {
-            if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(number)>>) names.push_back(name);
+            if constexpr (std::is_floating_point_v<std::remove_cvref_t<decltype(number)>>)
+                names.push_back(name);
         });
         for (const std::string& wanted : names) {
             PaintParams params = start;
-            for_each_number(params, "", [&](const std::string& name, const Info& info, auto& number) {
-                using N = std::remove_cvref_t<decltype(number)>;
-                if (name == wanted) number = static_cast<N>(static_cast<double>(number) + 0.0005 * (info.max - info.min));
-            });
+            for_each_number(params, "",
+                            [&](const std::string& name, const Info& info, auto& number) {
+                                using N = std::remove_cvref_t<decltype(number)>;
+                                if (name == wanted)
+                                    number = static_cast<N>(static_cast<double>(number) +
+                                                            0.0005 * (info.max - info.min));
+                            });
             EXPECT_LT(difference(before, paint_raw(params)), 0.5) << wanted;
         }
     }
@@ -313,7 +329,8 @@ TEST_F(Paint, TheAgesOfTheRampGoFromApexToMargin) {
 }
 
 TEST_F(Paint, TheStemClosesWithoutASeam) {
-    // Once round the stem the picture goes on as anywhere else: the step over the seam is no larger than its neighbours.
+    // Once round the stem the picture goes on as anywhere else: the step over the seam is no
+    // larger than its neighbours.
     PaintParams params = motley(HymeniumPattern::gills, 512);
     const RawImages images = paint_raw(params);
     const Chart& chart = swept_charts[2];
@@ -345,8 +362,10 @@ TEST_F(Paint, BleedsBeyondEveryRim) {
     for (int i = 0; i < 64; ++i) {
         const double angle = 2.0 * 3.14159265 * i / 64.0;
         const auto at = [&](double radius) {
-            const TexturePoint p = disc_point(swept_charts[0], radius, std::cos(angle), std::sin(angle));
-            return texel(images, ImageKind::base_color, static_cast<int>(p.u * 512.0), static_cast<int>(p.v * 512.0));
+            const TexturePoint p =
+                disc_point(swept_charts[0], radius, std::cos(angle), std::sin(angle));
+            return texel(images, ImageKind::base_color, static_cast<int>(p.u * 512.0),
+                         static_cast<int>(p.v * 512.0));
         };
         const Texel inside = at(0.99), outside = at(1.04);
         EXPECT_NEAR(inside.r, outside.r, 26);
@@ -368,7 +387,9 @@ TEST_F(Paint, GillsAreAsManyAsAsked) {
     for (int i = 0; i < 7200; ++i) {
         const double angle = 2.0 * 3.14159265 * i / 7200.0;
         const TexturePoint p = disc_point(swept_charts[1], 0.8, std::cos(angle), std::sin(angle));
-        const int occlusion = texel(images, ImageKind::orm, static_cast<int>(p.u * 1024.0), static_cast<int>(p.v * 1024.0)).r;
+        const int occlusion = texel(images, ImageKind::orm, static_cast<int>(p.u * 1024.0),
+                                    static_cast<int>(p.v * 1024.0))
+                                  .r;
         const bool dark = was_dark ? occlusion < 190 : occlusion < 165;
         if (dark && !was_dark) ++crossings;
         was_dark = dark;
@@ -398,8 +419,10 @@ TEST_F(Paint, WaterDarkensAndSmooths) {
     params.wetness = 1.0;
     const RawImages wet = paint_raw(params);
     double light = 0.0, rough = 0.0;
-    for (std::size_t i = 0; i < dry.rgb[0].size(); ++i) light += static_cast<double>(wet.rgb[0][i]) - static_cast<double>(dry.rgb[0][i]);
-    for (std::size_t i = 1; i < dry.rgb[2].size(); i += 3) rough += static_cast<double>(wet.rgb[2][i]) - static_cast<double>(dry.rgb[2][i]);
+    for (std::size_t i = 0; i < dry.rgb[0].size(); ++i)
+        light += static_cast<double>(wet.rgb[0][i]) - static_cast<double>(dry.rgb[0][i]);
+    for (std::size_t i = 1; i < dry.rgb[2].size(); i += 3)
+        rough += static_cast<double>(wet.rgb[2][i]) - static_cast<double>(dry.rgb[2][i]);
     EXPECT_LT(light, 0.0);
     EXPECT_LT(rough, 0.0);
 }
