@@ -55,8 +55,8 @@ bool is_health_check(std::string_view target) {
 }  // namespace
 
 struct Log::Sink {
-    std::shared_ptr<spdlog::details::thread_pool> writer;
     std::shared_ptr<spdlog::async_logger> logger;
+    std::shared_ptr<spdlog::details::thread_pool> writer;  ///< ends first: it writes what waits
 };
 
 Log::Log(LogLevel least) : sink_(std::make_unique<Sink>()) {

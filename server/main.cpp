@@ -170,7 +170,7 @@ int serve(const Options& options) {
 }
 
 int run(int argc, char** argv) {
-    CLI::App app("Grows mushrooms on demand and answers with GLB files, over HTTP.", "sporeprint");
+    CLI::App app("GLB files grown on demand, over HTTP.", "sporeprint");
     app.set_version_flag("--version", "sporeprint " SPOREPRINT_VERSION, "Print the version");
     app.set_help_flag("--help,-h", "Print this help");
     const std::vector<OptionLine> lines = option_lines();

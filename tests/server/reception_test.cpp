@@ -14,11 +14,19 @@ namespace {
 using namespace std::chrono_literals;
 
 const std::string small = "/v1/mushrooms/amanita_muscaria.glb?lod=3&texture_size=128&seed=";
-const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=2048&seed=";
+const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=1024&seed=";
+
+/// Sanitizers make everything slow.
+ReceptionOptions patient() {
+    ReceptionOptions options;
+    options.deadline = 5min;
+    return options;
+}
 
 /// The real service behind a reception, asked without sockets.
 struct House {
-    explicit House(ReceptionOptions options = {}) : reception(service, metrics, log, options) {
+    explicit House(ReceptionOptions options = patient())
+        : reception(service, metrics, log, options) {
         handlers = reception.handlers();
         reception.open();
     }
@@ -54,7 +62,7 @@ std::string header(const api::Answer& answer, std::string_view name) {
 }
 
 TEST(Reception, MakesOnceWhatManyAskForAtTheSameTime) {
-    ReceptionOptions options;
+    ReceptionOptions options = patient();
     options.slots = 4;
     House house(options);
     std::atomic<int> collapsed{0}, good{0};
@@ -136,7 +144,7 @@ TEST(Reception, CountsForPrometheus) {
 }
 
 TEST(Reception, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
-    ReceptionOptions options;
+    ReceptionOptions options = patient();
     options.metrics = false;
     House house(options);
     EXPECT_EQ(house.ask("/metrics").status, 404);
@@ -147,7 +155,7 @@ TEST(Reception, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
 }
 
 TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
-    ReceptionOptions options;
+    ReceptionOptions options = patient();
     options.longest_queue = 0;
     House house(options);
     std::atomic<int> good{0}, turned_away{0};
@@ -173,7 +181,7 @@ TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
 }
 
 TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
-    ReceptionOptions options;
+    ReceptionOptions options = patient();
     options.deadline = 1ms;
     House late(options);
     const api::Answer answer = late.ask(heavy + "1");
