@@ -82,8 +82,9 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured)
             const int ahead = j < solid.columns ? j + 1 : 1, behind = j > 0 ? j - 1 : solid.columns - 1;
             const int side = pointed && i == solid.rows - 1 ? i - 1 : i;
             const glm::dvec3 tangent = p[at(side, ahead)] - p[at(side, behind)];
-            // Going round counter-clockwise with the tip above, image-up is towards the base: one sign for the whole solid.
-            mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)), -1.0F);
+            // Going round counter-clockwise with the tip above, image-up is towards the base; the ring's other side is mirrored.
+            const bool mirrored = solid.loops && i >= solid.rows / 2;
+            mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)), mirrored ? 1.0F : -1.0F);
         }
     if (solid.loops) return;
     // The base, seen from below.
@@ -191,7 +192,7 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
         double r, y, normal_r, normal_y, share;
     };
     std::vector<Station> line;
-    double r = attachment.r - 0.5 * thickness - 0.02 * attachment.r, y = height;
+    double r = std::max(attachment.r - 0.5 * thickness - 0.02 * attachment.r, thickness), y = height;
     for (int i = 0; i <= rings; ++i) {
         const double share = static_cast<double>(i) / rings;
         const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - 0.45 * share));

@@ -67,7 +67,7 @@ public:
 private:
     void ring(const Face& face, const OutlineSample& sample) {
         const AxisStation station =
-            face.on_cap ? deformer_.frozen_station(deformer_.top()) : deformer_.station(std::min(sample.y, deformer_.top()));
+            face.on_cap ? deformer_.frozen_station(deformer_.top()) : deformer_.station(sample.share == 1.0 ? deformer_.top() : std::min(sample.y, deformer_.top()));
         const Chart& chart = swept_charts[static_cast<std::size_t>(face.part)];
         const double length = face.curve->length();
         for (int j = 0; j <= columns_; ++j) {
@@ -185,7 +185,8 @@ Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t s
     const Outline outline(shape.silhouette);
     const Detail& detail = details[static_cast<std::size_t>(lod)];
     const Deformer deformer(model, shape, outline, seed);
-    const Waves waves(model.weathering.waves, greatest_radius(outline.cap), detail.columns, seed);
+    // A club has no margin that could wave.
+    const Waves waves(outline.hymenium.empty() ? 0.0 : model.weathering.waves, greatest_radius(outline.cap), detail.columns, seed);
     Mesh mesh;
     const int rings = detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
     const int pieces = detail.patch_sides > 0 ? model.warts.count + model.scales.count + model.volva.count : 0;

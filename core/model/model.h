@@ -104,7 +104,8 @@ struct DeformationOf {
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
         const std::optional<double> from = zone_from, to = zone_to;
-        if (from && to && *to - *from < 0.1) problems.push_back({path + "/zone_to", "must exceed zone_from by at least 0.1"});
+        // 1 - 0.9 is a little less than 0.1 in binary.
+        if (from && to && *to - *from < 0.1 - 1e-9) problems.push_back({path + "/zone_to", "must exceed zone_from by at least 0.1"});
     }
     bool operator==(const DeformationOf&) const = default;
 };
