@@ -1,0 +1,155 @@
+#include "core/atlas/atlas.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "core/params/reader.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+/// A folder of one test, gone when the test ends.
+class Folder {
+  public:
+    Folder()
+        : path_(std::filesystem::path(::testing::TempDir()) /
+                ("atlas_" + std::to_string(::testing::UnitTest::GetInstance()->random_seed()) +
+                 "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name())) {
+        std::filesystem::remove_all(path_);
+        std::filesystem::create_directories(path_);
+    }
+    ~Folder() { std::filesystem::remove_all(path_); }
+    Folder(const Folder&) = delete;
+    Folder& operator=(const Folder&) = delete;
+
+    void write(const std::string& name, const std::string& text) const {
+        std::ofstream(path_ / name, std::ios::binary) << text;
+    }
+    [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+  private:
+    std::filesystem::path path_;
+};
+
+/// The template of a species with one piece of its text replaced.
+std::string edited(const std::string& id, const std::string& from, const std::string& to) {
+    std::string json = atlas().find(id)->json;
+    const std::size_t at = json.find(from);
+    EXPECT_NE(at, std::string::npos) << from;
+    return json.replace(at, from.size(), to);
+}
+
+TEST(Atlas, HoldsTheEightSpeciesSortedById) {
+    EXPECT_EQ(species_ids(), (std::vector<std::string>{
+                                 "amanita_muscaria", "boletus_edulis", "cantharellus_cibarius",
+                                 "clavariadelphus_pistillaris", "coprinus_comatus",
+                                 "disciotis_venosa", "mycena_sanguinolenta", "russula_vinosa"}));
+    EXPECT_EQ(atlas().find("amanita"), nullptr);
+    EXPECT_EQ(atlas().find(""), nullptr);
+    EXPECT_EQ(atlas().find("zzz"), nullptr);
+}
+
+TEST(Atlas, EverySpeciesHasAYoungAMatureAndAnOldStage) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const auto& stages = entry.species.stages;
+        ASSERT_GE(stages.size(), 3u) << entry.species.id.string();
+        EXPECT_LE(stages.front().age, 0.3);
+        EXPECT_GE(stages.back().age, 0.9);
+        EXPECT_TRUE(std::any_of(stages.begin(), stages.end(),
+                                [](const Stage& stage) { return stage.age == 0.6; }))
+            << entry.species.id.string() << " has no template at maturity";
+        EXPECT_FALSE(entry.species.facts.sources.empty());
+    }
+}
+
+TEST(Atlas, MatureMushroomsHaveTheSizeThatIsRecorded) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const Facts& facts = entry.species.facts;
+        MushroomOrder order = order_of(entry.species.id.string(), 0.6);
+        order.params.variation = 0.0;
+        order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
+        const Bounds box = bounds(mesh_of(order));
+        const double height = box.max.y;
+        EXPECT_GE(height, facts.height_m.from) << entry.species.id.string();
+        EXPECT_LE(height, facts.height_m.to) << entry.species.id.string();
+        if (!facts.cap_diameter_m) continue;
+        const double diameter = box.max.x - box.min.x;
+        EXPECT_GE(diameter, facts.cap_diameter_m->from) << entry.species.id.string();
+        EXPECT_LE(diameter, facts.cap_diameter_m->to) << entry.species.id.string();
+    }
+}
+
+TEST(Atlas, TheServedTemplateReadsBackAsTheSameSpecies) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        std::vector<Problem> problems;
+        EXPECT_EQ(read_json<Species>(entry.json, problems), entry.species);
+        EXPECT_EQ(problems, std::vector<Problem>{});
+        const Atlas again({entry.json});
+        EXPECT_EQ(again.entries()[0].hash, entry.hash);
+        EXPECT_EQ(again.entries()[0].json, entry.json);
+    }
+}
+
+TEST(Atlas, AnotherTemplateHasAnotherHash) {
+    const Atlas other({edited("boletus_edulis", "\"common_name\":\"", "\"common_name\":\"My ")});
+    EXPECT_NE(other.entries()[0].hash, atlas().find("boletus_edulis")->hash);
+}
+
+TEST(Atlas, ProblemsAreToldWithTheIdOfTheirSpecies) {
+    const std::string boletus = atlas().find("boletus_edulis")->json;
+    EXPECT_TRUE(names(refusal([&] {
+                          (void)Atlas({boletus, boletus});
+                      }),
+                      "boletus_edulis:/id", "two templates"));
+    const auto problems = refusal([&] {
+        (void)Atlas({edited("boletus_edulis", "\"spread\":{", "\"spread\":{\"speed\":1,"), "{}",
+                     edited("russula_vinosa", "\"season\":[", "\"season\":[0,")});
+    });
+    EXPECT_TRUE(names(problems, "boletus_edulis:/spread/speed"));
+    EXPECT_TRUE(names(problems, "a template without id:/id", "missing"));
+    EXPECT_TRUE(names(problems, "russula_vinosa:/facts/season/0"));
+}
+
+TEST(Atlas, OrderOfTextsDoesNotMatter) {
+    std::vector<std::string> texts;
+    for (const AtlasEntry& entry : atlas().entries()) texts.insert(texts.begin(), entry.json);
+    const Atlas other(texts);
+    for (std::size_t i = 0; i < other.entries().size(); ++i)
+        EXPECT_EQ(other.entries()[i].species.id, atlas().entries()[i].species.id);
+}
+
+TEST(Atlas, AFolderIsReadAndOnlyItsTemplates) {
+    const Folder folder;
+    folder.write("porcini.json", atlas().find("boletus_edulis")->json);
+    folder.write("notes.txt", "not a template");
+    const auto found = atlas_from(folder.path());
+    ASSERT_EQ(found->entries().size(), 1u);
+    EXPECT_EQ(found->entries()[0].species, atlas().find("boletus_edulis")->species);
+}
+
+TEST(Atlas, ABadFolderOrFileIsNamed) {
+    const Folder folder;
+    const auto said = [&] { return refusal([&] { (void)atlas_from(folder.path()); }); };
+    EXPECT_TRUE(names(said(), folder.path().string(), "no *.json"));
+    EXPECT_TRUE(names(refusal([&] { (void)atlas_from(folder.path() / "nowhere"); }),
+                      (folder.path() / "nowhere").string(), "cannot be read"));
+    folder.write("broken.json", "{\"id\": \"x\",");
+    ASSERT_FALSE(said().empty());
+    EXPECT_NE(said()[0].path.find("broken.json"), std::string::npos) << said()[0].path;
+    folder.write("broken.json", "{\"id\": \"x\", \"id\": \"y\"}");
+    EXPECT_NE(said()[0].path.find("broken.json"), std::string::npos) << said()[0].path;
+    folder.write("broken.json", edited("boletus_edulis", "\"age\":0.6", "\"age\":7"));
+    const auto problems = said();
+    ASSERT_FALSE(problems.empty());
+    EXPECT_NE(problems[0].path.find("broken.json:/stages/"), std::string::npos) << problems[0].path;
+}
+
+}  // namespace
+}  // namespace sporeprint

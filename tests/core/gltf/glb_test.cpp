@@ -1,0 +1,124 @@
+#include "core/gltf/glb.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "tests/support/glb_reader.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+const std::vector<std::string> plain = {"NORMAL", "POSITION"};
+const std::vector<std::string> full = {"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"};
+
+GlbParts parts_of(const std::string& name, const std::array<std::string, 3>& addresses = {}) {
+    GlbParts parts;
+    parts.name = name;
+    parts.image_addresses = addresses;
+    return parts;
+}
+
+TEST(Glb, ABareMeshReadsBackAsItWas) {
+    for (const std::string& id : species_ids()) {
+        const Mesh mesh = mesh_of(order_of(id, 0.6, 2, 1));
+        const ReadBack found = expect_glb(joined(glb(mesh, parts_of(id))));
+        EXPECT_EQ(found.attributes, plain);
+        EXPECT_TRUE(same_bits(found.mesh, mesh));
+        EXPECT_EQ(found.index_component, 5123) << "16 bits while they fit";
+        EXPECT_EQ(found.node, id);
+        EXPECT_EQ(found.textures, 0u);
+        EXPECT_TRUE(found.generator.starts_with("Sporeprint ")) << found.generator;
+    }
+}
+
+TEST(Glb, TextureCoordinatesAndTangentsAreWrittenExactlyWhenThereAreImages) {
+    const Mesh mesh = mesh_of(textured(order_of("mycena_sanguinolenta", 0.6, 2, 2)));
+    ASSERT_FALSE(mesh.tangents.empty());
+    EXPECT_EQ(expect_glb(joined(glb(mesh, parts_of("m")))).attributes, plain);
+    const ReadBack linked =
+        expect_glb(joined(glb(mesh, parts_of("m", {"/a.jpg", "/b.jpg", "/c.jpg"}))));
+    EXPECT_EQ(linked.attributes, full);
+    EXPECT_EQ(linked.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
+    EXPECT_TRUE(linked.images.empty());
+    EXPECT_EQ(linked.textures, 3u);
+    EXPECT_TRUE(same_bits(linked.mesh.tangents, mesh.tangents));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+        EXPECT_LT(glm::distance(linked.mesh.texture_coordinates[i], mesh.texture_coordinates[i]),
+                  1.1e-5f)
+            << "half a step of 1/65535";
+}
+
+TEST(Glb, EmbeddedImagesDecodeToTheirSizeAndAreNeverCopied) {
+    const MushroomOrder order = painted(order_of("boletus_edulis", 0.6, 2, 1), 256);
+    const Individual individual = resolve(order, atlas());
+    const Mesh mesh = mushroom_mesh(order, individual);
+    const ImageSet images = paint(paint_params(order, atlas(), surface_metrics(individual)));
+    GlbParts parts = parts_of("b");
+    parts.images = &images;
+    const Body body = glb(mesh, parts);
+    const ReadBack found = expect_glb(joined(body));
+    EXPECT_EQ(found.attributes, full);
+    EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {128, 128})));
+    for (const Slice& file : images.files)
+        EXPECT_EQ(std::count_if(body.begin(), body.end(),
+                                [&](const Slice& slice) {
+                                    return slice.owner == file.owner &&
+                                           slice.data() == file.data() && slice.size == file.size;
+                                }),
+                  1)
+            << "the body holds the image's own bytes";
+    // Head, geometry, and for each image at most its padding.
+    EXPECT_LE(body.size(), 8u);
+    std::size_t own = 0;
+    for (const Slice& slice : body) own += slice.size;
+    EXPECT_EQ(own, size_of(body));
+}
+
+TEST(Glb, LargeMeshesHaveWideIndices) {
+    Mesh mesh;  // many tetrahedra
+    for (int i = 0; i < 16384; ++i) {
+        const auto at = static_cast<std::uint32_t>(mesh.positions.size());
+        const glm::vec3 place(static_cast<float>(i), 0.0f, 0.0f);
+        for (const glm::vec3& p : {glm::vec3(0.0f), glm::vec3(0.5f, 0.0f, 0.0f),
+                                   glm::vec3(0.0f, 0.5f, 0.0f), glm::vec3(0.0f, 0.0f, 0.5f)}) {
+            mesh.positions.push_back(place + p);
+            mesh.normals.emplace_back(0.0f, 1.0f, 0.0f);
+        }
+        for (const std::uint32_t k : {0u, 2u, 1u, 0u, 1u, 3u, 0u, 3u, 2u, 1u, 2u, 3u})
+            mesh.indices.push_back(at + k);
+    }
+    ASSERT_EQ(mesh.positions.size(), 65536u);
+    ReadBack found = read_back(joined(glb(mesh, parts_of("many"))));
+    EXPECT_EQ(found.index_component, 5125);
+    EXPECT_TRUE(same_bits(found.mesh.indices, mesh.indices));
+    mesh.positions.resize(65532);
+    mesh.normals.resize(65532);
+    mesh.indices.resize(mesh.indices.size() - 12);
+    found = read_back(joined(glb(mesh, parts_of("fewer"))));
+    EXPECT_EQ(found.index_component, 5123);
+    EXPECT_TRUE(same_bits(found.mesh.indices, mesh.indices));
+}
+
+TEST(Glb, NamesAreEscapedAndExtrasKept) {
+    const Mesh mesh = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
+    const std::string name = "a \"quoted\\ name\"\n\x01 é";
+    GlbParts parts = parts_of(name);
+    parts.extras_json = R"({"canonical":"/v1/x?y=1"})";
+    const ReadBack found = expect_glb(joined(glb(mesh, parts)));
+    EXPECT_EQ(found.node, name);
+    EXPECT_EQ(found.canonical, "/v1/x?y=1");
+}
+
+TEST(Glb, AnEmptyMeshIsRefused) {
+    EXPECT_THROW((void)glb(Mesh{}, parts_of("nothing")), GenerationError);
+}
+
+}  // namespace
+}  // namespace sporeprint

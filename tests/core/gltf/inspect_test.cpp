@@ -1,0 +1,193 @@
+#include "core/gltf/inspect.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/params/reader.h"
+#include "tests/support/glb_reader.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+const std::string address = "/v1/mushrooms/amanita_muscaria.glb?seed=7";
+
+const Bytes& grown() {
+    static const Bytes file = joined(
+        grow_mushroom(painted(order_of("amanita_muscaria", 0.6, 7, 1)), atlas(), {address, {}})
+            .glb);
+    return file;
+}
+
+void put(Bytes& file, std::size_t at, std::uint32_t value) {
+    std::memcpy(file.data() + at, &value, 4);
+}
+
+/// A GLB of a JSON chunk alone.
+Bytes glb_of(std::string json) {
+    while (json.size() % 4) json += ' ';
+    Bytes file(20 + json.size());
+    put(file, 0, 0x46546C67);
+    put(file, 4, 2);
+    put(file, 8, static_cast<std::uint32_t>(file.size()));
+    put(file, 12, static_cast<std::uint32_t>(json.size()));
+    put(file, 16, 0x4E4F534A);
+    std::copy(json.begin(), json.end(), file.begin() + 20);
+    return file;
+}
+
+/// Why a file is refused; empty when it is taken.
+std::string why(const Bytes& file) {
+    const auto problems = refusal([&] { (void)inspect_glb(file); });
+    if (problems.empty()) return "";
+    EXPECT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, "");
+    return problems[0].message;
+}
+
+void expect_refused(const Bytes& file, const std::string& words) {
+    const std::string found = why(file);
+    EXPECT_NE(found.find(words), std::string::npos) << words << " is not in: " << found;
+    EXPECT_LT(found.size(), 400u) << "an answer does not grow with its question";
+}
+
+TEST(Inspect, GivesTheRequestBackThatMadeTheFile) {
+    const MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 7, 1));
+    const Mushroom mushroom = grow_mushroom(order, atlas(), {address, {}});
+    const Inspection found = inspect_glb(grown());
+    EXPECT_EQ(found.canonical, address);
+    EXPECT_EQ(found.generator, "Sporeprint " + std::to_string(generator_version));
+    EXPECT_EQ(found.vertices, mushroom.vertices);
+    EXPECT_EQ(found.triangles, mushroom.triangles);
+    EXPECT_EQ(found.meshes, 1u);
+    EXPECT_EQ(found.materials, 1u);
+    EXPECT_EQ(found.images, 3u);
+    EXPECT_EQ(found.bytes, grown().size());
+    std::vector<Problem> problems;
+    const auto effective = read_json<MushroomParams>(found.effective_json, problems);
+    EXPECT_EQ(problems, std::vector<Problem>{});
+    EXPECT_EQ(effective, resolve(order, atlas()).effective);
+}
+
+TEST(Inspect, TheParametersItGivesGrowTheSameShapeAgain) {
+    std::vector<Problem> problems;
+    MushroomOrder order = order_of("amanita_muscaria");
+    order.params = read_json<MushroomParams>(inspect_glb(grown()).effective_json, problems);
+    const Bytes again = joined(grow_mushroom(order, atlas(), {address, {}}).glb);
+    // Only the shape: images are painted for the nearest 64th of age, what is asked for by name as it is asked.
+    EXPECT_TRUE(same_bits(expect_glb(again).mesh, expect_glb(grown()).mesh));
+}
+
+TEST(Inspect, TruncatedFilesAreRefused) {
+    const Bytes& whole = grown();
+    for (const std::size_t size : {std::size_t{0}, std::size_t{1}, std::size_t{19}, std::size_t{20},
+                                   std::size_t{21}, whole.size() / 2, whole.size() - 1})
+        EXPECT_NE(why(Bytes(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size))), "")
+            << size;
+    Bytes longer = whole;
+    longer.push_back(0);
+    expect_refused(longer, "but " + std::to_string(longer.size()) + " came");
+}
+
+TEST(Inspect, WrongLengthsAreRefused) {
+    for (const std::size_t at : {std::size_t{8}, std::size_t{12}})
+        for (const std::uint32_t length : {0u, 1u, 0x7FFFFFFFu, 0xFFFFFFFFu, 0xFFFFFFECu}) {
+            Bytes file = grown();
+            put(file, at, length);
+            EXPECT_NE(why(file), "") << at << ' ' << length;
+        }
+    Bytes file = grown();
+    put(file, 4, 1);
+    expect_refused(file, "version 1");
+    file = grown();
+    put(file, 16, 0x004E4942);
+    expect_refused(file, "JSON chunk");
+}
+
+TEST(Inspect, ForeignFilesAreRefused) {
+    const std::string text = "<html><body>not a model at all</body></html>";
+    expect_refused(Bytes(text.begin(), text.end()), "not a GLB");
+    expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":"Blender"}})"),
+                   "not made by Sporeprint");
+    expect_refused(glb_of(R"({"asset":{"version":"2.0"}})"), "not made by Sporeprint");
+    expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":7}})"), "not made by");
+    expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":"Sporeprint 1"}})"),
+                   "does not carry");
+    expect_refused(
+        glb_of(
+            R"({"asset":{"version":"2.0","generator":"Sporeprint 1","extras":{"canonical":"x","effective":[]}}})"),
+        "does not carry");
+    expect_refused(glb_of("[]"), "not made by");
+    expect_refused(glb_of(""), "JSON chunk");
+    expect_refused(glb_of(R"({"asset":1,"asset":2})"), "JSON chunk cannot be read");
+}
+
+TEST(Inspect, BombsAreRefused) {
+    expect_refused(glb_of(std::string(100000, '[')), "JSON chunk cannot be read");
+    expect_refused(glb_of(std::string(100000, '[') + std::string(100000, ']')), "JSON chunk");
+    std::string objects;
+    for (int i = 0; i < 100000; ++i) objects += "{\"a\":";
+    expect_refused(glb_of(objects), "JSON chunk");
+    std::string many = "[0";
+    for (int i = 0; i < 300000; ++i) many += ",0";
+    expect_refused(glb_of(many + "]"), "JSON chunk");
+    expect_refused(glb_of("{\"a\":1e999}"), "JSON chunk");
+}
+
+const std::string head =
+    R"("asset":{"version":"2.0","generator":"Sporeprint 1","extras":{"canonical":"x","effective":{}}})";
+
+TEST(Inspect, WildReferencesInsideAFileDoNoHarm) {
+    for (
+        const std::string& rest :
+        {std::string(R"("meshes":[{"primitives":[{"attributes":{"POSITION":99},"indices":-5}]}])"),
+         std::string(
+             R"("meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":0}]}],)"
+             R"("accessors":[{"componentType":5126,"count":4294967295,"type":"VEC3","bufferView":7}])"),
+         std::string(R"("accessors":[{"componentType":5126,"count":-1,"type":"VEC3"}])"),
+         std::string(R"("images":[{"uri":"file:///etc/passwd"},{"uri":"../../secret.png"}])"),
+         std::string(
+             R"("buffers":[{"byteLength":1e15,"uri":"data:application/octet-stream;base64,AAAA"}])"),
+         std::string(R"("bufferViews":[{"buffer":12,"byteLength":9,"byteOffset":1e18}])"),
+         std::string(R"("nodes":[{"children":[0]}],"scenes":[{"nodes":[0]}],"scene":4)"),
+         std::string(
+             R"("extensions":{"KHR_draco_mesh_compression":{}},"extensionsRequired":["X"])")}) {
+        try {
+            const Inspection found = inspect_glb(glb_of("{" + head + "," + rest + "}"));
+            EXPECT_EQ(found.canonical, "x");
+        } catch (const InvalidInput& refused) {
+            EXPECT_EQ(refused.problems().size(), 1u);
+        }
+    }
+    EXPECT_EQ(inspect_glb(glb_of("{" + head + "}")).vertices, 0u);
+}
+
+TEST(Inspect, RandomBytesAreRefused) {
+    EXPECT_TRUE(
+        rc::check("random bytes", [](const Bytes& file) { RC_ASSERT(!why(file).empty()); }));
+    EXPECT_TRUE(rc::check("random bytes behind a header",
+                          [](const std::string& json) { RC_ASSERT(!why(glb_of(json)).empty()); }));
+}
+
+TEST(Inspect, DamagedFilesAreReadOrRefusedNeverCrash) {
+    EXPECT_TRUE(rc::check("a few bytes changed", [] {
+        Bytes file = grown();
+        for (auto n = *rc::gen::inRange(1, 6); n > 0; --n)
+            file[*rc::gen::inRange<std::size_t>(0, 3000)] =
+                static_cast<std::uint8_t>(*rc::gen::inRange(0, 256));
+        try {
+            (void)inspect_glb(file);
+        } catch (const InvalidInput&) {
+        }
+    }));
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,306 @@
+#include "core/grow/mushroom.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstring>
+#include <map>
+#include <set>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "core/params/corners.h"
+#include "core/params/value.h"
+#include "tests/support/glb_reader.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+class EverySpecies : public ::testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Atlas, EverySpecies, ::testing::ValuesIn(species_ids()),
+                         [](const auto& one) { return one.param; });
+
+TEST_P(EverySpecies, GrowsToValidMeshesAtEveryAgeLevelOfDetailAndSeed) {
+    for (const double age : {0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0})
+        for (int lod = 0; lod < 4; ++lod)
+            for (const std::uint32_t seed : {1u, 2u, 4294967295u}) {
+                SCOPED_TRACE("age " + std::to_string(age) + ", lod " + std::to_string(lod) +
+                             ", seed " + std::to_string(seed));
+                MushroomOrder order = textured(order_of(GetParam(), age, seed, lod));
+                order.params.variation = 1.0;
+                const Mesh mesh = mesh_of(order);
+                expect_valid(mesh);
+                EXPECT_EQ(mesh.tangents.size(), mesh.positions.size());
+                if (HasFailure()) return;
+            }
+}
+
+TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
+    MushroomOrder order = textured(order_of(GetParam(), 0.7, 3, 1));
+    std::set<std::string> refused;
+    int grown = 0;
+    corners(order.params, [&](const std::string& path) {
+        SCOPED_TRACE(path);
+        const auto start = std::chrono::steady_clock::now();
+        const auto problems = refusal([&] {
+            const Mesh mesh = mesh_of(order);
+            ++grown;
+            expect_valid(mesh);
+        });
+        const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
+        EXPECT_LT(took.count(), 5.0) << "hundreds of times what it takes, on a loaded machine";
+        for (const Problem& problem : problems) {
+            refused.insert(problem.path);
+            EXPECT_FALSE(problem.message.empty());
+        }
+    });
+    EXPECT_GT(grown, 40);
+    const std::set<std::string> known = {
+        "/hymenium/blades",       "/hymenium/tiers",       "/hymenium/forking",
+        "/hymenium/pores_per_mm", "/ornaments/warts",      "/ornaments/scales",
+        "/ornaments/ring",        "/deformation/bend_deg", "/deformation/zone_to"};
+    for (const std::string& path : refused) EXPECT_TRUE(known.contains(path)) << path;
+}
+
+TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
+    int grown = 0;
+    EXPECT_TRUE(rc::check("random parameters", [&] {
+        MushroomOrder order = order_of(GetParam());
+        order.params = arbitrary_params();
+        // What a species cannot have is refused anyway; leave it out half of the time.
+        if (*rc::gen::inRange(0, 2)) {
+            order.params.hymenium = {};
+            order.params.ornaments = {};
+            order.params.deformation.zone_from.reset();
+            order.params.deformation.zone_to.reset();
+        }
+        order.params.textures = Textures::linked;
+        order.params.lod = std::max(order.params.lod, 1);
+        try {
+            const Mesh mesh = mesh_of(order);
+            const auto found = defects(mesh);
+            RC_ASSERT(found == std::vector<std::string>{});
+            RC_ASSERT(volume(mesh) > 0.0);
+            ++grown;
+        } catch (const InvalidInput& refused) {
+            RC_ASSERT(!refused.problems().empty());
+            for (const Problem& problem : refused.problems())
+                RC_ASSERT(problem.path.starts_with("/hymenium/") ||
+                          problem.path.starts_with("/ornaments/") ||
+                          problem.path.starts_with("/deformation/"));
+        }
+    }));
+    EXPECT_GT(grown, 15);
+}
+
+TEST_P(EverySpecies, ReadsBackFromItsFile) {
+    for (const double age : {0.0, 0.6, 1.0})
+        for (const int lod : {0, 2}) {
+            const MushroomOrder order = painted(order_of(GetParam(), age, 3, lod));
+            const Mushroom mushroom = grow_mushroom(order, atlas());
+            const ReadBack found = expect_glb(joined(mushroom.glb));
+            EXPECT_EQ(found.mesh.positions.size(), mushroom.vertices);
+            EXPECT_EQ(found.mesh.triangles(), mushroom.triangles);
+            const int side = 128 >> lod;
+            EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {side, side})));
+            EXPECT_EQ(found.node, GetParam());
+        }
+}
+
+TEST_P(EverySpecies, IsEstimatedBeforeAnyWork) {
+    for (const double age : {0.1, 0.6, 1.0})
+        for (int lod = 0; lod < 4; ++lod) {
+            const MushroomOrder order = painted(order_of(GetParam(), age, 3, lod), 256);
+            const Estimate e = estimate(order, atlas());
+            const Mushroom mushroom = grow_mushroom(order, atlas());
+            EXPECT_GE(e.vertices, mushroom.vertices);
+            EXPECT_LE(e.vertices, 3 * mushroom.vertices)
+                << "young scales are too small to stand out";
+            EXPECT_GE(e.triangles, mushroom.triangles);
+            EXPECT_LE(e.triangles, 3 * mushroom.triangles);
+            EXPECT_EQ(e.texels, 3u * (256u >> lod) * (256u >> lod));
+            const double bytes = static_cast<double>(size_of(mushroom.glb));
+            EXPECT_GT(static_cast<double>(e.bytes), 0.7 * bytes);
+            EXPECT_LT(static_cast<double>(e.bytes), 2.5 * bytes);
+        }
+}
+
+TEST_P(EverySpecies, GivesEqualBytesTwiceAndWithEightThreads) {
+    const MushroomOrder order = painted(order_of(GetParam(), 0.7, 9));
+    const Bytes once = joined(grow_mushroom(order, atlas()).glb);
+    EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), once);
+    Workshop threads;
+    threads.parallel = [](std::span<const std::function<void()>> pieces) {
+        std::vector<std::jthread> hands;
+        for (const auto& piece : pieces) hands.emplace_back(piece);
+    };
+    EXPECT_EQ(joined(grow_mushroom(order, atlas(), {}, threads).glb), once);
+    std::vector<Bytes> together(8);
+    {
+        std::vector<std::jthread> growers;
+        for (Bytes& mine : together)
+            growers.emplace_back(
+                [&order, &mine] { mine = joined(grow_mushroom(order, atlas()).glb); });
+    }
+    for (const Bytes& mine : together) EXPECT_EQ(mine, once);
+}
+
+/// A workshop that keeps images by their key.
+struct Keeper {
+    std::map<std::string, std::shared_ptr<const ImageSet>> kept;
+    int asked = 0, made = 0;
+    Workshop workshop;
+
+    Keeper() {
+        workshop.memo.images = [this](const std::string& key, const auto& make) {
+            ++asked;
+            auto& place = kept[key];
+            if (!place) {
+                place = make();
+                ++made;
+            }
+            return place;
+        };
+    }
+};
+
+bool shares_bytes(const Body& body, const Slice& slice) {
+    return std::any_of(body.begin(), body.end(),
+                       [&](const Slice& s) { return s.owner == slice.owner; });
+}
+
+TEST(Mushroom, AChangeOfShapePaintsNothingAndCopiesNoImage) {
+    Keeper keeper;
+    MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 5));
+    const Mushroom straight = grow_mushroom(order, atlas(), {}, keeper.workshop);
+    order.params.deformation.bend_deg = 25.0;
+    order.params.deformation.twist_deg = 10.0;
+    order.params.weathering.waves = 0.7;
+    const Mushroom bent = grow_mushroom(order, atlas(), {}, keeper.workshop);
+    EXPECT_EQ(keeper.asked, 2);
+    EXPECT_EQ(keeper.made, 1);
+    ASSERT_EQ(keeper.kept.size(), 1u);
+    for (const Slice& file : keeper.kept.begin()->second->files) {
+        EXPECT_TRUE(shares_bytes(straight.glb, file));
+        EXPECT_TRUE(shares_bytes(bent.glb, file));
+    }
+    EXPECT_NE(joined(straight.glb), joined(bent.glb));
+    // And what was kept is what would be painted anew.
+    EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), joined(bent.glb));
+}
+
+TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
+    Keeper keeper;
+    MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 5, 1));
+    const auto made_by = [&](auto change) {
+        MushroomOrder changed = order;
+        change(changed.params);
+        const int before = keeper.made;
+        (void)grow_mushroom(changed, atlas(), {}, keeper.workshop);
+        return keeper.made - before;
+    };
+    EXPECT_EQ(made_by([](MushroomParams&) {}), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.age = 0.6001; }), 0) << "a 64th of age is one step";
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.age = 0.7; }), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.seed = 6; }), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.weathering.fade = 0.9; }), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.hymenium.blades = 90; }), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.ornaments.warts = 0.2; }), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.texture_size.value = 256; }), 1);
+    EXPECT_EQ(made_by([](MushroomParams& p) { p.lod = 2; }), 1);
+}
+
+TEST(Mushroom, StepsAreToldInTheirOrder) {
+    std::vector<std::string> steps;
+    Workshop workshop;
+    workshop.observer = [&](Step step) { steps.emplace_back(name(step)); };
+    (void)grow_mushroom(painted(order_of("boletus_edulis", 0.6, 1, 3)), atlas(), {}, workshop);
+    EXPECT_EQ(steps, (std::vector<std::string>{"resolve", "build", "paint", "pack"}));
+    steps.clear();
+    (void)grow_mushroom(order_of("boletus_edulis", 0.6, 1, 3), atlas(), {}, workshop);
+    EXPECT_EQ(steps, (std::vector<std::string>{"resolve", "build", "pack"}));
+}
+
+TEST(Mushroom, IsAbandonedWhenAskedToStop) {
+    std::stop_source source;
+    source.request_stop();
+    Workshop workshop;
+    workshop.stop = source.get_token();
+    bool painted_anyway = false;
+    workshop.observer = [&](Step step) { painted_anyway |= step == Step::paint; };
+    const auto grow = [&] {
+        (void)grow_mushroom(painted(order_of("boletus_edulis")), atlas(), {}, workshop);
+    };
+    EXPECT_THROW(grow(), Cancelled);
+    EXPECT_FALSE(painted_anyway);
+}
+
+TEST(Mushroom, AFailureOfTheMemoIsPassedOn) {
+    Workshop workshop;
+    workshop.memo.images = [](const auto&, const auto&) -> std::shared_ptr<const ImageSet> {
+        throw GenerationError("no");
+    };
+    const auto grow = [&] {
+        (void)grow_mushroom(painted(order_of("boletus_edulis")), atlas(), {}, workshop);
+    };
+    EXPECT_THROW(grow(), GenerationError);
+}
+
+TEST(Mushroom, LinkedTexturesNeedAddresses) {
+    const MushroomOrder order = textured(order_of("boletus_edulis", 0.6, 1, 2));
+    EXPECT_TRUE(
+        names(refusal([&] { (void)grow_mushroom(order, atlas()); }), "/textures", "linked"));
+    const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
+    const ReadBack found = expect_glb(joined(grow_mushroom(order, atlas(), extras).glb));
+    EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
+}
+
+TEST(Mushroom, SaysWhatItIsMadeOf) {
+    const MushroomOrder order = order_of("boletus_edulis", 0.6, 1, 2);
+    const Bytes file = joined(grow_mushroom(order, atlas(), {"/v1/canonical", {}}).glb);
+    std::uint32_t length = 0;
+    std::memcpy(&length, file.data() + 12, 4);
+    const std::string text(file.begin() + 20, file.begin() + 20 + length);
+    std::vector<Problem> problems;
+    const Value json = parse(text, problems);
+    ASSERT_EQ(problems, std::vector<Problem>{});
+    const Mesh mesh = mesh_of(order);
+    EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
+    EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
+              static_cast<double>(mesh.triangles()));
+    EXPECT_EQ(json.at_pointer("/asset/extras/effective/age")->as_number(), 0.6);
+    const auto& top = json.at_pointer("/asset/extras/bounds_m/max")->items();
+    EXPECT_EQ(static_cast<float>(top.at(1).as_number()), bounds(mesh).max.y);
+    EXPECT_EQ(json.at_pointer("/materials")->items().size(), 1u);
+    EXPECT_EQ(json.at_pointer("/extensionsRequired"), nullptr);
+}
+
+TEST(Mushroom, AModelOfOnesOwnGrowsWithoutASpecies) {
+    MushroomOrder order = painted(order_of("x", 0.5, 4, 1));
+    order.mix.clear();
+    order.model = atlas().find("russula_vinosa")->species.stages[1].model;
+    const ReadBack found = expect_glb(joined(grow_mushroom(order, Atlas({})).glb));
+    EXPECT_EQ(found.node, "mushroom");
+    EXPECT_EQ(found.images.size(), 3u);
+}
+
+TEST(Mushroom, CrossingModelsAreRefusedByName) {
+    MushroomOrder order = order_of("x");
+    order.mix.clear();
+    order.model = atlas().find("russula_vinosa")->species.stages[1].model;
+    auto& silhouette = std::get<Swept>(order.model->shape).silhouette;
+    std::swap(silhouette.cap[1], silhouette.cap[3]);
+    const auto problems = refusal([&] { (void)grow_mushroom(order, atlas()); });
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_TRUE(problems[0].path.starts_with("/model/silhouette/")) << problems[0].path;
+}
+
+}  // namespace
+}  // namespace sporeprint

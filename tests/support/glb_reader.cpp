@@ -1,0 +1,137 @@
+#include "tests/support/glb_reader.h"
+
+#include <gtest/gtest.h>
+#include <tiny_gltf.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "tests/support/meshes.h"
+
+namespace sporeprint {
+
+namespace {
+
+std::uint32_t word(const Bytes& file, std::size_t at) {
+    std::uint32_t value = 0;
+    if (at + 4 <= file.size()) std::memcpy(&value, file.data() + at, 4);
+    return value;
+}
+
+/// The content of an accessor as T, component by component.
+template <class T>
+std::vector<T> values(const tinygltf::Model& model, int index) {
+    const auto& accessor = model.accessors.at(static_cast<std::size_t>(index));
+    const auto& view = model.bufferViews.at(static_cast<std::size_t>(accessor.bufferView));
+    const auto& data = model.buffers.at(static_cast<std::size_t>(view.buffer)).data;
+    const auto count = accessor.count * static_cast<std::size_t>(tinygltf::GetNumComponentsInType(
+                                            static_cast<std::uint32_t>(accessor.type)));
+    EXPECT_EQ(view.byteLength, count * sizeof(T));
+    std::vector<T> found(count);
+    if (view.byteOffset + count * sizeof(T) > data.size()) {
+        ADD_FAILURE() << "accessor " << index << " runs over the end of its buffer";
+        return found;
+    }
+    std::memcpy(found.data(), data.data() + view.byteOffset, count * sizeof(T));
+    return found;
+}
+
+template <class V>
+std::vector<V> vectors(const tinygltf::Model& model, int index) {
+    const std::vector<float> flat = values<float>(model, index);
+    std::vector<V> found(flat.size() / static_cast<std::size_t>(V::length()));
+    std::memcpy(found.data(), flat.data(), flat.size() * sizeof(float));
+    return found;
+}
+
+glm::vec3 corner(const std::vector<double>& numbers) {
+    EXPECT_EQ(numbers.size(), 3u);
+    if (numbers.size() != 3) return glm::vec3(0.0f);
+    return {static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
+            static_cast<float>(numbers[2])};
+}
+
+}  // namespace
+
+ReadBack read_back(const Bytes& file) {
+    ReadBack found;
+    tinygltf::TinyGLTF reader;
+    tinygltf::Model model;
+    std::string error, warning;
+    found.read = reader.LoadBinaryFromMemory(&model, &error, &warning, file.data(),
+                                             static_cast<unsigned>(file.size()));
+    found.trouble = error + warning;
+    if (!found.read || model.meshes.size() != 1 || model.meshes[0].primitives.size() != 1)
+        return found;
+    const auto& primitive = model.meshes[0].primitives[0];
+    for (const auto& [name, index] : primitive.attributes) {
+        found.attributes.push_back(name);
+        if (name == "POSITION") {
+            found.mesh.positions = vectors<glm::vec3>(model, index);
+            const auto& accessor = model.accessors[static_cast<std::size_t>(index)];
+            found.stated = {corner(accessor.minValues), corner(accessor.maxValues)};
+        } else if (name == "NORMAL") {
+            found.mesh.normals = vectors<glm::vec3>(model, index);
+        } else if (name == "TANGENT") {
+            found.mesh.tangents = vectors<glm::vec4>(model, index);
+        } else if (name == "TEXCOORD_0") {
+            EXPECT_TRUE(model.accessors[static_cast<std::size_t>(index)].normalized);
+            const auto flat = values<std::uint16_t>(model, index);
+            for (std::size_t i = 0; i + 1 < flat.size(); i += 2)
+                found.mesh.texture_coordinates.emplace_back(flat[i] / 65535.0f,
+                                                            flat[i + 1] / 65535.0f);
+        }
+    }
+    std::sort(found.attributes.begin(), found.attributes.end());
+    const auto& indices = model.accessors.at(static_cast<std::size_t>(primitive.indices));
+    found.index_component = indices.componentType;
+    if (indices.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT) {
+        for (const std::uint16_t i : values<std::uint16_t>(model, primitive.indices))
+            found.mesh.indices.push_back(i);
+    } else {
+        found.mesh.indices = values<std::uint32_t>(model, primitive.indices);
+    }
+    for (const auto& image : model.images) {
+        if (image.uri.empty())
+            found.images.push_back({image.width, image.height});
+        else
+            found.uris.push_back(image.uri);
+    }
+    found.textures = model.textures.size();
+    if (!model.nodes.empty()) found.node = model.nodes[0].name;
+    found.generator = model.asset.generator;
+    if (model.asset.extras.Has("canonical"))
+        found.canonical = model.asset.extras.Get("canonical").Get<std::string>();
+    found.has_extensions = !model.extensionsUsed.empty() || !model.extensionsRequired.empty();
+    for (const auto& view : model.bufferViews) EXPECT_EQ(view.byteOffset % 4, 0u);
+    EXPECT_EQ(model.scenes.size(), 1u);
+    EXPECT_EQ(model.materials.size(), 1u);
+    return found;
+}
+
+ReadBack expect_glb(const Bytes& file) {
+    EXPECT_EQ(word(file, 0), 0x46546C67u) << "glTF";
+    EXPECT_EQ(word(file, 4), 2u);
+    EXPECT_EQ(word(file, 8), file.size());
+    const std::size_t json = word(file, 12);
+    EXPECT_EQ(word(file, 16), 0x4E4F534Au) << "JSON";
+    EXPECT_EQ(json % 4, 0u);
+    EXPECT_EQ(word(file, 24 + json), 0x004E4942u) << "BIN";
+    EXPECT_EQ(word(file, 20 + json) + 28 + json, file.size());
+    EXPECT_EQ(file.size() % 4, 0u);
+    ReadBack found = read_back(file);
+    EXPECT_TRUE(found.read) << found.trouble;
+    const bool linked = !found.uris.empty();  // those images are not there, which is told
+    EXPECT_TRUE(linked || found.trouble.empty()) << found.trouble;
+    if (found.mesh.positions.empty()) {
+        ADD_FAILURE() << "no vertices";
+        return found;
+    }
+    expect_valid(found.mesh);
+    EXPECT_EQ(found.stated.min, bounds(found.mesh).min);
+    EXPECT_EQ(found.stated.max, bounds(found.mesh).max);
+    EXPECT_FALSE(found.has_extensions);
+    return found;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,104 @@
+// Orders that tests send to core, and the species they are made from.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/grow/mushroom.h"
+#include "core/params/problems.h"
+#include "tests/core/params/arbitrary.h"
+
+namespace sporeprint {
+
+/// The built-in atlas, read once.
+inline const Atlas& atlas() {
+    static const auto built_in = built_in_atlas();
+    return *built_in;
+}
+
+inline std::vector<std::string> species_ids() {
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : atlas().entries()) ids.push_back(entry.species.id.string());
+    return ids;
+}
+
+/// An order for one species, without images.
+inline MushroomOrder order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
+                              int lod = 0) {
+    MushroomOrder order;
+    order.mix = {{id, 1000}};
+    order.params.age = age;
+    order.params.seed = seed;
+    order.params.lod = lod;
+    order.params.textures = Textures::none;
+    return order;
+}
+
+/// The same order with texture coordinates and tangents, still without painting.
+inline MushroomOrder textured(MushroomOrder order) {
+    order.params.textures = Textures::linked;
+    return order;
+}
+
+/// The same order, painted small.
+inline MushroomOrder painted(MushroomOrder order, int side = 128) {
+    order.params.textures = Textures::embedded;
+    order.params.texture_size.value = side;
+    return order;
+}
+
+inline Mesh mesh_of(const MushroomOrder& order) {
+    return mushroom_mesh(order, resolve(order, atlas()));
+}
+
+inline const Silhouette& silhouette_of(const Model& model) {
+    return std::get<Swept>(model.shape).silhouette;
+}
+
+/// The bytes of a body, one after another.
+inline Bytes joined(const Body& body) {
+    Bytes bytes;
+    bytes.reserve(size_of(body));
+    for (const Slice& slice : body)
+        bytes.insert(bytes.end(), slice.data(), slice.data() + slice.size);
+    return bytes;
+}
+
+/// The problems that `work` is refused with; none when it goes through.
+template <class Work>
+std::vector<Problem> refusal(const Work& work) {
+    try {
+        work();
+    } catch (const InvalidInput& refused) {
+        return refused.problems();
+    }
+    return {};
+}
+
+/// Whether `problems` has one with this path, and words of its message.
+inline ::testing::AssertionResult names(const std::vector<Problem>& problems,
+                                        const std::string& path, const std::string& words = "") {
+    auto result = ::testing::AssertionFailure() << "no problem \"" << path << ": " << words << "\"";
+    for (const Problem& problem : problems) {
+        if (problem.path == path && problem.message.find(words) != std::string::npos)
+            return ::testing::AssertionSuccess();
+        result << "\n  " << problem.path << ": " << problem.message;
+    }
+    return result;
+}
+
+/// Random parameters inside their ranges, for RapidCheck. The cross-field rule of zones is kept.
+inline MushroomParams arbitrary_params() {
+    MushroomParams params;
+    arbitrary(params, Info{.name = ""});
+    auto& deformation = params.deformation;
+    if (deformation.zone_from && deformation.zone_to &&
+        *deformation.zone_to < *deformation.zone_from + 0.1)
+        deformation.zone_to.reset();
+    return params;
+}
+
+}  // namespace sporeprint
