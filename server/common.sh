@@ -14,7 +14,7 @@ become_owner() {
 # Builds targets of a configured preset; says nothing when there is nothing to do.
 build() { # preset [target ...]
     cmake --build "build/$1" -j "${SPOREPRINT_JOBS:-$(nproc)}" ${2:+--target "${@:2}"} |
-        { grep -v '^ninja: no work to do' || true; }
+        { grep -vE '^ninja: no work to do|Re-checking globbed directories' || true; }
 }
 
 # Builds web_viewer/dist when a file of the page changed since the last time.
