@@ -1,0 +1,79 @@
+// Geometry alone: the mesh of each species at each level of detail, and the parts it is made of.
+
+#include <benchmark/benchmark.h>
+
+#include <string>
+
+#include "core/gltf/glb.h"
+#include "core/grow/mushroom.h"
+#include "core/silhouette/outline.h"
+
+namespace {
+
+using namespace sporeprint;
+
+MushroomOrder order_of(const std::string& id, int lod) {
+    MushroomOrder order;
+    order.mix.push_back({id});
+    order.params.lod = lod;
+    order.params.textures = Textures::linked;  // texture coordinates and tangents, no painting
+    return order;
+}
+
+void mesh(benchmark::State& state, const std::string& id, int lod) {
+    const auto atlas = built_in_atlas();
+    const MushroomOrder order = order_of(id, lod);
+    const Individual individual = resolve(order, *atlas);
+    std::size_t triangles = 0;
+    for (auto _ : state) {
+        const Mesh made = mushroom_mesh(order, individual);
+        triangles = made.triangles();
+        benchmark::DoNotOptimize(made.positions.data());
+    }
+    state.counters["triangles"] = static_cast<double>(triangles);
+}
+
+void resolved(benchmark::State& state, const std::string& id) {
+    const auto atlas = built_in_atlas();
+    const MushroomOrder order = order_of(id, 0);
+    for (auto _ : state) benchmark::DoNotOptimize(resolve(order, *atlas));
+}
+
+void outlined(benchmark::State& state, const std::string& id) {
+    const auto atlas = built_in_atlas();
+    const Individual individual = resolve(order_of(id, 0), *atlas);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(Outline(std::get<Swept>(individual.model.shape).silhouette));
+}
+
+void packed(benchmark::State& state, const std::string& id) {
+    const auto atlas = built_in_atlas();
+    const MushroomOrder order = order_of(id, 0);
+    const Mesh made = mushroom_mesh(order, resolve(order, *atlas));
+    const GlbParts parts{
+        .name = id, .images = nullptr, .image_addresses = {"a", "b", "c"}, .extras_json = "{}"};
+    for (auto _ : state) benchmark::DoNotOptimize(glb(made, parts));
+}
+
+[[maybe_unused]] const bool registered = [] {
+    const auto atlas = built_in_atlas();
+    for (const AtlasEntry& entry : atlas->entries()) {
+        const std::string id = entry.species.id.string();
+        for (int lod = 0; lod < 4; ++lod)
+            benchmark::RegisterBenchmark(("mesh/" + id + "/lod" + std::to_string(lod)).c_str(),
+                                         [id, lod](benchmark::State& s) { mesh(s, id, lod); })
+                ->Unit(benchmark::kMicrosecond);
+        benchmark::RegisterBenchmark(("resolve/" + id).c_str(), [id](benchmark::State& s) {
+            resolved(s, id);
+        })->Unit(benchmark::kMicrosecond);
+        benchmark::RegisterBenchmark(("outline/" + id).c_str(), [id](benchmark::State& s) {
+            outlined(s, id);
+        })->Unit(benchmark::kMicrosecond);
+        benchmark::RegisterBenchmark(("pack/" + id).c_str(), [id](benchmark::State& s) {
+            packed(s, id);
+        })->Unit(benchmark::kMicrosecond);
+    }
+    return true;
+}();
+
+}  // namespace
