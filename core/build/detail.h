@@ -14,7 +14,7 @@ struct Detail {
 
 /// By LOD. The same individual in each: counts change, draws do not.
 inline constexpr std::array<Detail, 4> details = {{
-    {30, 22, 32, 72, 7, 2, 6},
+    {30, 22, 32, 72, 7, 1, 6},
     {14, 10, 15, 36, 4, 0, 3},
     {8, 6, 9, 18, 0, 0, 1},
     {4, 3, 4, 8, 0, 0, 0},
