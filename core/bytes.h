@@ -24,7 +24,9 @@ struct Slice {
     Slice(std::shared_ptr<const Bytes> bytes, std::size_t at, std::size_t length)
         : owner(std::move(bytes)), offset(at), size(length) {}
 
-    [[nodiscard]] const std::uint8_t* data() const { return owner ? owner->data() + offset : nullptr; }
+    [[nodiscard]] const std::uint8_t* data() const {
+        return owner ? owner->data() + offset : nullptr;
+    }
 };
 
 /// A body is its slices one after another.

@@ -13,19 +13,21 @@ namespace sporeprint {
 
 struct AtlasEntry {
     Species species;
-    std::string json;         ///< the template as served: canonical JSON
-    std::uint64_t hash = 0;   ///< of `json`
+    std::string json;        ///< the template as served: canonical JSON
+    std::uint64_t hash = 0;  ///< of `json`
 };
 
 class Atlas {
-public:
+  public:
     /// throws InvalidInput with all problems of all texts, paths prefixed by the species' id
     explicit Atlas(const std::vector<std::string>& json_texts);
 
     [[nodiscard]] const AtlasEntry* find(std::string_view id) const;
-    [[nodiscard]] const std::vector<AtlasEntry>& entries() const { return entries_; }  ///< sorted by id
+    [[nodiscard]] const std::vector<AtlasEntry>& entries() const {
+        return entries_;
+    }  ///< sorted by id
 
-private:
+  private:
     std::vector<AtlasEntry> entries_;
 };
 

@@ -38,14 +38,17 @@ std::vector<glm::dvec3> template_tangents(const std::vector<AxisPoint>& controls
         for (int i = 1; i <= samples_per_segment; ++i) {
             const auto s = segment.at(static_cast<double>(i) / samples_per_segment);
             arc.push_back(arc.back() + std::sqrt(glm::dot(s.position - last, s.position - last)));
-            directions.push_back(glm::dot(s.derivative, s.derivative) > 1e-18 ? unit(s.derivative) : directions.back());
+            directions.push_back(glm::dot(s.derivative, s.derivative) > 1e-18 ? unit(s.derivative)
+                                                                              : directions.back());
             last = s.position;
         }
     std::size_t k = 1;
     for (int i = 0; i <= stations; ++i) {
         const double wanted = arc.back() * i / stations;
         while (k + 1 < arc.size() && arc[k] < wanted) ++k;
-        const double t = arc[k] > arc[k - 1] ? std::clamp((wanted - arc[k - 1]) / (arc[k] - arc[k - 1]), 0.0, 1.0) : 0.0;
+        const double t = arc[k] > arc[k - 1]
+                             ? std::clamp((wanted - arc[k - 1]) / (arc[k] - arc[k - 1]), 0.0, 1.0)
+                             : 0.0;
         const glm::dvec3 d = (1.0 - t) * directions[k - 1] + t * directions[k];
         tangents[static_cast<std::size_t>(i)] = glm::dot(d, d) > 1e-18 ? unit(d) : directions[k];
     }
@@ -58,7 +61,8 @@ double zone_share(const DeformationOf<Plain>& d, double share) {
 
 }  // namespace
 
-std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& tangents,
+std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3>& positions,
+                                                    const std::vector<glm::dvec3>& tangents,
                                                     const glm::dvec3& first) {
     std::vector<glm::dvec3> normals{first};
     for (std::size_t i = 0; i + 1 < positions.size(); ++i) {
@@ -80,7 +84,8 @@ std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3
     return normals;
 }
 
-Axis::Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& deformation, const AxisAngles& angles, double base, double top)
+Axis::Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& deformation,
+           const AxisAngles& angles, double base, double top)
     : deformation_(deformation), base_(base), top_(top) {
     std::vector<glm::dvec3> tangents = template_tangents(controls);
     const auto across = [](double azimuth) {
@@ -98,24 +103,30 @@ Axis::Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& d
         return turned(t, lean_about, lean);
     };
     const double length = top - base;
-    std::vector<glm::dvec3> positions{turned(glm::dvec3(0.0, base, 0.0), lean_about, lean)}, directions{tangent_at(0.0)};
+    std::vector<glm::dvec3> positions{turned(glm::dvec3(0.0, base, 0.0), lean_about, lean)},
+        directions{tangent_at(0.0)};
     for (int i = 1; i <= stations; ++i) {
         const double from = (i - 1.0) / stations, to = static_cast<double>(i) / stations;
-        const glm::dvec3 mean = (tangent_at(from) + 4.0 * tangent_at(0.5 * (from + to)) + tangent_at(to)) / 6.0;
+        const glm::dvec3 mean =
+            (tangent_at(from) + 4.0 * tangent_at(0.5 * (from + to)) + tangent_at(to)) / 6.0;
         positions.push_back(positions.back() + length / stations * mean);
         directions.push_back(tangent_at(to));
         const glm::dvec3 change = directions.back() - directions[directions.size() - 2];
-        greatest_curvature_ = std::max(greatest_curvature_, std::sqrt(glm::dot(change, change)) * stations / length);
+        greatest_curvature_ =
+            std::max(greatest_curvature_, std::sqrt(glm::dot(change, change)) * stations / length);
     }
     // The first frame is the upright one, tipped the shortest way.
     const glm::dvec3 up(0.0, 1.0, 0.0);
     const glm::dvec3 axis = glm::cross(up, directions.front());
     const double sine_of_tip = std::sqrt(glm::dot(axis, axis));
     glm::dvec3 first(1.0, 0.0, 0.0);
-    if (sine_of_tip > 1e-12) first = turned(first, axis / sine_of_tip, arc_tangent(sine_of_tip, glm::dot(up, directions.front())));
+    if (sine_of_tip > 1e-12)
+        first = turned(first, axis / sine_of_tip,
+                       arc_tangent(sine_of_tip, glm::dot(up, directions.front())));
     first -= glm::dot(first, directions.front()) * directions.front();
     const auto normals = rotation_minimising_normals(positions, directions, unit(first));
-    for (std::size_t i = 0; i < positions.size(); ++i) frames_.push_back({positions[i], directions[i], normals[i]});
+    for (std::size_t i = 0; i < positions.size(); ++i)
+        frames_.push_back({positions[i], directions[i], normals[i]});
 }
 
 Axis::Local Axis::local(double height) const {
@@ -123,10 +134,12 @@ Axis::Local Axis::local(double height) const {
     const double share = std::clamp((height - base_) / length, 0.0, 1.0);
     const double at = share * stations;
     const double cell = std::min(std::floor(at), stations - 1.0);
-    const Frame &a = frames_[static_cast<std::size_t>(cell)], &b = frames_[static_cast<std::size_t>(cell) + 1];
+    const Frame &a = frames_[static_cast<std::size_t>(cell)],
+                &b = frames_[static_cast<std::size_t>(cell) + 1];
     const double t = at - cell;
     const double step = length / stations;
-    const SplineSegment<glm::dvec3> curve{a.position, b.position, a.tangent * step, b.tangent * step};
+    const SplineSegment<glm::dvec3> curve{a.position, b.position, a.tangent * step,
+                                          b.tangent * step};
     const auto sample = curve.at(t);
     const glm::dvec3 y = unit(sample.derivative);
     glm::dvec3 n = a.normal + t * (b.normal - a.normal);

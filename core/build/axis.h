@@ -10,11 +10,14 @@ namespace sporeprint {
 
 /// Where the axis takes the plane of one height, and how fast that changes with height. Exact to first order.
 struct AxisStation {
-    glm::dvec3 origin, x, y, z;     ///< images of the axis point and of the unit vectors; x and z carry twist and taper
+    glm::dvec3 origin, x, y,
+        z;  ///< images of the axis point and of the unit vectors; x and z carry twist and taper
     glm::dvec3 d_origin, d_x, d_z;  ///< their derivatives by height
-    double height = 0.0;            ///< the height this station stands for, inside the axis' own span
+    double height = 0.0;  ///< the height this station stands for, inside the axis' own span
 
-    [[nodiscard]] glm::dvec3 point(const glm::dvec3& p) const { return origin + p.x * x + (p.y - height) * y + p.z * z; }
+    [[nodiscard]] glm::dvec3 point(const glm::dvec3& p) const {
+        return origin + p.x * x + (p.y - height) * y + p.z * z;
+    }
     /// Image of a direction at p: the Jacobian of the axial map.
     [[nodiscard]] glm::dvec3 direction(const glm::dvec3& p, const glm::dvec3& v) const {
         return v.x * x + v.z * z + v.y * (d_origin + p.x * d_x + p.z * d_z);
@@ -28,11 +31,12 @@ struct AxisAngles {
 };
 
 class Axis {
-public:
+  public:
     /// controls  spline control points in stem heights, empty for straight; the curve is scaled to the stem's length
     /// base, top heights between which the stem lives, metres, top > base; above the top the frame is frozen, so caps stay rigid
     /// source    [Lazarus1994] axial deformation; [Wang2008] double reflection; zone of influence along the axis
-    Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& deformation, const AxisAngles& angles, double base, double top);
+    Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& deformation,
+         const AxisAngles& angles, double base, double top);
 
     [[nodiscard]] AxisStation at(double height) const;
 
@@ -42,7 +46,7 @@ public:
     /// Largest curvature, 1/m: a stem of radius r folds where curvature * r >= 1.
     [[nodiscard]] double greatest_curvature() const { return greatest_curvature_; }
 
-private:
+  private:
     struct Frame {
         glm::dvec3 position, tangent, normal;
     };
@@ -62,7 +66,8 @@ private:
 /// positions, tangents  N >= 1 samples, unit tangents; first  unit normal at the first sample
 /// returns  N unit normals. error O(h^4)
 /// source   [Wang2008] sec. 4, double reflection
-[[nodiscard]] std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& tangents,
-                                                                  const glm::dvec3& first);
+[[nodiscard]] std::vector<glm::dvec3> rotation_minimising_normals(
+    const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& tangents,
+    const glm::dvec3& first);
 
 }  // namespace sporeprint

@@ -31,7 +31,8 @@ double power_of(double x, int exponent) {
 Weight bernstein(int n, int i, double s) {
     const double rest = 1.0 - s;
     // C(n,i) s^i (1-s)^(n-i); its derivative shares all but one factor of each.
-    const double low = i > 0 ? power_of(s, i - 1) : 0.0, high = i < n ? power_of(rest, n - i - 1) : 0.0;
+    const double low = i > 0 ? power_of(s, i - 1) : 0.0,
+                 high = i < n ? power_of(rest, n - i - 1) : 0.0;
     const double left = i > 0 ? low * s : 1.0, right = i < n ? high * rest : 1.0;
     const double c = binomial(n, i);
     return {c * left * right, c * (i * low * right - (n - i) * left * high)};
@@ -46,19 +47,24 @@ double steepest(int n, int i) {
     double most = 0.0;
     for (int k = 0; k <= steps; ++k)
         most = std::max(most, std::abs(bernstein(n, i, static_cast<double>(k) / steps).derivative));
-    return most + 4.0 * n * n / steps;  // the second derivative of a Bernstein polynomial is below 4 n^2 on 0..1
+    return most +
+           4.0 * n * n /
+               steps;  // the second derivative of a Bernstein polynomial is below 4 n^2 on 0..1
 }
 
 }  // namespace
 
-FreeForm::FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree, std::vector<Displaced> displaced)
+FreeForm::FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree,
+                   std::vector<Displaced> displaced)
     : corner_(corner), size_(size), degree_(degree), displaced_(std::move(displaced)) {
     for (int axis = 0; axis < 3; ++axis) {
-        if (degree_[static_cast<std::size_t>(axis)] < 1 || degree_[static_cast<std::size_t>(axis)] > highest_degree)
+        if (degree_[static_cast<std::size_t>(axis)] < 1 ||
+            degree_[static_cast<std::size_t>(axis)] > highest_degree)
             throw std::invalid_argument("degree is outside 1..7");
         if (!(size_[axis] > 0.0)) throw std::invalid_argument("the box is empty");
         for (const Displaced& d : displaced_)
-            if (d.index[static_cast<std::size_t>(axis)] < 0 || d.index[static_cast<std::size_t>(axis)] > degree_[static_cast<std::size_t>(axis)])
+            if (d.index[static_cast<std::size_t>(axis)] < 0 ||
+                d.index[static_cast<std::size_t>(axis)] > degree_[static_cast<std::size_t>(axis)])
                 throw std::invalid_argument("a control point lies outside the lattice");
     }
     std::erase_if(displaced_, [](const Displaced& d) { return d.by == glm::dvec3(0.0); });
@@ -68,7 +74,9 @@ void FreeForm::move(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const 
     const glm::dvec3 s = (p - corner_) / size_;
     glm::dvec3 offset(0.0), by_x(0.0), by_y(0.0), by_z(0.0);
     for (const Displaced& d : displaced_) {
-        const Weight x = bernstein(degree_[0], d.index[0], s.x), y = bernstein(degree_[1], d.index[1], s.y), z = bernstein(degree_[2], d.index[2], s.z);
+        const Weight x = bernstein(degree_[0], d.index[0], s.x),
+                     y = bernstein(degree_[1], d.index[1], s.y),
+                     z = bernstein(degree_[2], d.index[2], s.z);
         offset += x.value * y.value * z.value * d.by;
         by_x += x.derivative * y.value * z.value * d.by;
         by_y += x.value * y.derivative * z.value * d.by;
@@ -89,7 +97,8 @@ double FreeForm::stretch_bound() const {
         for (const Displaced& d : displaced_) {
             double weight = 1.0;
             for (int other = 0; other < 3; ++other) {
-                const int n = degree_[static_cast<std::size_t>(other)], i = d.index[static_cast<std::size_t>(other)];
+                const int n = degree_[static_cast<std::size_t>(other)],
+                          i = d.index[static_cast<std::size_t>(other)];
                 weight *= other == axis ? steepest(n, i) : peak(n, i);
             }
             along += weight * std::sqrt(glm::dot(d.by, d.by));

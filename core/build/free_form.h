@@ -9,7 +9,7 @@ namespace sporeprint {
 
 /// A lattice of (degree + 1)^3 control points over an axis-aligned box; only points that are displaced are stored.
 class FreeForm {
-public:
+  public:
     struct Displaced {
         std::array<int, 3> index;  ///< 0..degree along x, y, z
         glm::dvec3 by;             ///< metres
@@ -18,11 +18,13 @@ public:
     /// degree  1..7 along each axis. The box blends C1 into its surroundings when the two outermost layers on each side are not displaced.
     /// throws  std::invalid_argument if an index or a degree is out of range, or the box is empty
     /// source  [Sederberg1986], in displacement form: no displacement is the exact identity
-    FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree, std::vector<Displaced> displaced);
+    FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree,
+             std::vector<Displaced> displaced);
 
     [[nodiscard]] bool contains(const glm::dvec3& p) const {
         const glm::dvec3 q = p - corner_;
-        return q.x > 0.0 && q.y > 0.0 && q.z > 0.0 && q.x < size_.x && q.y < size_.y && q.z < size_.z;
+        return q.x > 0.0 && q.y > 0.0 && q.z > 0.0 && q.x < size_.x && q.y < size_.y &&
+               q.z < size_.z;
     }
 
     /// Moves `p` and the two directions with it, by the Jacobian at p; nothing happens outside the box.
@@ -33,7 +35,7 @@ public:
     /// Upper bound of the norm of the displacement's derivative anywhere; below 1 the map is injective and keeps orientation.
     [[nodiscard]] double stretch_bound() const;
 
-private:
+  private:
     void move(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const;
 
     glm::dvec3 corner_, size_;
@@ -42,6 +44,7 @@ private:
 };
 
 /// A dent or bulge: degree 4, its one free control point displaced so that the centre moves by `push` (or as far as is injective).
-[[nodiscard]] FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size, const glm::dvec3& push);
+[[nodiscard]] FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size,
+                            const glm::dvec3& push);
 
 }  // namespace sporeprint

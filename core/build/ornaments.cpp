@@ -23,7 +23,8 @@ glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
 
 /// `direction` made unit and square to a unit normal; any such direction when it has none.
 glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
-    const glm::dvec3 other = std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 other =
+        std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
     // Much shorter than it was: almost parallel to the normal, so its direction is rounding noise.
     if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, other);
@@ -35,7 +36,8 @@ struct Solid {
     std::vector<glm::dvec3> corners;  ///< [row][column]
     std::vector<glm::dvec3> normals;  ///< worked out by append()
     int rows = 0, columns = 0;        ///< columns without the repeated one
-    bool loops = false;               ///< the last row meets the first (a ring); else the base is closed by a polygon
+    bool loops =
+        false;  ///< the last row meets the first (a ring); else the base is closed by a polygon
 };
 
 /// Appends a solid: normals by area over what shares a place, texture from the veil's strip.
@@ -53,14 +55,17 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured)
         normals[a] += n;
         normals[b] += n;
         normals[c] += n;
-        mesh.indices.insert(mesh.indices.end(), {first + static_cast<std::uint32_t>(a), first + static_cast<std::uint32_t>(b), first + static_cast<std::uint32_t>(c)});
+        mesh.indices.insert(mesh.indices.end(), {first + static_cast<std::uint32_t>(a),
+                                                 first + static_cast<std::uint32_t>(b),
+                                                 first + static_cast<std::uint32_t>(c)});
     };
     const int bands = solid.loops ? solid.rows : solid.rows - 1;
     for (int i = 0; i < bands; ++i)
         for (int j = 0; j < solid.columns; ++j) {
             const int above = (i + 1) % solid.rows;
             add(at(i, j), at(i, j + 1), at(above, j));
-            if (!(pointed && above == solid.rows - 1)) add(at(i, j + 1), at(above, j + 1), at(above, j));
+            if (!(pointed && above == solid.rows - 1))
+                add(at(i, j + 1), at(above, j + 1), at(above, j));
         }
     for (int i = 0; i < solid.rows; ++i) {
         normals[at(i, 0)] += normals[at(i, solid.columns)];
@@ -76,21 +81,27 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured)
             mesh.positions.emplace_back(p[at(i, j)]);
             mesh.normals.emplace_back(normal);
             if (!textured) continue;
-            const double along = solid.loops ? std::min(i, solid.rows - 1 - i) / (0.5 * solid.rows - 1.0 + 1e-9) : static_cast<double>(i) / (solid.rows - 1);
-            const TexturePoint uv = strip_point(veil, static_cast<double>(j) / solid.columns, std::min(along, 1.0));
+            const double along =
+                solid.loops ? std::min(i, solid.rows - 1 - i) / (0.5 * solid.rows - 1.0 + 1e-9)
+                            : static_cast<double>(i) / (solid.rows - 1);
+            const TexturePoint uv =
+                strip_point(veil, static_cast<double>(j) / solid.columns, std::min(along, 1.0));
             mesh.texture_coordinates.emplace_back(uv.u, uv.v);
-            const int ahead = j < solid.columns ? j + 1 : 1, behind = j > 0 ? j - 1 : solid.columns - 1;
+            const int ahead = j < solid.columns ? j + 1 : 1,
+                      behind = j > 0 ? j - 1 : solid.columns - 1;
             const int side = pointed && i == solid.rows - 1 ? i - 1 : i;
             const glm::dvec3 tangent = p[at(side, ahead)] - p[at(side, behind)];
             // Going round counter-clockwise with the tip above, image-up is towards the base; the ring's other side is mirrored.
             const bool mirrored = solid.loops && i >= solid.rows / 2;
-            mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)), mirrored ? 1.0F : -1.0F);
+            mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
+                                       mirrored ? 1.0F : -1.0F);
         }
     if (solid.loops) return;
     // The base, seen from below.
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     glm::dvec3 below(0.0);
-    for (int j = 1; j + 1 < solid.columns; ++j) below += glm::cross(p[at(0, j + 1)] - p[at(0, 0)], p[at(0, j)] - p[at(0, 0)]);
+    for (int j = 1; j + 1 < solid.columns; ++j)
+        below += glm::cross(p[at(0, j + 1)] - p[at(0, 0)], p[at(0, j)] - p[at(0, 0)]);
     below = unit_or(below, -fallback);
     for (int j = 0; j < solid.columns; ++j) {
         mesh.positions.emplace_back(p[at(0, j)]);
@@ -101,11 +112,13 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured)
         mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(0, 1)] - p[at(0, 0)])), 1.0F);
     }
     for (int j = 1; j + 1 < solid.columns; ++j)
-        mesh.indices.insert(mesh.indices.end(), {base, base + static_cast<std::uint32_t>(j + 1), base + static_cast<std::uint32_t>(j)});
+        mesh.indices.insert(mesh.indices.end(), {base, base + static_cast<std::uint32_t>(j + 1),
+                                                 base + static_cast<std::uint32_t>(j)});
 }
 
 /// Adds the pieces of one kind. `on_stem`: positions run up the stem instead of from the apex down.
-void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t purpose, bool on_stem, const Ground& ground) {
+void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t purpose,
+              bool on_stem, const Ground& ground) {
     if (amount <= 0.0 || style.count == 0 || ground.detail.patch_sides == 0) return;
     const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
     const double length = ground.outline.cap.length();
@@ -116,14 +129,18 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
         if (scale <= 0.0) continue;
         const OutlineSample at = curve.at(on_stem ? patch.sigma : 1.0 - patch.sigma);
         const auto [s, c] = sine_cosine(patch.theta);
-        const glm::dvec3 meridian(at.tangent_r * c, at.tangent_y, at.tangent_r * s), azimuth(-s, 0.0, c);
-        const glm::dvec3 normal = glm::cross(meridian, azimuth), outward = on_stem ? meridian : -meridian;
+        const glm::dvec3 meridian(at.tangent_r * c, at.tangent_y, at.tangent_r * s),
+            azimuth(-s, 0.0, c);
+        const glm::dvec3 normal = glm::cross(meridian, azimuth),
+                         outward = on_stem ? meridian : -meridian;
         // (round, outward, normal) is right-handed, so that corners run counter-clockwise seen from outside.
         const glm::dvec3 round = glm::cross(outward, normal);
         const double radius = patch.radius * scale * length, height = patch.height * radius;
         glm::dvec3 centre(at.r * c, at.y, at.r * s);
-        if (!on_stem && !ground.waves.flat()) centre.y += ground.waves.at(patch.sigma, patch.theta).height;
-        const AxisStation station = ground.deformer.frozen_station(on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
+        if (!on_stem && !ground.waves.flat())
+            centre.y += ground.waves.at(patch.sigma, patch.theta).height;
+        const AxisStation station = ground.deformer.frozen_station(
+            on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
         solid.rows = between + 2;
         solid.columns = sides;
         solid.corners.clear();
@@ -136,21 +153,28 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
         std::array<glm::dvec3, 7> rim{};
         for (int j = 0; j < sides; ++j) {
             const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
-            rim[static_cast<std::size_t>(j)] = radius * reach[static_cast<std::size_t>(j * 7 / sides)] * (turn.cosine * round + turn.sine * style.elongation * outward);
+            rim[static_cast<std::size_t>(j)] =
+                radius * reach[static_cast<std::size_t>(j * 7 / sides)] *
+                (turn.cosine * round + turn.sine * style.elongation * outward);
         }
-        const glm::dvec3 tip = radius * (tip_round * round + tip_outward * style.elongation * outward);
+        const glm::dvec3 tip =
+            radius * (tip_round * round + tip_outward * style.elongation * outward);
         for (int i = 0; i < solid.rows; ++i) {
             const double up = static_cast<double>(i) / (solid.rows - 1);
             const double narrowing = 1.0 - up * (0.45 + 0.55 * up);
-            const glm::dvec3 middle = centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * normal;
+            const glm::dvec3 middle =
+                centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * normal;
             for (int j = 0; j < sides; ++j) {
-                SurfacePoint point{middle + narrowing * rim[static_cast<std::size_t>(j)], meridian, azimuth};
+                SurfacePoint point{middle + narrowing * rim[static_cast<std::size_t>(j)], meridian,
+                                   azimuth};
                 ground.deformer.apply(point, station);
                 solid.corners.push_back(point.position);
             }
-            solid.corners.push_back(solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
+            solid.corners.push_back(
+                solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
         }
-        const glm::dvec3 fallback = unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
+        const glm::dvec3 fallback =
+            unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
         append(mesh, solid, fallback, ground.textured);
     }
 }
@@ -177,7 +201,8 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
     const RingStyle& style = model.ring;
     const int rings = ground.detail.veil_rings;
     if (rings == 0 || style.width <= 0.0 || model.ornaments.ring <= 0.0) return;
-    const double height = ground.deformer.base() + style.height * (ground.deformer.top() - ground.deformer.base());
+    const double height =
+        ground.deformer.base() + style.height * (ground.deformer.top() - ground.deformer.base());
     const OutlineSample attachment = stem_at(ground.outline.stem, height);
     const double width = style.width * model.ornaments.ring;
     const double thickness = std::min(style.thickness, 0.3 * width);
@@ -192,7 +217,8 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
         double r, y, normal_r, normal_y, share;
     };
     std::vector<Station> line;
-    double r = std::max(attachment.r - 0.5 * thickness - 0.02 * attachment.r, thickness), y = height;
+    double r = std::max(attachment.r - 0.5 * thickness - 0.02 * attachment.r, thickness),
+           y = height;
     for (int i = 0; i <= rings; ++i) {
         const double share = static_cast<double>(i) / rings;
         const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - 0.45 * share));
@@ -207,10 +233,14 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
         const Station& at = line[static_cast<std::size_t>(lower ? i : solid.rows - 1 - i)];
         const double half = (lower ? -0.5 : 0.5) * thickness * (0.6 + 0.8 * at.share);
         for (int j = 0; j <= solid.columns; ++j) {
-            const double angle = -2.0 * pi * (j % solid.columns) / solid.columns;  // counter-clockwise seen from above
+            const double angle = -2.0 * pi * (j % solid.columns) /
+                                 solid.columns;  // counter-clockwise seen from above
             const auto [s, c] = sine_cosine(angle);
-            const double ruffle = style.ruffle * 0.16 * width * at.share * at.share * (sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other));
-            const double rr = at.r + (half + ruffle) * at.normal_r, yy = at.y + (half + ruffle) * at.normal_y;
+            const double ruffle =
+                style.ruffle * 0.16 * width * at.share * at.share *
+                (sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other));
+            const double rr = at.r + (half + ruffle) * at.normal_r,
+                         yy = at.y + (half + ruffle) * at.normal_y;
             SurfacePoint point{{rr * c, yy, rr * s}, {0.0, 1.0, 0.0}, {-s, 0.0, c}};
             ground.deformer.apply(point, station);
             solid.corners.push_back(point.position);

@@ -45,10 +45,11 @@ struct Face {
 };
 
 class Sweeper {
-public:
+  public:
     Sweeper(Mesh& mesh, const Deformer& deformer, const Waves& waves, int columns, bool textured)
         : mesh_(mesh), deformer_(deformer), waves_(waves), columns_(columns), textured_(textured) {
-        for (int j = 0; j <= columns; ++j) turns_.push_back(sine_cosine(2.0 * pi * (j % columns) / columns));
+        for (int j = 0; j <= columns; ++j)
+            turns_.push_back(sine_cosine(2.0 * pi * (j % columns) / columns));
     }
 
     void face(const Face& face, int rings) {
@@ -64,20 +65,26 @@ public:
             }
     }
 
-private:
+  private:
     void ring(const Face& face, const OutlineSample& sample) {
         const AxisStation station =
-            face.on_cap ? deformer_.frozen_station(deformer_.top()) : deformer_.station(sample.share == 1.0 ? deformer_.top() : std::min(sample.y, deformer_.top()));
+            face.on_cap
+                ? deformer_.frozen_station(deformer_.top())
+                : deformer_.station(sample.share == 1.0 ? deformer_.top()
+                                                        : std::min(sample.y, deformer_.top()));
         const Chart& chart = swept_charts[static_cast<std::size_t>(face.part)];
         const double length = face.curve->length();
         for (int j = 0; j <= columns_; ++j) {
             const auto [s, c] = turns_[static_cast<std::size_t>(j)];
-            SurfacePoint point{{sample.r * c, sample.y, sample.r * s}, {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s}, {-s, 0.0, c}};
+            SurfacePoint point{{sample.r * c, sample.y, sample.r * s},
+                               {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
+                               {-s, 0.0, c}};
             if (face.on_cap && !waves_.flat()) {
                 const double share = face.part == Part::cap ? 1.0 - sample.share : sample.share;
                 const auto wave = waves_.at(share, 2.0 * pi * (j % columns_) / columns_);
                 point.position.y += wave.height;
-                point.meridian.y += (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
+                point.meridian.y +=
+                    (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
                 if (sample.r > 0.0) point.azimuth.y += wave.by_angle / sample.r;
             }
             deformer_.apply(point, station);
@@ -88,7 +95,8 @@ private:
         }
     }
 
-    void texture(Part part, const Chart& chart, const OutlineSample& sample, double length, int j, const SurfacePoint& point, const glm::dvec3& normal) {
+    void texture(Part part, const Chart& chart, const OutlineSample& sample, double length, int j,
+                 const SurfacePoint& point, const glm::dvec3& normal) {
         const auto [s, c] = turns_[static_cast<std::size_t>(j)];
         glm::dvec3 along;
         TexturePoint at{};
@@ -98,16 +106,25 @@ private:
             along = point.meridian;
         } else {
             const bool cap = part == Part::cap;
-            const double share = cap ? 1.0 - sample.share : hymenium_inner_share + (1.0 - hymenium_inner_share) * sample.share;
-            const double by_radius = cap ? -length : length / (1.0 - hymenium_inner_share);  // arc per unit of disc radius, along the meridian
-            const double by_angle = share > 1e-9 ? sample.r / share : length;             // its limit at the pole
+            const double share =
+                cap ? 1.0 - sample.share
+                    : hymenium_inner_share + (1.0 - hymenium_inner_share) * sample.share;
+            const double by_radius =
+                cap ? -length
+                    : length /
+                          (1.0 -
+                           hymenium_inner_share);  // arc per unit of disc radius, along the meridian
+            const double by_angle =
+                share > 1e-9 ? sample.r / share : length;  // its limit at the pole
             at = disc_point(chart, share, c, s);
             along = c * by_radius * point.meridian - s * by_angle * point.azimuth;
             handedness = cap ? 1.0 : -1.0;
         }
         along -= glm::dot(along, normal) * normal;
         const double size = glm::dot(along, along);
-        const glm::dvec3 tangent = size > 1e-24 ? along / std::sqrt(size) : unit(point.azimuth - glm::dot(point.azimuth, normal) * normal);
+        const glm::dvec3 tangent =
+            size > 1e-24 ? along / std::sqrt(size)
+                         : unit(point.azimuth - glm::dot(point.azimuth, normal) * normal);
         mesh_.texture_coordinates.emplace_back(at.u, at.v);
         mesh_.tangents.emplace_back(glm::vec3(tangent), static_cast<float>(handedness));
     }
@@ -122,16 +139,20 @@ private:
 
 }  // namespace
 
-Deformer::Deformer(const Model& model, const Swept& shape, const Outline& outline, std::uint32_t seed)
+Deformer::Deformer(const Model& model, const Swept& shape, const Outline& outline,
+                   std::uint32_t seed)
     : base_(shape.silhouette.stem.front().y),
       top_(std::max(shape.silhouette.stem.back().y, shape.silhouette.stem.front().y + 1e-4)),
       axis_(shape.axis, model.deformation, angles_of(seed), base_, top_) {
     const double fold = axis_.greatest_curvature() * greatest_radius(outline.stem);
     if (fold >= 0.98 && model.deformation.bend_deg > 0.0)
-        throw Impossible({{"/deformation/bend_deg", text(model.deformation.bend_deg) + " folds this stem; about " +
-                                                        text(0.95 * model.deformation.bend_deg / fold) + " is the most over this zone"}});
+        throw Impossible(
+            {{"/deformation/bend_deg",
+              text(model.deformation.bend_deg) + " folds this stem; about " +
+                  text(0.95 * model.deformation.bend_deg / fold) + " is the most over this zone"}});
     if (model.deformation.imperfection <= 0.0) return;
-    const auto push_at = [&](std::uint32_t index, const SubCurve& curve, double share, double size, double reach) {
+    const auto push_at = [&](std::uint32_t index, const SubCurve& curve, double share, double size,
+                             double reach) {
         Random random(seed, dent_purpose, index);
         const double angle = random.uniform(0.0, 2.0 * pi);
         const double along = random.uniform();
@@ -140,14 +161,17 @@ Deformer::Deformer(const Model& model, const Swept& shape, const Outline& outlin
         const OutlineSample at = curve.at(share * along);
         const auto [s, c] = sine_cosine(angle);
         const glm::dvec3 normal(at.tangent_y * c, -at.tangent_r, at.tangent_y * s);
-        const double push = model.deformation.imperfection * (strength < 0.0 ? strength - 0.3 : strength + 0.3) * reach;
+        const double push = model.deformation.imperfection *
+                            (strength < 0.0 ? strength - 0.3 : strength + 0.3) * reach;
         dents_.push_back(dent({at.r * c, at.y, at.r * s}, glm::dvec3(size * width), push * normal));
     };
     const double cap_radius = greatest_radius(outline.cap);
-    for (std::uint32_t i = 0; i < cap_dents; ++i) push_at(i, outline.cap, 0.9, 1.5 * cap_radius, 0.055 * cap_radius);
+    for (std::uint32_t i = 0; i < cap_dents; ++i)
+        push_at(i, outline.cap, 0.9, 1.5 * cap_radius, 0.055 * cap_radius);
     const double stem_radius = greatest_radius(outline.stem);
     const double stem_size = std::max(2.5 * stem_radius, 0.3 * (top_ - base_));
-    for (std::uint32_t i = 0; i < stem_dents; ++i) push_at(100 + i, outline.stem, 1.0, stem_size, 0.14 * stem_radius);
+    for (std::uint32_t i = 0; i < stem_dents; ++i)
+        push_at(100 + i, outline.stem, 1.0, stem_size, 0.14 * stem_radius);
 }
 
 void Deformer::apply(SurfacePoint& point, const AxisStation& station) const {
@@ -157,14 +181,17 @@ void Deformer::apply(SurfacePoint& point, const AxisStation& station) const {
     point.position = station.point(point.position);
 }
 
-Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed) : amplitude_(amount * 0.16 * cap_radius) {
+Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed)
+    : amplitude_(amount * 0.16 * cap_radius) {
     Random random(seed, wave_purpose);
     const int coarse = 3 + static_cast<int>(random.bits() % 3);
     const double phase = random.uniform(0.0, 2.0 * pi);
     const double other = random.uniform(0.0, 2.0 * pi);
     const double fine = random.uniform(0.0, 2.0 * pi);
     // Finer waves live nearer the edge, as in any sheet whose edge has outgrown it.
-    modes_ = {{coarse, 0.6, phase, 0.35}, {coarse + 2, 0.3, other, 0.5}, {2 * coarse + 3, 0.14, fine, 0.68}};
+    modes_ = {{coarse, 0.6, phase, 0.35},
+              {coarse + 2, 0.3, other, 0.5},
+              {2 * coarse + 3, 0.14, fine, 0.68}};
     std::erase_if(modes_, [&](const Mode& m) { return m.count * 3 > columns; });
 }
 
@@ -172,7 +199,8 @@ Waves::Value Waves::at(double share, double angle) const {
     Value value;
     for (const Mode& mode : modes_) {
         const double t = std::clamp((share - mode.from) / (1.0 - mode.from), 0.0, 1.0);
-        const double weight = t * t * (3.0 - 2.0 * t), slope = 6.0 * t * (1.0 - t) / (1.0 - mode.from);
+        const double weight = t * t * (3.0 - 2.0 * t),
+                     slope = 6.0 * t * (1.0 - t) / (1.0 - mode.from);
         const auto [s, c] = sine_cosine(mode.count * angle + mode.phase);
         value.height += amplitude_ * mode.size * weight * s;
         value.by_share += amplitude_ * mode.size * slope * s;
@@ -181,16 +209,22 @@ Waves::Value Waves::at(double share, double angle) const {
     return value;
 }
 
-Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed, bool textured) {
+Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed,
+                bool textured) {
     const Outline outline(shape.silhouette);
     const Detail& detail = details[static_cast<std::size_t>(lod)];
     const Deformer deformer(model, shape, outline, seed);
     // A club has no margin that could wave.
-    const Waves waves(outline.hymenium.empty() ? 0.0 : model.weathering.waves, greatest_radius(outline.cap), detail.columns, seed);
+    const Waves waves(outline.hymenium.empty() ? 0.0 : model.weathering.waves,
+                      greatest_radius(outline.cap), detail.columns, seed);
     Mesh mesh;
-    const int rings = detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
-    const int pieces = detail.patch_sides > 0 ? model.warts.count + model.scales.count + model.volva.count : 0;
-    const auto vertices = static_cast<std::size_t>(rings * (detail.columns + 1) + pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
+    const int rings =
+        detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
+    const int pieces =
+        detail.patch_sides > 0 ? model.warts.count + model.scales.count + model.volva.count : 0;
+    const auto vertices = static_cast<std::size_t>(
+        rings * (detail.columns + 1) +
+        pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
     mesh.indices.reserve(vertices * 6);
@@ -200,7 +234,8 @@ Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t s
     }
     Sweeper sweeper(mesh, deformer, waves, detail.columns, textured);
     sweeper.face({&outline.stem, Part::stem, false}, detail.stem_rings);
-    if (!outline.hymenium.empty()) sweeper.face({&outline.hymenium, Part::hymenium, true}, detail.hymenium_rings);
+    if (!outline.hymenium.empty())
+        sweeper.face({&outline.hymenium, Part::hymenium, true}, detail.hymenium_rings);
     sweeper.face({&outline.cap, Part::cap, true}, detail.cap_rings);
     const Ground ground{outline, deformer, waves, detail, seed, textured};
     add_patches(mesh, model, ground);

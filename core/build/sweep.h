@@ -16,7 +16,7 @@ struct SurfacePoint {
 
 /// Everything that moves a point from rest to its place: imperfections, then the axis.
 class Deformer {
-public:
+  public:
     /// throws Impossible if the stem would fold ("/deformation/bend_deg")
     Deformer(const Model& model, const Swept& shape, const Outline& outline, std::uint32_t seed);
 
@@ -25,11 +25,13 @@ public:
     void apply(SurfacePoint& point, const AxisStation& station) const;
 
     [[nodiscard]] AxisStation station(double height) const { return axis_.at(height); }
-    [[nodiscard]] AxisStation frozen_station(double height) const { return axis_.frozen_at(height); }
+    [[nodiscard]] AxisStation frozen_station(double height) const {
+        return axis_.frozen_at(height);
+    }
     [[nodiscard]] double base() const { return base_; }
     [[nodiscard]] double top() const { return top_; }
 
-private:
+  private:
     double base_, top_;
     Axis axis_;
     std::vector<FreeForm> dents_;
@@ -37,7 +39,7 @@ private:
 
 /// The margin's waves: height added at a share of a face (0 centre, 1 margin), with derivatives.
 class Waves {
-public:
+  public:
     Waves(double amount, double cap_radius, int columns, std::uint32_t seed);
 
     struct Value {
@@ -46,7 +48,7 @@ public:
     [[nodiscard]] bool flat() const { return amplitude_ == 0.0; }
     [[nodiscard]] Value at(double share, double angle) const;
 
-private:
+  private:
     struct Mode {
         int count;
         double size, phase, from;
@@ -62,6 +64,7 @@ private:
 /// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last
 /// throws    InvalidInput for a bad outline, Impossible for a stem that folds
 /// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by meridian arc length, so that they never fold
-[[nodiscard]] Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed, bool textured);
+[[nodiscard]] Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed,
+                              bool textured);
 
 }  // namespace sporeprint

@@ -26,9 +26,12 @@ void append_quoted(std::string& out, const std::string& text) {
     constexpr char hex[] = "0123456789abcdef";
     out += '"';
     for (const char c : text) {
-        if (c == '"' || c == '\\') (out += '\\') += c;
-        else if (static_cast<unsigned char>(c) < 0x20) ((out += "\\u00") += hex[c >> 4]) += hex[c & 15];
-        else out += c;
+        if (c == '"' || c == '\\')
+            (out += '\\') += c;
+        else if (static_cast<unsigned char>(c) < 0x20)
+            ((out += "\\u00") += hex[c >> 4]) += hex[c & 15];
+        else
+            out += c;
     }
     out += '"';
 }
@@ -68,7 +71,8 @@ Geometry geometry(const Mesh& mesh, bool textured) {
         offset += padded(length);
         return out.view_count++;
     };
-    const auto accessor = [&](const char* attribute, std::size_t count, int component, const char* type, bool normalised) {
+    const auto accessor = [&](const char* attribute, std::size_t count, int component,
+                              const char* type, bool normalised) {
         const std::size_t index = out.view_count - 1;
         out.accessors += index == 0 ? "" : ",";
         out.accessors += "{\"bufferView\":";
@@ -121,7 +125,8 @@ Geometry geometry(const Mesh& mesh, bool textured) {
     else
         std::memcpy(at, mesh.indices.data(), mesh.indices.size() * 4);
     view(mesh.indices.size() * (small ? 2 : 4), index_target);
-    out.indices_accessor = accessor("", mesh.indices.size(), small ? u16_component : u32_component, "SCALAR", false);
+    out.indices_accessor =
+        accessor("", mesh.indices.size(), small ? u16_component : u32_component, "SCALAR", false);
     out.accessors += '}';
     out.bytes = std::move(bytes);
     return out;
@@ -135,7 +140,8 @@ const std::shared_ptr<const Bytes>& zeros() {
 }  // namespace
 
 Body glb(const Mesh& mesh, const GlbParts& parts) {
-    if (mesh.positions.empty() || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
+    if (mesh.positions.empty() || mesh.indices.empty())
+        throw GenerationError("an empty mesh cannot be written");
     const bool linked = !parts.image_addresses[0].empty();
     const bool textured = parts.images != nullptr || linked;
     Geometry shape = geometry(mesh, textured);
@@ -162,7 +168,8 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
             images += '}';
         }
 
-    std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " + std::to_string(generator_version) + "\"";
+    std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
+                       std::to_string(generator_version) + "\"";
     if (!parts.extras_json.empty()) (json += ",\"extras\":") += parts.extras_json;
     json += "},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":";
     append_quoted(json, parts.name);
@@ -173,10 +180,15 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     json += ",\"material\":0}]}],\"materials\":[{\"name\":";
     append_quoted(json, parts.name);
     if (textured)
-        json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":2}},"
-                "\"normalTexture\":{\"index\":1},\"occlusionTexture\":{\"index\":2}}],"
-                "\"textures\":[{\"sampler\":0,\"source\":0},{\"sampler\":0,\"source\":1},{\"sampler\":0,\"source\":2}],"
-                "\"samplers\":[{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":33071,\"wrapT\":33071}],\"images\":[" + images + "]";
+        json +=
+            ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"metallicFactor\":0,"
+            "\"metallicRoughnessTexture\":{\"index\":2}},"
+            "\"normalTexture\":{\"index\":1},\"occlusionTexture\":{\"index\":2}}],"
+            "\"textures\":[{\"sampler\":0,\"source\":0},{\"sampler\":0,\"source\":1},{\"sampler\":"
+            "0,\"source\":2}],"
+            "\"samplers\":[{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":33071,\"wrapT\":33071}]"
+            ",\"images\":[" +
+            images + "]";
     else
         json += ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}}]";
     json += ",\"buffers\":[{\"byteLength\":";
@@ -202,7 +214,8 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     if (parts.images)
         for (const Slice& file : parts.images->files) {
             body.push_back(file);
-            if (const std::size_t pad = padded(file.size) - file.size) body.push_back(Slice(zeros(), 0, pad));
+            if (const std::size_t pad = padded(file.size) - file.size)
+                body.push_back(Slice(zeros(), 0, pad));
         }
     return body;
 }

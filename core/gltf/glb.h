@@ -10,10 +10,10 @@
 namespace sporeprint {
 
 struct GlbParts {
-    std::string name;                                ///< of node, mesh and material
-    const ImageSet* images = nullptr;                ///< embedded when given
-    std::array<std::string, 3> image_addresses;      ///< linked when not empty
-    std::string extras_json;                         ///< a JSON object for asset.extras; empty for none
+    std::string name;                            ///< of node, mesh and material
+    const ImageSet* images = nullptr;            ///< embedded when given
+    std::array<std::string, 3> image_addresses;  ///< linked when not empty
+    std::string extras_json;                     ///< a JSON object for asset.extras; empty for none
 };
 
 /// Core glTF 2.0, one mesh, one primitive, one material; positions and normals as floats, texture coordinates as normalised u16,

@@ -22,8 +22,9 @@ InvalidInput refusal(std::string why) { return {"", std::move(why)}; }
 /// The JSON chunk without what would make a reader open files, decode images or follow offsets.
 std::string structure_of(const Value& document) {
     Value bare = document;
-    for (const char* key : {"buffers", "bufferViews", "images", "textures", "samplers", "materials", "animations", "extensions", "extensionsUsed",
-                            "extensionsRequired", "extras"})
+    for (const char* key :
+         {"buffers", "bufferViews", "images", "textures", "samplers", "materials", "animations",
+          "extensions", "extensionsUsed", "extensionsRequired", "extras"})
         bare.erase(key);
     if (Value* accessors = bare.find("accessors"); accessors && accessors->is_array())
         for (Value& accessor : accessors->items()) {
@@ -49,16 +50,22 @@ std::uint64_t count_of(const Value& document, const char* key) {
 }  // namespace
 
 Inspection inspect_glb(std::span<const std::uint8_t> file) {
-    if (file.size() < 20 || word(file, 0) != 0x46546C67) throw refusal("not a GLB file: it does not begin with a glTF header");
-    if (word(file, 4) != 2) throw refusal("glTF version " + std::to_string(word(file, 4)) + "; only version 2 is read");
+    if (file.size() < 20 || word(file, 0) != 0x46546C67)
+        throw refusal("not a GLB file: it does not begin with a glTF header");
+    if (word(file, 4) != 2)
+        throw refusal("glTF version " + std::to_string(word(file, 4)) + "; only version 2 is read");
     if (word(file, 8) != file.size())
-        throw refusal("the header says " + std::to_string(word(file, 8)) + " bytes, but " + std::to_string(file.size()) + " came");
+        throw refusal("the header says " + std::to_string(word(file, 8)) + " bytes, but " +
+                      std::to_string(file.size()) + " came");
     const std::size_t size = word(file, 12);
-    if (word(file, 16) != 0x4E4F534A || size > file.size() - 20) throw refusal("the JSON chunk is missing or cut short");
+    if (word(file, 16) != 0x4E4F534A || size > file.size() - 20)
+        throw refusal("the JSON chunk is missing or cut short");
 
     std::vector<Problem> problems;
-    const Value document = parse(std::string_view(reinterpret_cast<const char*>(file.data()) + 20, size), problems);
-    if (!problems.empty()) throw refusal("the JSON chunk cannot be read: " + problems.front().message);
+    const Value document =
+        parse(std::string_view(reinterpret_cast<const char*>(file.data()) + 20, size), problems);
+    if (!problems.empty())
+        throw refusal("the JSON chunk cannot be read: " + problems.front().message);
     const Value* generator = document.at_pointer("/asset/generator");
     const Value* canonical = document.at_pointer("/asset/extras/canonical");
     const Value* effective = document.at_pointer("/asset/extras/effective");
@@ -71,7 +78,8 @@ Inspection inspect_glb(std::span<const std::uint8_t> file) {
     tinygltf::Model model;
     std::string error, warning;
     const std::string text = structure_of(document);
-    if (!reader.LoadASCIIFromString(&model, &error, &warning, text.data(), static_cast<unsigned>(text.size()), ""))
+    if (!reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
+                                    static_cast<unsigned>(text.size()), ""))
         throw refusal("the glTF cannot be read: " + error.substr(0, error.find('\n')));
 
     Inspection found;
@@ -83,11 +91,15 @@ Inspection inspect_glb(std::span<const std::uint8_t> file) {
     found.materials = count_of(document, "materials");
     found.images = count_of(document, "images");
     const auto items = [&](int accessor) -> std::uint64_t {
-        return accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size() ? model.accessors[static_cast<std::size_t>(accessor)].count : 0;
+        return accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size()
+                   ? model.accessors[static_cast<std::size_t>(accessor)].count
+                   : 0;
     };
     for (const auto& mesh : model.meshes)
         for (const auto& primitive : mesh.primitives) {
-            if (const auto position = primitive.attributes.find("POSITION"); position != primitive.attributes.end()) found.vertices += items(position->second);
+            if (const auto position = primitive.attributes.find("POSITION");
+                position != primitive.attributes.end())
+                found.vertices += items(position->second);
             found.triangles += items(primitive.indices) / 3;
         }
     return found;

@@ -9,8 +9,8 @@ namespace sporeprint {
 
 struct Inspection {
     std::string generator;
-    std::string canonical;        ///< canonical address in asset.extras
-    std::string effective_json;   ///< the effective parameters in asset.extras, as JSON
+    std::string canonical;       ///< canonical address in asset.extras
+    std::string effective_json;  ///< the effective parameters in asset.extras, as JSON
     std::uint64_t vertices = 0, triangles = 0, meshes = 0, materials = 0, images = 0, bytes = 0;
 };
 

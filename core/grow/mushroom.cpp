@@ -36,7 +36,9 @@ std::string extras_json(const Extras& extras, const Individual& individual, cons
     return dump(json);
 }
 
-std::string name_of(const MushroomOrder& order) { return order.mix.empty() ? "mushroom" : order.mix.front().id; }
+std::string name_of(const MushroomOrder& order) {
+    return order.mix.empty() ? "mushroom" : order.mix.front().id;
+}
 
 bool textured(const MushroomOrder& order) { return order.params.textures != Textures::none; }
 
@@ -47,10 +49,17 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas) {
     const Model& model = individual.model;
     const Detail& detail = details[static_cast<std::size_t>(order.params.lod)];
     const auto columns = static_cast<std::uint64_t>(detail.columns) + 1;
-    const auto rings = static_cast<std::uint64_t>(detail.stem_rings + detail.hymenium_rings + detail.cap_rings);
-    const auto sides = static_cast<std::uint64_t>(detail.patch_sides), rows = static_cast<std::uint64_t>(detail.patch_rings) + 2;
-    const auto pieces = static_cast<std::uint64_t>((model.ornaments.warts > 0.0 ? model.warts.count : 0) + (model.ornaments.scales > 0.0 ? model.scales.count : 0) + model.volva.count);
-    const std::uint64_t loop = model.ornaments.ring > 0.0 && model.ring.width > 0.0 && detail.veil_rings > 0 ? 2 * (static_cast<std::uint64_t>(detail.veil_rings) + 1) : 0;
+    const auto rings =
+        static_cast<std::uint64_t>(detail.stem_rings + detail.hymenium_rings + detail.cap_rings);
+    const auto sides = static_cast<std::uint64_t>(detail.patch_sides),
+               rows = static_cast<std::uint64_t>(detail.patch_rings) + 2;
+    const auto pieces = static_cast<std::uint64_t>(
+        (model.ornaments.warts > 0.0 ? model.warts.count : 0) +
+        (model.ornaments.scales > 0.0 ? model.scales.count : 0) + model.volva.count);
+    const std::uint64_t loop =
+        model.ornaments.ring > 0.0 && model.ring.width > 0.0 && detail.veil_rings > 0
+            ? 2 * (static_cast<std::uint64_t>(detail.veil_rings) + 1)
+            : 0;
     Estimate e;
     e.vertices = rings * columns + loop * columns;
     e.triangles = 2 * (rings - 3) * (columns - 1) + 2 * loop * (columns - 1);
@@ -61,7 +70,8 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas) {
     const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
     e.texels = textured(order) ? 3 * side * side : 0;
     // Twenty years of JPEG: noisy paint takes about a third of a byte a texel.
-    e.bytes = 2500 + e.vertices * (textured(order) ? 44 : 24) + e.triangles * 3 * (e.vertices > 65535 ? 4 : 2) +
+    e.bytes = 2500 + e.vertices * (textured(order) ? 44 : 24) +
+              e.triangles * 3 * (e.vertices > 65535 ? 4 : 2) +
               (order.params.textures == Textures::embedded ? e.texels / 3 : 0);
     return e;
 }
@@ -85,7 +95,8 @@ SurfaceMetrics surface_metrics(const Individual& individual) {
     return metrics;
 }
 
-PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas, const SurfaceMetrics& metrics) {
+PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas,
+                         const SurfaceMetrics& metrics) {
     MushroomOrder stepped = order;
     stepped.params.age = std::floor(order.params.age * 64.0 + 0.5) / 64.0;
     Individual individual = resolve(stepped, atlas);
@@ -105,27 +116,37 @@ PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas, const S
 }
 
 Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
-    return swept_mesh(individual.model, std::get<Swept>(individual.model.shape), order.params.lod, order.params.seed, textured(order));
+    return swept_mesh(individual.model, std::get<Swept>(individual.model.shape), order.params.lod,
+                      order.params.seed, textured(order));
 }
 
-Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras, const Workshop& workshop) {
+Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras,
+                       const Workshop& workshop) {
     workshop.observer(Step::resolve);
     const Individual individual = resolve(order, atlas);
     workshop.observer(Step::build);
     const Mesh mesh = mushroom_mesh(order, individual);
     stop_if_asked(workshop);
-    GlbParts parts{.name = name_of(order), .images = nullptr, .image_addresses = {}, .extras_json = extras_json(extras, individual, mesh)};
+    GlbParts parts{.name = name_of(order),
+                   .images = nullptr,
+                   .image_addresses = {},
+                   .extras_json = extras_json(extras, individual, mesh)};
     std::shared_ptr<const ImageSet> images;
     if (order.params.textures == Textures::embedded) {
         workshop.observer(Step::paint);
         const PaintParams painting = paint_params(order, atlas, surface_metrics(individual));
         std::string key = "paint " + std::to_string(generator_version) + " ";
         canonical(painting, key);
-        images = workshop.memo.images(key, [&] { return std::make_shared<const ImageSet>(paint(painting, workshop.parallel)); });
+        images = workshop.memo.images(key, [&] {
+            return std::make_shared<const ImageSet>(paint(painting, workshop.parallel));
+        });
         parts.images = images.get();
         stop_if_asked(workshop);
     } else if (order.params.textures == Textures::linked) {
-        if (extras.image_addresses[0].empty()) throw Impossible("/textures", "'linked' needs the images to have addresses; a model of one's own has none");
+        if (extras.image_addresses[0].empty())
+            throw Impossible(
+                "/textures",
+                "'linked' needs the images to have addresses; a model of one's own has none");
         parts.image_addresses = extras.image_addresses;
     }
     workshop.observer(Step::pack);

@@ -25,13 +25,14 @@ struct Estimate {
 [[nodiscard]] SurfaceMetrics surface_metrics(const Individual& individual);
 
 /// What painting this order depends on. Age is taken in steps of 1/64, so that similar mushrooms share their images.
-[[nodiscard]] PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas, const SurfaceMetrics& metrics);
+[[nodiscard]] PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas,
+                                       const SurfaceMetrics& metrics);
 
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
 
 struct Extras {
-    std::string canonical;                       ///< canonical address of the request; empty for none
+    std::string canonical;  ///< canonical address of the request; empty for none
     std::array<std::string, 3> image_addresses;  ///< by ImageKind, for Textures::linked
 };
 
@@ -45,7 +46,8 @@ struct Mushroom {
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, GenerationError, Cancelled
-[[nodiscard]] Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras = {}, const Workshop& workshop = {});
+[[nodiscard]] Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas,
+                                     const Extras& extras = {}, const Workshop& workshop = {});
 
 /// Raised whenever bytes change for an unchanged request.
 inline constexpr int generator_version = 1;

@@ -14,10 +14,14 @@ enum class Step { resolve, build, paint, pack };
 
 constexpr const char* name(Step step) {
     switch (step) {
-        case Step::resolve: return "resolve";
-        case Step::build: return "build";
-        case Step::paint: return "paint";
-        case Step::pack: return "pack";
+        case Step::resolve:
+            return "resolve";
+        case Step::build:
+            return "build";
+        case Step::paint:
+            return "paint";
+        case Step::pack:
+            return "pack";
     }
     return nullptr;
 }
@@ -27,8 +31,12 @@ using Observer = std::function<void(Step)>;
 
 /// Keeps what is expensive to make again. `remember` returns what it kept under `key`, or what `make` makes now.
 struct Memo {
-    std::function<std::shared_ptr<const ImageSet>(const std::string& key, const std::function<std::shared_ptr<const ImageSet>()>& make)> images =
-        [](const std::string&, const std::function<std::shared_ptr<const ImageSet>()>& make) { return make(); };
+    std::function<std::shared_ptr<const ImageSet>(
+        const std::string& key, const std::function<std::shared_ptr<const ImageSet>()>& make)>
+        images =
+            [](const std::string&, const std::function<std::shared_ptr<const ImageSet>()>& make) {
+                return make();
+            };
 };
 
 struct Workshop {

@@ -49,10 +49,14 @@ SineCosine sine_cosine(double angle) {
     const double s = sine_of_small(rest);
     const double c = cosine_of_small(rest);
     switch (static_cast<std::int64_t>(quarter) & 3) {
-        case 0: return {s, c};
-        case 1: return {c, -s};
-        case 2: return {-s, -c};
-        default: return {-c, s};
+        case 0:
+            return {s, c};
+        case 1:
+            return {c, -s};
+        case 2:
+            return {-s, -c};
+        default:
+            return {-c, s};
     }
 }
 
@@ -82,7 +86,8 @@ double logarithm(double x) {
     const double z = s * s;
     double p = 0.0;
     for (int i = 23; i >= 3; i -= 2) p = (p + 1.0 / i) * z;
-    return exponent * 6.93147180369123816490e-01 + (exponent * 1.90821492927058770002e-10 + 2.0 * (s + s * p));
+    return exponent * 6.93147180369123816490e-01 +
+           (exponent * 1.90821492927058770002e-10 + 2.0 * (s + s * p));
 }
 
 double power(double base, double exponent) {

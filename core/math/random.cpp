@@ -2,12 +2,15 @@
 
 namespace sporeprint {
 
-std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c, std::array<std::uint32_t, 2> k) {
+std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> c,
+                                    std::array<std::uint32_t, 2> k) {
     for (int round = 0; round < 10; ++round) {
         const std::uint64_t first = std::uint64_t{0xD2511F53U} * c[0];
         const std::uint64_t second = std::uint64_t{0xCD9E8D57U} * c[2];
-        c = {static_cast<std::uint32_t>(second >> 32) ^ c[1] ^ k[0], static_cast<std::uint32_t>(second),
-             static_cast<std::uint32_t>(first >> 32) ^ c[3] ^ k[1], static_cast<std::uint32_t>(first)};
+        c = {static_cast<std::uint32_t>(second >> 32) ^ c[1] ^ k[0],
+             static_cast<std::uint32_t>(second),
+             static_cast<std::uint32_t>(first >> 32) ^ c[3] ^ k[1],
+             static_cast<std::uint32_t>(first)};
         k[0] += 0x9E3779B9U;
         k[1] += 0xBB67AE85U;
     }

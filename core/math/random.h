@@ -8,21 +8,24 @@ namespace sporeprint {
 
 /// One block of Philox4x32-10.
 /// source [Salmon2011]
-[[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter, std::array<std::uint32_t, 2> key);
+[[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
+                                                  std::array<std::uint32_t, 2> key);
 
 /// A stream of draws for one purpose and object, so that a new draw in one place changes nothing elsewhere.
 /// Name every draw before it is used: the order of arguments differs between compilers.
 class Random {
-public:
-    Random(std::uint32_t seed, std::uint32_t purpose, std::uint32_t object = 0) : seed_(seed), purpose_(purpose), object_(object) {}
+  public:
+    Random(std::uint32_t seed, std::uint32_t purpose, std::uint32_t object = 0)
+        : seed_(seed), purpose_(purpose), object_(object) {}
 
     [[nodiscard]] std::uint32_t bits();
-    [[nodiscard]] double uniform();                       ///< 0 <= x < 1, 24 bits
-    [[nodiscard]] double uniform(double from, double to); ///< from <= x < to
-    [[nodiscard]] double symmetric();                     ///< -1 <= x < 1
-    [[nodiscard]] double normal();                        ///< mean 0, deviation 1, |x| < 6: the sum of twelve uniforms less six
+    [[nodiscard]] double uniform();                        ///< 0 <= x < 1, 24 bits
+    [[nodiscard]] double uniform(double from, double to);  ///< from <= x < to
+    [[nodiscard]] double symmetric();                      ///< -1 <= x < 1
+    [[nodiscard]] double
+    normal();  ///< mean 0, deviation 1, |x| < 6: the sum of twelve uniforms less six
 
-private:
+  private:
     std::uint32_t seed_, purpose_, object_;
     std::uint32_t block_ = 0;
     int used_ = 4;

@@ -12,7 +12,7 @@ namespace sporeprint {
 template <class V>
 struct SplineSample {
     V position;
-    V derivative;         ///< by the segment's own parameter 0..1
+    V derivative;  ///< by the segment's own parameter 0..1
     V second_derivative;
 };
 
@@ -25,7 +25,8 @@ struct SplineSegment {
     [[nodiscard]] SplineSample<V> at(double t) const {
         const V c = 3.0 * (to - from) - 2.0 * leaving - arriving;
         const V d = 2.0 * (from - to) + leaving + arriving;
-        return {from + t * (leaving + t * (c + t * d)), leaving + t * (2.0 * c + 3.0 * t * d), 2.0 * c + 6.0 * t * d};
+        return {from + t * (leaving + t * (c + t * d)), leaving + t * (2.0 * c + 3.0 * t * d),
+                2.0 * c + 6.0 * t * d};
     }
 };
 
@@ -46,6 +47,7 @@ template <class V>
 }
 
 /// Segments through an open row of at least two points; the ends leave towards their neighbours.
-[[nodiscard]] std::vector<SplineSegment<glm::dvec3>> open_spline(const std::vector<glm::dvec3>& points);
+[[nodiscard]] std::vector<SplineSegment<glm::dvec3>> open_spline(
+    const std::vector<glm::dvec3>& points);
 
 }  // namespace sporeprint

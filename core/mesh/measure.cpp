@@ -12,7 +12,9 @@ namespace sporeprint {
 
 namespace {
 
-glm::dvec3 corner(const Mesh& mesh, std::size_t index) { return glm::dvec3(mesh.positions[mesh.indices[index]]); }
+glm::dvec3 corner(const Mesh& mesh, std::size_t index) {
+    return glm::dvec3(mesh.positions[mesh.indices[index]]);
+}
 
 /// For every vertex the first one at the same place.
 std::vector<std::uint32_t> welded(const Mesh& mesh) {
@@ -22,10 +24,13 @@ std::vector<std::uint32_t> welded(const Mesh& mesh) {
         const glm::vec3& p = mesh.positions[i];
         return std::tuple(p.x + 0.0F, p.y + 0.0F, p.z + 0.0F);
     };
-    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) { return std::tuple(place(a), a) < std::tuple(place(b), b); });
+    std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
+        return std::tuple(place(a), a) < std::tuple(place(b), b);
+    });
     std::vector<std::uint32_t> first(order.size());
     for (std::size_t i = 0; i < order.size(); ++i)
-        first[order[i]] = i > 0 && place(order[i]) == place(order[i - 1]) ? first[order[i - 1]] : order[i];
+        first[order[i]] =
+            i > 0 && place(order[i]) == place(order[i - 1]) ? first[order[i - 1]] : order[i];
     return first;
 }
 
@@ -41,7 +46,8 @@ double volume(const Mesh& mesh) {
 double area(const Mesh& mesh) {
     double two = 0.0;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
-        const glm::dvec3 a = corner(mesh, i), n = glm::cross(corner(mesh, i + 1) - a, corner(mesh, i + 2) - a);
+        const glm::dvec3 a = corner(mesh, i),
+                         n = glm::cross(corner(mesh, i + 1) - a, corner(mesh, i + 2) - a);
         two += std::sqrt(glm::dot(n, n));
     }
     return 0.5 * two;
@@ -55,24 +61,29 @@ std::vector<std::string> defects(const Mesh& mesh) {
     const std::size_t n = mesh.positions.size();
     if (n == 0 || mesh.indices.empty()) say("the mesh is empty");
     if (mesh.normals.size() != n) say("normals and positions differ in number");
-    if (!mesh.tangents.empty() && mesh.tangents.size() != n) say("tangents and positions differ in number");
-    if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n) say("texture coordinates and positions differ in number");
+    if (!mesh.tangents.empty() && mesh.tangents.size() != n)
+        say("tangents and positions differ in number");
+    if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
+        say("texture coordinates and positions differ in number");
     if (mesh.indices.size() % 3 != 0) say("the number of indices is no multiple of three");
     if (!found.empty()) return found;
     for (std::size_t i = 0; i < n; ++i) {
         const glm::vec3 &p = mesh.positions[i], &m = mesh.normals[i];
         const std::string at = " at vertex " + std::to_string(i);
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) say("position is not finite" + at);
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
+            say("position is not finite" + at);
         if (!(std::abs(glm::dot(m, m) - 1.0F) < 2e-3F)) say("normal is not unit" + at);
         if (!mesh.tangents.empty()) {
             const glm::vec3 t(mesh.tangents[i]);
             if (!(std::abs(glm::dot(t, t) - 1.0F) < 2e-3F)) say("tangent is not unit" + at);
-            if (!(std::abs(glm::dot(t, m)) < 2e-3F)) say("tangent is not square to the normal" + at);
+            if (!(std::abs(glm::dot(t, m)) < 2e-3F))
+                say("tangent is not square to the normal" + at);
             if (std::abs(mesh.tangents[i].w) != 1.0F) say("handedness is not 1 or -1" + at);
         }
         if (!mesh.texture_coordinates.empty()) {
             const glm::vec2& u = mesh.texture_coordinates[i];
-            if (!(u.x >= 0.0F && u.x <= 1.0F && u.y >= 0.0F && u.y <= 1.0F)) say("texture coordinate is outside 0..1" + at);
+            if (!(u.x >= 0.0F && u.x <= 1.0F && u.y >= 0.0F && u.y <= 1.0F))
+                say("texture coordinate is outside 0..1" + at);
         }
     }
     const auto weld = welded(mesh);
@@ -86,7 +97,8 @@ std::vector<std::string> defects(const Mesh& mesh) {
                 return found;
             }
         }
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0]) say("repeated index in triangle " + std::to_string(i / 3));
+        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+            say("repeated index in triangle " + std::to_string(i / 3));
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = weld[t[k]], b = weld[t[(k + 1) % 3]];
             if (a == b) continue;
@@ -95,7 +107,8 @@ std::vector<std::string> defects(const Mesh& mesh) {
         }
     }
     for (const auto& [edge, count] : edges)
-        if (count > 0) say("open edge " + std::to_string(edge.first) + "-" + std::to_string(edge.second));
+        if (count > 0)
+            say("open edge " + std::to_string(edge.first) + "-" + std::to_string(edge.second));
     return found;
 }
 

@@ -1,13 +1,13 @@
 // The mushroom as plain data: the paper's tuple (skeleton, silhouette, deformation, images), plus ornaments and weathering.
 #pragma once
 
-#include "core/params/describe.h"
-#include "core/params/types.h"
-
 #include <cstdint>
 #include <optional>
 #include <variant>
 #include <vector>
+
+#include "core/params/describe.h"
+#include "core/params/types.h"
 
 namespace sporeprint {
 
@@ -17,8 +17,16 @@ struct OutlinePoint {
     double y = 0.0;
 
     static constexpr void fields(auto visit) {
-        visit(&OutlinePoint::r, Info{.name = "r", .unit = "m", .min = 0.0, .max = 1.0, .doc = "Distance from the axis."});
-        visit(&OutlinePoint::y, Info{.name = "y", .unit = "m", .min = -0.5, .max = 2.0, .doc = "Height above the ground, with a straight axis."});
+        visit(&OutlinePoint::r, Info{.name = "r",
+                                     .unit = "m",
+                                     .min = 0.0,
+                                     .max = 1.0,
+                                     .doc = "Distance from the axis."});
+        visit(&OutlinePoint::y, Info{.name = "y",
+                                     .unit = "m",
+                                     .min = -0.5,
+                                     .max = 2.0,
+                                     .doc = "Height above the ground, with a straight axis."});
     }
     bool operator==(const OutlinePoint&) const = default;
 };
@@ -28,8 +36,10 @@ enum class Join { corner, smooth };
 
 constexpr const char* name(Join join) {
     switch (join) {
-        case Join::corner: return "corner";
-        case Join::smooth: return "smooth";
+        case Join::corner:
+            return "corner";
+        case Join::smooth:
+            return "smooth";
     }
     return nullptr;
 }
@@ -44,13 +54,30 @@ struct Silhouette {
     Join margin = Join::smooth;
 
     static constexpr void fields(auto visit) {
-        visit(&Silhouette::stem, Info{.name = "stem", .most = 32, .doc = "Stem, from the centre of its base up to the hymenium."});
-        visit(&Silhouette::hymenium, Info{.name = "hymenium", .most = 32, .doc = "Lower face, from the stem out to the margin; starts at the last stem point."});
-        visit(&Silhouette::cap, Info{.name = "cap", .most = 32, .doc = "Upper face, from the margin in to the apex on the axis; starts at the last point before it."});
-        visit(&Silhouette::junction, Info{.name = "junction", .doc = "How stem and hymenium meet: a corner, or one smooth curve."});
-        visit(&Silhouette::margin, Info{.name = "margin", .doc = "How hymenium and cap meet: a sharp edge, or one smooth curve."});
+        visit(&Silhouette::stem,
+              Info{.name = "stem",
+                   .most = 32,
+                   .doc = "Stem, from the centre of its base up to the hymenium."});
+        visit(
+            &Silhouette::hymenium,
+            Info{
+                .name = "hymenium",
+                .most = 32,
+                .doc =
+                    "Lower face, from the stem out to the margin; starts at the last stem point."});
+        visit(&Silhouette::cap, Info{.name = "cap",
+                                     .most = 32,
+                                     .doc = "Upper face, from the margin in to the apex on the "
+                                            "axis; starts at the last point before it."});
+        visit(&Silhouette::junction,
+              Info{.name = "junction",
+                   .doc = "How stem and hymenium meet: a corner, or one smooth curve."});
+        visit(&Silhouette::margin,
+              Info{.name = "margin",
+                   .doc = "How hymenium and cap meet: a sharp edge, or one smooth curve."});
     }
-    void check(const std::string& path, std::vector<Problem>& problems) const;  // core/silhouette/outline.cpp
+    void check(const std::string& path,
+               std::vector<Problem>& problems) const;  // core/silhouette/outline.cpp
     bool operator==(const Silhouette&) const = default;
 };
 
@@ -61,9 +88,12 @@ struct AxisPoint {
     double z = 0.0;
 
     static constexpr void fields(auto visit) {
-        visit(&AxisPoint::x, Info{.name = "x", .min = -2.0, .max = 2.0, .doc = "Sideways, in stem heights."});
-        visit(&AxisPoint::y, Info{.name = "y", .min = -2.0, .max = 2.0, .doc = "Upwards, in stem heights."});
-        visit(&AxisPoint::z, Info{.name = "z", .min = -2.0, .max = 2.0, .doc = "Forwards, in stem heights."});
+        visit(&AxisPoint::x,
+              Info{.name = "x", .min = -2.0, .max = 2.0, .doc = "Sideways, in stem heights."});
+        visit(&AxisPoint::y,
+              Info{.name = "y", .min = -2.0, .max = 2.0, .doc = "Upwards, in stem heights."});
+        visit(&AxisPoint::z,
+              Info{.name = "z", .min = -2.0, .max = 2.0, .doc = "Forwards, in stem heights."});
     }
     bool operator==(const AxisPoint&) const = default;
 };
@@ -76,7 +106,10 @@ struct Swept {
 
     static constexpr void fields(auto visit) {
         visit(&Swept::silhouette, Info{.name = "silhouette", .doc = "The outline."});
-        visit(&Swept::axis, Info{.name = "axis", .most = 16, .doc = "Spline control points of the axis, ground to stem top; empty for a straight stem."});
+        visit(&Swept::axis, Info{.name = "axis",
+                                 .most = 16,
+                                 .doc = "Spline control points of the axis, ground to stem top; "
+                                        "empty for a straight stem."});
     }
     bool operator==(const Swept&) const = default;
 };
@@ -94,18 +127,46 @@ struct DeformationOf {
 
     static constexpr void fields(auto visit) {
         using D = DeformationOf;
-        visit(&D::bend_deg, Info{.name = "bend_deg", .unit = "deg", .min = 0, .max = 90, .doc = "How far the stem turns over its bending zone; the direction is the individual's own."});
-        visit(&D::twist_deg, Info{.name = "twist_deg", .unit = "deg", .min = -180, .max = 180, .doc = "Twist of the stem's surface over its bending zone."});
-        visit(&D::lean_deg, Info{.name = "lean_deg", .unit = "deg", .min = 0, .max = 45, .doc = "Lean of the whole mushroom from the vertical."});
-        visit(&D::taper, Info{.name = "taper", .min = -1, .max = 1, .doc = "Stem wider (positive) or narrower (negative) at the start of the bending zone."});
-        visit(&D::zone_from, Info{.name = "zone_from", .min = 0, .max = 0.9, .doc = "Where the zone of influence of bend, twist and taper begins; 0 is the ground, 1 the stem top."});
-        visit(&D::zone_to, Info{.name = "zone_to", .min = 0.1, .max = 1, .doc = "Where the zone of influence ends; 1 is the stem top."});
-        visit(&D::imperfection, Info{.name = "imperfection", .min = 0, .max = 1, .doc = "Dents and bulges by local free-form deformation."});
+        visit(&D::bend_deg, Info{.name = "bend_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 90,
+                                 .doc = "How far the stem turns over its bending zone; the "
+                                        "direction is the individual's own."});
+        visit(&D::twist_deg, Info{.name = "twist_deg",
+                                  .unit = "deg",
+                                  .min = -180,
+                                  .max = 180,
+                                  .doc = "Twist of the stem's surface over its bending zone."});
+        visit(&D::lean_deg, Info{.name = "lean_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 45,
+                                 .doc = "Lean of the whole mushroom from the vertical."});
+        visit(&D::taper, Info{.name = "taper",
+                              .min = -1,
+                              .max = 1,
+                              .doc = "Stem wider (positive) or narrower (negative) at the start of "
+                                     "the bending zone."});
+        visit(&D::zone_from, Info{.name = "zone_from",
+                                  .min = 0,
+                                  .max = 0.9,
+                                  .doc = "Where the zone of influence of bend, twist and taper "
+                                         "begins; 0 is the ground, 1 the stem top."});
+        visit(&D::zone_to, Info{.name = "zone_to",
+                                .min = 0.1,
+                                .max = 1,
+                                .doc = "Where the zone of influence ends; 1 is the stem top."});
+        visit(&D::imperfection, Info{.name = "imperfection",
+                                     .min = 0,
+                                     .max = 1,
+                                     .doc = "Dents and bulges by local free-form deformation."});
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
         const std::optional<double> from = zone_from, to = zone_to;
         // 1 - 0.9 is a little less than 0.1 in binary.
-        if (from && to && *to - *from < 0.1 - 1e-9) problems.push_back({path + "/zone_to", "must exceed zone_from by at least 0.1"});
+        if (from && to && *to - *from < 0.1 - 1e-9)
+            problems.push_back({path + "/zone_to", "must exceed zone_from by at least 0.1"});
     }
     bool operator==(const DeformationOf&) const = default;
 };
@@ -119,9 +180,19 @@ struct OrnamentsOf {
 
     static constexpr void fields(auto visit) {
         using O = OrnamentsOf;
-        visit(&O::warts, Info{.name = "warts", .min = 0, .max = 1, .doc = "How much of the universal veil is left as warts on the cap; rain washes them off."});
-        visit(&O::scales, Info{.name = "scales", .min = 0, .max = 1, .doc = "How far the torn skin of the cap stands out as scales."});
-        visit(&O::ring, Info{.name = "ring", .min = 0, .max = 1, .doc = "How much of the partial veil is left as a ring on the stem."});
+        visit(&O::warts, Info{.name = "warts",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "How much of the universal veil is left as warts on the cap; "
+                                     "rain washes them off."});
+        visit(&O::scales, Info{.name = "scales",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "How far the torn skin of the cap stands out as scales."});
+        visit(&O::ring, Info{.name = "ring",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "How much of the partial veil is left as a ring on the stem."});
     }
     bool operator==(const OrnamentsOf&) const = default;
 };
@@ -131,10 +202,14 @@ enum class HymeniumPattern { smooth, gills, ridges, pores };
 
 constexpr const char* name(HymeniumPattern pattern) {
     switch (pattern) {
-        case HymeniumPattern::smooth: return "smooth";
-        case HymeniumPattern::gills: return "gills";
-        case HymeniumPattern::ridges: return "ridges";
-        case HymeniumPattern::pores: return "pores";
+        case HymeniumPattern::smooth:
+            return "smooth";
+        case HymeniumPattern::gills:
+            return "gills";
+        case HymeniumPattern::ridges:
+            return "ridges";
+        case HymeniumPattern::pores:
+            return "pores";
     }
     return nullptr;
 }
@@ -149,11 +224,30 @@ struct HymeniumOf {
 
     static constexpr void fields(auto visit) {
         using H = HymeniumOf;
-        visit(&H::blades, Info{.name = "blades", .min = 8, .max = 400, .doc = "Gills or ridges that reach the stem."});
-        visit(&H::tiers, Info{.name = "tiers", .min = 0, .max = 3, .doc = "Tiers of shorter gills (lamellulae) that fill the gaps towards the margin."});
-        visit(&H::forking, Info{.name = "forking", .min = 0, .max = 1, .doc = "How often ridges fork and are joined by cross veins."});
-        visit(&H::pores_per_mm, Info{.name = "pores_per_mm", .unit = "1/mm", .min = 0.2, .max = 6, .doc = "Pores along a millimetre."});
-        visit(&H::relief, Info{.name = "relief", .min = 0, .max = 1, .doc = "How deep gills, ridges or pores look."});
+        visit(&H::blades, Info{.name = "blades",
+                               .min = 8,
+                               .max = 400,
+                               .doc = "Gills or ridges that reach the stem."});
+        visit(
+            &H::tiers,
+            Info{.name = "tiers",
+                 .min = 0,
+                 .max = 3,
+                 .doc =
+                     "Tiers of shorter gills (lamellulae) that fill the gaps towards the margin."});
+        visit(&H::forking, Info{.name = "forking",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "How often ridges fork and are joined by cross veins."});
+        visit(&H::pores_per_mm, Info{.name = "pores_per_mm",
+                                     .unit = "1/mm",
+                                     .min = 0.2,
+                                     .max = 6,
+                                     .doc = "Pores along a millimetre."});
+        visit(&H::relief, Info{.name = "relief",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "How deep gills, ridges or pores look."});
     }
     bool operator==(const HymeniumOf&) const = default;
 };
@@ -167,9 +261,17 @@ struct WeatheringOf {
 
     static constexpr void fields(auto visit) {
         using W = WeatheringOf;
-        visit(&W::waves, Info{.name = "waves", .min = 0, .max = 1, .doc = "Waves of the margin, which has grown longer than its circle."});
-        visit(&W::fade, Info{.name = "fade", .min = 0, .max = 1, .doc = "Bleaching by sun and rain."});
-        visit(&W::wetness, Info{.name = "wetness", .min = 0, .max = 1, .doc = "A film of water: darker and glossier."});
+        visit(&W::waves,
+              Info{.name = "waves",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "Waves of the margin, which has grown longer than its circle."});
+        visit(&W::fade,
+              Info{.name = "fade", .min = 0, .max = 1, .doc = "Bleaching by sun and rain."});
+        visit(&W::wetness, Info{.name = "wetness",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "A film of water: darker and glossier."});
     }
     bool operator==(const WeatheringOf&) const = default;
 };
@@ -194,21 +296,57 @@ struct CapSurface {
 
     static constexpr void fields(auto visit) {
         using C = CapSurface;
-        visit(&C::ramp, Info{.name = "ramp", .most = 6, .doc = "Colours along the meridian, apex to margin, evenly spaced."});
-        visit(&C::ramp_noise, Info{.name = "ramp_noise", .min = 0, .max = 1, .doc = "How unevenly the ramp's borders run."});
-        visit(&C::fibrils, Info{.name = "fibrils", .min = 0, .max = 1, .doc = "Strength of radial fibres."});
-        visit(&C::fibril_count, Info{.name = "fibril_count", .min = 8, .max = 400, .doc = "Radial fibres round the cap."});
-        visit(&C::zones, Info{.name = "zones", .min = 0, .max = 1, .doc = "Strength of concentric bands."});
-        visit(&C::zone_count, Info{.name = "zone_count", .min = 1, .max = 30, .doc = "Concentric bands between apex and margin."});
-        visit(&C::patches, Info{.name = "patches", .min = 0, .max = 1, .doc = "Share of the face that wears the patch colour."});
-        visit(&C::patch_size, Info{.name = "patch_size", .unit = "m", .min = 0.0005, .max = 0.1, .doc = "Size of a patch."});
+        visit(&C::ramp, Info{.name = "ramp",
+                             .most = 6,
+                             .doc = "Colours along the meridian, apex to margin, evenly spaced."});
+        visit(&C::ramp_noise, Info{.name = "ramp_noise",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How unevenly the ramp's borders run."});
+        visit(&C::fibrils,
+              Info{.name = "fibrils", .min = 0, .max = 1, .doc = "Strength of radial fibres."});
+        visit(&C::fibril_count, Info{.name = "fibril_count",
+                                     .min = 8,
+                                     .max = 400,
+                                     .doc = "Radial fibres round the cap."});
+        visit(&C::zones,
+              Info{.name = "zones", .min = 0, .max = 1, .doc = "Strength of concentric bands."});
+        visit(&C::zone_count, Info{.name = "zone_count",
+                                   .min = 1,
+                                   .max = 30,
+                                   .doc = "Concentric bands between apex and margin."});
+        visit(&C::patches, Info{.name = "patches",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "Share of the face that wears the patch colour."});
+        visit(&C::patch_size, Info{.name = "patch_size",
+                                   .unit = "m",
+                                   .min = 0.0005,
+                                   .max = 0.1,
+                                   .doc = "Size of a patch."});
         visit(&C::patch_colour, Info{.name = "patch_colour", .doc = "Colour of the patches."});
-        visit(&C::streaks, Info{.name = "streaks", .min = 0, .max = 1, .doc = "Strength of irregular radial streaks of darker colour."});
-        visit(&C::veins, Info{.name = "veins", .min = 0, .max = 1, .doc = "Raised net of veins, strongest at the centre (cups)."});
-        visit(&C::striae, Info{.name = "striae", .min = 0, .max = 1, .doc = "Share of the radius that is grooved from the margin inwards."});
-        visit(&C::bumps, Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
-        visit(&C::roughness, Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
-        visit(&C::image, Info{.name = "image", .most = 3000000, .doc = "The paper's own way: a PNG, JPEG or WebP of the cap seen from above, up to 2048 x 2048, used instead of the painting."});
+        visit(&C::streaks, Info{.name = "streaks",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "Strength of irregular radial streaks of darker colour."});
+        visit(&C::veins, Info{.name = "veins",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "Raised net of veins, strongest at the centre (cups)."});
+        visit(&C::striae,
+              Info{.name = "striae",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "Share of the radius that is grooved from the margin inwards."});
+        visit(&C::bumps,
+              Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
+        visit(&C::roughness,
+              Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+        visit(&C::image,
+              Info{.name = "image",
+                   .most = 3000000,
+                   .doc = "The paper's own way: a PNG, JPEG or WebP of the cap seen from above, up "
+                          "to 2048 x 2048, used instead of the painting."});
     }
     bool operator==(const CapSurface&) const = default;
 };
@@ -225,13 +363,23 @@ struct HymeniumSurface {
 
     static constexpr void fields(auto visit) {
         using H = HymeniumSurface;
-        visit(&H::pattern, Info{.name = "pattern", .doc = "Gills, ridges, pores or a smooth face."});
-        visit(&H::colour, Info{.name = "colour", .doc = "Colour of the faces of the gills, or between pores."});
-        visit(&H::edge, Info{.name = "edge", .doc = "Colour of the edges of gills or the rims of pores."});
-        visit(&H::depth, Info{.name = "depth", .doc = "Colour deep between the gills or inside the pores."});
-        visit(&H::mottle, Info{.name = "mottle", .min = 0, .max = 1, .doc = "Cloudy unevenness of the colour."});
-        visit(&H::roughness, Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
-        visit(&H::image, Info{.name = "image", .most = 3000000, .doc = "A PNG, JPEG or WebP of the lower face, up to 2048 x 2048, used instead of the painting."});
+        visit(&H::pattern,
+              Info{.name = "pattern", .doc = "Gills, ridges, pores or a smooth face."});
+        visit(&H::colour,
+              Info{.name = "colour", .doc = "Colour of the faces of the gills, or between pores."});
+        visit(&H::edge,
+              Info{.name = "edge", .doc = "Colour of the edges of gills or the rims of pores."});
+        visit(&H::depth,
+              Info{.name = "depth", .doc = "Colour deep between the gills or inside the pores."});
+        visit(
+            &H::mottle,
+            Info{.name = "mottle", .min = 0, .max = 1, .doc = "Cloudy unevenness of the colour."});
+        visit(&H::roughness,
+              Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+        visit(&H::image, Info{.name = "image",
+                              .most = 3000000,
+                              .doc = "A PNG, JPEG or WebP of the lower face, up to 2048 x 2048, "
+                                     "used instead of the painting."});
     }
     bool operator==(const HymeniumSurface&) const = default;
 };
@@ -255,16 +403,33 @@ struct StemSurface {
         using S = StemSurface;
         visit(&S::top, Info{.name = "top", .doc = "Colour at the hymenium."});
         visit(&S::base, Info{.name = "base", .doc = "Colour at the ground."});
-        visit(&S::base_stain, Info{.name = "base_stain", .min = 0, .max = 1, .doc = "Share of the stem that is stained from the ground up."});
+        visit(&S::base_stain, Info{.name = "base_stain",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "Share of the stem that is stained from the ground up."});
         visit(&S::stain, Info{.name = "stain", .doc = "Colour of the stain."});
-        visit(&S::fibrils, Info{.name = "fibrils", .min = 0, .max = 1, .doc = "Strength of lengthwise fibres."});
-        visit(&S::bands, Info{.name = "bands", .min = 0, .max = 1, .doc = "Strength of zig-zag bands (snake skin)."});
+        visit(&S::fibrils,
+              Info{.name = "fibrils", .min = 0, .max = 1, .doc = "Strength of lengthwise fibres."});
+        visit(&S::bands, Info{.name = "bands",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "Strength of zig-zag bands (snake skin)."});
         visit(&S::band_colour, Info{.name = "band_colour", .doc = "Colour of the bands."});
-        visit(&S::net, Info{.name = "net", .min = 0, .max = 1, .doc = "Raised net, strongest in the upper third (boletes)."});
+        visit(&S::net, Info{.name = "net",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "Raised net, strongest in the upper third (boletes)."});
         visit(&S::net_colour, Info{.name = "net_colour", .doc = "Colour of the net."});
-        visit(&S::bumps, Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
-        visit(&S::roughness, Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
-        visit(&S::image, Info{.name = "image", .most = 3000000, .doc = "A PNG, JPEG or WebP of the stem unrolled (ground at the left, once round from top to bottom), up to 2048 x 2048, used instead of the painting."});
+        visit(&S::bumps,
+              Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
+        visit(&S::roughness,
+              Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+        visit(
+            &S::image,
+            Info{.name = "image",
+                 .most = 3000000,
+                 .doc = "A PNG, JPEG or WebP of the stem unrolled (ground at the left, once round "
+                        "from top to bottom), up to 2048 x 2048, used instead of the painting."});
     }
     bool operator==(const StemSurface&) const = default;
 };
@@ -276,9 +441,13 @@ struct VeilSurface {
     double roughness = 0.85;
 
     static constexpr void fields(auto visit) {
-        visit(&VeilSurface::colour, Info{.name = "colour", .doc = "Colour of ring, warts and the base of scales."});
-        visit(&VeilSurface::tip, Info{.name = "tip", .doc = "Colour of the edge of the ring and the tips of warts and scales."});
-        visit(&VeilSurface::roughness, Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+        visit(&VeilSurface::colour,
+              Info{.name = "colour", .doc = "Colour of ring, warts and the base of scales."});
+        visit(&VeilSurface::tip,
+              Info{.name = "tip",
+                   .doc = "Colour of the edge of the ring and the tips of warts and scales."});
+        visit(&VeilSurface::roughness,
+              Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
     }
     bool operator==(const VeilSurface&) const = default;
 };
@@ -311,13 +480,35 @@ struct PatchStyle {
 
     static constexpr void fields(auto visit) {
         using P = PatchStyle;
-        visit(&P::count, Info{.name = "count", .min = 0, .max = 400, .doc = "Pieces on the whole cap."});
-        visit(&P::size, Info{.name = "size", .min = 0.005, .max = 0.3, .doc = "Radius of a piece, in lengths of the young cap's meridian."});
-        visit(&P::height, Info{.name = "height", .min = 0, .max = 2, .doc = "Height of a piece, in its own radii."});
-        visit(&P::elongation, Info{.name = "elongation", .min = 0.3, .max = 4, .doc = "Length along the meridian over width."});
-        visit(&P::lift, Info{.name = "lift", .min = -1, .max = 1, .doc = "How far the tip points to the apex (negative) or to the margin (positive)."});
-        visit(&P::from, Info{.name = "from", .min = 0, .max = 1, .doc = "Where on the meridian the pieces begin; 0 is the apex."});
-        visit(&P::to, Info{.name = "to", .min = 0, .max = 1, .doc = "Where on the meridian the pieces end; 1 is the margin."});
+        visit(&P::count,
+              Info{.name = "count", .min = 0, .max = 400, .doc = "Pieces on the whole cap."});
+        visit(&P::size, Info{.name = "size",
+                             .min = 0.005,
+                             .max = 0.3,
+                             .doc = "Radius of a piece, in lengths of the young cap's meridian."});
+        visit(&P::height, Info{.name = "height",
+                               .min = 0,
+                               .max = 2,
+                               .doc = "Height of a piece, in its own radii."});
+        visit(&P::elongation, Info{.name = "elongation",
+                                   .min = 0.3,
+                                   .max = 4,
+                                   .doc = "Length along the meridian over width."});
+        visit(
+            &P::lift,
+            Info{.name = "lift",
+                 .min = -1,
+                 .max = 1,
+                 .doc =
+                     "How far the tip points to the apex (negative) or to the margin (positive)."});
+        visit(&P::from, Info{.name = "from",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "Where on the meridian the pieces begin; 0 is the apex."});
+        visit(&P::to, Info{.name = "to",
+                           .min = 0,
+                           .max = 1,
+                           .doc = "Where on the meridian the pieces end; 1 is the margin."});
     }
     bool operator==(const PatchStyle&) const = default;
 };
@@ -332,10 +523,25 @@ struct RingStyle {
 
     static constexpr void fields(auto visit) {
         using R = RingStyle;
-        visit(&R::height, Info{.name = "height", .min = 0, .max = 1, .doc = "Where it is attached; 0 is the ground, 1 the stem top."});
-        visit(&R::width, Info{.name = "width", .unit = "m", .min = 0, .max = 0.1, .doc = "From the stem to its edge; 0 is no ring."});
-        visit(&R::flare_deg, Info{.name = "flare_deg", .unit = "deg", .min = 0, .max = 120, .doc = "0 hangs down along the stem, 90 stands out flat."});
-        visit(&R::thickness, Info{.name = "thickness", .unit = "m", .min = 0.0001, .max = 0.01, .doc = "Thickness of the veil."});
+        visit(&R::height, Info{.name = "height",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "Where it is attached; 0 is the ground, 1 the stem top."});
+        visit(&R::width, Info{.name = "width",
+                              .unit = "m",
+                              .min = 0,
+                              .max = 0.1,
+                              .doc = "From the stem to its edge; 0 is no ring."});
+        visit(&R::flare_deg, Info{.name = "flare_deg",
+                                  .unit = "deg",
+                                  .min = 0,
+                                  .max = 120,
+                                  .doc = "0 hangs down along the stem, 90 stands out flat."});
+        visit(&R::thickness, Info{.name = "thickness",
+                                  .unit = "m",
+                                  .min = 0.0001,
+                                  .max = 0.01,
+                                  .doc = "Thickness of the veil."});
         visit(&R::ruffle, Info{.name = "ruffle", .min = 0, .max = 1, .doc = "Waves of its edge."});
     }
     bool operator==(const RingStyle&) const = default;
@@ -356,13 +562,20 @@ struct Model {
 
     static constexpr void fields(auto visit) {
         visit(&Model::shape, Info{.name = "", .doc = "Shape family."});
-        visit(&Model::deformation, Info{.name = "deformation", .doc = "Axial and free-form deformation."});
+        visit(&Model::deformation,
+              Info{.name = "deformation", .doc = "Axial and free-form deformation."});
         visit(&Model::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
-        visit(&Model::warts, Info{.name = "warts", .doc = "Remnants of the universal veil on the cap."});
+        visit(&Model::warts,
+              Info{.name = "warts", .doc = "Remnants of the universal veil on the cap."});
         visit(&Model::scales, Info{.name = "scales", .doc = "Scales of the cap's torn skin."});
-        visit(&Model::volva, Info{.name = "volva", .doc = "Scales on the bulb; positions run from the ground (0) to the stem top (1)."});
+        visit(
+            &Model::volva,
+            Info{.name = "volva",
+                 .doc =
+                     "Scales on the bulb; positions run from the ground (0) to the stem top (1)."});
         visit(&Model::ring, Info{.name = "ring", .doc = "Ring on the stem."});
-        visit(&Model::ornaments, Info{.name = "ornaments", .doc = "How much of warts, scales and ring is left."});
+        visit(&Model::ornaments,
+              Info{.name = "ornaments", .doc = "How much of warts, scales and ring is left."});
         visit(&Model::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
         visit(&Model::surface, Info{.name = "surface", .doc = "What is painted."});
     }

@@ -10,9 +10,12 @@ enum class Textures { embedded, linked, none };
 
 constexpr const char* name(Textures textures) {
     switch (textures) {
-        case Textures::embedded: return "embedded";
-        case Textures::linked: return "linked";
-        case Textures::none: return "none";
+        case Textures::embedded:
+            return "embedded";
+        case Textures::linked:
+            return "linked";
+        case Textures::none:
+            return "none";
     }
     return nullptr;
 }
@@ -36,14 +39,34 @@ struct MushroomParams {
 
     static constexpr void fields(auto visit) {
         using P = MushroomParams;
-        visit(&P::seed, Info{.name = "seed", .min = 0, .max = 4294967295.0, .doc = "The individual: same seed and parameters, same mushroom, bit for bit."});
-        visit(&P::age, Info{.name = "age", .min = 0, .max = 1, .doc = "From button (0) through maturity (0.6) to decay (1)."});
+        visit(&P::seed,
+              Info{.name = "seed",
+                   .min = 0,
+                   .max = 4294967295.0,
+                   .doc = "The individual: same seed and parameters, same mushroom, bit for bit."});
+        visit(&P::age, Info{.name = "age",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "From button (0) through maturity (0.6) to decay (1)."});
         visit(&P::size, Info{.name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."});
-        visit(&P::variation, Info{.name = "variation", .min = 0, .max = 1, .doc = "How far individuals depart from their species' template."});
-        visit(&P::lod, Info{.name = "lod", .min = 0, .max = 3, .doc = "Level of detail: the same individual with fewer triangles and smaller images."});
-        visit(&P::texture_size, Info{.name = "texture_size", .unit = "texels", .doc = "Side of the image atlas at LOD 0; it halves with every level."});
-        visit(&P::textures, Info{.name = "textures", .doc = "Images inside the file, linked by address, or none."});
-        visit(&P::deformation, Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});
+        visit(&P::variation,
+              Info{.name = "variation",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How far individuals depart from their species' template."});
+        visit(&P::lod, Info{.name = "lod",
+                            .min = 0,
+                            .max = 3,
+                            .doc = "Level of detail: the same individual with fewer triangles and "
+                                   "smaller images."});
+        visit(&P::texture_size,
+              Info{.name = "texture_size",
+                   .unit = "texels",
+                   .doc = "Side of the image atlas at LOD 0; it halves with every level."});
+        visit(&P::textures, Info{.name = "textures",
+                                 .doc = "Images inside the file, linked by address, or none."});
+        visit(&P::deformation,
+              Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "What is left of the veils."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
         visit(&P::weathering, Info{.name = "weathering", .doc = "What time and weather did."});

@@ -37,11 +37,14 @@ Model model_at(const Species& species, double age) {
     if (age <= stages.front().age) return stages.front().model;
     for (std::size_t i = 1; i < stages.size(); ++i)
         if (age <= stages[i].age)
-            return blend(stages[i - 1].model, stages[i].model, (age - stages[i - 1].age) / (stages[i].age - stages[i - 1].age));
+            return blend(stages[i - 1].model, stages[i].model,
+                         (age - stages[i - 1].age) / (stages[i].age - stages[i - 1].age));
     return stages.back().model;
 }
 
-double factor(double draw, double spread, double variation) { return exponential(draw * spread * variation); }
+double factor(double draw, double spread, double variation) {
+    return exponential(draw * spread * variation);
+}
 
 /// Stem longer and wider, cap higher over its margin; the junction and the margin stay joined.
 void proportion(Silhouette& s, double longer, double wider, double higher) {
@@ -53,12 +56,14 @@ void proportion(Silhouette& s, double longer, double wider, double higher) {
     for (const OutlinePoint& p : s.stem)
         if (p.y >= margin.y || p.r == junction.r) stem = std::max(stem, p.r);
     const auto width_at = [&](double r) {
-        const double share = s.hymenium.empty() ? 0.0 : std::clamp((r - stem) / (2.0 * stem), 0.0, 1.0);
+        const double share =
+            s.hymenium.empty() ? 0.0 : std::clamp((r - stem) / (2.0 * stem), 0.0, 1.0);
         return 1.0 + (wider - 1.0) * (1.0 - share);
     };
     for (OutlinePoint& p : s.stem) p = {p.r * wider, p.y > 0.0 ? p.y * longer : p.y};
     for (OutlinePoint& p : s.hymenium) p = {p.r * width_at(p.r), p.y + lift};
-    for (OutlinePoint& p : s.cap) p = {p.r * width_at(p.r), margin.y + lift + (p.y - margin.y) * higher};
+    for (OutlinePoint& p : s.cap)
+        p = {p.r * width_at(p.r), margin.y + lift + (p.y - margin.y) * higher};
     if (!s.hymenium.empty()) {
         s.hymenium.front() = s.stem.back();
         s.cap.front() = s.hymenium.back();
@@ -85,18 +90,25 @@ double bend_limit(const Swept& shape, const DeformationOf<Plain>& deformation) {
 /// What a species cannot have, in words.
 void check_anatomy(const MushroomParams& asked, const Model& model, const std::string& who) {
     std::vector<Problem> problems;
-    const auto refuse = [&](const char* path, const std::string& why) { report(problems, path, why); };
+    const auto refuse = [&](const char* path, const std::string& why) {
+        report(problems, path, why);
+    };
     const HymeniumPattern pattern = model.surface.hymenium.pattern;
     const bool blades = pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
-    const std::string carries = pattern == HymeniumPattern::pores  ? who + " carries pores, not gills"
-                                : pattern == HymeniumPattern::gills ? who + " carries gills, not pores"
-                                : pattern == HymeniumPattern::ridges ? who + " carries ridges, not pores"
-                                                                     : who + " has a smooth lower face";
+    const std::string carries =
+        pattern == HymeniumPattern::pores    ? who + " carries pores, not gills"
+        : pattern == HymeniumPattern::gills  ? who + " carries gills, not pores"
+        : pattern == HymeniumPattern::ridges ? who + " carries ridges, not pores"
+                                             : who + " has a smooth lower face";
     if (asked.hymenium.blades && !blades) refuse("/hymenium/blades", carries);
     if (asked.hymenium.tiers && !blades) refuse("/hymenium/tiers", carries);
-    if (asked.hymenium.forking && *asked.hymenium.forking > 0.0 && pattern != HymeniumPattern::ridges)
-        refuse("/hymenium/forking", pattern == HymeniumPattern::gills ? who + " carries gills, which do not fork; ridges do" : carries);
-    if (asked.hymenium.pores_per_mm && pattern != HymeniumPattern::pores) refuse("/hymenium/pores_per_mm", carries);
+    if (asked.hymenium.forking && *asked.hymenium.forking > 0.0 &&
+        pattern != HymeniumPattern::ridges)
+        refuse("/hymenium/forking", pattern == HymeniumPattern::gills
+                                        ? who + " carries gills, which do not fork; ridges do"
+                                        : carries);
+    if (asked.hymenium.pores_per_mm && pattern != HymeniumPattern::pores)
+        refuse("/hymenium/pores_per_mm", carries);
     if (asked.ornaments.warts && *asked.ornaments.warts > 0.0 && model.warts.count == 0)
         refuse("/ornaments/warts", who + " has no universal veil that could leave warts");
     if (asked.ornaments.scales && *asked.ornaments.scales > 0.0 && model.scales.count == 0)
@@ -155,9 +167,12 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
         individual.model = *order.model;
         spread = {0, 0, 0, 0, 0, 0, 0, 0};
     } else {
-        if (order.mix.size() != 1) throw Impossible("mix", std::to_string(order.mix.size()) + " species; this version grows one species at a time");
+        if (order.mix.size() != 1)
+            throw Impossible("mix", std::to_string(order.mix.size()) +
+                                        " species; this version grows one species at a time");
         const AtlasEntry* entry = atlas.find(order.mix.front().id);
-        if (!entry) throw InvalidInput("mix", "'" + order.mix.front().id + "' is no species of the atlas");
+        if (!entry)
+            throw InvalidInput("mix", "'" + order.mix.front().id + "' is no species of the atlas");
         individual.model = model_at(entry->species, asked.age);
         spread = entry->species.spread;
         who = entry->species.facts.scientific_name.string();
@@ -168,7 +183,8 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
     const Draws draws = draws_of(asked.seed);
     const double variation = asked.variation;
     Swept& shape = std::get<Swept>(model.shape);
-    proportion(shape.silhouette, factor(draws.stem_length, spread.stem_length, variation), factor(draws.stem_width, spread.stem_width, variation),
+    proportion(shape.silhouette, factor(draws.stem_length, spread.stem_length, variation),
+               factor(draws.stem_width, spread.stem_width, variation),
                factor(draws.cap_height, spread.cap_height, variation));
     scale(model, shape, asked.size * factor(draws.size, spread.size, variation));
     individual.lightness = factor(draws.lightness, spread.lightness, variation);
@@ -176,9 +192,13 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
     DeformationOf<Plain>& deformation = model.deformation;
     // An individual bends as far as its own stem allows; what a person asks for is checked by build instead.
     const double own_bend = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
-    deformation.bend_deg = std::clamp(own_bend, 0.0, std::min(90.0, std::max(deformation.bend_deg, bend_limit(shape, deformation))));
-    deformation.lean_deg = std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
-    deformation.imperfection = std::min(1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
+    deformation.bend_deg =
+        std::clamp(own_bend, 0.0,
+                   std::min(90.0, std::max(deformation.bend_deg, bend_limit(shape, deformation))));
+    deformation.lean_deg =
+        std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
+    deformation.imperfection = std::min(
+        1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
     overlay(asked.deformation, model.deformation);
     overlay(asked.ornaments, model.ornaments);
     overlay(asked.hymenium, model.hymenium);

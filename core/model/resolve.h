@@ -9,8 +9,9 @@ namespace sporeprint {
 /// An order with everything decided: the individual's own Model (sizes, colours and amounts after age, variation and overrides).
 struct Individual {
     Model model;
-    MushroomParams effective;  ///< every optional that the species can have, set to what the individual really has
-    double lightness = 1.0;    ///< factor on the linear colour of the cap
+    MushroomParams
+        effective;  ///< every optional that the species can have, set to what the individual really has
+    double lightness = 1.0;  ///< factor on the linear colour of the cap
 };
 
 /// Decides everything about one individual. A Model of the client's own has no species: age and variation do not touch it.

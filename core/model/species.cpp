@@ -6,35 +6,47 @@ void Species::check(const std::string& path, std::vector<Problem>& problems) con
     if (id.empty()) report(problems, path + "/id", "is missing");
     for (const char c : id.view())
         if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_')) {
-            report(problems, path + "/id", "'" + id.string() + "' has other characters than a-z, 0-9 and _");
+            report(problems, path + "/id",
+                   "'" + id.string() + "' has other characters than a-z, 0-9 and _");
             break;
         }
     if (stages.empty()) return report(problems, path + "/stages", "0 stages; at least 1 is needed");
-    const auto at = [&](std::size_t i, const char* what) { return path + "/stages/" + std::to_string(i) + what; };
+    const auto at = [&](std::size_t i, const char* what) {
+        return path + "/stages/" + std::to_string(i) + what;
+    };
     const Model& first = stages.front().model;
     for (std::size_t i = 1; i < stages.size(); ++i) {
         const Model& model = stages[i].model;
-        if (stages[i].age <= stages[i - 1].age) report(problems, at(i, "/age"), "stages stand in ascending order of age");
+        if (stages[i].age <= stages[i - 1].age)
+            report(problems, at(i, "/age"), "stages stand in ascending order of age");
         if (model.shape.index() != first.shape.index()) {
             report(problems, at(i, "/model/form"), "every stage has the form of the first");
             continue;
         }
         const Swept &a = std::get<Swept>(first.shape), &b = std::get<Swept>(model.shape);
         const auto same = [&](std::size_t one, std::size_t other, const char* what) {
-            if (one != other) report(problems, at(i, what), std::to_string(other) + " control points; the first stage has " + std::to_string(one));
+            if (one != other)
+                report(problems, at(i, what),
+                       std::to_string(other) + " control points; the first stage has " +
+                           std::to_string(one));
         };
         same(a.silhouette.stem.size(), b.silhouette.stem.size(), "/model/silhouette/stem");
-        same(a.silhouette.hymenium.size(), b.silhouette.hymenium.size(), "/model/silhouette/hymenium");
+        same(a.silhouette.hymenium.size(), b.silhouette.hymenium.size(),
+             "/model/silhouette/hymenium");
         same(a.silhouette.cap.size(), b.silhouette.cap.size(), "/model/silhouette/cap");
         same(a.axis.size(), b.axis.size(), "/model/axis");
         if (first.surface.cap.ramp.size() != model.surface.cap.ramp.size())
-            report(problems, at(i, "/model/surface/cap/ramp"), "every stage has as many colours as the first");
+            report(problems, at(i, "/model/surface/cap/ramp"),
+                   "every stage has as many colours as the first");
         if (first.surface.hymenium.pattern != model.surface.hymenium.pattern)
-            report(problems, at(i, "/model/surface/hymenium/pattern"), "every stage has the pattern of the first");
+            report(problems, at(i, "/model/surface/hymenium/pattern"),
+                   "every stage has the pattern of the first");
         // Places are drawn once per individual, so what decides them stays the same for life.
         const auto placed = [&](const PatchStyle& one, const PatchStyle& other, const char* what) {
-            if (one.count != other.count || one.from != other.from || one.to != other.to || one.elongation != other.elongation)
-                report(problems, at(i, what), "count, from, to and elongation are those of the first stage");
+            if (one.count != other.count || one.from != other.from || one.to != other.to ||
+                one.elongation != other.elongation)
+                report(problems, at(i, what),
+                       "count, from, to and elongation are those of the first stage");
         };
         placed(first.warts, model.warts, "/model/warts");
         placed(first.scales, model.scales, "/model/scales");

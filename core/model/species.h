@@ -10,11 +10,16 @@ enum class GrowthForm { agaric, bolete, chanterelle, club, cup };
 
 constexpr const char* name(GrowthForm form) {
     switch (form) {
-        case GrowthForm::agaric: return "agaric";
-        case GrowthForm::bolete: return "bolete";
-        case GrowthForm::chanterelle: return "chanterelle";
-        case GrowthForm::club: return "club";
-        case GrowthForm::cup: return "cup";
+        case GrowthForm::agaric:
+            return "agaric";
+        case GrowthForm::bolete:
+            return "bolete";
+        case GrowthForm::chanterelle:
+            return "chanterelle";
+        case GrowthForm::club:
+            return "club";
+        case GrowthForm::cup:
+            return "cup";
     }
     return nullptr;
 }
@@ -37,13 +42,28 @@ struct Facts {
         visit(&F::scientific_name, Info{.name = "scientific_name", .most = 64, .doc = "Binomial."});
         visit(&F::common_name, Info{.name = "common_name", .most = 64, .doc = "English name."});
         visit(&F::form, Info{.name = "form", .doc = "Growth form."});
-        visit(&F::cap_diameter_m, Info{.name = "cap_diameter_m", .unit = "m", .min = 0.001, .max = 1.0, .doc = "Recorded cap diameter; absent for forms without a cap."});
-        visit(&F::height_m, Info{.name = "height_m", .unit = "m", .min = 0.001, .max = 1.0, .doc = "Recorded height of the fruit body."});
+        visit(&F::cap_diameter_m,
+              Info{.name = "cap_diameter_m",
+                   .unit = "m",
+                   .min = 0.001,
+                   .max = 1.0,
+                   .doc = "Recorded cap diameter; absent for forms without a cap."});
+        visit(&F::height_m, Info{.name = "height_m",
+                                 .unit = "m",
+                                 .min = 0.001,
+                                 .max = 1.0,
+                                 .doc = "Recorded height of the fruit body."});
         visit(&F::substrate, Info{.name = "substrate", .most = 64, .doc = "What it grows on."});
         visit(&F::habitat, Info{.name = "habitat", .most = 96, .doc = "Where it grows."});
-        visit(&F::colour, Info{.name = "colour", .most = 32, .doc = "Main colour of the cap, in a word."});
-        visit(&F::season, Info{.name = "season", .min = 1, .max = 12, .most = 12, .doc = "Months in which it fruits in the northern hemisphere."});
-        visit(&F::sources, Info{.name = "sources", .most = 12, .doc = "Where the facts come from."});
+        visit(&F::colour,
+              Info{.name = "colour", .most = 32, .doc = "Main colour of the cap, in a word."});
+        visit(&F::season, Info{.name = "season",
+                               .min = 1,
+                               .max = 12,
+                               .most = 12,
+                               .doc = "Months in which it fruits in the northern hemisphere."});
+        visit(&F::sources,
+              Info{.name = "sources", .most = 12, .doc = "Where the facts come from."});
     }
     bool operator==(const Facts&) const = default;
 };
@@ -61,14 +81,34 @@ struct Spread {
 
     static constexpr void fields(auto visit) {
         using S = Spread;
-        visit(&S::size, Info{.name = "size", .min = 0, .max = 1.2, .doc = "Of the whole; 0.3 means from 0.74 to 1.35 times."});
-        visit(&S::stem_length, Info{.name = "stem_length", .min = 0, .max = 0.8, .doc = "Of the stem's length."});
-        visit(&S::stem_width, Info{.name = "stem_width", .min = 0, .max = 0.8, .doc = "Of the stem's width."});
-        visit(&S::cap_height, Info{.name = "cap_height", .min = 0, .max = 0.6, .doc = "Of the height of the cap over its margin."});
-        visit(&S::bend_deg, Info{.name = "bend_deg", .unit = "deg", .min = 0, .max = 60, .doc = "Added to the template's bend, at most."});
-        visit(&S::lean_deg, Info{.name = "lean_deg", .unit = "deg", .min = 0, .max = 30, .doc = "Added to the template's lean, at most."});
-        visit(&S::imperfection, Info{.name = "imperfection", .min = 0, .max = 1, .doc = "Added to the template's imperfection, at most."});
-        visit(&S::lightness, Info{.name = "lightness", .min = 0, .max = 0.5, .doc = "Of the cap's lightness."});
+        visit(&S::size, Info{.name = "size",
+                             .min = 0,
+                             .max = 1.2,
+                             .doc = "Of the whole; 0.3 means from 0.74 to 1.35 times."});
+        visit(&S::stem_length,
+              Info{.name = "stem_length", .min = 0, .max = 0.8, .doc = "Of the stem's length."});
+        visit(&S::stem_width,
+              Info{.name = "stem_width", .min = 0, .max = 0.8, .doc = "Of the stem's width."});
+        visit(&S::cap_height, Info{.name = "cap_height",
+                                   .min = 0,
+                                   .max = 0.6,
+                                   .doc = "Of the height of the cap over its margin."});
+        visit(&S::bend_deg, Info{.name = "bend_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 60,
+                                 .doc = "Added to the template's bend, at most."});
+        visit(&S::lean_deg, Info{.name = "lean_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 30,
+                                 .doc = "Added to the template's lean, at most."});
+        visit(&S::imperfection, Info{.name = "imperfection",
+                                     .min = 0,
+                                     .max = 1,
+                                     .doc = "Added to the template's imperfection, at most."});
+        visit(&S::lightness,
+              Info{.name = "lightness", .min = 0, .max = 0.5, .doc = "Of the cap's lightness."});
     }
     bool operator==(const Spread&) const = default;
 };
@@ -80,8 +120,10 @@ struct Stage {
     Model model;
 
     static constexpr void fields(auto visit) {
-        visit(&Stage::age, Info{.name = "age", .min = 0, .max = 1, .doc = "When it looks like this."});
-        visit(&Stage::name, Info{.name = "name", .most = 48, .doc = "What a mycologist calls the stage."});
+        visit(&Stage::age,
+              Info{.name = "age", .min = 0, .max = 1, .doc = "When it looks like this."});
+        visit(&Stage::name,
+              Info{.name = "name", .most = 48, .doc = "What a mycologist calls the stage."});
         visit(&Stage::model, Info{.name = "model", .doc = "The template."});
     }
     bool operator==(const Stage&) const = default;
@@ -95,12 +137,18 @@ struct Species {
     std::vector<Stage> stages;
 
     static constexpr void fields(auto visit) {
-        visit(&Species::id, Info{.name = "id", .most = 48, .doc = "Name in addresses: lower-case letters and underscores."});
+        visit(&Species::id, Info{.name = "id",
+                                 .most = 48,
+                                 .doc = "Name in addresses: lower-case letters and underscores."});
         visit(&Species::facts, Info{.name = "facts", .doc = "What is recorded."});
         visit(&Species::spread, Info{.name = "spread", .doc = "How far individuals vary."});
-        visit(&Species::stages, Info{.name = "stages", .most = 8, .doc = "Growth stages by age; every stage has as many control points on each sub-curve."});
+        visit(&Species::stages, Info{.name = "stages",
+                                     .most = 8,
+                                     .doc = "Growth stages by age; every stage has as many control "
+                                            "points on each sub-curve."});
     }
-    void check(const std::string& path, std::vector<Problem>& problems) const;  // core/model/species.cpp
+    void check(const std::string& path,
+               std::vector<Problem>& problems) const;  // core/model/species.cpp
     bool operator==(const Species&) const = default;
 };
 

@@ -23,27 +23,43 @@ double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
 }
 
 bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
-    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x)) return false;
-    if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y)) return false;
-    const double abc = cross(a, b, c), abd = cross(a, b, d), cda = cross(c, d, a), cdb = cross(c, d, b);
-    return ((abc <= 0.0 && abd >= 0.0) || (abc >= 0.0 && abd <= 0.0)) && ((cda <= 0.0 && cdb >= 0.0) || (cda >= 0.0 && cdb <= 0.0));
+    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x))
+        return false;
+    if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
+        return false;
+    const double abc = cross(a, b, c), abd = cross(a, b, d), cda = cross(c, d, a),
+                 cdb = cross(c, d, b);
+    return ((abc <= 0.0 && abd >= 0.0) || (abc >= 0.0 && abd <= 0.0)) &&
+           ((cda <= 0.0 && cdb >= 0.0) || (cda >= 0.0 && cdb <= 0.0));
 }
 
 }  // namespace
 
 void Silhouette::check(const std::string& path, std::vector<Problem>& problems) const {
-    const auto bad = [&](const std::string& at, std::string message) { problems.push_back({path + at, std::move(message)}); };
-    if (stem.size() < 2) return bad("/stem", std::to_string(stem.size()) + " control points; at least 2 are needed");
-    if (hymenium.size() == 1) return bad("/hymenium", "1 control point; none or at least 2 are needed");
-    if (cap.size() < 2) return bad("/cap", std::to_string(cap.size()) + " control points; at least 2 are needed");
-    if (stem.front().r != 0.0) bad("/stem/0/r", number(stem.front().r) + " is off the axis; the outline begins at r = 0");
-    if (cap.back().r != 0.0) bad("/cap/" + std::to_string(cap.size() - 1) + "/r", number(cap.back().r) + " is off the axis; the outline ends at r = 0");
+    const auto bad = [&](const std::string& at, std::string message) {
+        problems.push_back({path + at, std::move(message)});
+    };
+    if (stem.size() < 2)
+        return bad("/stem", std::to_string(stem.size()) + " control points; at least 2 are needed");
+    if (hymenium.size() == 1)
+        return bad("/hymenium", "1 control point; none or at least 2 are needed");
+    if (cap.size() < 2)
+        return bad("/cap", std::to_string(cap.size()) + " control points; at least 2 are needed");
+    if (stem.front().r != 0.0)
+        bad("/stem/0/r", number(stem.front().r) + " is off the axis; the outline begins at r = 0");
+    if (cap.back().r != 0.0)
+        bad("/cap/" + std::to_string(cap.size() - 1) + "/r",
+            number(cap.back().r) + " is off the axis; the outline ends at r = 0");
     const OutlinePoint& before_cap = hymenium.empty() ? stem.back() : hymenium.back();
-    if (!hymenium.empty() && hymenium.front() != stem.back()) bad("/hymenium/0", "must equal the last point of the stem");
-    if (cap.front() != before_cap) bad("/cap/0", hymenium.empty() ? "must equal the last point of the stem" : "must equal the last point of the hymenium");
+    if (!hymenium.empty() && hymenium.front() != stem.back())
+        bad("/hymenium/0", "must equal the last point of the stem");
+    if (cap.front() != before_cap)
+        bad("/cap/0", hymenium.empty() ? "must equal the last point of the stem"
+                                       : "must equal the last point of the hymenium");
 }
 
-SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments) : segments_(std::move(segments)) {
+SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments)
+    : segments_(std::move(segments)) {
     if (segments_.empty()) return;
     knots_.reserve(segments_.size() * knots_per_segment + 1);
     knots_.push_back({});
@@ -51,7 +67,8 @@ SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments) : segments_(
     glm::dvec2 heading(0.0);
     for (std::size_t s = 0; s < segments_.size(); ++s)
         for (int i = 1; i <= knots_per_segment; ++i) {
-            const glm::dvec2 point = segments_[s].at(static_cast<double>(i) / knots_per_segment).position;
+            const glm::dvec2 point =
+                segments_[s].at(static_cast<double>(i) / knots_per_segment).position;
             const glm::dvec2 step = point - last;
             const double length = std::sqrt(glm::dot(step, step));
             Knot knot = knots_.back();
@@ -60,7 +77,8 @@ SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments) : segments_(
             if (length > 1e-12) {
                 const glm::dvec2 direction = step / length;
                 // The chord between unit vectors stands for the angle: monotone in it, and needs no arc tangent.
-                if (heading != glm::dvec2(0.0)) knot.turn += std::sqrt(glm::dot(direction - heading, direction - heading));
+                if (heading != glm::dvec2(0.0))
+                    knot.turn += std::sqrt(glm::dot(direction - heading, direction - heading));
                 heading = direction;
             }
             knots_.push_back(knot);
@@ -76,15 +94,18 @@ OutlineSample SubCurve::sample(double parameter, double arc) const {
     glm::dvec2 tangent = s.derivative;
     double speed = std::sqrt(glm::dot(tangent, tangent));
     if (speed < 1e-12) {
-        tangent = segments_[static_cast<std::size_t>(segment)].to - segments_[static_cast<std::size_t>(segment)].from;
+        tangent = segments_[static_cast<std::size_t>(segment)].to -
+                  segments_[static_cast<std::size_t>(segment)].from;
         speed = std::max(std::sqrt(glm::dot(tangent, tangent)), 1e-12);
     }
-    return {s.position.x, s.position.y, tangent.x / speed, tangent.y / speed, length_ > 0.0 ? arc / length_ : 0.0};
+    return {s.position.x, s.position.y, tangent.x / speed, tangent.y / speed,
+            length_ > 0.0 ? arc / length_ : 0.0};
 }
 
 OutlineSample SubCurve::at(double share) const {
     const double arc = std::clamp(share, 0.0, 1.0) * length_;
-    const auto above = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, arc, [](double a, const Knot& k) { return a < k.arc; });
+    const auto above = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, arc,
+                                        [](double a, const Knot& k) { return a < k.arc; });
     const Knot& b = *above;
     const Knot& a = *(above - 1);
     const double t = b.arc > a.arc ? (arc - a.arc) / (b.arc - a.arc) : 0.0;
@@ -97,7 +118,9 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     samples.reserve(static_cast<std::size_t>(count));
     const double whole_turn = std::max(knots_.back().turn, 1e-9);
     const double whole_arc = std::max(length_, 1e-12);
-    const auto measure = [&](const Knot& k) { return 0.5 * k.arc / whole_arc + 0.5 * k.turn / whole_turn; };
+    const auto measure = [&](const Knot& k) {
+        return 0.5 * k.arc / whole_arc + 0.5 * k.turn / whole_turn;
+    };
     const double whole = measure(knots_.back());
     std::size_t k = 1;
     for (int i = 0; i < count; ++i) {
@@ -106,7 +129,8 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
         const double from = measure(knots_[k - 1]), to = measure(knots_[k]);
         const double t = to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0;
         const Knot &a = knots_[k - 1], &b = knots_[k];
-        samples.push_back(sample(a.parameter + t * (b.parameter - a.parameter), a.arc + t * (b.arc - a.arc)));
+        samples.push_back(
+            sample(a.parameter + t * (b.parameter - a.parameter), a.arc + t * (b.arc - a.arc)));
     }
     // The ends are the control points themselves, so that neighbouring sub-curves weld bit for bit.
     samples.front() = sample(0.0, 0.0);
@@ -127,7 +151,8 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
     std::vector<glm::dvec2> points;
     std::vector<Place> places;
     std::array<std::size_t, 4> starts{};
-    const auto append = [&](const char* curve, const std::vector<OutlinePoint>& controls, std::size_t& end) {
+    const auto append = [&](const char* curve, const std::vector<OutlinePoint>& controls,
+                            std::size_t& end) {
         for (std::size_t i = points.empty() ? 0 : 1; i < controls.size(); ++i) {
             points.emplace_back(controls[i].r, controls[i].y);
             places.push_back({curve, i});
@@ -141,12 +166,17 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
     const std::size_t n = points.size();
     const bool has_hymenium = starts[2] != starts[1];
     const auto corner = [&](std::size_t i) {
-        return (i == starts[1] && silhouette.junction == Join::corner) || (has_hymenium && i == starts[2] && silhouette.margin == Join::corner);
+        return (i == starts[1] && silhouette.junction == Join::corner) ||
+               (has_hymenium && i == starts[2] && silhouette.margin == Join::corner);
     };
     const auto velocity = [&](std::size_t i, bool leaving) -> glm::dvec2 {
         // At the axis the neighbour is the mirrored one: the surface is smooth across its pole.
-        if (i == 0) return centripetal_velocity(glm::dvec2(-points[1].x, points[1].y), points[0], points[1]);
-        if (i + 1 == n) return centripetal_velocity(points[n - 2], points[n - 1], glm::dvec2(-points[n - 2].x, points[n - 2].y));
+        if (i == 0)
+            return centripetal_velocity(glm::dvec2(-points[1].x, points[1].y), points[0],
+                                        points[1]);
+        if (i + 1 == n)
+            return centripetal_velocity(points[n - 2], points[n - 1],
+                                        glm::dvec2(-points[n - 2].x, points[n - 2].y));
         if (!corner(i)) return centripetal_velocity(points[i - 1], points[i], points[i + 1]);
         const glm::dvec2 chord = leaving ? points[i + 1] - points[i] : points[i] - points[i - 1];
         const double step = std::sqrt(std::sqrt(glm::dot(chord, chord)));
@@ -156,7 +186,8 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
         std::vector<SplineSegment<glm::dvec2>> segments;
         for (std::size_t i = from; i < to; ++i) {
             const double step = centripetal_step(points[i], points[i + 1]);
-            segments.push_back({points[i], points[i + 1], velocity(i, true) * step, velocity(i + 1, false) * step});
+            segments.push_back({points[i], points[i + 1], velocity(i, true) * step,
+                                velocity(i + 1, false) * step});
         }
         return SubCurve(std::move(segments));
     };
@@ -174,18 +205,24 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
         for (int i = polyline.empty() ? 0 : 1; i < count; ++i) {
             const auto& s = samples[static_cast<std::size_t>(i)];
             polyline.emplace_back(s.r, s.y);
-            owners.push_back({name, std::min(controls - 1, static_cast<std::size_t>(s.share * static_cast<double>(controls)))});
+            owners.push_back(
+                {name, std::min(controls - 1, static_cast<std::size_t>(
+                                                  s.share * static_cast<double>(controls)))});
         }
     };
     refine(stem, "/stem/", silhouette.stem.size());
     refine(hymenium, "/hymenium/", silhouette.hymenium.size());
     refine(cap, "/cap/", silhouette.cap.size());
-    const auto where = [&](std::size_t i) { return path + owners[i].curve + std::to_string(owners[i].index); };
+    const auto where = [&](std::size_t i) {
+        return path + owners[i].curve + std::to_string(owners[i].index);
+    };
     for (std::size_t i = 1; i + 1 < polyline.size(); ++i)
         if (polyline[i].x <= 0.0)
-            throw Impossible({{where(i), "the outline reaches the axis between its ends (r = " + number(polyline[i].x) + " m)"}});
+            throw Impossible({{where(i), "the outline reaches the axis between its ends (r = " +
+                                             number(polyline[i].x) + " m)"}});
     if (const auto crossing = first_crossing(polyline))
-        throw Impossible({{where((*crossing)[0]), "the outline crosses itself here and near " + where((*crossing)[1])}});
+        throw Impossible({{where((*crossing)[0]),
+                           "the outline crosses itself here and near " + where((*crossing)[1])}});
 }
 
 std::optional<std::array<std::size_t, 2>> first_crossing(const std::vector<glm::dvec2>& polyline) {

@@ -19,7 +19,7 @@ struct OutlineSample {
 
 /// One of the three sub-curves, with its arc-length table.
 class SubCurve {
-public:
+  public:
     SubCurve() = default;
     explicit SubCurve(std::vector<SplineSegment<glm::dvec2>> segments);
 
@@ -32,7 +32,7 @@ public:
     /// `count` >= 2 points from start to end, spaced half by length and half by turning, so that thin margins stay round.
     [[nodiscard]] std::vector<OutlineSample> sampled(int count) const;
 
-private:
+  private:
     struct Knot {
         double arc = 0.0, turn = 0.0, parameter = 0.0;  // parameter: segment index + t
     };
@@ -55,6 +55,7 @@ struct Outline {
 
 /// First pair of segments of a polyline that touch without being neighbours; none if it is simple.
 /// Exact for the given coordinates up to rounding of one orientation test. cost O(n^2), boxes first
-[[nodiscard]] std::optional<std::array<std::size_t, 2>> first_crossing(const std::vector<glm::dvec2>& polyline);
+[[nodiscard]] std::optional<std::array<std::size_t, 2>> first_crossing(
+    const std::vector<glm::dvec2>& polyline);
 
 }  // namespace sporeprint
