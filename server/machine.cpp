@@ -105,10 +105,6 @@ fs::path program_folder() {
     return error ? fs::path() : program.parent_path();
 }
 
-void bound_malloc() {
-    mallopt(M_ARENA_MAX, 2);
-    mallopt(M_TRIM_THRESHOLD, 16 << 20);
-    mallopt(M_MMAP_THRESHOLD, 256 << 10);
-}
+void bound_malloc() { mallopt(M_ARENA_MAX, 2); }
 
 }  // namespace sporeprint::server

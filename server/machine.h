@@ -28,7 +28,9 @@ struct Usage {
 /// The folder this program stands in.
 [[nodiscard]] std::filesystem::path program_folder();
 
-/// Bounds the arenas of malloc, so that what many threads free is used again.
+/// Lets the hundreds of threads of the transport share two arenas of malloc: what one frees
+/// another uses again. Lower thresholds for returning memory were measured too: 100 MB less at
+/// rest, but a tenth more time for each small answer, since its pages are mapped anew.
 void bound_malloc();
 
 }  // namespace sporeprint::server

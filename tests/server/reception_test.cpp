@@ -188,21 +188,17 @@ TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
     EXPECT_EQ(answer.status, 504);
     EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
 
-    House left;  // one slot: the second has to wait for the first
-    std::jthread first([&] {
-        for (int i = 0; i < 8; ++i) left.ask(heavy + std::to_string(i));
-    });
-    std::atomic<bool> is_gone{false};
-    int status = 0;
-    std::jthread second([&] {
-        for (int i = 100; i < 140 && status != client_left; ++i)
-            status =
-                left.ask(heavy + std::to_string(i), "GET", [&] { return is_gone.load(); }).status;
-    });
-    is_gone = true;
-    second.join();
-    first.join();
-    EXPECT_EQ(status, client_left);
+    House left;  // one slot: whoever comes last waits for all before
+    std::vector<std::jthread> crowd;
+    for (int i = 0; i < 60; ++i)
+        crowd.emplace_back([&, i] { EXPECT_EQ(left.ask(heavy + std::to_string(i)).status, 200); });
+    while (text_of(left.ask("/metrics")).find("sporeprint_waiters 60\n") == std::string::npos &&
+           left.service.counters().generated < 30)
+        std::this_thread::yield();
+    EXPECT_EQ(left.ask(heavy + "1000", "GET", [] { return true; }).status, client_left);
+    crowd.clear();
+    EXPECT_EQ(left.service.counters().generated, 60u) << "nobody made what nobody waits for";
+    EXPECT_NE(text_of(left.ask("/metrics")).find("{reason=\"left\"} 1\n"), std::string::npos);
 }
 
 TEST(Reception, RefusesWithProblems) {
