@@ -48,8 +48,11 @@ class Sweeper {
   public:
     Sweeper(Mesh& mesh, const Deformer& deformer, const Waves& waves, int columns, bool textured)
         : mesh_(mesh), deformer_(deformer), waves_(waves), columns_(columns), textured_(textured) {
-        for (int j = 0; j <= columns; ++j)
-            turns_.push_back(sine_cosine(2.0 * pi * (j % columns) / columns));
+        for (int j = 0; j <= columns; ++j) {
+            const double angle = 2.0 * pi * (j % columns) / columns;
+            turns_.push_back(sine_cosine(angle));
+            if (!waves.flat()) phases_.push_back(waves.phases(angle));
+        }
     }
 
     void face(const Face& face, int rings) {
@@ -81,7 +84,7 @@ class Sweeper {
                                {-s, 0.0, c}};
             if (face.on_cap && !waves_.flat()) {
                 const double share = face.part == Part::cap ? 1.0 - sample.share : sample.share;
-                const auto wave = waves_.at(share, 2.0 * pi * (j % columns_) / columns_);
+                const auto wave = waves_.at(share, phases_[static_cast<std::size_t>(j)]);
                 point.position.y += wave.height;
                 point.meridian.y +=
                     (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
@@ -135,6 +138,7 @@ class Sweeper {
     int columns_;
     bool textured_;
     std::vector<SineCosine> turns_;
+    std::vector<Waves::Phases> phases_;
 };
 
 }  // namespace
@@ -144,8 +148,15 @@ Deformer::Deformer(const Model& model, const Swept& shape, const Outline& outlin
     : base_(shape.silhouette.stem.front().y),
       top_(std::max(shape.silhouette.stem.back().y, shape.silhouette.stem.front().y + 1e-4)),
       axis_(shape.axis, model.deformation, angles_of(seed), base_, top_) {
-    const double fold = axis_.greatest_curvature() * greatest_radius(outline.stem);
-    if (fold >= 0.98 && model.deformation.bend_deg > 0.0)
+    const double radius = greatest_radius(outline.stem);
+    const double fold = axis_.greatest_curvature() * radius;
+    DeformationOf<Plain> unbent = model.deformation;
+    unbent.bend_deg = 0.0;
+    if (fold >= 0.98 &&
+        Axis(shape.axis, unbent, {}, base_, top_).greatest_curvature() * radius >= 0.98)
+        throw Impossible({{"/model/axis", "curves so tightly that the stem, " +
+                                              text(2000.0 * radius) + " mm wide, folds"}});
+    if (fold >= 0.98)
         throw Impossible(
             {{"/deformation/bend_deg",
               text(model.deformation.bend_deg) + " folds this stem; about " +
@@ -195,16 +206,22 @@ Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed)
     std::erase_if(modes_, [&](const Mode& m) { return m.count * 3 > columns; });
 }
 
-Waves::Value Waves::at(double share, double angle) const {
+Waves::Phases Waves::phases(double angle) const {
+    Phases out{};
+    for (std::size_t i = 0; i < modes_.size(); ++i)
+        out[i] = sine_cosine(modes_[i].count * angle + modes_[i].phase);
+    return out;
+}
+
+Waves::Value Waves::at(double share, const Phases& phases) const {
     Value value;
-    for (const Mode& mode : modes_) {
+    for (std::size_t i = 0; i < modes_.size(); ++i) {
+        const Mode& mode = modes_[i];
         const double t = std::clamp((share - mode.from) / (1.0 - mode.from), 0.0, 1.0);
-        const double weight = t * t * (3.0 - 2.0 * t),
-                     slope = 6.0 * t * (1.0 - t) / (1.0 - mode.from);
-        const auto [s, c] = sine_cosine(mode.count * angle + mode.phase);
-        value.height += amplitude_ * mode.size * weight * s;
-        value.by_share += amplitude_ * mode.size * slope * s;
-        value.by_angle += amplitude_ * mode.size * weight * mode.count * c;
+        const double size = amplitude_ * mode.size, weight = t * t * (3.0 - 2.0 * t);
+        value.height += size * weight * phases[i].sine;
+        value.by_share += size * (6.0 * t * (1.0 - t) / (1.0 - mode.from)) * phases[i].sine;
+        value.by_angle += size * weight * mode.count * phases[i].cosine;
     }
     return value;
 }

@@ -4,6 +4,7 @@
 #include "core/build/axis.h"
 #include "core/build/detail.h"
 #include "core/build/free_form.h"
+#include "core/math/elementary.h"
 #include "core/mesh/mesh.h"
 #include "core/silhouette/outline.h"
 
@@ -17,7 +18,7 @@ struct SurfacePoint {
 /// Everything that moves a point from rest to its place: imperfections, then the axis.
 class Deformer {
   public:
-    /// throws Impossible if the stem would fold ("/deformation/bend_deg")
+    /// throws Impossible if the stem would fold: "/deformation/bend_deg", or "/model/axis" if it folds without a bend
     Deformer(const Model& model, const Swept& shape, const Outline& outline, std::uint32_t seed);
 
     /// Moves a point that belongs to a station of the axis: the stem's skin to that of its height, caps and rings to the frozen one
@@ -46,7 +47,12 @@ class Waves {
         double height = 0.0, by_share = 0.0, by_angle = 0.0;
     };
     [[nodiscard]] bool flat() const { return amplitude_ == 0.0; }
-    [[nodiscard]] Value at(double share, double angle) const;
+    [[nodiscard]] Value at(double share, double angle) const { return at(share, phases(angle)); }
+
+    /// The waves' own angles at an azimuth; worked out once for a whole column.
+    using Phases = std::array<SineCosine, 3>;
+    [[nodiscard]] Phases phases(double angle) const;
+    [[nodiscard]] Value at(double share, const Phases& phases) const;
 
   private:
     struct Mode {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "core/params/problems.h"
 
@@ -31,6 +32,20 @@ bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const 
                  cdb = cross(c, d, b);
     return ((abc <= 0.0 && abd >= 0.0) || (abc >= 0.0 && abd <= 0.0)) &&
            ((cda <= 0.0 && cdb >= 0.0) || (cda >= 0.0 && cdb <= 0.0));
+}
+
+/// Smallest r at the turning points strictly inside a segment; infinite if r runs one way.
+double least_turning_r(const SplineSegment<glm::dvec2>& s) {
+    const double a = s.leaving.x, b = 3.0 * (s.to.x - s.from.x) - 2.0 * s.leaving.x - s.arriving.x;
+    const double c =
+        3.0 * (2.0 * (s.from.x - s.to.x) + s.leaving.x + s.arriving.x);  // r' = a + 2 b t + c t^2
+    const double discriminant = b * b - a * c;
+    double least = std::numeric_limits<double>::infinity();
+    if (!(discriminant > 0.0)) return least;
+    const double q = -(b + (b < 0.0 ? -1.0 : 1.0) * std::sqrt(discriminant));
+    for (const double t : {q / c, a / q})
+        if (t > 0.0 && t < 1.0) least = std::min(least, s.at(t).position.x);
+    return least;
 }
 
 }  // namespace
@@ -188,6 +203,12 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
             const double step = centripetal_step(points[i], points[i + 1]);
             segments.push_back({points[i], points[i + 1], velocity(i, true) * step,
                                 velocity(i + 1, false) * step});
+            const double least =
+                std::min(least_turning_r(segments.back()), i > 0 ? points[i].x : 1.0);
+            if (least <= 0.0)
+                throw Impossible({{path + places[i].curve + std::to_string(places[i].index),
+                                   "the outline reaches the axis between its ends (r = " +
+                                       number(least) + " m)"}});
         }
         return SubCurve(std::move(segments));
     };
@@ -216,10 +237,6 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
     const auto where = [&](std::size_t i) {
         return path + owners[i].curve + std::to_string(owners[i].index);
     };
-    for (std::size_t i = 1; i + 1 < polyline.size(); ++i)
-        if (polyline[i].x <= 0.0)
-            throw Impossible({{where(i), "the outline reaches the axis between its ends (r = " +
-                                             number(polyline[i].x) + " m)"}});
     if (const auto crossing = first_crossing(polyline))
         throw Impossible({{where((*crossing)[0]),
                            "the outline crosses itself here and near " + where((*crossing)[1])}});

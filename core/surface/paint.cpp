@@ -500,7 +500,7 @@ ImageSet paint(const PaintParams& params, const Parallel& parallel) {
         out.files[i] = Slice(std::make_shared<const Bytes>(jpeg(rgb, side, side, quality, chroma)));
     };
     const std::array<std::function<void()>, 3> pieces = {
-        [&] { encode(ImageKind::normal, 92, Chroma::full); },
+        [&] { encode(ImageKind::normal, 89, Chroma::full); },
         [&] { encode(ImageKind::base_color, 88, Chroma::halved); },
         [&] { encode(ImageKind::orm, 88, Chroma::halved); },
     };

@@ -86,7 +86,7 @@ void in_turn(std::span<const std::function<void()>> pieces);
 ///
 /// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images by the
 /// layout of swept_charts, bleeding beyond every chart
-/// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 92,
+/// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 89,
 /// 4:4:4),
 ///          occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
 /// throws   InvalidInput if a given image cannot be read (path /surface/<part>/image); Cancelled
