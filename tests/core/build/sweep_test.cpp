@@ -514,6 +514,23 @@ TEST(Sweep, AStemThatFoldsIsRefusedWithTheMostThatItTakes) {
     expect_valid(mesh_of(order));
 }
 
+TEST(Sweep, AnAxisThatFoldsTheStemIsRefusedWithOrWithoutABend) {
+    Model model = bare(frustum(0.03, 0.04, 0.01));
+    std::get<Swept>(model.shape).silhouette.stem = {{0.0, 0.0}, {0.03, 0.001}, {0.03, 0.05}};
+    std::get<Swept>(model.shape).silhouette.hymenium = {{0.03, 0.05}, {0.04, 0.06}};
+    std::get<Swept>(model.shape).silhouette.cap = {{0.04, 0.06}, {0.0, 0.07}};
+    std::get<Swept>(model.shape).axis = {{0.0, 0.0, 0.0}, {0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}};
+    for (const double bend : {0.0, 20.0}) {
+        model.deformation.bend_deg = bend;
+        const auto problems =
+            refusal([&] { (void)swept_mesh(model, std::get<Swept>(model.shape), 2, 1, false); });
+        EXPECT_TRUE(names(problems, "/model/axis", "mm wide, folds"));
+    }
+    model.deformation.bend_deg = 0.0;
+    std::get<Swept>(model.shape).axis = {{0.0, 0.0, 0.0}, {0.05, 0.5, 0.0}, {0.0, 1.0, 0.0}};
+    swept(model, 2);
+}
+
 TEST(Sweep, RandomOutlinesSweepToValidMeshes) {
     int grown = 0;
     EXPECT_TRUE(rc::check("random outlines of four to eight points", [&] {

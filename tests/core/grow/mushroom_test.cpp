@@ -59,6 +59,8 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
         for (const Problem& problem : problems) {
             refused.insert(problem.path);
             EXPECT_FALSE(problem.message.empty());
+            // A fold is told at the bend, whatever part of the deformation made it too tight.
+            EXPECT_TRUE(problem.path == path || path.starts_with("/deformation/")) << problem.path;
         }
     });
     EXPECT_GT(grown, 40);
@@ -67,6 +69,32 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
         "/hymenium/pores_per_mm", "/ornaments/warts",      "/ornaments/scales",
         "/ornaments/ring",        "/deformation/bend_deg", "/deformation/zone_to"};
     for (const std::string& path : refused) EXPECT_TRUE(known.contains(path)) << path;
+}
+
+TEST_P(EverySpecies, AsAModelOfOnesOwnIsValidOrRefusedByNameWithEachFieldAtEachEnd) {
+    MushroomOrder order = textured(order_of("x", 0.5, 3, 1));
+    order.mix.clear();
+    order.model = atlas().find(GetParam())->species.stages[2].model;
+    order.model->deformation.imperfection = 0.5;
+    order.model->weathering.waves = 0.5;
+    std::get<Swept>(order.model->shape).axis = {
+        {0.0, 0.0, 0.0}, {0.01, 0.5, 0.0}, {0.0, 1.0, 0.01}};
+    int grown = 0;
+    corners(*order.model, [&](const std::string& path) {
+        if (path.starts_with("/surface/")) return;  // nothing of the shape
+        SCOPED_TRACE(path);
+        const auto problems = refusal([&] {
+            const Mesh mesh = mesh_of(order);
+            ++grown;
+            expect_valid(mesh);
+        });
+        for (const Problem& problem : problems)
+            EXPECT_TRUE(problem.path.starts_with("/model/silhouette/") ||
+                        problem.path == "/model/axis" || problem.path == "/deformation/bend_deg" ||
+                        problem.path == "/model/deformation/zone_to")
+                << problem.path << ": " << problem.message;
+    });
+    EXPECT_GT(grown, 60);
 }
 
 TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
