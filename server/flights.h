@@ -238,7 +238,7 @@ class Flights {
     }
 
     Slots& slots_;
-    const std::size_t most_waiters_;
+    std::size_t most_waiters_;
     mutable std::mutex mutex_;
     std::unordered_map<std::string, std::shared_ptr<Flight>> flights_;
     std::map<std::uint64_t, std::string> landed_;  ///< when, key; kept for open glances

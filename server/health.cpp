@@ -48,14 +48,14 @@ bool is_healthy(const std::string& url, std::string& why) {
         return false;
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
+    const std::string request =
+        "GET " + path + " HTTP/1.1\r\nHost: " + authority + "\r\nConnection: close\r\n\r\n";
     why = "no address";
     for (const addrinfo* address = found; address; address = address->ai_next) {
         const Socket socket{::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0)};
         const timeval patience{2, 0};
         setsockopt(socket.number, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
         setsockopt(socket.number, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
-        const std::string request =
-            "GET " + path + " HTTP/1.1\r\nHost: " + authority + "\r\nConnection: close\r\n\r\n";
         std::array<char, 16> answer{};
         std::size_t got = 0;
         if (::connect(socket.number, address->ai_addr, address->ai_addrlen) != 0 ||

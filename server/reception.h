@@ -71,7 +71,7 @@ class Reception {
     api::Service& service_;
     Metrics& metrics_;
     Log& log_;
-    const ReceptionOptions options_;
+    ReceptionOptions options_;
     std::atomic<bool> ready_{false};
     std::atomic<const Transport*> transport_{nullptr};
     Slots slots_;

@@ -58,7 +58,7 @@ class Slots {
 
     void work();
 
-    const std::size_t longest_queue_;
+    std::size_t longest_queue_;
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::list<Task> queue_;

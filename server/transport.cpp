@@ -403,7 +403,7 @@ class Transport::Connection {
 
       private:
         Transport& owner_;
-        const std::size_t bytes_;
+        std::size_t bytes_;
         bool granted_ = true;
     };
 
@@ -571,7 +571,7 @@ class Transport::Connection {
 
     Transport& owner_;
     const TransportOptions& options_;
-    const int socket_;
+    int socket_;
     std::string peer_;
     std::string buffer_;
     std::size_t served_ = 0;

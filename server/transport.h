@@ -100,8 +100,8 @@ class Transport {
     std::string new_id();
     bool crowded() const { return crowded_.load(std::memory_order_relaxed); }
 
-    const TransportOptions options_;
-    const Handlers handlers_;
+    TransportOptions options_;
+    Handlers handlers_;
     std::unique_ptr<Listener> listener_;
     std::atomic<bool> draining_{false};
     std::atomic<bool> crowded_{false};
