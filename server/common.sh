@@ -1,5 +1,8 @@
 # What server/run and tests/run share; both source it from the project's root, under `set -euo pipefail`.
 
+# Another checkout, and the same one elsewhere, finds what was compiled before.
+export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
+
 # Under `sudo`, goes on as the user who owns the checkout, so that no file in build/ belongs to root.
 # Call when the packages are installed: become_owner "$0" "$@".
 become_owner() {
