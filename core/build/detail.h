@@ -14,9 +14,9 @@ struct Detail {
 
 /// By LOD. The same individual in each: counts change, draws do not.
 inline constexpr std::array<Detail, 4> details = {{
-    {30, 22, 32, 72, 7, 1, 6},
-    {14, 10, 15, 36, 4, 0, 3},
-    {8, 6, 9, 18, 0, 0, 1},
+    {26, 18, 28, 64, 7, 1, 6},
+    {13, 9, 14, 32, 4, 0, 3},
+    {7, 5, 7, 16, 0, 0, 1},
     {4, 3, 4, 8, 0, 0, 0},
 }};
 
