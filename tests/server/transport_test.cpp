@@ -293,10 +293,16 @@ TEST(Transport, BoundsTheMemoryOfLargeBodies) {
     EXPECT_EQ(second.ask("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n").status, 503);
     first.send(std::string(1000000, 'x'));
     EXPECT_EQ(first.receive().status, 200);
-    RawClient third(server.port());
-    third.send("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n");
-    third.send(std::string(1000000, 'x'));
-    EXPECT_EQ(third.receive().status, 200) << "what was taken is given back";
+    // What was taken is given back, a moment after the answer has left.
+    int status = 503;
+    for (int i = 0; i < 100 && status == 503; ++i) {
+        RawClient third(server.port());
+        third.send("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n");
+        third.send(std::string(1000000, 'x'));
+        status = third.receive().status;
+        if (status == 503) std::this_thread::sleep_for(50ms);
+    }
+    EXPECT_EQ(status, 200);
 }
 
 TEST(Transport, EndsConnectionsThatAreSilentOrDrip) {
