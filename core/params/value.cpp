@@ -249,6 +249,11 @@ void Value::erase(std::string_view key) {
 bool operator==(const Value& a, const Value& b) { return a.data == b.data; }
 
 Value parse(std::string_view text, std::vector<Problem>& problems) {
+    // The parser takes a zero byte for the end of the text and would pass over whatever follows.
+    if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
+        report(problems, "", "not JSON: a zero byte at position " + std::to_string(zero));
+        return {};
+    }
     Builder builder(problems);
     nlohmann::json::sax_parse(text.begin(), text.end(), &builder);
     return builder.take();

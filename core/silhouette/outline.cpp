@@ -71,6 +71,16 @@ void Silhouette::check(const std::string& path, std::vector<Problem>& problems) 
     if (cap.front() != before_cap)
         bad("/cap/0", hymenium.empty() ? "must equal the last point of the stem"
                                        : "must equal the last point of the hymenium");
+    const auto distinct = [&](const std::string& curve, const std::vector<OutlinePoint>& points) {
+        for (std::size_t i = 1; i < points.size(); ++i) {
+            const double along = points[i].r - points[i - 1].r, up = points[i].y - points[i - 1].y;
+            if (along * along + up * up < 1e-18)  // a nanometre
+                bad(curve + std::to_string(i), "coincides with the point before it");
+        }
+    };
+    distinct("/stem/", stem);
+    distinct("/hymenium/", hymenium);
+    distinct("/cap/", cap);
 }
 
 SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments)
