@@ -87,7 +87,7 @@ int Faults::status() const {
 }
 
 Answer problem_answer(const Request& request, int status, std::string_view detail,
-                      std::span<const Problem> problems, Value::Object more) {
+                      std::span<const Problem> problems, const Value::Object& more) {
     const ProblemType& type = problem_type(status);
     Value body = Value::object();
     body.set("type", std::string("/problems/") + type.slug);
@@ -107,7 +107,7 @@ Answer problem_answer(const Request& request, int status, std::string_view detai
         }
         body.set("errors", std::move(errors));
     }
-    for (auto& [key, value] : more) body.set(key, std::move(value));
+    for (const auto& [key, value] : more) body.set(key, value);
     Answer answer;
     answer.status = status;
     answer.headers = {{"Content-Type", "application/problem+json"}, {"Cache-Control", "no-store"}};

@@ -50,7 +50,7 @@ class Faults {
 /// more      further members of the body, such as `canonical`
 [[nodiscard]] Answer problem_answer(const Request& request, int status, std::string_view detail,
                                     std::span<const Problem> problems = {},
-                                    Value::Object more = {});
+                                    const Value::Object& more = {});
 
 /// The one table from what is thrown below to status and words. InvalidInput 400, Impossible 422, GenerationError 500,
 /// Cancelled 503, anything else 500 without detail. Paths of problems are made what the client wrote: query names for GET,

@@ -182,7 +182,7 @@ struct Service::Parts {
     }
 
     /// The tag of the representation that `request` would get.
-    static std::string selected_etag(const Request& request, std::string etag,
+    static std::string selected_etag(const Request& request, const std::string& etag,
                                      std::string_view content_type) {
         return compressible(content_type) && accepts_gzip(request.header("Accept-Encoding"))
                    ? gzip_etag(etag)
@@ -803,9 +803,9 @@ Answer Service::deliver(const Request& request, const Answer& shared, Outcome ou
 }
 
 Answer Service::problem(const Request& request, int status, std::string_view detail,
-                        std::vector<Header> extra) const {
+                        const std::vector<Header>& extra) const {
     Answer answer = parts_->problem(request, status, detail);
-    for (auto& [name, value] : extra) set_header(answer, name, std::move(value));
+    for (const auto& [name, value] : extra) set_header(answer, name, value);
     return answer;
 }
 

@@ -58,7 +58,7 @@ class Service {
 
     /// problem+json for faults that are found before or beside plan() (408, 413, 414, 429, 431, 500, 503, 504 …).
     [[nodiscard]] Answer problem(const Request& request, int status, std::string_view detail,
-                                 std::vector<Header> extra = {}) const;
+                                 const std::vector<Header>& extra = {}) const;
 
     /// An exception thrown by Job::run as an answer (the one table); unknown exceptions are 500 without detail.
     [[nodiscard]] Answer problem(const Request& request, std::exception_ptr error) const;

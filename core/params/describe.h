@@ -239,15 +239,11 @@ constexpr bool proper_bounds(const Info& info) {
         return proper_bounds<typename T::value_type>(info);
     else if constexpr (is_list<T>)
         return info.most > 0 && proper_bounds<typename T::value_type>(info);
-    else if constexpr (is_tuple<T>)
-        return info.min < info.max;
-    else if constexpr (std::is_same_v<T, Range>)
-        return info.min < info.max;
     else if constexpr (std::is_integral_v<T> && Number<T>)  // and the type can hold them
         return info.min < info.max &&
                info.min >= static_cast<double>(std::numeric_limits<T>::min()) &&
                info.max <= static_cast<double>(std::numeric_limits<T>::max());
-    else if constexpr (Number<T>)
+    else if constexpr (Number<T> || is_tuple<T> || std::is_same_v<T, Range>)
         return info.min < info.max;
     else if constexpr (is_text<T>)
         return info.most <= T::capacity;
