@@ -26,6 +26,10 @@ TEST(Species, TheOnesOfTheAtlasAreFaultless) {
         EXPECT_EQ(problems_in(entry.species), std::vector<Problem>{}) << entry.species.id.string();
 }
 
+OutlinePoint half_way(const OutlinePoint& a, const OutlinePoint& b) {
+    return {0.5 * (a.r + b.r), 0.5 * (a.y + b.y)};
+}
+
 TEST(Species, EachKindOfBadTemplateIsRefusedWithItsPath) {
     const auto expect = [](const std::string& path, const std::string& words,
                            const std::function<void(Species&)>& harm) {
@@ -39,15 +43,15 @@ TEST(Species, EachKindOfBadTemplateIsRefusedWithItsPath) {
     expect("/stages/2/age", "", [](Species& s) { s.stages[2].age = 1.5; });
     expect("/stages/1/model/silhouette/stem", "the first stage has", [](Species& s) {
         auto& stem = silhouette_of(s.stages[1]).stem;
-        stem.insert(stem.begin() + 1, stem[1]);
+        stem.insert(stem.begin() + 1, half_way(stem[0], stem[1]));
     });
     expect("/stages/1/model/silhouette/hymenium", "the first stage has", [](Species& s) {
         auto& hymenium = silhouette_of(s.stages[1]).hymenium;
-        hymenium.insert(hymenium.begin() + 1, hymenium[1]);
+        hymenium.insert(hymenium.begin() + 1, half_way(hymenium[0], hymenium[1]));
     });
     expect("/stages/3/model/silhouette/cap", "the first stage has", [](Species& s) {
         auto& cap = silhouette_of(s.stages[3]).cap;
-        cap.insert(cap.begin() + 1, cap[1]);
+        cap.insert(cap.begin() + 1, half_way(cap[0], cap[1]));
     });
     expect("/stages/2/model/silhouette/cap/0", "last point of the hymenium",
            [](Species& s) { silhouette_of(s.stages[2]).cap[0].r += 0.001; });

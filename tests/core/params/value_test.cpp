@@ -48,6 +48,12 @@ TEST(Value, RepeatedKeysAreRefusedWithTheirPointer) {
     EXPECT_EQ(faults(R"({"a":1,"\u0061":2})").size(), 1u) << "escapes hide nothing";
 }
 
+TEST(Value, AZeroByteEndsNothing) {
+    const auto problems = faults(std::string_view("{}\0{", 4));
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].message, "not JSON: a zero byte at position 2");
+}
+
 TEST(Value, DepthIsBounded) {
     EXPECT_TRUE(faults(nested(deepest_json)).empty());
     const std::vector<Problem> deep = faults(nested(deepest_json + 1));

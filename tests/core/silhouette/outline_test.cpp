@@ -37,6 +37,14 @@ std::vector<Problem> problems_after(const std::function<void(Silhouette&)>& harm
     return problems_of(s);
 }
 
+TEST(Outline, CoincidingControlPointsAreNamed) {
+    const auto problems = problems_after(
+        [](Silhouette& s) { s.hymenium.insert(s.hymenium.begin() + 1, s.hymenium[1]); });
+    ASSERT_EQ(problems.size(), 1u);
+    EXPECT_EQ(problems[0].path, "/hymenium/2");
+    EXPECT_EQ(problems[0].message, "coincides with the point before it");
+}
+
 TEST(Outline, PassesThroughEveryControlPoint) {
     for (const AtlasEntry& entry : atlas().entries())
         for (const Stage& stage : entry.species.stages) {
