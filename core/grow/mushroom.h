@@ -50,6 +50,6 @@ struct Mushroom {
                                      const Extras& extras = {}, const Workshop& workshop = {});
 
 /// Raised whenever bytes change for an unchanged request.
-inline constexpr int generator_version = 1;
+inline constexpr int generator_version = 2;
 
 }  // namespace sporeprint

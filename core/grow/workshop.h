@@ -2,13 +2,14 @@
 #pragma once
 
 #include <functional>
-#include <memory>
 #include <stop_token>
-#include <string>
 
+#include "core/remember.h"
 #include "core/surface/paint.h"
 
 namespace sporeprint {
+
+class MorphSet;  // core/silhouette/morph.h
 
 enum class Step { resolve, build, paint, pack };
 
@@ -29,14 +30,11 @@ constexpr const char* name(Step step) {
 /// Told when a step begins; holds the clock, which core does not.
 using Observer = std::function<void(Step)>;
 
-/// Keeps what is expensive to make again. `remember` returns what it kept under `key`, or what `make` makes now.
+/// Keeps what is expensive to make again, each kind by keys of its own.
 struct Memo {
-    std::function<std::shared_ptr<const ImageSet>(
-        const std::string& key, const std::function<std::shared_ptr<const ImageSet>()>& make)>
-        images =
-            [](const std::string&, const std::function<std::shared_ptr<const ImageSet>()>& make) {
-                return make();
-            };
+    Remember<ImageSet> images = make_anew<ImageSet>;
+    Remember<RawImages> paintings = make_anew<RawImages>;  ///< what a mix dissolves
+    Remember<MorphSet> morphs = make_anew<MorphSet>;       ///< correspondence of a set of species
 };
 
 struct Workshop {

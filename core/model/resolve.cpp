@@ -165,6 +165,7 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
     std::string who = "this model";
     if (order.model) {
         individual.model = *order.model;
+        individual.parts.push_back({"", 1.0, *order.model});
         spread = {0, 0, 0, 0, 0, 0, 0, 0};
     } else {
         if (order.mix.size() != 1)
@@ -174,6 +175,7 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
         if (!entry)
             throw InvalidInput("mix", "'" + order.mix.front().id + "' is no species of the atlas");
         individual.model = model_at(entry->species, asked.age);
+        individual.parts.push_back({order.mix.front().id, 1.0, individual.model});
         spread = entry->species.spread;
         who = entry->species.facts.scientific_name.string();
     }
@@ -203,6 +205,12 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
     overlay(asked.ornaments, model.ornaments);
     overlay(asked.hymenium, model.hymenium);
     overlay(asked.weathering, model.weathering);
+    for (SpeciesShare& part : individual.parts) {
+        overlay(asked.deformation, part.model.deformation);
+        overlay(asked.ornaments, part.model.ornaments);
+        overlay(asked.hymenium, part.model.hymenium);
+        overlay(asked.weathering, part.model.weathering);
+    }
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     report_effective(individual.effective, model);
