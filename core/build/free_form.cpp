@@ -11,6 +11,11 @@ namespace {
 
 constexpr int highest_degree = 7;
 
+// A dent's lattice: the one control point that moves is the middle of five along each axis.
+constexpr int dent_degree = 4, dent_middle = 2;
+constexpr std::array<int, 3> dent_degrees{dent_degree, dent_degree, dent_degree};
+constexpr std::array<int, 3> dent_index{dent_middle, dent_middle, dent_middle};
+
 struct Weight {
     double value, derivative;
 };
@@ -36,6 +41,17 @@ Weight bernstein(int n, int i, double s) {
     const double left = i > 0 ? low * s : 1.0, right = i < n ? high * rest : 1.0;
     const double c = binomial(n, i);
     return {c * left * right, c * (i * low * right - (n - i) * left * high)};
+}
+
+struct DentWeights {
+    glm::dvec3 value, derivative;
+};
+
+/// bernstein() of a dent's control point along the three axes, without its loops; equal to the bit.
+DentWeights dent_weights(const glm::dvec3& s) {
+    constexpr double c = binomial(dent_degree, dent_middle);
+    const glm::dvec3 rest = 1.0 - s, left = s * s, right = rest * rest;
+    return {c * left * right, c * (2.0 * s * right - 2.0 * left * rest)};
 }
 
 /// Largest value of B_i^n on 0..1, taken at s = i / n.
@@ -68,6 +84,41 @@ FreeForm::FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<
                 throw std::invalid_argument("a control point lies outside the lattice");
     }
     std::erase_if(displaced_, [](const Displaced& d) { return d.by == glm::dvec3(0.0); });
+    is_dent_ =
+        degree_ == dent_degrees && displaced_.size() == 1 && displaced_.front().index == dent_index;
+}
+
+void FreeForm::apply(std::span<SurfacePoint> points) const {
+    if (!is_dent_) {
+        for (SurfacePoint& point : points) apply(point.position, point.meridian, point.azimuth);
+        return;
+    }
+    const glm::dvec3 by = displaced_.front().by, none(0.0);
+    for (SurfacePoint& point : points) {
+        if (!contains(point.position)) continue;
+        const auto [value, derivative] = dent_weights((point.position - corner_) / size_);
+        // The general form adds to zero: that, too, is kept, for the sign of a zero.
+        const glm::dvec3 by_x = (none + derivative.x * value.y * value.z * by) / size_.x,
+                         by_y = (none + value.x * derivative.y * value.z * by) / size_.y,
+                         by_z = (none + value.x * value.y * derivative.z * by) / size_.z;
+        point.position += none + value.x * value.y * value.z * by;
+        for (glm::dvec3* v : {&point.meridian, &point.azimuth})
+            *v += v->x * by_x + v->y * by_y + v->z * by_z;
+    }
+}
+
+void FreeForm::apply(std::span<glm::dvec3> places) const {
+    if (!is_dent_) {
+        glm::dvec3 none(0.0), other(0.0);
+        for (glm::dvec3& place : places) apply(place, none, other);
+        return;
+    }
+    const glm::dvec3 by = displaced_.front().by, none(0.0);
+    for (glm::dvec3& place : places) {
+        if (!contains(place)) continue;
+        const glm::dvec3 value = dent_weights((place - corner_) / size_).value;
+        place += none + value.x * value.y * value.z * by;
+    }
 }
 
 void FreeForm::move(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const {
@@ -116,7 +167,7 @@ FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size, const glm::dvec3
     const glm::dvec3 steep = glm::dvec3(1.20 / 0.375) / size;
     const double bound = std::sqrt(glm::dot(push, push)) * std::sqrt(glm::dot(steep, steep));
     const double keep = bound > 0.7 ? 0.7 / bound : 1.0;
-    return FreeForm(centre - 0.5 * size, size, {4, 4, 4}, {{{2, 2, 2}, push * (keep / share)}});
+    return FreeForm(centre - 0.5 * size, size, dent_degrees, {{dent_index, push * (keep / share)}});
 }
 
 }  // namespace sporeprint

@@ -3,9 +3,15 @@
 
 #include <array>
 #include <glm/vec3.hpp>
+#include <span>
 #include <vector>
 
 namespace sporeprint {
+
+/// A point of the surface at rest (straight axis) and two unit directions that span its tangent plane; outward is first x second.
+struct SurfacePoint {
+    glm::dvec3 position, meridian, azimuth;
+};
 
 /// A lattice of (degree + 1)^3 control points over an axis-aligned box; only points that are displaced are stored.
 class FreeForm {
@@ -32,6 +38,12 @@ class FreeForm {
         if (contains(p)) move(p, first, second);
     }
 
+    /// The same for many points, a dent's much faster; equal to the bit.
+    void apply(std::span<SurfacePoint> points) const;
+
+    /// The same for places without directions.
+    void apply(std::span<glm::dvec3> places) const;
+
     /// Upper bound of the norm of the displacement's derivative anywhere; below 1 the map is injective and keeps orientation.
     [[nodiscard]] double stretch_bound() const;
 
@@ -41,6 +53,7 @@ class FreeForm {
     glm::dvec3 corner_, size_;
     std::array<int, 3> degree_;
     std::vector<Displaced> displaced_;
+    bool is_dent_ = false;
 };
 
 /// A dent or bulge: degree 4, its one free control point displaced so that the centre moves by `push` (or as far as is injective).

@@ -164,15 +164,12 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
             const double narrowing = 1.0 - up * (0.45 + 0.55 * up);
             const glm::dvec3 middle =
                 centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * normal;
-            for (int j = 0; j < sides; ++j) {
-                SurfacePoint point{middle + narrowing * rim[static_cast<std::size_t>(j)], meridian,
-                                   azimuth};
-                ground.deformer.apply(point, station);
-                solid.corners.push_back(point.position);
-            }
+            for (int j = 0; j < sides; ++j)
+                solid.corners.push_back(middle + narrowing * rim[static_cast<std::size_t>(j)]);
             solid.corners.push_back(
                 solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
         }
+        ground.deformer.apply(solid.corners, station);
         const glm::dvec3 fallback =
             unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
         append(mesh, solid, fallback, ground.textured);
@@ -226,26 +223,31 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
         r += width / rings * turn.sine;
         y -= width / rings * turn.cosine;
     }
+    struct Column {
+        SineCosine turn;
+        double ruffle;
+    };
+    std::vector<Column> columns;
+    for (int j = 0; j <= ground.detail.columns; ++j) {
+        const double angle = -2.0 * pi * (j % ground.detail.columns) /
+                             ground.detail.columns;  // counter-clockwise seen from above
+        columns.push_back({sine_cosine(angle), sine(waves * angle + phase) +
+                                                   0.6 * sine((2 * waves + 1) * angle + other)});
+    }
     // The veil tears off level with its edge, which is thicker.
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool lower = i <= rings;
         const Station& at = line[static_cast<std::size_t>(lower ? i : solid.rows - 1 - i)];
         const double half = (lower ? -0.5 : 0.5) * thickness * (0.6 + 0.8 * at.share);
-        for (int j = 0; j <= solid.columns; ++j) {
-            const double angle = -2.0 * pi * (j % solid.columns) /
-                                 solid.columns;  // counter-clockwise seen from above
-            const auto [s, c] = sine_cosine(angle);
-            const double ruffle =
-                style.ruffle * 0.16 * width * at.share * at.share *
-                (sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other));
-            const double rr = at.r + (half + ruffle) * at.normal_r,
-                         yy = at.y + (half + ruffle) * at.normal_y;
-            SurfacePoint point{{rr * c, yy, rr * s}, {0.0, 1.0, 0.0}, {-s, 0.0, c}};
-            ground.deformer.apply(point, station);
-            solid.corners.push_back(point.position);
+        const double ruffled = style.ruffle * 0.16 * width * at.share * at.share;
+        for (const Column& column : columns) {
+            const double off = half + ruffled * column.ruffle;
+            const double rr = at.r + off * at.normal_r, yy = at.y + off * at.normal_y;
+            solid.corners.emplace_back(rr * column.turn.cosine, yy, rr * column.turn.sine);
         }
     }
+    ground.deformer.apply(solid.corners, station);
     append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured);
 }
 

@@ -47,7 +47,12 @@ struct Face {
 class Sweeper {
   public:
     Sweeper(Mesh& mesh, const Deformer& deformer, const Waves& waves, int columns, bool textured)
-        : mesh_(mesh), deformer_(deformer), waves_(waves), columns_(columns), textured_(textured) {
+        : mesh_(mesh),
+          deformer_(deformer),
+          waves_(waves),
+          columns_(columns),
+          textured_(textured),
+          row_(static_cast<std::size_t>(columns + 1)) {
         for (int j = 0; j <= columns; ++j) {
             const double angle = 2.0 * pi * (j % columns) / columns;
             turns_.push_back(sine_cosine(angle));
@@ -60,12 +65,14 @@ class Sweeper {
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
         for (const OutlineSample& sample : samples) ring(face, sample);
         const auto row = static_cast<std::uint32_t>(columns_ + 1);
-        for (std::uint32_t i = 0; i + 1 < samples.size(); ++i)
+        for (std::uint32_t i = 0; i + 1 < samples.size(); ++i) {
+            const bool below = samples[i].r > 0.0, above = samples[i + 1].r > 0.0;
             for (std::uint32_t j = 0; j + 1 < row; ++j) {
                 const std::uint32_t a = first + i * row + j, b = a + 1, c = a + row, d = c + 1;
-                if (samples[i].r > 0.0) mesh_.indices.insert(mesh_.indices.end(), {a, c, b});
-                if (samples[i + 1].r > 0.0) mesh_.indices.insert(mesh_.indices.end(), {b, c, d});
+                if (below) mesh_.indices.insert(mesh_.indices.end(), {a, c, b});
+                if (above) mesh_.indices.insert(mesh_.indices.end(), {b, c, d});
             }
+        }
     }
 
   private:
@@ -79,9 +86,10 @@ class Sweeper {
         const double length = face.curve->length();
         for (int j = 0; j <= columns_; ++j) {
             const auto [s, c] = turns_[static_cast<std::size_t>(j)];
-            SurfacePoint point{{sample.r * c, sample.y, sample.r * s},
-                               {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
-                               {-s, 0.0, c}};
+            SurfacePoint& point = row_[static_cast<std::size_t>(j)];
+            point = {{sample.r * c, sample.y, sample.r * s},
+                     {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
+                     {-s, 0.0, c}};
             if (face.on_cap && !waves_.flat()) {
                 const double share = face.part == Part::cap ? 1.0 - sample.share : sample.share;
                 const auto wave = waves_.at(share, phases_[static_cast<std::size_t>(j)]);
@@ -90,7 +98,10 @@ class Sweeper {
                     (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
                 if (sample.r > 0.0) point.azimuth.y += wave.by_angle / sample.r;
             }
-            deformer_.apply(point, station);
+        }
+        deformer_.apply(row_, station);
+        for (int j = 0; j <= columns_; ++j) {
+            const SurfacePoint& point = row_[static_cast<std::size_t>(j)];
             const glm::dvec3 normal = unit(glm::cross(point.meridian, point.azimuth));
             mesh_.positions.emplace_back(point.position);
             mesh_.normals.emplace_back(normal);
@@ -139,6 +150,7 @@ class Sweeper {
     bool textured_;
     std::vector<SineCosine> turns_;
     std::vector<Waves::Phases> phases_;
+    std::vector<SurfacePoint> row_;
 };
 
 }  // namespace
@@ -185,11 +197,18 @@ Deformer::Deformer(const Model& model, const Swept& shape, const Outline& outlin
         push_at(100 + i, outline.stem, 1.0, stem_size, 0.14 * stem_radius);
 }
 
-void Deformer::apply(SurfacePoint& point, const AxisStation& station) const {
-    for (const FreeForm& dent : dents_) dent.apply(point.position, point.meridian, point.azimuth);
-    point.meridian = station.direction(point.position, point.meridian);
-    point.azimuth = station.direction(point.position, point.azimuth);
-    point.position = station.point(point.position);
+void Deformer::apply(std::span<SurfacePoint> points, const AxisStation& station) const {
+    for (const FreeForm& dent : dents_) dent.apply(points);
+    for (SurfacePoint& point : points) {
+        point.meridian = station.direction(point.position, point.meridian);
+        point.azimuth = station.direction(point.position, point.azimuth);
+        point.position = station.point(point.position);
+    }
+}
+
+void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) const {
+    for (const FreeForm& dent : dents_) dent.apply(places);
+    for (glm::dvec3& place : places) place = station.point(place);
 }
 
 Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed)

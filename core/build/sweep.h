@@ -10,20 +10,16 @@
 
 namespace sporeprint {
 
-/// A point of the surface at rest (straight axis) and two unit directions that span its tangent plane; outward is first x second.
-struct SurfacePoint {
-    glm::dvec3 position, meridian, azimuth;
-};
-
 /// Everything that moves a point from rest to its place: imperfections, then the axis.
 class Deformer {
   public:
     /// throws Impossible if the stem would fold: "/deformation/bend_deg", or "/model/axis" if it folds without a bend
     Deformer(const Model& model, const Swept& shape, const Outline& outline, std::uint32_t seed);
 
-    /// Moves a point that belongs to a station of the axis: the stem's skin to that of its height, caps and rings to the frozen one
+    /// Moves points that belong to one station of the axis: the stem's skin to that of its height, caps and rings to the frozen one
     /// where they are attached. A dent moves a point by far less than the axis' radius of curvature, so it keeps its station.
-    void apply(SurfacePoint& point, const AxisStation& station) const;
+    void apply(std::span<SurfacePoint> points, const AxisStation& station) const;
+    void apply(std::span<glm::dvec3> places, const AxisStation& station) const;
 
     [[nodiscard]] AxisStation station(double height) const { return axis_.at(height); }
     [[nodiscard]] AxisStation frozen_station(double height) const {

@@ -73,6 +73,36 @@ TEST(FreeForm, NoDisplacementIsTheExactIdentity) {
     EXPECT_EQ(zero.stretch_bound(), 0.0);
 }
 
+TEST(FreeForm, ManyPointsMoveAsOneByOneToTheBit) {
+    const FreeForm a_dent = dent({0.1, 0.2, 0.3}, {1.1, 0.9, 1.3}, {0.02, -0.05, 0.03});
+    const FreeForm others = random_form(5, 0.2);
+    for (const FreeForm* form : {&a_dent, &others}) {
+        Random random(4, 0);
+        std::vector<SurfacePoint> row;
+        std::vector<glm::dvec3> places;
+        for (int i = 0; i < 2000; ++i) {
+            const glm::dvec3 place = random_vector(random, 1.0);
+            const glm::dvec3 meridian = random_vector(random, 1.0);
+            row.push_back({place, meridian, {-meridian.z, 0.0, meridian.x}});
+            places.push_back(place);
+        }
+        const std::vector<SurfacePoint> before = row;
+        form->apply(row);
+        form->apply(places);
+        int moved = 0;
+        for (std::size_t i = 0; i < row.size(); ++i) {
+            SurfacePoint alone = before[i];
+            form->apply(alone.position, alone.meridian, alone.azimuth);
+            EXPECT_EQ(row[i].position, alone.position);
+            EXPECT_EQ(row[i].meridian, alone.meridian);
+            EXPECT_EQ(row[i].azimuth, alone.azimuth);
+            EXPECT_EQ(places[i], alone.position);
+            moved += alone.position != before[i].position ? 1 : 0;
+        }
+        EXPECT_GT(moved, 200);
+    }
+}
+
 TEST(FreeForm, OutsideItsBoxNothingMoves) {
     const FreeForm form = random_form(3, 0.4);
     for (const glm::dvec3& p : {glm::dvec3(-1.001, 0.0, 0.5), glm::dvec3(0.0, 1.001, 0.5),

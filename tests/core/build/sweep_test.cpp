@@ -225,8 +225,8 @@ struct Surface3 {
             point.meridian.y += (upper ? -wave.by_share : wave.by_share) / curve.length();
             point.azimuth.y += wave.by_angle / sample.r;
         }
-        deformer.apply(point, on_cap ? deformer.frozen_station(deformer.top())
-                                     : deformer.station(std::min(sample.y, deformer.top())));
+        deformer.apply({&point, 1}, on_cap ? deformer.frozen_station(deformer.top())
+                                           : deformer.station(std::min(sample.y, deformer.top())));
         return point;
     }
 
