@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <glm/common.hpp>
 
 #include "core/grow/mushroom.h"
 #include "core/params/problems.h"
@@ -44,91 +45,168 @@ void put(std::uint8_t*& at, const T& value) {
 
 std::size_t padded(std::size_t size) { return (size + 3) & ~std::size_t{3}; }
 
-/// The BIN chunk's geometry, one buffer view per attribute, and the JSON that tells of it.
-struct Geometry {
-    std::shared_ptr<const Bytes> bytes;
-    std::string views, accessors, attributes;
-    std::size_t indices_accessor = 0;
-    std::size_t view_count = 0;
+/// A triple in JSON; of any type with x, y and z.
+void append_corner(std::string& out, const glm::vec3& corner) {
+    append(out += '[', corner.x);
+    append(out += ',', corner.y);
+    append(out += ',', corner.z);
+    out += ']';
+}
+
+/// The tables of buffer views and accessors, as JSON. Every accessor has a view of its own, and the views of accessors
+/// come before all others, so that both have one number.
+struct Tables {
+    std::string views, accessors;
+    std::size_t count = 0, binary = 0;  ///< of views; bytes of the BIN chunk so far, padded
+
+    std::size_t view(std::size_t length, int target = 0) {
+        views += count == 0 ? "" : ",";
+        append(views += "{\"buffer\":0,\"byteOffset\":", binary);
+        append(views += ",\"byteLength\":", length);
+        if (target != 0) views += ",\"target\":" + std::to_string(target);
+        views += '}';
+        binary += padded(length);
+        return count++;
+    }
+
+    /// `more` is the rest of the object, from a comma on.
+    std::size_t accessor(std::size_t items, int component, const char* type, std::size_t length,
+                         int target = 0, const std::string& more = {}) {
+        accessors += count == 0 ? "" : ",";
+        append(accessors += "{\"bufferView\":", count);
+        accessors += ",\"componentType\":" + std::to_string(component) + ",\"count\":";
+        append(accessors, items);
+        ((((accessors += ",\"type\":\"") += type) += '"') += more) += '}';
+        return view(length, target);
+    }
+
+    std::size_t vectors(std::span<const glm::vec3> values, const std::string& more = {}) {
+        return accessor(values.size(), float_component, "VEC3", values.size() * 12, vertex_target,
+                        more);
+    }
+
+    /// Vectors with their bounds, as the specification wants positions.
+    std::size_t positions(std::span<const glm::vec3> values) {
+        glm::vec3 low = values.front(), high = low;
+        for (const glm::vec3& p : values) {
+            low = glm::min(low, p);
+            high = glm::max(high, p);
+        }
+        std::string box = ",\"min\":";
+        append_corner(box, low);
+        append_corner(box += ",\"max\":", high);
+        return vectors(values, box);
+    }
 };
 
-Geometry geometry(const Mesh& mesh, bool textured) {
+/// A piece of the BIN chunk.
+struct Chunk {
+    explicit Chunk(std::size_t size) : bytes(std::make_shared<Bytes>(size)), at(bytes->data()) {}
+
+    template <class T>
+    void append(std::span<const T> values) {
+        if (values.empty()) return;
+        std::memcpy(at, values.data(), values.size_bytes());
+        at += values.size_bytes();
+    }
+
+    std::shared_ptr<Bytes> bytes;
+    std::uint8_t* at;
+};
+
+struct Geometry {
+    std::shared_ptr<const Bytes> bytes;
+    std::string attributes;
+    std::size_t indices_accessor = 0;
+};
+
+Geometry geometry(const Mesh& mesh, bool textured, Tables& tables) {
     const std::size_t n = mesh.positions.size();
     const bool small = n <= 65535;
-    const std::size_t index_bytes = padded(mesh.indices.size() * (small ? 2 : 4));
-    const std::size_t size = n * (12 + 12 + (textured ? 16 + 4 : 0)) + index_bytes;
-    auto bytes = std::make_shared<Bytes>(size);
-    std::uint8_t* at = bytes->data();
+    const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
+    Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0)) + padded(index_bytes));
     Geometry out;
-    std::size_t offset = 0;
-    const auto view = [&](std::size_t length, int target) {
-        out.views += out.view_count == 0 ? "" : ",";
-        out.views += "{\"buffer\":0,\"byteOffset\":";
-        append(out.views, offset);
-        out.views += ",\"byteLength\":";
-        append(out.views, length);
-        out.views += ",\"target\":" + std::to_string(target) + "}";
-        offset += padded(length);
-        return out.view_count++;
+    const auto attribute = [&](const char* name, std::size_t accessor) {
+        out.attributes += out.attributes.empty() ? "\"" : ",\"";
+        append((out.attributes += name) += "\":", accessor);
     };
-    const auto accessor = [&](const char* attribute, std::size_t count, int component,
-                              const char* type, bool normalised) {
-        const std::size_t index = out.view_count - 1;
-        out.accessors += index == 0 ? "" : ",";
-        out.accessors += "{\"bufferView\":";
-        append(out.accessors, index);
-        out.accessors += ",\"componentType\":" + std::to_string(component) + ",\"count\":";
-        append(out.accessors, count);
-        ((out.accessors += ",\"type\":\"") += type) += '"';
-        if (normalised) out.accessors += ",\"normalized\":true";
-        if (*attribute) {
-            out.attributes += out.attributes.empty() ? "\"" : ",\"";
-            (out.attributes += attribute) += "\":";
-            append(out.attributes, index);
-        }
-        return index;
-    };
-    std::memcpy(at, mesh.positions.data(), n * 12);
-    at += n * 12;
-    view(n * 12, vertex_target);
-    accessor("POSITION", n, float_component, "VEC3", false);
-    const Bounds box = bounds(mesh);
-    for (const auto& [key, corner] : {std::pair{"min", box.min}, std::pair{"max", box.max}}) {
-        ((out.accessors += ",\"") += key) += "\":[";
-        append(out.accessors, corner.x);
-        append(out.accessors += ',', corner.y);
-        append(out.accessors += ',', corner.z);
-        out.accessors += ']';
-    }
-    out.accessors += '}';
-    std::memcpy(at, mesh.normals.data(), n * 12);
-    at += n * 12;
-    view(n * 12, vertex_target);
-    accessor("NORMAL", n, float_component, "VEC3", false);
-    out.accessors += '}';
+    chunk.append(std::span<const glm::vec3>(mesh.positions));
+    attribute("POSITION", tables.positions(mesh.positions));
+    chunk.append(std::span<const glm::vec3>(mesh.normals));
+    attribute("NORMAL", tables.vectors(mesh.normals));
     if (textured) {
-        std::memcpy(at, mesh.tangents.data(), n * 16);
-        at += n * 16;
-        view(n * 16, vertex_target);
-        accessor("TANGENT", n, float_component, "VEC4", false);
-        out.accessors += '}';
+        chunk.append(std::span<const glm::vec4>(mesh.tangents));
+        attribute("TANGENT", tables.accessor(n, float_component, "VEC4", n * 16, vertex_target));
         for (const glm::vec2& uv : mesh.texture_coordinates) {
-            put(at, static_cast<std::uint16_t>(std::floor(uv.x * 65535.0F + 0.5F)));
-            put(at, static_cast<std::uint16_t>(std::floor(uv.y * 65535.0F + 0.5F)));
+            put(chunk.at, static_cast<std::uint16_t>(std::floor(uv.x * 65535.0F + 0.5F)));
+            put(chunk.at, static_cast<std::uint16_t>(std::floor(uv.y * 65535.0F + 0.5F)));
         }
-        view(n * 4, vertex_target);
-        accessor("TEXCOORD_0", n, u16_component, "VEC2", true);
-        out.accessors += '}';
+        attribute("TEXCOORD_0", tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target,
+                                                ",\"normalized\":true"));
     }
     if (small)
-        for (const std::uint32_t i : mesh.indices) put(at, static_cast<std::uint16_t>(i));
+        for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
     else
-        std::memcpy(at, mesh.indices.data(), mesh.indices.size() * 4);
-    view(mesh.indices.size() * (small ? 2 : 4), index_target);
+        chunk.append(std::span<const std::uint32_t>(mesh.indices));
     out.indices_accessor =
-        accessor("", mesh.indices.size(), small ? u16_component : u32_component, "SCALAR", false);
-    out.accessors += '}';
-    out.bytes = std::move(bytes);
+        tables.accessor(mesh.indices.size(), small ? u16_component : u32_component, "SCALAR",
+                        index_bytes, index_target);
+    out.bytes = std::move(chunk.bytes);
+    return out;
+}
+
+/// The targets and their clip.
+struct Motion {
+    std::shared_ptr<const Bytes> bytes;
+    std::string targets;     ///< of the primitive, from a comma on
+    std::string mesh;        ///< weights and names, from a comma on
+    std::string animations;  ///< from a comma on
+};
+
+Motion motion(const GlbParts& parts, std::size_t vertices, Tables& tables) {
+    const auto& targets = parts.targets;
+    for (const MorphTarget& target : targets)
+        if (target.positions.size() != vertices || target.normals.size() != vertices)
+            throw GenerationError("a morph target has another number of vertices than its mesh");
+    const WeightClip* clip = parts.clip;
+    if (clip && (targets.empty() || clip->times.empty() ||
+                 clip->weights.size() != clip->times.size() * targets.size()))
+        throw GenerationError("a clip needs targets, and a weight for each of them at each key");
+    Motion out;
+    if (targets.empty()) return out;
+    Chunk chunk(targets.size() * vertices * 24 +
+                (clip ? (clip->times.size() + clip->weights.size()) * 4 : 0));
+    std::string names, zeros;
+    for (const MorphTarget& target : targets) {
+        chunk.append(std::span<const glm::vec3>(target.positions));
+        chunk.append(std::span<const glm::vec3>(target.normals));
+        out.targets += out.targets.empty() ? ",\"targets\":[" : ",";
+        append(out.targets += "{\"POSITION\":", tables.positions(target.positions));
+        append(out.targets += ",\"NORMAL\":", tables.vectors(target.normals));
+        out.targets += '}';
+        append_quoted(names += names.empty() ? "" : ",", target.name);
+        zeros += zeros.empty() ? "0" : ",0";
+    }
+    out.targets += ']';
+    out.mesh = ",\"weights\":[" + zeros + "],\"extras\":{\"targetNames\":[" + names + "]}";
+    if (clip) {
+        chunk.append(std::span<const float>(clip->times));
+        chunk.append(std::span<const float>(clip->weights));
+        std::string span = ",\"min\":[";
+        append(span, clip->times.front());
+        append(span += "],\"max\":[", clip->times.back());
+        const std::size_t input = tables.accessor(clip->times.size(), float_component, "SCALAR",
+                                                  clip->times.size() * 4, 0, span + ']');
+        const std::size_t output = tables.accessor(clip->weights.size(), float_component, "SCALAR",
+                                                   clip->weights.size() * 4);
+        append_quoted(out.animations += ",\"animations\":[{\"name\":", clip->name);
+        append(out.animations += ",\"samplers\":[{\"input\":", input);
+        append(out.animations += ",\"output\":", output);
+        out.animations +=
+            ",\"interpolation\":\"LINEAR\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,"
+            "\"path\":\"weights\"}}]}]";
+    }
+    out.bytes = std::move(chunk.bytes);
     return out;
 }
 
@@ -144,22 +222,17 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
         throw GenerationError("an empty mesh cannot be written");
     const bool linked = !parts.image_addresses[0].empty();
     const bool textured = parts.images != nullptr || linked;
-    Geometry shape = geometry(mesh, textured);
+    Tables tables;
+    Geometry shape = geometry(mesh, textured, tables);
+    Motion moves = motion(parts, mesh.positions.size(), tables);
 
-    std::size_t binary = shape.bytes->size();
     std::string images;
     if (parts.images)
         for (const Slice& file : parts.images->files) {
-            shape.views += ",{\"buffer\":0,\"byteOffset\":";
-            append(shape.views, binary);
-            shape.views += ",\"byteLength\":";
-            append(shape.views, file.size);
-            shape.views += '}';
             images += images.empty() ? "" : ",";
-            images += "{\"mimeType\":\"image/jpeg\",\"bufferView\":";
-            append(images, shape.view_count++);
+            append(images += "{\"mimeType\":\"image/jpeg\",\"bufferView\":",
+                   tables.view(file.size));
             images += '}';
-            binary += padded(file.size);
         }
     if (linked)
         for (const std::string& address : parts.image_addresses) {
@@ -177,7 +250,7 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     append_quoted(json, parts.name);
     json += ",\"primitives\":[{\"attributes\":{" + shape.attributes + "},\"indices\":";
     append(json, shape.indices_accessor);
-    json += ",\"material\":0}]}],\"materials\":[{\"name\":";
+    json += ",\"material\":0" + moves.targets + "}]" + moves.mesh + "}],\"materials\":[{\"name\":";
     append_quoted(json, parts.name);
     if (textured)
         json +=
@@ -192,11 +265,12 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     else
         json += ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}}]";
     json += ",\"buffers\":[{\"byteLength\":";
-    append(json, binary);
-    json += "}],\"bufferViews\":[" + shape.views + "],\"accessors\":[" + shape.accessors + "]}";
+    append(json, tables.binary);
+    json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +
+            moves.animations + "}";
     json.append(padded(json.size()) - json.size(), ' ');
 
-    const std::size_t total = 12 + 8 + json.size() + 8 + binary;
+    const std::size_t total = 12 + 8 + json.size() + 8 + tables.binary;
     if (total > 0xFFFFFFFFULL) throw GenerationError("the file would exceed 4 GB");
     auto head = std::make_shared<Bytes>(12 + 8 + json.size() + 8);
     std::uint8_t* at = head->data();
@@ -207,10 +281,11 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     put(at, std::uint32_t{0x4E4F534A});  // "JSON"
     std::memcpy(at, json.data(), json.size());
     at += json.size();
-    put(at, static_cast<std::uint32_t>(binary));
+    put(at, static_cast<std::uint32_t>(tables.binary));
     put(at, std::uint32_t{0x004E4942});  // "BIN"
 
     Body body{Slice(std::move(head)), Slice(std::move(shape.bytes))};
+    if (moves.bytes) body.emplace_back(std::move(moves.bytes));
     if (parts.images)
         for (const Slice& file : parts.images->files) {
             body.push_back(file);

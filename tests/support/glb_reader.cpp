@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cstring>
+#include <functional>
+#include <glm/geometric.hpp>
 
 #include "tests/support/meshes.h"
 
@@ -49,6 +51,53 @@ glm::vec3 corner(const std::vector<double>& numbers) {
     if (numbers.size() != 3) return glm::vec3(0.0f);
     return {static_cast<float>(numbers[0]), static_cast<float>(numbers[1]),
             static_cast<float>(numbers[2])};
+}
+
+void read_targets(const tinygltf::Model& model, ReadBack& found) {
+    const auto& mesh = model.meshes[0];
+    const auto& targets = mesh.primitives[0].targets;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+        ReadTarget target;
+        EXPECT_EQ(targets[i].size(), 2u);
+        const auto position = targets[i].find("POSITION"), normal = targets[i].find("NORMAL");
+        if (position == targets[i].end() || normal == targets[i].end()) {
+            ADD_FAILURE() << "target " << i << " moves no positions or no normals";
+            continue;
+        }
+        target.positions = vectors<glm::vec3>(model, position->second);
+        target.normals = vectors<glm::vec3>(model, normal->second);
+        const auto& accessor = model.accessors[static_cast<std::size_t>(position->second)];
+        target.stated = {corner(accessor.minValues), corner(accessor.maxValues)};
+        if (mesh.extras.Has("targetNames"))
+            target.name =
+                mesh.extras.Get("targetNames").Get(static_cast<int>(i)).Get<std::string>();
+        found.targets.push_back(std::move(target));
+    }
+    found.weights = mesh.weights;
+    for (const auto& animation : model.animations) {
+        ReadClip clip;
+        clip.name = animation.name;
+        if (animation.channels.size() != 1 || animation.samplers.size() != 1) {
+            ADD_FAILURE() << animation.name << " is no clip of one channel";
+            continue;
+        }
+        const auto& channel = animation.channels[0];
+        EXPECT_EQ(channel.sampler, 0);
+        EXPECT_EQ(channel.target_node, 0);
+        EXPECT_EQ(channel.target_path, "weights");
+        const auto& sampler = animation.samplers[0];
+        clip.interpolation = sampler.interpolation;
+        clip.times = values<float>(model, sampler.input);
+        clip.weights = values<float>(model, sampler.output);
+        const auto& input = model.accessors[static_cast<std::size_t>(sampler.input)];
+        if (input.minValues.size() == 1 && input.maxValues.size() == 1) {
+            clip.first = static_cast<float>(input.minValues[0]);
+            clip.last = static_cast<float>(input.maxValues[0]);
+        } else {
+            ADD_FAILURE() << "the times of " << animation.name << " have no bounds";
+        }
+        found.clips.push_back(std::move(clip));
+    }
 }
 
 }  // namespace
@@ -103,6 +152,7 @@ ReadBack read_back(const Bytes& file) {
     if (model.asset.extras.Has("canonical"))
         found.canonical = model.asset.extras.Get("canonical").Get<std::string>();
     found.has_extensions = !model.extensionsUsed.empty() || !model.extensionsRequired.empty();
+    read_targets(model, found);
     for (const auto& view : model.bufferViews) EXPECT_EQ(view.byteOffset % 4, 0u);
     EXPECT_EQ(model.scenes.size(), 1u);
     EXPECT_EQ(model.materials.size(), 1u);
@@ -131,7 +181,37 @@ ReadBack expect_glb(const Bytes& file) {
     EXPECT_EQ(found.stated.min, bounds(found.mesh).min);
     EXPECT_EQ(found.stated.max, bounds(found.mesh).max);
     EXPECT_FALSE(found.has_extensions);
+    for (const ReadTarget& target : found.targets) {
+        EXPECT_EQ(target.positions.size(), found.mesh.positions.size()) << target.name;
+        EXPECT_EQ(target.normals.size(), found.mesh.positions.size()) << target.name;
+        Mesh moves;
+        moves.positions = target.positions;
+        EXPECT_EQ(target.stated.min, bounds(moves).min) << target.name;
+        EXPECT_EQ(target.stated.max, bounds(moves).max) << target.name;
+    }
+    EXPECT_EQ(found.weights, std::vector<double>(found.targets.size(), 0.0))
+        << "who plays nothing sees the mesh itself";
+    for (const ReadClip& clip : found.clips) {
+        EXPECT_EQ(clip.interpolation, "LINEAR");
+        EXPECT_EQ(clip.weights.size(), clip.times.size() * found.targets.size());
+        EXPECT_TRUE(std::is_sorted(clip.times.begin(), clip.times.end(), std::less_equal<>()))
+            << "times ascend strictly";
+        EXPECT_EQ(clip.first, clip.times.front());
+        EXPECT_EQ(clip.last, clip.times.back());
+    }
     return found;
+}
+
+Mesh posed(const ReadBack& file, const std::vector<float>& weights) {
+    EXPECT_EQ(weights.size(), file.targets.size());
+    Mesh mesh = file.mesh;
+    for (std::size_t k = 0; k < std::min(weights.size(), file.targets.size()); ++k)
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            mesh.positions[i] += weights[k] * file.targets[k].positions.at(i);
+            mesh.normals[i] += weights[k] * file.targets[k].normals.at(i);
+        }
+    for (glm::vec3& normal : mesh.normals) normal = glm::normalize(normal);
+    return mesh;
 }
 
 }  // namespace sporeprint

@@ -11,6 +11,20 @@
 
 namespace sporeprint {
 
+/// One morph target: what its whole weight adds.
+struct ReadTarget {
+    std::string name;
+    std::vector<glm::vec3> positions, normals;
+    Bounds stated;  ///< min and max of its POSITION accessor
+};
+
+/// One animation of morph weights.
+struct ReadClip {
+    std::string name, interpolation;
+    std::vector<float> times, weights;  ///< weights by [key][target]
+    float first = 0.0f, last = 0.0f;    ///< min and max of the times' accessor
+};
+
 /// What tinygltf makes of a GLB.
 struct ReadBack {
     bool read = false;
@@ -24,13 +38,20 @@ struct ReadBack {
     std::size_t textures = 0;
     std::string node, generator, canonical;
     bool has_extensions = false;
+    std::vector<ReadTarget> targets;
+    std::vector<double> weights;  ///< of the mesh, before any clip plays
+    std::vector<ReadClip> clips;
 };
 
 /// Reads `file`. What went wrong stands in `trouble`.
 [[nodiscard]] ReadBack read_back(const Bytes& file);
 
 /// Reads `file` and expects it to be a whole, valid GLB in the layout of the glTF specification: header and
-/// chunk lengths, padding, aligned buffer views, bounds that are those of the vertices, indices in range.
+/// chunk lengths, padding, aligned buffer views, bounds that are those of the vertices, indices in range, targets and
+/// clips that fit the mesh.
 ReadBack expect_glb(const Bytes& file);
+
+/// The mesh as a viewer shows it with these weights, one for each target; normals are made unit.
+[[nodiscard]] Mesh posed(const ReadBack& file, const std::vector<float>& weights);
 
 }  // namespace sporeprint

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -114,6 +115,90 @@ TEST(Glb, NamesAreEscapedAndExtrasKept) {
     const ReadBack found = expect_glb(joined(glb(mesh, parts)));
     EXPECT_EQ(found.node, name);
     EXPECT_EQ(found.canonical, "/v1/x?y=1");
+}
+
+/// Two targets for a mesh: one lifts it, one turns its normals over.
+std::vector<MorphTarget> lift_and_turn(const Mesh& mesh) {
+    const std::size_t n = mesh.positions.size();
+    std::vector<MorphTarget> targets(2);
+    targets[0] = {"lift", std::vector<glm::vec3>(n, {0.0f, 0.25f, 0.0f}),
+                  std::vector<glm::vec3>(n, glm::vec3(0.0f))};
+    targets[1].name = "\"turn\"";
+    targets[1].positions.assign(n, glm::vec3(0.0f));
+    for (const glm::vec3& normal : mesh.normals) targets[1].normals.push_back(-2.0f * normal);
+    return targets;
+}
+
+TEST(Glb, MorphTargetsAndTheirClipReadBackAsTheyWere) {
+    const Mesh mesh = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
+    const std::vector<MorphTarget> targets = lift_and_turn(mesh);
+    const WeightClip clip{"there and back", {0.0f, 0.5f, 2.0f}, {0, 0, 1, 0, 0.25f, 0.75f}};
+    GlbParts parts = parts_of("moving");
+    parts.targets = targets;
+    parts.clip = &clip;
+    const ReadBack found = expect_glb(joined(glb(mesh, parts)));
+    EXPECT_TRUE(same_bits(found.mesh, mesh)) << "the mesh itself is the pose without weights";
+    ASSERT_EQ(found.targets.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(found.targets[i].name, targets[i].name);
+        EXPECT_TRUE(same_bits(found.targets[i].positions, targets[i].positions));
+        EXPECT_TRUE(same_bits(found.targets[i].normals, targets[i].normals));
+    }
+    ASSERT_EQ(found.clips.size(), 1u);
+    EXPECT_EQ(found.clips[0].name, clip.name);
+    EXPECT_TRUE(same_bits(found.clips[0].times, clip.times));
+    EXPECT_TRUE(same_bits(found.clips[0].weights, clip.weights));
+    EXPECT_EQ(found.node, "moving");
+}
+
+TEST(Glb, ImagesFollowTheClip) {
+    const MushroomOrder order = painted(order_of("boletus_edulis", 0.6, 3, 2));
+    const Individual individual = resolve(order, atlas());
+    const Mesh mesh = mushroom_mesh(order, individual);
+    const ImageSet images = paint(paint_params(order, atlas(), surface_metrics(individual)));
+    const std::vector<MorphTarget> targets = lift_and_turn(mesh);
+    const WeightClip clip{"c", {0.0f, 1.0f}, {1, 0, 0, 1}};
+    GlbParts parts = parts_of("b");
+    parts.targets = targets;
+    parts.clip = &clip;
+    parts.images = &images;
+    const ReadBack found = expect_glb(joined(glb(mesh, parts)));
+    EXPECT_EQ(found.attributes, full);
+    EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {32, 32})));
+    EXPECT_EQ(found.targets.size(), 2u);
+    EXPECT_EQ(found.clips.size(), 1u);
+}
+
+TEST(Glb, TargetsWithoutAClipAreLeftToTheViewer) {
+    const Mesh mesh = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
+    const std::vector<MorphTarget> targets = lift_and_turn(mesh);
+    GlbParts parts = parts_of("posable");
+    parts.targets = targets;
+    const ReadBack found = expect_glb(joined(glb(mesh, parts)));
+    EXPECT_EQ(found.targets.size(), 2u);
+    EXPECT_TRUE(found.clips.empty());
+}
+
+TEST(Glb, TargetsAndClipsThatDoNotFitAreRefused) {
+    const Mesh mesh = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
+    const std::vector<MorphTarget> targets = lift_and_turn(mesh);
+    const auto refused = [&](std::span<const MorphTarget> moved, const WeightClip* clip) {
+        GlbParts parts = parts_of("b");
+        parts.targets = moved;
+        parts.clip = clip;
+        EXPECT_THROW((void)glb(mesh, parts), GenerationError);
+    };
+    std::vector<MorphTarget> other = targets;
+    other[1].normals.pop_back();
+    refused(other, nullptr);
+    other = targets;
+    other[0].positions.emplace_back(0.0f);
+    refused(other, nullptr);
+    const WeightClip short_of_one{"c", {0.0f, 1.0f}, {1, 0, 0}}, without_keys{"c", {}, {}},
+        good{"c", {0.0f, 1.0f}, {1, 0, 0, 1}};
+    refused(targets, &short_of_one);
+    refused(targets, &without_keys);
+    refused({}, &good);
 }
 
 TEST(Glb, AnEmptyMeshIsRefused) {
