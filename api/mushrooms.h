@@ -13,9 +13,13 @@
 
 namespace sporeprint::api {
 
-/// An order with the version token that came along.
+/// What is made of an order.
+enum class Product { glb, json };
+
+/// An order with what is to be made of it and the version token that came along.
 struct MushroomRequest {
     MushroomOrder order;
+    Product product = Product::glb;
     std::optional<std::string> version;
 };
 
@@ -31,9 +35,6 @@ struct MushroomRequest {
 /// Today's version token of what a mix (or, when empty, a model) is made with: generator version, '-', 8 hexadecimal digits of
 /// the hash of the templates used.
 [[nodiscard]] std::string version_token(const Mix& mix, const Atlas& atlas);
-
-/// What is made of an order.
-enum class Product { glb, json };
 
 /// Canonical address without version: path with the canonical mix, then what differs from its default, in schema order.
 /// The order has no model.

@@ -1,0 +1,148 @@
+#include "api/answers.h"
+
+#include <algorithm>
+#include <utility>
+
+#include "api/encoding.h"
+#include "api/text.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr const char* exposed_headers =
+    "Cache-Status, Content-Disposition, Content-Length, Content-Location, ETag, Retry-After, "
+    "Server-Timing, X-Request-Id";
+
+bool proper_id(std::string_view id) {
+    return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= '0' && c <= '9') || (lower(c) >= 'a' && lower(c) <= 'z') || c == '_' ||
+               c == '-';
+    });
+}
+
+}  // namespace
+
+std::string_view header_of(const Answer& answer, std::string_view name) {
+    for (const auto& [key, value] : answer.headers)
+        if (same_word(key, name)) return value;
+    return {};
+}
+
+void set_header(Answer& answer, std::string_view name, std::string value) {
+    for (auto& [key, old] : answer.headers)
+        if (same_word(key, name)) {
+            old = std::move(value);
+            return;
+        }
+    answer.headers.emplace_back(std::string(name), std::move(value));
+}
+
+std::string take_header(Answer& answer, std::string_view name) {
+    const auto found =
+        std::find_if(answer.headers.begin(), answer.headers.end(),
+                     [&](const Header& header) { return same_word(header.first, name); });
+    if (found == answer.headers.end()) return {};
+    std::string value = std::move(found->second);
+    answer.headers.erase(found);
+    return value;
+}
+
+std::size_t weight_of(const Answer& answer) {
+    std::size_t bytes =
+        size_of(answer.body) + sizeof(Answer) + answer.body.size() * (sizeof(Slice) + 64);
+    for (const auto& [name, value] : answer.headers)
+        bytes += name.size() + value.size() + 2 * sizeof(Header);
+    return bytes;
+}
+
+std::string cache_control(bool versioned) {
+    return versioned ? immutable_for_a_year : cached_for_an_hour;
+}
+
+std::string selected_etag(const Request& request, const std::string& etag,
+                          std::string_view content_type) {
+    return compressible(content_type) && accepts_gzip(request.header("Accept-Encoding"))
+               ? gzip_etag(etag)
+               : etag;
+}
+
+void Answers::add_common_headers(const Request& request, Answer& answer) const {
+    if (proper_id(request.id)) set_header(answer, "X-Request-Id", request.id);
+    if (!allow_origin_.empty()) {
+        set_header(answer, "Access-Control-Allow-Origin", allow_origin_);
+        set_header(answer, "Access-Control-Expose-Headers", exposed_headers);
+        set_header(answer, "Timing-Allow-Origin", allow_origin_);
+    }
+    set_header(answer, "Cross-Origin-Resource-Policy", "cross-origin");
+    set_header(answer, "X-Content-Type-Options", "nosniff");
+}
+
+Answer Answers::problem(const Request& request, int status, std::string_view detail,
+                        std::span<const Problem> problems, const Value::Object& more) const {
+    Answer answer = problem_answer(request, status, detail, problems, more);
+    add_common_headers(request, answer);
+    return answer;
+}
+
+Answer Answers::problem(const Request& request, const Faults& faults) const {
+    return problem(request, faults.status(), {}, faults.problems());
+}
+
+void Answers::represent(const Request& request, Answer& answer, const Document* ready) const {
+    const std::string type(header_of(answer, "Content-Type"));
+    if (compressible(type)) {
+        set_header(answer, "Vary", "Accept-Encoding");
+        if (accepts_gzip(request.header("Accept-Encoding"))) {
+            const std::string etag(header_of(answer, "ETag"));
+            if (!etag.empty()) set_header(answer, "ETag", gzip_etag(etag));
+            set_header(answer, "Content-Encoding", "gzip");
+            answer.body = {ready ? ready->gzipped : gzip(answer.body)};
+        }
+    }
+    add_common_headers(request, answer);
+}
+
+Answer Answers::not_modified(const Request& request, Answer answer) const {
+    const std::string type = take_header(answer, "Content-Type");
+    take_header(answer, "Content-Disposition");
+    const std::string etag(header_of(answer, "ETag"));
+    set_header(answer, "ETag", selected_etag(request, etag, type));
+    if (compressible(type)) set_header(answer, "Vary", "Accept-Encoding");
+    answer.status = 304;
+    answer.body.clear();
+    answer.has_body = false;
+    add_common_headers(request, answer);
+    return answer;
+}
+
+Answer Answers::document(const Request& request, const Document& document) const {
+    Answer answer;
+    answer.headers = {{"Content-Type", document.content_type},
+                      {"Cache-Control", document.cache_control},
+                      {"ETag", document.etag}};
+    const std::string_view condition = request.header("If-None-Match");
+    if (names_any(condition) ||
+        names_etag(condition, selected_etag(request, document.etag, document.content_type)))
+        return not_modified(request, std::move(answer));
+    answer.body = {document.body};
+    represent(request, answer, &document);
+    return answer;
+}
+
+Answer Answers::options(const Request& request, const std::string& allow) const {
+    Answer answer;
+    answer.status = 204;
+    answer.has_body = false;
+    answer.headers = {{"Allow", allow}, {"Cache-Control", "no-store"}};
+    if (!allow_origin_.empty()) {
+        set_header(answer, "Access-Control-Allow-Methods", allow);
+        set_header(answer, "Access-Control-Allow-Headers",
+                   "Cache-Control, Content-Type, If-None-Match, X-Request-Id");
+        set_header(answer, "Access-Control-Max-Age", "86400");
+    }
+    add_common_headers(request, answer);
+    return answer;
+}
+
+}  // namespace sporeprint::api

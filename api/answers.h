@@ -1,0 +1,65 @@
+// How answers look: the headers that all carry, problems, encodings, documents, 304.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "api/documents.h"
+#include "api/errors.h"
+#include "api/http.h"
+
+namespace sporeprint::api {
+
+/// Value of the header of that name, any case; empty if there is none.
+[[nodiscard]] std::string_view header_of(const Answer& answer, std::string_view name);
+
+/// Sets a header, in place of an earlier value.
+void set_header(Answer& answer, std::string_view name, std::string value);
+
+/// Removes a header and returns its value; empty if there was none.
+std::string take_header(Answer& answer, std::string_view name);
+
+/// Bytes that keeping an answer costs.
+[[nodiscard]] std::size_t weight_of(const Answer& answer);
+
+/// Cache-Control of an answer whose address carries today's version token, or none.
+[[nodiscard]] std::string cache_control(bool versioned);
+
+/// The tag of the representation that `request` would get: that of the gzip variant if it is sent so.
+[[nodiscard]] std::string selected_etag(const Request& request, const std::string& etag,
+                                        std::string_view content_type);
+
+/// Finishes answers: what is left is only to send them.
+class Answers {
+  public:
+    /// allow_origin  Access-Control-Allow-Origin of every answer; empty sends none
+    explicit Answers(std::string allow_origin) : allow_origin_(std::move(allow_origin)) {}
+
+    /// Headers that every answer carries.
+    void add_common_headers(const Request& request, Answer& answer) const;
+
+    [[nodiscard]] Answer problem(const Request& request, int status, std::string_view detail,
+                                 std::span<const Problem> problems = {},
+                                 const Value::Object& more = {}) const;
+    [[nodiscard]] Answer problem(const Request& request, const Faults& faults) const;
+
+    /// Makes the answer the representation that the client asked for: encoding, tags, common headers.
+    ///
+    /// ready  the document that the answer holds, whose gzip is made already; nullptr for none
+    void represent(const Request& request, Answer& answer, const Document* ready = nullptr) const;
+
+    /// Makes 304 of an answer, with the headers that its 200 would carry.
+    [[nodiscard]] Answer not_modified(const Request& request, Answer answer) const;
+
+    /// A document, or 304.
+    [[nodiscard]] Answer document(const Request& request, const Document& document) const;
+
+    /// 204 to OPTIONS.
+    [[nodiscard]] Answer options(const Request& request, const std::string& allow) const;
+
+  private:
+    std::string allow_origin_;
+};
+
+}  // namespace sporeprint::api

@@ -1,0 +1,68 @@
+// The routes that answer with something made: what each means, up to the Job that makes it.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+
+#include "api/answers.h"
+#include "api/mushrooms.h"
+#include "api/service.h"
+#include "api/store.h"
+#include "api/surfaces.h"
+
+namespace sporeprint::api {
+
+using Plan = std::variant<Answer, Job>;
+
+/// What endpoints work with; lives as long as the Service.
+struct Context {
+    std::shared_ptr<const Atlas> atlas;
+    ServiceOptions options;
+    Answers answers;
+    Store store;
+};
+
+/// What is made once and kept, as HTTP sees it. What the address and the body mean is decided; nothing is made.
+struct Resource {
+    Key key;              ///< full canonical text
+    std::string type;     ///< media type
+    std::string version;  ///< today's token of what it is made with
+    std::string address;  ///< canonical address without version; empty if no GET has it
+    std::string file_name;
+    std::optional<std::string> asked_version;
+
+    /// What making it costs; adds to the faults what of it is impossible, as far as can be told without making it.
+    std::function<Cost(Faults&)> weigh;
+
+    /// Makes the body. Called on any thread, at most once at a time.
+    std::function<Body(Loan&)> make;
+};
+
+/// Version, ETag, 304, caches, HEAD and the job: all that resources have in common.
+///
+/// faults  found so far; any of them is the answer
+[[nodiscard]] Plan plan_resource(Context& context, const Request& request, Resource resource,
+                                 Faults& faults);
+
+/// A mushroom as GLB or JSON, by address or by body.
+[[nodiscard]] Plan plan_mushroom(Context& context, const Request& request, MushroomRequest asked,
+                                 Faults& faults);
+
+/// One image of an atlas.
+[[nodiscard]] Plan plan_surface(Context& context, const Request& request,
+                                const SurfaceRequest& asked, Faults& faults);
+
+/// The image that `request` asked for, out of the shared answer of an atlas.
+[[nodiscard]] Answer delivered_surface(const Context& context, const SurfaceRequest& asked,
+                                       Answer shared);
+
+/// What a GLB tells about itself.
+[[nodiscard]] Plan plan_inspection(Context& context, const Request& request, Faults& faults);
+
+/// Paths of core as the client wrote them.
+[[nodiscard]] std::vector<Problem> named(const InvalidInput& input, bool posted);
+
+}  // namespace sporeprint::api

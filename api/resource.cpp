@@ -1,0 +1,108 @@
+#include <utility>
+
+#include "api/encoding.h"
+#include "api/endpoints.h"
+#include "core/params/messages.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr const char* hit = "sporeprint; hit";
+constexpr const char* hit_not_modified = "sporeprint; hit; detail=not-modified";
+constexpr const char* missed = "sporeprint; fwd=miss";
+
+/// The answer to HEAD of what is not made yet: every header that GET would carry but the length.
+Answer unmade(const Context& context, const Request& request, Answer head) {
+    const std::string type(header_of(head, "Content-Type"));
+    head.has_body = false;
+    set_header(head, "ETag", selected_etag(request, std::string(header_of(head, "ETag")), type));
+    if (compressible(type)) {
+        set_header(head, "Vary", "Accept-Encoding");
+        if (accepts_gzip(request.header("Accept-Encoding")))
+            set_header(head, "Content-Encoding", "gzip");
+    }
+    set_header(head, "Cache-Status", missed);
+    context.answers.add_common_headers(request, head);
+    return head;
+}
+
+/// 410, or whatever is stronger.
+Answer superseded(const Context& context, const Request& request, const Resource& resource,
+                  Faults& faults) {
+    static_cast<void>(resource.weigh(faults));
+    faults.add(410, request.method == "POST" ? "/v" : "v",
+               in_quotes(*resource.asked_version) + " is no longer made; today's version is " +
+                   in_quotes(resource.version));
+    Value::Object more;
+    if (faults.status() == 410 && !resource.address.empty())
+        more.emplace_back("canonical", with_version(resource.address, resource.version));
+    return context.answers.problem(request, faults.status(), {}, faults.problems(), more);
+}
+
+}  // namespace
+
+std::vector<Problem> named(const InvalidInput& input, bool posted) {
+    std::vector<Problem> problems = input.problems();
+    for (Problem& problem : problems) problem.path = parameter_name(problem.path, posted);
+    return problems;
+}
+
+Plan plan_resource(Context& context, const Request& request, Resource resource, Faults& faults) {
+    if (!faults.empty()) return context.answers.problem(request, faults);
+    if (resource.asked_version && *resource.asked_version != resource.version)
+        return superseded(context, request, resource, faults);
+
+    Store& store = context.store;
+    const bool versioned = resource.asked_version.has_value() && request.method != "POST";
+    const std::string etag = etag_of(resource.key);
+    Answer head;  // what every answer about this resource carries
+    head.headers = {{"Content-Type", resource.type},
+                    {"ETag", etag},
+                    {"Cache-Control", cache_control(versioned)},
+                    {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
+    if (!resource.address.empty())
+        head.headers.emplace_back("Content-Location",
+                                  with_version(resource.address, resource.version));
+    const auto not_modified = [&] {
+        ++store.counters.glb_not_modified;
+        set_header(head, "Cache-Status", hit_not_modified);
+        return context.answers.not_modified(request, std::move(head));
+    };
+
+    const std::string_view condition = request.header("If-None-Match");
+    if (names_etag(condition, selected_etag(request, etag, resource.type)) ||
+        (names_any(condition) && store.answers.holds(resource.key)))
+        return not_modified();
+    if (const std::optional<Kept> kept = store.answers.find(resource.key)) {
+        ++store.counters.glb_hits;
+        Answer answer = **kept;
+        set_header(answer, "Cache-Control", cache_control(versioned));
+        set_header(answer, "Cache-Status", hit);
+        context.answers.represent(request, answer);
+        return answer;
+    }
+    const Cost cost = resource.weigh(faults);
+    if (!faults.empty()) return context.answers.problem(request, faults);
+    if (names_any(condition)) return not_modified();
+    if (request.method == "HEAD") return unmade(context, request, std::move(head));
+
+    ++store.counters.glb_misses;
+    take_header(head, "Cache-Control");
+    auto run = [&store, make = std::move(resource.make), head = std::move(head),
+                key = resource.key](std::stop_token stop, const Observer& observer,
+                                    const Parallel& parallel) {
+        Loan loan(store, std::move(stop), observer, parallel);
+        Answer answer = head;
+        answer.body = make(loan);
+        ++store.counters.generated;
+        std::string status = loan.cache_status();
+        if (!status.empty()) status += ", ";
+        const bool stored = store.answers.fits(weight_of(answer) + key.size() + entry_overhead);
+        set_header(answer, "Cache-Status", status + cache_member("sporeprint", false, stored));
+        return answer;
+    };
+    return Job{std::move(resource.key), cost, std::move(run)};
+}
+
+}  // namespace sporeprint::api

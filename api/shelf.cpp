@@ -1,0 +1,103 @@
+#include "api/shelf.h"
+
+#include <utility>
+
+#include "api/catalogue.h"
+#include "api/mix.h"
+#include "api/openapi.h"
+#include "core/grow/mushroom.h"
+#include "core/params/messages.h"
+#include "core/params/query.h"
+
+#ifndef SPOREPRINT_VERSION
+#error "SPOREPRINT_VERSION comes from the project's version in CMakeLists.txt"
+#endif
+
+namespace sporeprint::api {
+
+void refuse_query(const Target& target, Faults& faults) {
+    for (const auto& pair : target.query)
+        faults.add(400, printable(pair.first), "unknown parameter; this route takes none");
+}
+
+Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
+             const std::filesystem::path& assets)
+    : atlas_(std::move(atlas)), answers_(answers) {
+    if (!assets.empty()) assets_ = read_assets(assets);
+    Value links = Value::object();
+    links.set("species", "/v1/species")
+        .set("mushroom_schema", "/v1/mushrooms/schema")
+        .set("openapi", "/openapi.json")
+        .set("docs", "/docs");
+    Value root = Value::object();
+    root.set("name", "sporeprint")
+        .set("version", SPOREPRINT_VERSION)
+        .set("generator_version", generator_version)
+        .set("links", std::move(links));
+    about_ = json_document(root);
+    species_list_ = json_document(api::species_list(*atlas_));
+    schema_ = json_document(api::mushroom_schema(), "application/schema+json");
+    openapi_ = json_document(api::openapi(*atlas_, SPOREPRINT_VERSION));
+    for (const AtlasEntry& entry : atlas_->entries())
+        species_.emplace(entry.species.id.string(), document("application/json", entry.json));
+    hint_ = document("text/plain; charset=utf-8",
+                     "Sporeprint grows mushrooms. The page is not installed here; the API is:\n"
+                     "  GET /v1/species\n  GET /v1/mushrooms/<species>.glb?age=0.6&seed=7\n  "
+                     "GET /openapi.json\n",
+                     revalidated);
+}
+
+Answer Shelf::page(const Request& request, std::string_view file) const {
+    const auto found = assets_.find(file);
+    if (found != assets_.end()) return answers_.document(request, found->second);
+    if (file == "index.html") return answers_.document(request, hint_);
+    return answers_.problem(request, 404,
+                            "the page is not installed here; the document is at /openapi.json");
+}
+
+Answer Shelf::asset(const Request& request, const std::string& file) const {
+    const auto found = assets_.find(file);
+    if (found != assets_.end()) return answers_.document(request, found->second);
+    return answers_.problem(request, 404, "there is no file " + in_quotes(file));
+}
+
+Answer Shelf::plain(const Request& request, const Target& target, const Document& document,
+                    Faults& faults) const {
+    refuse_query(target, faults);
+    return faults.empty() ? answers_.document(request, document)
+                          : answers_.problem(request, faults);
+}
+
+Answer Shelf::about(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, about_, faults);
+}
+
+Answer Shelf::mushroom_schema(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, schema_, faults);
+}
+
+Answer Shelf::openapi(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, openapi_, faults);
+}
+
+Answer Shelf::species_list(const Request& request, const Target& target, Faults& faults) const {
+    SpeciesFilter filter;
+    std::vector<Problem> problems;
+    read_query(target.query, filter, problems);
+    faults.add(400, problems);
+    if (!faults.empty()) return answers_.problem(request, faults);
+    return answers_.document(request, filter == SpeciesFilter{}
+                                          ? species_list_
+                                          : json_document(api::species_list(*atlas_, filter)));
+}
+
+Answer Shelf::species(const Request& request, const Target& target, const std::string& id,
+                      Faults& faults) const {
+    refuse_query(target, faults);
+    const auto found = species_.find(id);
+    if (found == species_.end()) faults.add(404, "id", unknown_species(id, *atlas_));
+    return faults.empty() ? answers_.document(request, found->second)
+                          : answers_.problem(request, faults);
+}
+
+}  // namespace sporeprint::api

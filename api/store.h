@@ -1,0 +1,57 @@
+// What is kept between requests: the caches, what they count, and how a job borrows them.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <stop_token>
+#include <string>
+
+#include "api/answers.h"
+#include "api/cache.h"
+#include "api/service.h"
+#include "core/grow/workshop.h"
+
+namespace sporeprint::api {
+
+using Images = std::shared_ptr<const ImageSet>;
+using Kept = std::shared_ptr<const Answer>;
+
+/// The caches of a service. Thread-safe.
+struct Store {
+    explicit Store(const ServiceOptions& options);
+
+    /// Reads the sizes of the caches into the counters.
+    void measure();
+
+    Cache<Kept> answers;
+    RememberingCache<Images> images;
+    Counters counters;
+    std::atomic<std::uint64_t> inspections{0};  ///< uploads so far, to tell them apart
+};
+
+/// What a cache said, as a member of Cache-Status: "sporeprint-images; fwd=miss; stored".
+[[nodiscard]] std::string cache_member(std::string_view cache, bool hit, bool stored);
+
+/// What one job borrows: a Workshop whose Memo asks the caches, and what they said.
+class Loan {
+  public:
+    Loan(Store& store, std::stop_token stop, const Observer& observer, const Parallel& parallel);
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+
+    [[nodiscard]] const Workshop& workshop() const { return workshop_; }
+
+    /// Members of Cache-Status of the caches that were asked; empty if none was.
+    [[nodiscard]] const std::string& cache_status() const { return images_; }
+
+  private:
+    Images images(const std::string& key, const std::function<Images()>& make);
+
+    Store& store_;
+    Workshop workshop_;
+    std::string images_;
+};
+
+}  // namespace sporeprint::api
