@@ -78,7 +78,7 @@ Handlers Reception::handlers() {
     handlers.refuse = [this](const api::Request& request, int status, std::string_view detail) {
         std::vector<api::Header> extra;
         if (status == 503) extra.emplace_back("Retry-After", "1");
-        return service_.problem(request, status, detail, std::move(extra));
+        return service_.problem(request, status, detail, extra);
     };
     handlers.most_body = [this](std::string_view method, std::string_view target) {
         return service_.most_body(method, target);
