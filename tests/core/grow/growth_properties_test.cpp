@@ -1,0 +1,65 @@
+// Properties of growth that no room can show alone: a film of any species from egg to decay has no jump.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+#include "tests/support/surfaces.h"
+
+namespace sporeprint {
+namespace {
+
+class Growth : public ::testing::TestWithParam<std::string> {};
+
+INSTANTIATE_TEST_SUITE_P(Atlas, Growth, ::testing::ValuesIn(species_ids()),
+                         [](const auto& one) { return one.param; });
+
+/// The largest jump of a film, in shares of the mature diagonal, and where it is.
+struct Worst {
+    double share = 0.0, age = 0.0;
+};
+
+Worst worst_jump(MushroomOrder order, double from, double to, int frames) {
+    order.params.age = 0.6;
+    const double size = diagonal(bounds(mesh_of(order)));
+    Worst worst;
+    order.params.age = from;
+    Mesh last = mesh_of(order);
+    for (int i = 1; i <= frames; ++i) {
+        order.params.age = from + (to - from) * i / frames;
+        Mesh now = mesh_of(order);
+        const double share = jump(last, now) / size;
+        if (share > worst.share) worst = {share, order.params.age};
+        last = std::move(now);
+    }
+    return worst;
+}
+
+TEST_P(Growth, NoVertexMovesByTwoHundredthsOfTheMatureSizeInA256thOfALife) {
+    struct One {
+        int lod;
+        std::uint32_t seed;
+        double variation;
+    };
+    for (const One& one : {One{0, 2, 0.5}, One{1, 7, 1.0}}) {
+        MushroomOrder order = order_of(GetParam(), 0.0, one.seed, one.lod);
+        order.params.variation = one.variation;
+        const Worst worst = worst_jump(order, 0.0, 1.0, 256);
+        EXPECT_LT(worst.share, 0.02) << "lod " << one.lod << ", age " << worst.age;
+    }
+}
+
+TEST_P(Growth, HasNoJumpHoweverCloseOneLooks) {
+    // Whatever moves by a jump, and not fast, moves as far in a step sixteen times as short.
+    MushroomOrder order = order_of(GetParam(), 0.0, 7, 1);
+    for (const double age : {0.0, 0.1, 0.28, 0.45, 0.59, 0.72, 0.84, 0.95}) {
+        const double to = std::min(age + 1.0 / 32.0, 1.0);
+        const Worst worst = worst_jump(order, age, to, 128);
+        EXPECT_LT(worst.share, 0.02 / 16.0) << "age " << worst.age;
+    }
+}
+
+}  // namespace
+}  // namespace sporeprint
