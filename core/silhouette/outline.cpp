@@ -10,7 +10,8 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int knots_per_segment = 24;
+constexpr int knots_between_controls = 24;  // a few long cubics between an author's control points
+constexpr int knots_between_nodes = 3;      // many short ones between the nodes of a set
 
 std::string number(double value) {
     std::string text = std::to_string(value);
@@ -85,8 +86,23 @@ void Silhouette::check(const std::string& path, std::vector<Problem>& problems) 
 
 SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments)
     : segments_(std::move(segments)) {
+    tabulate(knots_between_controls);
+}
+
+SubCurve::SubCurve(const std::vector<OutlineNode>& nodes, const glm::dvec2& resting)
+    : resting_(resting) {
+    if (nodes.empty()) return;
+    const double step = 1.0 / static_cast<double>(nodes.size() - 1);
+    segments_.reserve(nodes.size() - 1);
+    for (std::size_t i = 0; i + 1 < nodes.size(); ++i)
+        segments_.push_back({nodes[i].position, nodes[i + 1].position, nodes[i].velocity * step,
+                             nodes[i + 1].velocity * step});
+    tabulate(knots_between_nodes);
+}
+
+void SubCurve::tabulate(int knots_per_segment) {
     if (segments_.empty()) return;
-    knots_.reserve(segments_.size() * knots_per_segment + 1);
+    knots_.reserve(segments_.size() * static_cast<std::size_t>(knots_per_segment) + 1);
     knots_.push_back({});
     glm::dvec2 last = segments_.front().from;
     glm::dvec2 heading(0.0);
@@ -121,7 +137,11 @@ OutlineSample SubCurve::sample(double parameter, double arc) const {
     if (speed < 1e-12) {
         tangent = segments_[static_cast<std::size_t>(segment)].to -
                   segments_[static_cast<std::size_t>(segment)].from;
-        speed = std::max(std::sqrt(glm::dot(tangent, tangent)), 1e-12);
+        speed = std::sqrt(glm::dot(tangent, tangent));
+        if (speed < 1e-12) {
+            tangent = resting_;
+            speed = 1.0;
+        }
     }
     return {s.position.x, s.position.y, tangent.x / speed, tangent.y / speed,
             length_ > 0.0 ? arc / length_ : 0.0};
@@ -135,6 +155,51 @@ OutlineSample SubCurve::at(double share) const {
     const Knot& a = *(above - 1);
     const double t = b.arc > a.arc ? (arc - a.arc) / (b.arc - a.arc) : 0.0;
     return sample(a.parameter + t * (b.parameter - a.parameter), arc);
+}
+
+std::vector<OutlineSample> SubCurve::placed(std::span<const double> u) const {
+    std::vector<OutlineSample> samples;
+    if (empty()) return samples;
+    samples.reserve(u.size());
+    const auto segments = static_cast<double>(segments_.size());
+    std::size_t k = 1;
+    for (const double place : u) {
+        const double parameter = place * segments;
+        while (k + 1 < knots_.size() && knots_[k].parameter < parameter) ++k;
+        const Knot &a = knots_[k - 1], &b = knots_[k];
+        const double t =
+            std::clamp((parameter - a.parameter) / (b.parameter - a.parameter), 0.0, 1.0);
+        samples.push_back(sample(parameter, a.arc + t * (b.arc - a.arc)));
+    }
+    // The ends are the nodes themselves, so that neighbouring sub-curves weld bit for bit.
+    const auto pin = [](OutlineSample& sample, const glm::dvec2& position, double share) {
+        sample.r = position.x;
+        sample.y = position.y;
+        sample.share = share;
+    };
+    pin(samples.front(), segments_.front().from, 0.0);
+    pin(samples.back(), segments_.back().to, 1.0);
+    return samples;
+}
+
+std::vector<double> SubCurve::segment_shares() const {
+    std::vector<double> shares;
+    if (empty()) return shares;
+    const std::size_t step = (knots_.size() - 1) / segments_.size();
+    for (std::size_t k = 0; k < knots_.size(); k += step)
+        shares.push_back(length_ > 0.0 ? knots_[k].arc / length_ : 0.0);
+    shares.back() = 1.0;
+    return shares;
+}
+
+double SubCurve::measure(double share) const {
+    const double arc = std::clamp(share, 0.0, 1.0) * length_;
+    const auto above = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, arc,
+                                        [](double x, const Knot& k) { return x < k.arc; });
+    const Knot &a = *(above - 1), &b = *above;
+    const double t = b.arc > a.arc ? (arc - a.arc) / (b.arc - a.arc) : 0.0;
+    const double turn = a.turn + t * (b.turn - a.turn);
+    return 0.5 * share + 0.5 * turn / std::max(knots_.back().turn, 1e-9);
 }
 
 std::vector<OutlineSample> SubCurve::sampled(int count) const {
@@ -166,6 +231,18 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     samples.back().r = end.x;
     samples.back().y = end.y;
     return samples;
+}
+
+Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places)
+    : stem(nodes.stem, {0.0, 1.0}), places_(std::move(places)) {
+    const OutlineSample end = stem.at(1.0);
+    const glm::dvec2 onwards(end.tangent_r, end.tangent_y);
+    hymenium = SubCurve(nodes.hymenium, onwards);
+    cap = SubCurve(nodes.cap, onwards);
+}
+
+std::vector<OutlineSample> Outline::rings(CurveName curve, int lod) const {
+    return of(curve).placed(places_->of(curve, lod));
 }
 
 Outline::Outline(const Silhouette& silhouette, const std::string& path) {

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/math/spline.h"
@@ -17,17 +20,76 @@ struct OutlineSample {
     double share = 0.0;  ///< arc length from the sub-curve's start over its whole length, 0..1
 };
 
+/// The three sub-curves, base to apex.
+enum class CurveName : std::uint8_t { stem, hymenium, cap };
+
+constexpr const char* name(CurveName curve) {
+    switch (curve) {
+        case CurveName::stem:
+            return "stem";
+        case CurveName::hymenium:
+            return "hymenium";
+        case CurveName::cap:
+            return "cap";
+    }
+    return nullptr;
+}
+
+inline constexpr std::array<CurveName, 3> curve_names = {CurveName::stem, CurveName::hymenium,
+                                                         CurveName::cap};
+
+/// A node of a sub-curve: nodes stand at equal steps of a parameter u, 0..1, that all shapes of a set have in common.
+struct OutlineNode {
+    glm::dvec2 position{0.0};  ///< (r, y)
+    glm::dvec2 velocity{0.0};  ///< derivative of the position by u
+};
+
+/// An outline as nodes. Between them run cubics, so that the whole curve is linear in its nodes; neighbouring sub-curves share their end bit for bit.
+struct OutlineNodes {
+    std::vector<OutlineNode> stem;
+    std::vector<OutlineNode> hymenium;  ///< empty, or at one point, where a form has no lower face
+    std::vector<OutlineNode> cap;
+
+    [[nodiscard]] const std::vector<OutlineNode>& of(CurveName curve) const {
+        return curve == CurveName::stem ? stem : curve == CurveName::hymenium ? hymenium : cap;
+    }
+    [[nodiscard]] std::vector<OutlineNode>& of(CurveName curve) {
+        return curve == CurveName::stem ? stem : curve == CurveName::hymenium ? hymenium : cap;
+    }
+};
+
+/// Where the rings of each level of detail stand: values of u from 0 to 1, rising; fixed for a whole set, so that no weight moves a ring along it.
+struct RingPlaces {
+    std::array<std::array<std::vector<double>, 3>, 4> by_lod;  ///< [lod][curve]
+
+    [[nodiscard]] const std::vector<double>& of(CurveName curve, int lod) const {
+        return by_lod[static_cast<std::size_t>(lod)][static_cast<std::size_t>(curve)];
+    }
+};
+
 /// One of the three sub-curves, with its arc-length table.
 class SubCurve {
   public:
     SubCurve() = default;
     explicit SubCurve(std::vector<SplineSegment<glm::dvec2>> segments);
 
+    /// Cubics through nodes at equal steps of u. `resting` is the unit tangent that is told of a curve of no length.
+    SubCurve(const std::vector<OutlineNode>& nodes, const glm::dvec2& resting);
+
     [[nodiscard]] bool empty() const { return segments_.empty(); }
     [[nodiscard]] double length() const { return length_; }
 
     /// The point at a share of the arc length, 0..1.
     [[nodiscard]] OutlineSample at(double share) const;
+
+    /// The points at values of the parameter u, 0..1, rising. The ends are the first and last node bit for bit.
+    [[nodiscard]] std::vector<OutlineSample> placed(std::span<const double> u) const;
+
+    /// Shares of arc length at which the segments begin and end; one more than there are segments.
+    [[nodiscard]] std::vector<double> segment_shares() const;
+
+    /// Half share of the length, half share of the turning up to a share of the arc length: 0..1.
+    [[nodiscard]] double measure(double share) const;
 
     /// `count` >= 2 points from start to end, spaced half by length and half by turning, so that thin margins stay round.
     [[nodiscard]] std::vector<OutlineSample> sampled(int count) const;
@@ -36,10 +98,12 @@ class SubCurve {
     struct Knot {
         double arc = 0.0, turn = 0.0, parameter = 0.0;  // parameter: segment index + t
     };
+    void tabulate(int knots_per_segment);
     [[nodiscard]] OutlineSample sample(double parameter, double arc) const;
 
     std::vector<SplineSegment<glm::dvec2>> segments_;
     std::vector<Knot> knots_;
+    glm::dvec2 resting_{0.0, 1.0};
     double length_ = 0.0;
 };
 
@@ -47,10 +111,29 @@ class SubCurve {
 struct Outline {
     SubCurve stem, hymenium, cap;
 
+    Outline() = default;
+
+    /// The outline of nodes and the rings of its set; every count as `places` was made for.
+    /// cost  about 10 us
+    Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places);
+
+    /// The outline through an author's own control points.
+    ///
     /// pre     silhouette.check() found nothing
     /// throws  Impossible if the curve touches the axis between its ends or crosses itself (path below `path`)
     /// source  [Desbenoit2004] sec. 3.1; the spline is centripetal Catmull-Rom
     explicit Outline(const Silhouette& silhouette, const std::string& path = "/model/silhouette");
+
+    [[nodiscard]] const SubCurve& of(CurveName curve) const {
+        return curve == CurveName::stem ? stem : curve == CurveName::hymenium ? hymenium : cap;
+    }
+
+    /// The rings of a sub-curve at a level of detail, first to last: the very polyline that is swept and that the proofs are about.
+    /// Empty where the set has no such sub-curve. pre: made of nodes and places
+    [[nodiscard]] std::vector<OutlineSample> rings(CurveName curve, int lod) const;
+
+  private:
+    std::shared_ptr<const RingPlaces> places_;
 };
 
 /// First pair of segments of a polyline that touch without being neighbours; none if it is simple.

@@ -1,0 +1,368 @@
+#include "core/silhouette/morph_set.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <string>
+
+#include "core/build/detail.h"
+#include "core/math/elementary.h"
+#include "core/params/problems.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr std::array<std::size_t, 3> node_counts = {45, 41, 49};
+constexpr int measure_steps = 128;
+constexpr double mature_age = 0.6;
+
+using Curves = std::array<SubCurve, 3>;
+
+std::size_t index(CurveName curve) { return static_cast<std::size_t>(curve); }
+
+/// Growth weights of the stages of one kin: linear between neighbours, the first and last stage beyond.
+std::vector<double> stage_weights(std::span<const double> ages, double age) {
+    std::vector<double> weights(ages.size(), 0.0);
+    std::size_t above = 0;
+    while (above < ages.size() && ages[above] < age) ++above;
+    if (above == 0) {
+        weights.front() = 1.0;
+    } else if (above == ages.size()) {
+        weights.back() = 1.0;
+    } else {
+        const double t = (age - ages[above - 1]) / (ages[above] - ages[above - 1]);
+        weights[above - 1] = 1.0 - t;
+        weights[above] = t;
+    }
+    return weights;
+}
+
+/// Arc lengths of the blend of several stages along the mature stage's own shares, to read shares off in both directions.
+class BlendedLength {
+  public:
+    /// stages  curves with their maps from the mature stage's shares, weights and scales
+    struct Stage {
+        const SubCurve* curve;
+        const ShareMap* from_mature;
+        double weight;
+    };
+    explicit BlendedLength(std::span<const Stage> stages) {
+        glm::dvec2 last(0.0);
+        for (int i = 0; i <= measure_steps; ++i) {
+            glm::dvec2 here(0.0);
+            for (const Stage& stage : stages) {
+                if (stage.weight == 0.0) continue;
+                const auto s = stage.curve->at(
+                    (*stage.from_mature)(static_cast<double>(i) / measure_steps).at);
+                here += stage.weight * glm::dvec2(s.r, s.y);
+            }
+            const glm::dvec2 step = here - last;
+            lengths_.push_back(i == 0 ? 0.0 : lengths_.back() + std::sqrt(glm::dot(step, step)));
+            last = here;
+        }
+    }
+
+    /// The mature stage's share at a share of the blend's length.
+    [[nodiscard]] double mature_share(double share) const {
+        const double wanted = share * lengths_.back();
+        const auto above = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, wanted);
+        const double from = *(above - 1), to = *above;
+        const double t = to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0;
+        return (static_cast<double>(above - 1 - lengths_.begin()) + t) / measure_steps;
+    }
+
+    /// The share of the blend's length at a mature share.
+    [[nodiscard]] double share(double mature) const {
+        const double place = std::clamp(mature, 0.0, 1.0) * measure_steps;
+        const auto i = std::min(static_cast<std::size_t>(place), lengths_.size() - 2);
+        const double t = place - static_cast<double>(i);
+        return (lengths_[i] + t * (lengths_[i + 1] - lengths_[i])) / lengths_.back();
+    }
+
+  private:
+    std::vector<double> lengths_;
+};
+
+/// Refuses arcs that leave their curve or cross one another.
+void check_arcs(std::span<const Arc> arcs, std::size_t kins, const std::array<bool, 3>& in_both) {
+    std::vector<Problem> problems;
+    const auto path = [](std::size_t i) { return "/arcs/" + std::to_string(i); };
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+        const Arc& arc = arcs[i];
+        if (kins != 2) {
+            report(problems, path(i), "arcs link exactly two species");
+            continue;
+        }
+        if (!in_both[index(arc.curve)]) {
+            report(problems, path(i),
+                   std::string("one of the two species has no ") + name(arc.curve));
+            continue;
+        }
+        if (!(arc.a > 0.0 && arc.a < 1.0 && arc.b > 0.0 && arc.b < 1.0)) {
+            report(problems, path(i),
+                   "ends on a landmark of the " + std::string(name(arc.curve)) +
+                       "; both shares must lie between 0 and 1");
+            continue;
+        }
+        for (std::size_t j = 0; j < i; ++j) {
+            const Arc& other = arcs[j];
+            if (other.curve != arc.curve || other == arc) continue;
+            if ((arc.a - other.a) * (arc.b - other.b) <= 0.0)
+                report(problems, path(i), "crosses arc " + std::to_string(j));
+        }
+    }
+    if (!problems.empty()) throw Impossible(std::move(problems));
+}
+
+/// Makes both sides of every smooth join run in one direction in every mix: the ratio of their speeds becomes the same in all shapes.
+void align_joins(std::vector<OutlineNodes>& all, const std::vector<ControlShape>& shapes) {
+    const auto align = [&](CurveName before, CurveName after, auto joined) {
+        double sum = 0.0;
+        int count = 0;
+        const auto speed = [](const OutlineNode& node) {
+            return std::sqrt(glm::dot(node.velocity, node.velocity));
+        };
+        for (std::size_t s = 0; s < all.size(); ++s)
+            if (joined(shapes[s].silhouette)) {
+                const double in = speed(all[s].of(before).back());
+                const double out = speed(all[s].of(after).front());
+                if (in <= 0.0 || out <= 0.0) continue;
+                sum += logarithm(out / in);
+                ++count;
+            }
+        if (count == 0) return;
+        const double ratio = exponential(sum / count);
+        for (std::size_t s = 0; s < all.size(); ++s)
+            if (joined(shapes[s].silhouette)) {
+                OutlineNode& in = all[s].of(before).back();
+                OutlineNode& out = all[s].of(after).front();
+                const double in_speed = speed(in), out_speed = speed(out);
+                if (in_speed <= 0.0 || out_speed <= 0.0) continue;
+                const double by = std::sqrt(out_speed / in_speed / ratio);
+                in.velocity *= by;
+                out.velocity *= ratio * by * in_speed / out_speed;
+            }
+    };
+    const bool hymenium = !all.front().hymenium.empty();
+    if (hymenium) {
+        align(CurveName::stem, CurveName::hymenium, [](const Silhouette& s) {
+            return !s.hymenium.empty() && s.junction == Join::smooth;
+        });
+        align(CurveName::hymenium, CurveName::cap,
+              [](const Silhouette& s) { return !s.hymenium.empty() && s.margin == Join::smooth; });
+    } else {
+        align(CurveName::stem, CurveName::cap,
+              [](const Silhouette& s) { return s.junction == Join::smooth; });
+    }
+}
+
+std::shared_ptr<const RingPlaces> even_places(bool hymenium) {
+    auto places = std::make_shared<RingPlaces>();
+    for (std::size_t lod = 0; lod < details.size(); ++lod) {
+        const std::array<int, 3> rings = {details[lod].stem_rings,
+                                          hymenium ? details[lod].hymenium_rings : 0,
+                                          details[lod].cap_rings};
+        for (std::size_t c = 0; c < 3; ++c)
+            for (int i = 0; i < rings[c]; ++i)
+                places->by_lod[lod][c].push_back(static_cast<double>(i) / (rings[c] - 1));
+    }
+    return places;
+}
+
+}  // namespace
+
+MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, double arcs_age) {
+    assert(!shapes.empty());
+    std::vector<Curves> curves;
+    for (const ControlShape& shape : shapes) {
+        Outline outline(shape.silhouette);
+        curves.push_back(
+            {std::move(outline.stem), std::move(outline.hymenium), std::move(outline.cap)});
+        if (shape.kin == kins_.size()) kins_.push_back({ages_.size(), 0, ages_.size()});
+        Kin& kin = kins_.back();
+        assert(shape.kin + 1 == kins_.size());
+        if (std::abs(shape.age - mature_age) < std::abs(shapes[kin.mature].age - mature_age))
+            kin.mature = ages_.size();
+        ++kin.count;
+        ages_.push_back(shape.age);
+    }
+    if (!arcs.empty()) {
+        std::array<bool, 3> in_both{};
+        for (std::size_t c = 0; c < 3; ++c)
+            in_both[c] = kins_.size() == 2 && !curves[kins_[0].mature][c].empty() &&
+                         !curves[kins_[1].mature][c].empty();
+        check_arcs(arcs, kins_.size(), in_both);
+    }
+
+    nodes_.resize(shapes.size());
+    bool hymenium = false;
+    for (const CurveName curve : curve_names) {
+        const std::size_t c = index(curve);
+        const auto at = [&](std::size_t s) -> const SubCurve& { return curves[s][c]; };
+        // Every stage against the mature one of its kin: control points are the author's own arcs.
+        std::vector<ShareMap> from_mature(shapes.size());
+        for (const Kin& kin : kins_) {
+            const auto mature = at(kin.mature).segment_shares();
+            for (std::size_t s = kin.first; s < kin.first + kin.count; ++s) {
+                if (at(s).empty() != at(kin.mature).empty() ||
+                    at(s).segment_shares().size() != mature.size())
+                    throw InvalidInput("/stages",
+                                       "stages of one species differ in the number of "
+                                       "control points of the " +
+                                           std::string(name(curve)));
+                if (s != kin.mature && !mature.empty())
+                    from_mature[s] = ShareMap(mature, at(s).segment_shares());
+            }
+        }
+        // Every kin against the hub.
+        const auto hub = std::find_if(kins_.begin(), kins_.end(),
+                                      [&](const Kin& kin) { return !at(kin.mature).empty(); });
+        if (hub == kins_.end()) continue;
+        if (curve == CurveName::hymenium) hymenium = true;
+        std::vector<Landmark> landmarks;
+        const auto own_length = [&](const Kin& kin, double age) {
+            const auto weights = stage_weights({ages_.data() + kin.first, kin.count}, age);
+            std::vector<BlendedLength::Stage> stages;
+            for (std::size_t k = 0; k < kin.count; ++k)
+                stages.push_back({&at(kin.first + k), &from_mature[kin.first + k], weights[k]});
+            return BlendedLength(stages);
+        };
+        for (const Arc& arc : arcs)
+            if (arc.curve == curve)
+                landmarks.push_back({own_length(kins_[0], arcs_age).mature_share(arc.a),
+                                     own_length(kins_[1], arcs_age).mature_share(arc.b)});
+        std::sort(landmarks.begin(), landmarks.end(),
+                  [](const Landmark& x, const Landmark& y) { return x.a < y.a; });
+        landmarks.erase(  // an arc given twice
+            std::unique(landmarks.begin(), landmarks.end(),
+                        [](const Landmark& x, const Landmark& y) { return x.a == y.a; }),
+            landmarks.end());
+        std::vector<ShareMap> from_hub(kins_.size());
+        for (std::size_t k = 0; k < kins_.size(); ++k)
+            if (&kins_[k] != &*hub && !at(kins_[k].mature).empty())
+                from_hub[k] = correspondence(at(hub->mature), at(kins_[k].mature), landmarks);
+
+        // The common parameter u: the mean of what every shape spends on length and turning.
+        std::vector<double> hub_shares, measures(measure_steps + 1, 0.0);
+        for (int i = 0; i <= measure_steps; ++i)
+            hub_shares.push_back(static_cast<double>(i) / measure_steps);
+        double whole = 0.0;
+        for (std::size_t s = 0; s < shapes.size(); ++s) {
+            if (at(s).empty()) continue;
+            whole += 1.0;
+            for (std::size_t i = 0; i < hub_shares.size(); ++i)
+                measures[i] +=
+                    at(s).measure(from_mature[s](from_hub[shapes[s].kin](hub_shares[i]).at).at);
+        }
+        for (double& measure : measures) measure /= measures.back();
+        measures.front() = 0.0;
+        measures.back() = 1.0;
+        const std::size_t count = node_counts[c];
+        std::vector<double> u, node_shares;
+        std::size_t k = 1;
+        for (std::size_t i = 0; i < count; ++i) {
+            u.push_back(static_cast<double>(i) / static_cast<double>(count - 1));
+            while (k + 1 < measures.size() && measures[k] < u.back()) ++k;
+            const double t = (u.back() - measures[k - 1]) / (measures[k] - measures[k - 1]);
+            node_shares.push_back((static_cast<double>(k - 1) + t) / measure_steps);
+        }
+        node_shares.front() = 0.0;
+        node_shares.back() = 1.0;
+        const ShareMap hub_from_u(u, node_shares);
+        for (std::size_t s = 0; s < shapes.size(); ++s) {
+            std::vector<OutlineNode>& nodes = nodes_[s].of(curve);
+            if (at(s).empty()) {
+                const OutlinePoint& p = shapes[s].silhouette.stem.back();
+                nodes.assign(count, {glm::dvec2(p.r, p.y) / shapes[s].size, {0.0, 0.0}});
+                continue;
+            }
+            for (std::size_t i = 0; i < count; ++i) {
+                const auto on_hub = hub_from_u(u[i]);
+                const auto on_mature = from_hub[shapes[s].kin](on_hub.at);
+                const auto on_shape = from_mature[s](on_mature.at);
+                const OutlineSample sample = at(s).at(on_shape.at);
+                const double speed =
+                    at(s).length() * on_shape.slope * on_mature.slope * on_hub.slope;
+                nodes.push_back(
+                    {glm::dvec2(sample.r, sample.y) / shapes[s].size,
+                     glm::dvec2(sample.tangent_r, sample.tangent_y) * (speed / shapes[s].size)});
+            }
+            const auto pin = [&](OutlineNode& node, const OutlinePoint& p) {
+                node.position = glm::dvec2(p.r, p.y) / shapes[s].size;
+            };
+            const Silhouette& silhouette = shapes[s].silhouette;
+            const auto& points = curve == CurveName::stem       ? silhouette.stem
+                                 : curve == CurveName::hymenium ? silhouette.hymenium
+                                                                : silhouette.cap;
+            pin(nodes.front(), points.front());
+            pin(nodes.back(), points.back());
+        }
+    }
+    align_joins(nodes_, shapes);
+    places_ = even_places(hymenium);
+}
+
+OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
+    assert(weights.size() == nodes_.size());
+    OutlineNodes mix;
+    for (const CurveName curve : curve_names) {
+        std::vector<OutlineNode>& nodes = mix.of(curve);
+        nodes.resize(nodes_.front().of(curve).size());
+        for (std::size_t s = 0; s < weights.size(); ++s) {
+            if (weights[s] == 0.0) continue;
+            const std::vector<OutlineNode>& own = nodes_[s].of(curve);
+            for (std::size_t i = 0; i < nodes.size(); ++i) {
+                nodes[i].position += weights[s] * own[i].position;
+                nodes[i].velocity += weights[s] * own[i].velocity;
+            }
+        }
+    }
+    return mix;
+}
+
+std::vector<double> MorphSet::growth_weights(double age) const {
+    std::vector<double> weights;
+    for (const Kin& kin : kins_) {
+        const auto own = stage_weights({ages_.data() + kin.first, kin.count}, age);
+        weights.insert(weights.end(), own.begin(), own.end());
+    }
+    return weights;
+}
+
+std::vector<Arc> MorphSet::arcs(double age, int count) const {
+    std::vector<Arc> arcs;
+    if (kins_.size() != 2) return arcs;
+    const std::vector<double> growth = growth_weights(age);
+    std::array<OutlineNodes, 2> own;
+    for (std::size_t k = 0; k < 2; ++k) {
+        std::vector<double> weights(growth.size(), 0.0);
+        std::copy_n(growth.begin() + static_cast<std::ptrdiff_t>(kins_[k].first), kins_[k].count,
+                    weights.begin() + static_cast<std::ptrdiff_t>(kins_[k].first));
+        own[k] = nodes(weights);
+    }
+    std::vector<double> u;
+    for (int i = 0; i <= count + 1; ++i) u.push_back(static_cast<double>(i) / (count + 1));
+    const Outline a(own[0], places_), b(own[1], places_);
+    for (const CurveName curve : curve_names) {
+        if (a.of(curve).empty() || a.of(curve).length() == 0.0 || b.of(curve).length() == 0.0)
+            continue;
+        const auto on_a = a.of(curve).placed(u), on_b = b.of(curve).placed(u);
+        for (std::size_t i = 1; i + 1 < u.size(); ++i)
+            arcs.push_back({curve, on_a[i].share, on_b[i].share});
+    }
+    return arcs;
+}
+
+std::size_t MorphSet::bytes() const {
+    std::size_t bytes = sizeof(MorphSet) + sizeof(RingPlaces);
+    for (const OutlineNodes& nodes : nodes_)
+        for (const CurveName curve : curve_names)
+            bytes += nodes.of(curve).size() * sizeof(OutlineNode);
+    for (const auto& lod : places_->by_lod)
+        for (const auto& u : lod) bytes += u.size() * sizeof(double);
+    return bytes + ages_.size() * (sizeof(double) + sizeof(OutlineNodes)) +
+           kins_.size() * sizeof(Kin);
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,88 @@
+// A set of outlines with one parameter in common, so that any weighted mean of them is an outline: the paper's morph for any number of shapes.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/silhouette/correspondence.h"
+#include "core/silhouette/outline.h"
+
+namespace sporeprint {
+
+/// One control shape of a set: a growth stage of a species, or a model of somebody's own.
+struct ControlShape {
+    Silhouette silhouette;  ///< metres
+    double size =
+        1.0;  ///< metres, > 0; the shape is divided by it, because sizes mix apart from shapes
+    std::size_t kin =
+        0;  ///< shapes of one kin are stages of one species: their control points correspond one to one
+    double age = 0.6;  ///< 0..1; the stage nearest to 0.6 speaks for its kin
+};
+
+/// The designer's own link between the two species of a pair: what belongs together, in shares of arc length of their outlines.
+struct Arc {
+    CurveName curve = CurveName::cap;
+    double a = 0.5;
+    double b = 0.5;
+
+    static constexpr void fields(auto visit) {
+        visit(&Arc::curve, Info{.name = "curve", .doc = "The sub-curve that it links."});
+        visit(&Arc::a, Info{.name = "a",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "Share of the arc length on the first species' outline."});
+        visit(&Arc::b, Info{.name = "b",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "Share of the arc length on the second species' outline."});
+    }
+    bool operator==(const Arc&) const = default;
+};
+
+class MorphSet {
+  public:
+    /// Finds what belongs together and how it is blended without folding.
+    ///
+    /// shapes    at least one; kin numbered from 0 without gaps, each kin's shapes one after another by age.
+    ///           The first kin that has a sub-curve is the hub of that sub-curve: all others are put in correspondence with it,
+    ///           so another order of three or more kin may move rings along the outlines a little. Callers sort by id.
+    /// arcs      only for two kin, a for kin 0 and b for kin 1; `arcs_age` is the age at which the shares are counted
+    /// throws    Impossible for a shape that crosses itself (path "/model/silhouette"), for arcs that cross one another or
+    ///           leave their curve (path "/arcs/<i>")
+    /// cost      about 1 ms for two kin of four shapes
+    /// source    [Desbenoit2004] sec. 4; [SederbergGreenwood1992]
+    explicit MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs = {},
+                      double arcs_age = 0.6);
+
+    /// The outline of a mix, of unit size.
+    ///
+    /// weights  one per control shape, >= 0, sum 1
+    [[nodiscard]] OutlineNodes nodes(std::span<const double> weights) const;
+
+    /// The rings of every level of detail; the same for all mixes of the set.
+    [[nodiscard]] std::shared_ptr<const RingPlaces> places() const { return places_; }
+
+    /// What belongs together between kin 0 and kin 1 at an age: `count` arcs on each sub-curve that both have.
+    [[nodiscard]] std::vector<Arc> arcs(double age, int count) const;
+
+    /// Share of growth weight of each shape within its kin at an age: 1 on a stage, linear between two.
+    [[nodiscard]] std::vector<double> growth_weights(double age) const;
+
+    [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+    [[nodiscard]] std::size_t bytes() const;
+
+  private:
+    struct Kin {
+        std::size_t first = 0, count = 0, mature = 0;
+    };
+
+    std::vector<Kin> kins_;
+    std::vector<double> ages_;
+    std::vector<OutlineNodes> nodes_;
+    std::shared_ptr<const RingPlaces> places_;
+};
+
+}  // namespace sporeprint
