@@ -12,25 +12,32 @@
 
 namespace sporeprint::api {
 
-namespace {
-
-/// Makes each -0 of a described struct 0, so that equal keys cannot differ in the sign of a zero.
-template <class T>
-void without_negative_zero(T& value) {
-    if constexpr (Described<T>) {
-        T::fields([&](auto member, const Info&) { without_negative_zero(value.*member); });
-    } else if constexpr (is_variant<T>) {
-        std::visit([](auto& one) { without_negative_zero(one); }, value);
-    } else if constexpr (is_optional<T>) {
-        if (value) without_negative_zero(*value);
-    } else if constexpr (is_list<T>) {
-        for (auto& item : value) without_negative_zero(item);
-    } else if constexpr (std::is_floating_point_v<T>) {
-        value += T{};
+std::optional<std::string> take_version(std::span<const std::pair<std::string, std::string>> query,
+                                        std::vector<std::pair<std::string, std::string>>& rest,
+                                        Faults& faults) {
+    std::optional<std::string> version;
+    for (const auto& pair : query) {
+        if (pair.first != "v")
+            rest.push_back(pair);
+        else if (version)
+            faults.add(400, "v", "given more than once");
+        else
+            version = pair.second;
     }
+    return version;
 }
 
-}  // namespace
+std::optional<std::string> take_version(Value& body, std::vector<Problem>& problems) {
+    std::optional<std::string> version;
+    if (const Value* given = body.find("v")) {
+        if (given->is_string())
+            version = given->as_string();
+        else
+            report(problems, "/v", "expected text, got " + shown(*given));
+    }
+    body.erase("v");
+    return version;
+}
 
 MushroomRequest read_mushroom(std::string_view mix,
                               std::span<const std::pair<std::string, std::string>> query,
@@ -38,14 +45,7 @@ MushroomRequest read_mushroom(std::string_view mix,
     MushroomRequest request;
     request.order.mix = read_mix(mix, atlas, faults);
     std::vector<std::pair<std::string, std::string>> rest;
-    for (const auto& pair : query) {
-        if (pair.first != "v")
-            rest.push_back(pair);
-        else if (request.version)
-            faults.add(400, "v", "given more than once");
-        else
-            request.version = pair.second;
-    }
+    request.version = take_version(query, rest, faults);
     std::vector<Problem> problems;
     read_query(rest, request.order.params, problems);
     faults.add(400, problems);
@@ -76,13 +76,8 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Faults&
         request.order.mix = read_mix_object(*mix, atlas, faults);
     else
         read(*model, request.order.model.emplace(), Info{.name = ""}, "/model", problems);
-    if (const Value* version = json.find("v")) {
-        if (version->is_string())
-            request.version = version->as_string();
-        else
-            report(problems, "/v", "expected text, got " + shown(*version));
-    }
-    for (const char* taken : {"mix", "model", "v"}) json.erase(taken);
+    request.version = take_version(json, problems);
+    for (const char* taken : {"mix", "model"}) json.erase(taken);
     read(json, request.order.params, Info{.name = ""}, "", problems);
     faults.add(400, problems);
     without_negative_zero(request.order.params);

@@ -16,6 +16,7 @@ namespace sporeprint::api {
 struct ServiceOptions {
     std::size_t cache_bytes = 256u << 20;
     std::size_t image_cache_bytes = 128u << 20;
+    std::size_t morph_cache_bytes = 16u << 20;
     std::filesystem::path assets;  ///< folder of the built page; empty for none
     std::string allow_origin = "*";
     std::uint64_t most_vertices = 2'000'000;  ///< budget of one request
@@ -27,8 +28,11 @@ struct Counters {
     std::atomic<std::uint64_t> generated{0}, painted{0};
     std::atomic<std::uint64_t> glb_hits{0}, glb_misses{0}, glb_not_modified{0};
     std::atomic<std::uint64_t> image_hits{0}, image_misses{0};
+    std::atomic<std::uint64_t> painting_hits{0}, painting_misses{0};  ///< kept beside the images
+    std::atomic<std::uint64_t> morph_hits{0}, morph_misses{0};
     std::atomic<std::uint64_t> glb_cache_bytes{0}, glb_cache_entries{0}, glb_evictions{0};
     std::atomic<std::uint64_t> image_cache_bytes{0}, image_cache_entries{0}, image_evictions{0};
+    std::atomic<std::uint64_t> morph_cache_bytes{0}, morph_cache_entries{0}, morph_evictions{0};
 };
 
 /// How a planned job came to its answer, for Cache-Status.

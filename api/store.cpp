@@ -2,21 +2,62 @@
 
 #include <utility>
 
+#include "core/silhouette/morph_set.h"
+
 namespace sporeprint::api {
 
+namespace {
+
+std::size_t weight_of(const Painted& painted) {
+    if (const Images* images = std::get_if<Images>(&painted))
+        return (*images)->bytes() + sizeof(ImageSet);
+    const RawImages& raw = *std::get<Painting>(painted);
+    return raw.rgb[0].size() + raw.rgb[1].size() + raw.rgb[2].size() + sizeof(RawImages);
+}
+
+/// What a cache did when it was asked.
+struct Asked {
+    bool hit = false, stored = false;
+};
+
+/// Asks a cache whose values hold a shared_ptr<const T>, perhaps as an alternative.
+template <class T, class Value>
+std::shared_ptr<const T> ask(RememberingCache<Value>& cache, const std::string& key,
+                             const std::function<std::shared_ptr<const T>()>& make,
+                             const std::stop_token& stop, Asked& asked) {
+    const Value value = cache.remember(
+        key, [&] { return Value(make()); }, stop, asked.hit);
+    asked.stored = cache.cache().fits(cache.cache().weight(key, value));
+    if constexpr (std::is_same_v<Value, Painted>)
+        return std::get<std::shared_ptr<const T>>(value);
+    else
+        return value;
+}
+
+void count(std::atomic<std::uint64_t>& hits, std::atomic<std::uint64_t>& misses, bool hit) {
+    ++(hit ? hits : misses);
+}
+
+}  // namespace
+
 Store::Store(const ServiceOptions& options)
-    : answers(options.cache_bytes, [](const Kept& answer) { return weight_of(*answer); }),
-      images(options.image_cache_bytes,
-             [](const Images& set) { return set->bytes() + sizeof(ImageSet); }) {}
+    : answers(options.cache_bytes, [](const Kept& answer) { return api::weight_of(*answer); }),
+      images(options.image_cache_bytes, [](const Painted& painted) { return weight_of(painted); }),
+      morphs(options.morph_cache_bytes,
+             [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }) {}
 
 void Store::measure() {
-    const CacheStats of_answers = answers.stats(), of_images = images.cache().stats();
+    const CacheStats of_answers = answers.stats(), of_images = images.cache().stats(),
+                     of_morphs = morphs.cache().stats();
     counters.glb_cache_bytes = of_answers.bytes;
     counters.glb_cache_entries = of_answers.entries;
     counters.glb_evictions = of_answers.evictions;
     counters.image_cache_bytes = of_images.bytes;
     counters.image_cache_entries = of_images.entries;
     counters.image_evictions = of_images.evictions;
+    counters.morph_cache_bytes = of_morphs.bytes;
+    counters.morph_cache_entries = of_morphs.entries;
+    counters.morph_evictions = of_morphs.evictions;
 }
 
 std::string cache_member(std::string_view cache, bool hit, bool stored) {
@@ -29,22 +70,36 @@ Loan::Loan(Store& store, std::stop_token stop, const Observer& observer, const P
     workshop_.parallel = parallel;
     workshop_.stop = std::move(stop);
     workshop_.memo.images = [this](const std::string& key, const std::function<Images()>& make) {
-        return images(key, make);
+        Asked asked;
+        const auto counted = [&] {
+            Images set = make();
+            ++store_.counters.painted;
+            return set;
+        };
+        Images set = ask<ImageSet>(store_.images, key, counted, workshop_.stop, asked);
+        count(store_.counters.image_hits, store_.counters.image_misses, asked.hit);
+        if (images_.empty()) images_ = cache_member("sporeprint-images", asked.hit, asked.stored);
+        return set;
+    };
+    // Perhaps asked on several threads at once: it touches nothing of this Loan.
+    workshop_.memo.paintings = [this](const std::string& key,
+                                      const std::function<Painting()>& make) {
+        Asked asked;
+        Painting painting = ask<RawImages>(store_.images, key, make, workshop_.stop, asked);
+        count(store_.counters.painting_hits, store_.counters.painting_misses, asked.hit);
+        return painting;
+    };
+    workshop_.memo.morphs = [this](const std::string& key, const std::function<Morph()>& make) {
+        Asked asked;
+        Morph morph = ask<MorphSet>(store_.morphs, key, make, workshop_.stop, asked);
+        count(store_.counters.morph_hits, store_.counters.morph_misses, asked.hit);
+        if (morphs_.empty()) morphs_ = cache_member("sporeprint-morph", asked.hit, asked.stored);
+        return morph;
     };
 }
 
-Images Loan::images(const std::string& key, const std::function<Images()>& make) {
-    const auto counted = [&] {
-        Images set = make();
-        ++store_.counters.painted;
-        return set;
-    };
-    bool hit = false;
-    Images set = store_.images.remember(key, counted, workshop_.stop, hit);
-    const Cache<Images>& cache = store_.images.cache();
-    images_ = cache_member("sporeprint-images", hit, cache.fits(cache.weight(key, set)));
-    ++(hit ? store_.counters.image_hits : store_.counters.image_misses);
-    return set;
+std::string Loan::cache_status() const {
+    return morphs_ + (morphs_.empty() || images_.empty() ? "" : ", ") + images_;
 }
 
 }  // namespace sporeprint::api

@@ -7,6 +7,8 @@
 #include <optional>
 #include <stop_token>
 #include <string>
+#include <string_view>
+#include <variant>
 
 #include "api/answers.h"
 #include "api/cache.h"
@@ -15,8 +17,13 @@
 
 namespace sporeprint::api {
 
-using Images = std::shared_ptr<const ImageSet>;
 using Kept = std::shared_ptr<const Answer>;
+using Images = std::shared_ptr<const ImageSet>;
+using Painting = std::shared_ptr<const RawImages>;
+using Morph = std::shared_ptr<const MorphSet>;
+
+/// What the image cache keeps: files as they are sent, and the paintings that mixes are dissolved from. One budget for both.
+using Painted = std::variant<Images, Painting>;
 
 /// The caches of a service. Thread-safe.
 struct Store {
@@ -26,7 +33,8 @@ struct Store {
     void measure();
 
     Cache<Kept> answers;
-    RememberingCache<Images> images;
+    RememberingCache<Painted> images;
+    RememberingCache<Morph> morphs;
     Counters counters;
     std::atomic<std::uint64_t> inspections{0};  ///< uploads so far, to tell them apart
 };
@@ -43,15 +51,14 @@ class Loan {
 
     [[nodiscard]] const Workshop& workshop() const { return workshop_; }
 
-    /// Members of Cache-Status of the caches that were asked; empty if none was.
-    [[nodiscard]] const std::string& cache_status() const { return images_; }
+    /// Members of Cache-Status of the caches that were asked, those of the first answers: what is asked twice in one job was
+    /// not there before it. Empty if none was.
+    [[nodiscard]] std::string cache_status() const;
 
   private:
-    Images images(const std::string& key, const std::function<Images()>& make);
-
     Store& store_;
     Workshop workshop_;
-    std::string images_;
+    std::string morphs_, images_;
 };
 
 }  // namespace sporeprint::api

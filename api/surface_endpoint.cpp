@@ -81,9 +81,9 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
         set_header(head, "Cache-Status", "sporeprint-images; hit; detail=not-modified");
         return answers.not_modified(request, std::move(head));
     }
-    if (const std::optional<Images> kept = store.images.cache().find(key)) {
+    if (const std::optional<Painted> kept = store.images.cache().find(key)) {
         ++store.counters.image_hits;
-        head.body = {(*kept)->files[static_cast<std::size_t>(*asked.kind)]};
+        head.body = {std::get<Images>(*kept)->files[static_cast<std::size_t>(*asked.kind)]};
         set_header(head, "Cache-Status", "sporeprint-images; hit");
         answers.represent(request, head);
         return head;

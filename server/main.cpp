@@ -107,6 +107,7 @@ int serve(const Options& options) {
     api::ServiceOptions service_options;
     service_options.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
     service_options.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
+    service_options.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
     service_options.assets = page_folder(options);
     service_options.allow_origin = options.allow_origin.string();
     api::Service service(atlas, service_options);

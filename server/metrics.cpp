@@ -150,16 +150,23 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
         .count(counters.glb_misses, {{"cache", "glb"}, {"result", "miss"}})
         .count(counters.glb_not_modified, {{"cache", "glb"}, {"result", "not_modified"}})
         .count(counters.image_hits, {{"cache", "images"}, {"result", "hit"}})
-        .count(counters.image_misses, {{"cache", "images"}, {"result", "miss"}});
+        .count(counters.image_misses, {{"cache", "images"}, {"result", "miss"}})
+        .count(counters.painting_hits, {{"cache", "paintings"}, {"result", "hit"}})
+        .count(counters.painting_misses, {{"cache", "paintings"}, {"result", "miss"}})
+        .count(counters.morph_hits, {{"cache", "morphs"}, {"result", "hit"}})
+        .count(counters.morph_misses, {{"cache", "morphs"}, {"result", "miss"}});
     now.family("sporeprint_cache_bytes", "Bytes kept", gauge)
         .count(counters.glb_cache_bytes, {{"cache", "glb"}})
-        .count(counters.image_cache_bytes, {{"cache", "images"}});
+        .count(counters.image_cache_bytes, {{"cache", "images"}})
+        .count(counters.morph_cache_bytes, {{"cache", "morphs"}});
     now.family("sporeprint_cache_entries", "Entries kept", gauge)
         .count(counters.glb_cache_entries, {{"cache", "glb"}})
-        .count(counters.image_cache_entries, {{"cache", "images"}});
+        .count(counters.image_cache_entries, {{"cache", "images"}})
+        .count(counters.morph_cache_entries, {{"cache", "morphs"}});
     now.family("sporeprint_cache_evictions_total", "Entries given up for others", counter)
         .count(counters.glb_evictions, {{"cache", "glb"}})
-        .count(counters.image_evictions, {{"cache", "images"}});
+        .count(counters.image_evictions, {{"cache", "images"}})
+        .count(counters.morph_evictions, {{"cache", "morphs"}});
 
     now.family("sporeprint_workers", "Compute slots", gauge).count(gauges.workers);
     now.family("sporeprint_workers_busy", "Compute slots at work", gauge)

@@ -34,6 +34,7 @@ struct Options {
     int port = 8080;
     int cache_mb = 256;
     int image_cache_mb = 128;
+    int morph_cache_mb = 16;
     int threads = 0;
     Text<1023> atlas;
     Text<1023> assets;
@@ -60,6 +61,11 @@ struct Options {
                                        .min = 0,
                                        .max = 1048576,
                                        .doc = "Memory for painted images."});
+        visit(&O::morph_cache_mb, Info{.name = "morph_cache_mb",
+                                       .unit = "MiB",
+                                       .min = 0,
+                                       .max = 1048576,
+                                       .doc = "Memory for correspondences between species."});
         visit(&O::threads,
               Info{.name = "threads",
                    .min = 0,

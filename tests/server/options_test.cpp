@@ -33,6 +33,7 @@ TEST(Options, HaveDefaults) {
     EXPECT_EQ(options.port, 8080);
     EXPECT_EQ(options.cache_mb, 256);
     EXPECT_EQ(options.image_cache_mb, 128);
+    EXPECT_EQ(options.morph_cache_mb, 16);
 }
 
 TEST(Options, AFlagWinsOverAVariableAndThatOverTheFile) {
@@ -94,8 +95,8 @@ TEST(Options, EachHasHelp) {
         EXPECT_GT(line.help.size(), 10u);
     }
     for (const char* flag :
-         {"--host", "--port", "--cache-mb", "--image-cache-mb", "--threads", "--atlas", "--assets",
-          "--metrics-port", "--log-level", "--simd", "--allow-origin"})
+         {"--host", "--port", "--cache-mb", "--image-cache-mb", "--morph-cache-mb", "--threads",
+          "--atlas", "--assets", "--metrics-port", "--log-level", "--simd", "--allow-origin"})
         EXPECT_TRUE(flags.contains(flag)) << flag;
 }
 
