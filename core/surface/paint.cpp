@@ -4,28 +4,30 @@
 
 #include <algorithm>
 #include <cmath>
-#include <mutex>
 #include <string>
 #include <utility>
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/params/problems.h"
+#include "core/surface/canvas.h"
 #include "core/surface/charts.h"
 #include "core/surface/codecs.h"
 #include "core/surface/plan.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/surface/rows.inl"
+#define HWY_TARGET_INCLUDE "core/surface/dissolve.inl"
 #include <hwy/foreach_target.h>
 
-#include "core/surface/rows.inl"
+#include "core/surface/dissolve.inl"
 
 namespace sporeprint {
 
 HWY_EXPORT(paint_rows);
 HWY_EXPORT(workbench_size);
 HWY_EXPORT(fill_coarse);
+HWY_EXPORT(dissolve_rows);
+HWY_EXPORT(dissolve_bench_size);
 
 namespace {
 
@@ -47,16 +49,6 @@ std::array<std::uint32_t, N> seeds(std::uint32_t seed, std::uint32_t purpose) {
     return out;
 }
 
-const std::array<float, 256>& linear_table() {
-    static const std::array<float, 256> table = [] {
-        std::array<float, 256> out{};
-        for (int i = 0; i < 256; ++i)
-            out[static_cast<std::size_t>(i)] = single(srgb_to_linear(i / 255.0));
-        return out;
-    }();
-    return table;
-}
-
 Light light_of(Colour colour) {
     const std::array<float, 256>& table = linear_table();
     return {table[colour.r], table[colour.g], table[colour.b]};
@@ -65,16 +57,6 @@ Light light_of(Colour colour) {
 // How much of a noise octave with features `texels` large can be shown: none below two, all from
 // four on.
 float shown_of(double texels) { return single(std::clamp((texels - 2.0) / 2.0, 0.0, 1.0)); }
-
-Frame frame_of(const Chart& chart, int side) {
-    Frame frame;
-    frame.x = static_cast<int>(chart.u * side);
-    frame.y = static_cast<int>(chart.v * side);
-    frame.width = static_cast<int>(chart.width * side);
-    frame.height = static_cast<int>(chart.height * side);
-    frame.inset = single(chart.inset);
-    return frame;
-}
 
 double disc_texel(const Frame& frame) {
     return 1.0 / ((0.5 - static_cast<double>(frame.inset)) * frame.width);
@@ -367,7 +349,7 @@ void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cell
 PaintPlan paint_plan(const PaintParams& params) {
     PaintPlan plan;
     plan.side = params.side;
-    for (std::size_t i = 0; i < 4; ++i) plan.frames[i] = frame_of(swept_charts[i], plan.side);
+    plan.frames = chart_frames(plan.side);
     plan.cap = cap_plan(params, plan.frames[0]);
     plan.hymenium = hymenium_plan(params, plan.frames[1]);
     plan.stem = stem_plan(params, plan.frames[2]);
@@ -397,56 +379,9 @@ PaintPlan paint_plan(const PaintParams& params) {
     return plan;
 }
 
-// Memory of finished paintings, lent again: fresh pages cost as much as painting them. At most
-// four of the default size are kept.
-class Canvases {
-  public:
-    Bytes take(std::size_t size) {
-        Bytes found;
-        {
-            const std::lock_guard lock(mutex_);
-            if (!kept_.empty()) {
-                found = std::move(kept_.back());
-                kept_.pop_back();
-            }
-        }
-        found.resize(size);
-        return found;
-    }
-    void give(Bytes canvas) {
-        if (canvas.capacity() > largest_kept) return;
-        const std::lock_guard lock(mutex_);
-        if (kept_.size() < most_kept) kept_.push_back(std::move(canvas));
-    }
-
-  private:
-    static constexpr std::size_t largest_kept = 10U << 20U;
-    static constexpr std::size_t most_kept = 4;
-    std::mutex mutex_;
-    std::vector<Bytes> kept_;
-};
-
-Canvases& canvases() {
-    static Canvases shared;
-    return shared;
-}
-
-struct Canvas {
-    explicit Canvas(std::size_t image) : size(image), bytes(canvases().take(3 * image)) {}
-    Canvas(const Canvas&) = delete;
-    Canvas& operator=(const Canvas&) = delete;
-    ~Canvas() { canvases().give(std::move(bytes)); }
-    [[nodiscard]] std::uint8_t* image(std::size_t i) { return bytes.data() + i * size; }
-
-    std::size_t size;
-    Bytes bytes;
-};
-
-constexpr int rows_per_piece = 128;
-
 int checked_side(const PaintParams& params) {
     const int side = params.side;
-    if (side < 16 || side > 2048 || (side & (side - 1)) != 0)
+    if (!proper_side(side))
         throw InvalidInput("/side",
                            std::to_string(side) + " is not a power of two from 16 to 2048");
     return side;
@@ -454,7 +389,7 @@ int checked_side(const PaintParams& params) {
 
 void paint_canvas(const PaintParams& params, const Parallel& parallel, Canvas& canvas) {
     const PaintPlan plan = paint_plan(params);
-    const PaintTarget target = {canvas.image(0), canvas.image(1), canvas.image(2)};
+    const PaintTarget target = canvas.target();
     std::vector<std::function<void()>> pieces;
     for (int part = 0; part < 4; ++part) {
         const int height = plan.frames[static_cast<std::size_t>(part)].height;
@@ -479,33 +414,23 @@ void in_turn(std::span<const std::function<void()>> pieces) {
 }
 
 RawImages paint_raw(const PaintParams& params, const Parallel& parallel) {
-    const std::size_t side = static_cast<std::size_t>(checked_side(params));
-    Canvas canvas(3 * side * side);
+    Canvas canvas(checked_side(params));
     paint_canvas(params, parallel, canvas);
-    RawImages out;
-    out.side = static_cast<int>(side);
-    for (std::size_t i = 0; i < 3; ++i)
-        out.rgb[i].assign(canvas.image(i), canvas.image(i) + canvas.size);
-    return out;
+    return raw(canvas);
 }
 
 ImageSet paint(const PaintParams& params, const Parallel& parallel) {
-    const int side = checked_side(params);
-    Canvas canvas(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+    Canvas canvas(checked_side(params));
     paint_canvas(params, parallel, canvas);
-    ImageSet out;
-    const auto encode = [&](ImageKind kind, int quality, Chroma chroma) {
-        const std::size_t i = static_cast<std::size_t>(kind);
-        const std::span<const std::uint8_t> rgb(canvas.image(i), canvas.size);
-        out.files[i] = Slice(std::make_shared<const Bytes>(jpeg(rgb, side, side, quality, chroma)));
-    };
-    const std::array<std::function<void()>, 3> pieces = {
-        [&] { encode(ImageKind::normal, 89, Chroma::full); },
-        [&] { encode(ImageKind::base_color, 88, Chroma::halved); },
-        [&] { encode(ImageKind::orm, 88, Chroma::halved); },
-    };
-    parallel(pieces);
-    return out;
+    return encoded(canvas, parallel);
+}
+
+void dissolve_piece(const DissolvePlan& plan, int part, int from, int to,
+                    const PaintTarget& target) {
+    thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> bench;
+    if (!bench)
+        bench = hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(dissolve_bench_size)());
+    HWY_DYNAMIC_DISPATCH(dissolve_rows)(plan, part, from, to, bench.get(), target);
 }
 
 }  // namespace sporeprint

@@ -98,6 +98,9 @@ void in_turn(std::span<const std::function<void()>> pieces);
 struct RawImages {
     int side = 0;
     std::array<Bytes, 3> rgb;
+    [[nodiscard]] std::size_t bytes() const {
+        return rgb[0].size() + rgb[1].size() + rgb[2].size();
+    }
 };
 
 /// Paints an atlas and leaves it as pixels, for tests and tools; else like paint().

@@ -194,4 +194,39 @@ struct PaintTarget {
     std::uint8_t* orm = nullptr;
 };
 
+/// Most paintings that dissolve into one.
+inline constexpr std::size_t most_paintings = 8;
+
+/// What is dissolved of a texel: colour in linear light, slopes of the normal, occlusion, roughness.
+inline constexpr std::size_t dissolved_channels = 7;
+
+/// How the paintings of one chart dissolve.
+struct ChartDissolve {
+    int columns = 0, rows = 0;  ///< cells of dissolve_cell() texels, at least one each way
+    /// Mean of the dissolved over each cell and those round it: rows * columns * dissolved_channels.
+    std::vector<float> means;
+    std::array<float, dissolved_channels> surplus{};  ///< gain of the contrast, less one
+};
+
+struct DissolvePlan {
+    int side = 0;
+    std::array<Frame, 4> frames{};
+    std::size_t paintings = 0;
+    std::array<std::array<const std::uint8_t*, 3>, most_paintings> images{};
+    std::array<float, most_paintings> weights{};
+    std::array<ChartDissolve, 4> charts{};
+    const float* linear = nullptr;  ///< light of each sRGB byte
+};
+
+/// Side in texels of the cells whose mean is what detail stands out from. Twice eight, so that a vector of texels never
+/// crosses the middle of one.
+[[nodiscard]] constexpr int dissolve_cell(int side) { return side > 512 ? side / 32 : 16; }
+
+/// Dissolves rows `from` to `to` (exclusive) of a part's chart, with the instruction set in force.
+void dissolve_piece(const DissolvePlan& plan, int part, int from, int to,
+                    const PaintTarget& target);
+
+/// Slopes are steep at most this much: normals are bytes, and a slope is the quotient of two.
+inline constexpr float flattest_normal = 1.0F / 16.0F;
+
 }  // namespace sporeprint

@@ -428,6 +428,30 @@ HWY_INLINE VF srgb(VF light) {
     return hn::IfThenElse(x < set(0.0031308F), x * set(12.92F), curve);
 }
 
+// Writes the eight channels of a row into the three images; the ninth, metalness, is zero.
+void interleave(const std::uint8_t (*channels)[padded], std::size_t width, std::size_t at,
+                const PaintTarget& target) {
+    const hn::ScalableTag<std::uint8_t> bytes;
+    const std::size_t byte_lanes = hn::Lanes(bytes);
+    std::uint8_t* const images[3] = {target.base_color + at, target.normal + at, target.orm + at};
+    const auto zero = hn::Zero(bytes);
+    for (std::size_t image = 0; image < 3; ++image) {
+        if (width < byte_lanes) {
+            for (std::size_t x = 0; x < width; ++x)
+                for (std::size_t c = 0; c < 3; ++c)
+                    images[image][3 * x + c] =
+                        image == 2 && c == 2 ? std::uint8_t{0} : channels[3 * image + c][x];
+            continue;
+        }
+        for (std::size_t x = 0; x < width; x += byte_lanes) {
+            const auto a = hn::LoadU(bytes, channels[3 * image] + x);
+            const auto b = hn::LoadU(bytes, channels[3 * image + 1] + x);
+            const auto c = image == 2 ? zero : hn::LoadU(bytes, channels[3 * image + 2] + x);
+            hn::StoreInterleaved3(a, b, c, bytes, images[image] + 3 * x);
+        }
+    }
+}
+
 // Turns a row of texels, and the heights above and below it, into bytes.
 void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const Row& row,
                  const Row& below, Workbench& bench, const PaintTarget& target) {
@@ -497,28 +521,10 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
         std::memset(line, line[stretch.from], stretch.from);
         std::memset(line + stretch.until, line[stretch.until - 1], width - stretch.until);
     }
-    const hn::ScalableTag<std::uint8_t> bytes;
-    const std::size_t byte_lanes = hn::Lanes(bytes);
     const std::size_t at =
         3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) +
              static_cast<std::size_t>(frame.x));
-    std::uint8_t* const images[3] = {target.base_color + at, target.normal + at, target.orm + at};
-    const auto zero = hn::Zero(bytes);
-    for (std::size_t image = 0; image < 3; ++image) {
-        if (width < byte_lanes) {
-            for (std::size_t x = 0; x < width; ++x)
-                for (std::size_t c = 0; c < 3; ++c)
-                    images[image][3 * x + c] =
-                        image == 2 && c == 2 ? std::uint8_t{0} : bench.bytes[3 * image + c][x];
-            continue;
-        }
-        for (std::size_t x = 0; x < width; x += byte_lanes) {
-            const auto a = hn::LoadU(bytes, bench.bytes[3 * image] + x);
-            const auto b = hn::LoadU(bytes, bench.bytes[3 * image + 1] + x);
-            const auto c = image == 2 ? zero : hn::LoadU(bytes, bench.bytes[3 * image + 2] + x);
-            hn::StoreInterleaved3(a, b, c, bytes, images[image] + 3 * x);
-        }
-    }
+    interleave(bench.bytes, width, at, target);
 }
 
 /// Paints rows `from` to `to` (exclusive) of a part's chart.

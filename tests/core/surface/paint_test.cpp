@@ -6,61 +6,16 @@
 #include <cstddef>
 #include <cstdlib>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "core/math/noise.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
 #include "core/surface/codecs.h"
+#include "tests/support/paintings.h"
 
 namespace sporeprint {
 namespace {
-
-// A mushroom that wears everything at once, coarse enough to show on a small atlas.
-PaintParams motley(HymeniumPattern pattern, int side = 256) {
-    PaintParams params;
-    params.seed = 7;
-    params.side = side;
-    params.metrics.cap_radius = quantised_length(0.05);
-    params.metrics.cap_arc = quantised_length(0.06);
-    params.metrics.hymenium_arc = quantised_length(0.042);
-    params.metrics.hymenium_inner = quantised_length(0.01);
-    params.metrics.stem_length = quantised_length(0.10);
-    params.metrics.stem_radius = quantised_length(0.01);
-    CapSurface& cap = params.surface.cap;
-    cap.ramp = {{200, 22, 29}, {120, 70, 90}, {226, 71, 30}};
-    cap.fibrils = 0.4;
-    cap.fibril_count = 24;
-    cap.zones = 0.4;
-    cap.patches = 0.3;
-    cap.patch_size = 0.02;
-    cap.streaks = 0.4;
-    cap.veins = 0.4;
-    cap.striae = 0.3;
-    cap.bumps = 0.6;
-    params.surface.hymenium.pattern = pattern;
-    params.surface.hymenium.mottle = 0.5;
-    params.surface.hymenium.edge = {120, 20, 20};
-    params.hymenium.blades = 20;
-    params.hymenium.tiers = 1;
-    params.hymenium.forking = 0.5;
-    params.hymenium.pores_per_mm = 0.4;
-    StemSurface& stem = params.surface.stem;
-    stem.bands = 0.5;
-    stem.net = 0.6;
-    stem.bumps = 0.6;
-    params.warts.count = 30;
-    params.warts.size = 0.08;
-    params.ornaments.warts = 0.7;
-    params.scales.count = 40;
-    params.scales.size = 0.08;
-    params.scales.lift = 0.2;
-    params.ornaments.scales = 0.7;
-    params.fade = 0.3;
-    params.wetness = 0.3;
-    return params;
-}
 
 constexpr HymeniumPattern all_patterns[] = {HymeniumPattern::smooth, HymeniumPattern::gills,
                                             HymeniumPattern::ridges, HymeniumPattern::pores};
@@ -75,18 +30,6 @@ double difference(const RawImages& a, const RawImages& b) {
             sum += std::abs(static_cast<int>(a.rgb[i][k]) - static_cast<int>(b.rgb[i][k]));
     }
     return sum / static_cast<double>(count);
-}
-
-struct Texel {
-    int r, g, b;
-};
-
-Texel texel(const RawImages& images, ImageKind kind, int x, int y) {
-    const Bytes& rgb = images.rgb[static_cast<std::size_t>(kind)];
-    const std::size_t at =
-        3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(images.side) +
-             static_cast<std::size_t>(x));
-    return {rgb[at], rgb[at + 1], rgb[at + 2]};
 }
 
 // Every number below a described struct: visit(path, info, number).
@@ -142,10 +85,7 @@ TEST_F(Paint, GivesEqualFilesHoweverTheWorkIsShared) {
     const PaintParams params = motley(HymeniumPattern::gills);
     const ImageSet alone = paint(params);
     const ImageSet again = paint(params);
-    const ImageSet shared = paint(params, [](std::span<const std::function<void()>> pieces) {
-        std::vector<std::jthread> threads;
-        for (std::size_t i = pieces.size(); i > 0; --i) threads.emplace_back(pieces[i - 1]);
-    });
+    const ImageSet shared = paint(params, all_at_once);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_TRUE(*alone.files[i].owner == *again.files[i].owner);
         EXPECT_TRUE(*alone.files[i].owner == *shared.files[i].owner);

@@ -1,0 +1,107 @@
+#include "core/surface/canvas.h"
+
+#include <memory>
+#include <mutex>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/surface/charts.h"
+#include "core/surface/codecs.h"
+
+namespace sporeprint {
+namespace {
+
+// Memory of finished paintings. At most four of the default size are kept.
+class Canvases {
+  public:
+    Bytes take(std::size_t size) {
+        Bytes found;
+        {
+            const std::lock_guard lock(mutex_);
+            if (!kept_.empty()) {
+                found = std::move(kept_.back());
+                kept_.pop_back();
+            }
+        }
+        found.resize(size);
+        return found;
+    }
+    void give(Bytes canvas) {
+        if (canvas.capacity() > largest_kept) return;
+        const std::lock_guard lock(mutex_);
+        if (kept_.size() < most_kept) kept_.push_back(std::move(canvas));
+    }
+
+  private:
+    static constexpr std::size_t largest_kept = 10U << 20U;
+    static constexpr std::size_t most_kept = 4;
+    std::mutex mutex_;
+    std::vector<Bytes> kept_;
+};
+
+Canvases& canvases() {
+    static Canvases shared;
+    return shared;
+}
+
+}  // namespace
+
+Canvas::Canvas(int side)
+    : side_(side),
+      size_(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side)),
+      bytes_(canvases().take(3 * size_)) {}
+
+Canvas::~Canvas() { canvases().give(std::move(bytes_)); }
+
+ImageSet encoded(const Canvas& canvas, const Parallel& parallel) {
+    ImageSet out;
+    const auto encode = [&](ImageKind kind, int quality, Chroma chroma) {
+        const std::size_t i = static_cast<std::size_t>(kind);
+        const std::span<const std::uint8_t> rgb(canvas.image(i), canvas.size());
+        out.files[i] = Slice(std::make_shared<const Bytes>(
+            jpeg(rgb, canvas.side(), canvas.side(), quality, chroma)));
+    };
+    const std::array<std::function<void()>, 3> pieces = {
+        [&] { encode(ImageKind::normal, 89, Chroma::full); },
+        [&] { encode(ImageKind::base_color, 88, Chroma::halved); },
+        [&] { encode(ImageKind::orm, 88, Chroma::halved); },
+    };
+    parallel(pieces);
+    return out;
+}
+
+RawImages raw(const Canvas& canvas) {
+    RawImages out;
+    out.side = canvas.side();
+    for (std::size_t i = 0; i < 3; ++i)
+        out.rgb[i].assign(canvas.image(i), canvas.image(i) + canvas.size());
+    return out;
+}
+
+std::array<Frame, 4> chart_frames(int side) {
+    std::array<Frame, 4> frames;
+    for (std::size_t i = 0; i < 4; ++i) {
+        const Chart& chart = swept_charts[i];
+        Frame& frame = frames[i];
+        frame.x = static_cast<int>(chart.u * side);
+        frame.y = static_cast<int>(chart.v * side);
+        frame.width = static_cast<int>(chart.width * side);
+        frame.height = static_cast<int>(chart.height * side);
+        frame.inset = static_cast<float>(chart.inset);
+    }
+    return frames;
+}
+
+const std::array<float, 256>& linear_table() {
+    static const std::array<float, 256> table = [] {
+        std::array<float, 256> out{};
+        for (int i = 0; i < 256; ++i)
+            out[static_cast<std::size_t>(i)] = static_cast<float>(srgb_to_linear(i / 255.0));
+        return out;
+    }();
+    return table;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,161 @@
+// Dissolves rows of several paintings into one: weighted means in linear light, of slopes and of
+// plain numbers, with the contrast that a mean takes away given back.
+#if defined(SPOREPRINT_CORE_SURFACE_DISSOLVE_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_DISSOLVE_INL
+#undef SPOREPRINT_CORE_SURFACE_DISSOLVE_INL
+#else
+#define SPOREPRINT_CORE_SURFACE_DISSOLVE_INL
+#endif
+
+#include "core/surface/rows.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+/// One row of bytes per channel, of each painting and of what they become.
+struct DissolveBench {
+    HWY_ALIGN std::uint8_t from[most_paintings][9][padded];
+    HWY_ALIGN std::uint8_t to[9][padded];
+    float mean[dissolved_channels][widest / 16 + 2];  // of one row: the first and the last twice
+};
+
+/// Splits a row of RGB texels into its channels.
+HWY_INLINE void split(const std::uint8_t* rgb, std::size_t width,
+                      std::uint8_t (*channels)[padded]) {
+    const hn::ScalableTag<std::uint8_t> bytes;
+    const std::size_t lanes = hn::Lanes(bytes);
+    if (width < lanes) {
+        for (std::size_t x = 0; x < width; ++x)
+            for (std::size_t c = 0; c < 3; ++c) channels[c][x] = rgb[3 * x + c];
+        return;
+    }
+    for (std::size_t x = 0; x < width; x += lanes) {
+        hn::Vec<decltype(bytes)> r, g, b;
+        hn::LoadInterleaved3(bytes, rgb + 3 * x, r, g, b);
+        hn::StoreU(r, bytes, channels[0] + x);
+        hn::StoreU(g, bytes, channels[1] + x);
+        hn::StoreU(b, bytes, channels[2] + x);
+    }
+}
+
+HWY_INLINE VI whole(const std::uint8_t* at) {
+    const hn::Rebind<std::uint8_t, Floats> bytes;
+    return hn::PromoteTo(Ints(), hn::LoadU(bytes, at));
+}
+HWY_INLINE VF number(const std::uint8_t* at) { return hn::ConvertTo(Floats(), whole(at)); }
+
+/// A channel of a texel: the weighted mean of the paintings, and the least and most of them.
+struct Dissolved {
+    VF mean, least, most;
+    HWY_INLINE void begin() {
+        mean = set(0.0F);
+        least = set(1e9F);
+        most = set(-1e9F);
+    }
+    HWY_INLINE void add(VF value, VF weight) {
+        mean = mean + value * weight;
+        least = hn::Min(least, value);
+        most = hn::Max(most, value);
+    }
+    /// The mean with `surplus` times its distance from what surrounds it added, bent so that it never passes what the
+    /// paintings have: a cubic that goes flat where the room ends.
+    HWY_INLINE VF restored(VF around, float surplus) const {
+        const VF missing = (mean - around) * set(surplus);
+        const auto lower = missing < set(0.0F);
+        const VF room = hn::Max(hn::IfThenElse(lower, mean - least, most - mean), set(1e-6F));
+        const VF q = hn::Min(hn::Abs(missing) / room, set(1.5F));
+        const VF step = room * q * (set(1.0F) - q * q * set(4.0F / 27.0F));
+        return hn::IfThenElse(lower, mean - step, mean + step);
+    }
+};
+
+// The means of cells at one row of texels.
+void mean_row(const ChartDissolve& chart, int cell, int y, DissolveBench& bench) {
+    const float at = (static_cast<float>(y) + 0.5F) / static_cast<float>(cell) - 0.5F;
+    const int above = at < 0.0F ? 0 : static_cast<int>(at);
+    const int upper = std::min(above, chart.rows - 1);
+    const int lower = std::min(above + 1, chart.rows - 1);
+    const float weight = at < 0.0F ? 0.0F : at - static_cast<float>(above);
+    const auto row = [&](int j) {
+        return chart.means.data() + static_cast<std::size_t>(j) *
+                                        static_cast<std::size_t>(chart.columns) *
+                                        dissolved_channels;
+    };
+    const float* const high = row(upper);
+    const float* const low = row(lower);
+    const std::size_t columns = static_cast<std::size_t>(chart.columns);
+    for (std::size_t c = 0; c < dissolved_channels; ++c) {
+        for (std::size_t i = 0; i < columns; ++i) {
+            const std::size_t k = i * dissolved_channels + c;
+            bench.mean[c][i + 1] = high[k] + (low[k] - high[k]) * weight;
+        }
+        bench.mean[c][0] = bench.mean[c][1];
+        bench.mean[c][columns + 1] = bench.mean[c][columns];
+    }
+}
+
+/// Dissolves rows `from` to `to` (exclusive) of a part's chart.
+void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* memory,
+                   const PaintTarget& target) {
+    DissolveBench& bench = *static_cast<DissolveBench*>(memory);
+    const Floats f;
+    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const ChartDissolve& chart = plan.charts[static_cast<std::size_t>(part)];
+    const std::size_t width = static_cast<std::size_t>(frame.width);
+    const std::size_t cell = static_cast<std::size_t>(dissolve_cell(plan.side));
+    const VF one = set(1.0F);
+    const VF half = set(0.5F);
+    for (int y = from; y < to; ++y) {
+        const std::size_t at =
+            3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) +
+                 static_cast<std::size_t>(frame.x));
+        for (std::size_t i = 0; i < plan.paintings; ++i)
+            for (std::size_t image = 0; image < 3; ++image)
+                split(plan.images[i][image] + at, width, bench.from[i] + 3 * image);
+        mean_row(chart, static_cast<int>(cell), y, bench);
+        for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
+            Dissolved texel[dissolved_channels];
+            for (Dissolved& channel : texel) channel.begin();
+            for (std::size_t i = 0; i < plan.paintings; ++i) {
+                const std::uint8_t(*const bytes)[padded] = bench.from[i];
+                const VF weight = set(plan.weights[i]);
+                for (std::size_t c = 0; c < 3; ++c)
+                    texel[c].add(hn::GatherIndex(f, plan.linear, whole(bytes[c] + x)), weight);
+                const VF nz = number(bytes[5] + x) * set(1.0F / 127.5F) - one;
+                const VF per_z = one / hn::Max(nz, set(flattest_normal));
+                for (std::size_t c = 3; c < 5; ++c)
+                    texel[c].add((number(bytes[c] + x) * set(1.0F / 127.5F) - one) * per_z, weight);
+                for (std::size_t c = 5; c < 7; ++c)
+                    texel[c].add(number(bytes[c + 1] + x) * set(1.0F / 255.0F), weight);
+            }
+            // Between the middles of two cells; all lanes lie between the same two.
+            const std::size_t left = (x + cell / 2) / cell;
+            const VF share =
+                (lane_numbers() + set(static_cast<float>(x + cell / 2 - left * cell) + 0.5F)) *
+                set(1.0F / static_cast<float>(cell));
+            VF out[dissolved_channels];
+            for (std::size_t c = 0; c < dissolved_channels; ++c) {
+                const float a = bench.mean[c][left];
+                const float b = bench.mean[c][left + 1];
+                out[c] = texel[c].restored(set(a) + set(b - a) * share, chart.surplus[c]);
+            }
+            const VF length = half / hn::Sqrt(one + out[3] * out[3] + out[4] * out[4]);
+            for (std::size_t c = 0; c < 3; ++c) store_byte(srgb(out[c]), bench.to[c] + x);
+            store_byte(half + out[3] * length, bench.to[3] + x);
+            store_byte(half + out[4] * length, bench.to[4] + x);
+            store_byte(half + length, bench.to[5] + x);
+            store_byte(out[5], bench.to[6] + x);
+            store_byte(out[6], bench.to[7] + x);
+        }
+        interleave(bench.to, width, at, target);
+    }
+}
+
+std::size_t dissolve_bench_size() { return sizeof(DissolveBench); }
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif
