@@ -61,11 +61,12 @@ struct Options {
                                        .min = 0,
                                        .max = 1048576,
                                        .doc = "Memory for painted images."});
-        visit(&O::morph_cache_mb, Info{.name = "morph_cache_mb",
-                                       .unit = "MiB",
-                                       .min = 0,
-                                       .max = 1048576,
-                                       .doc = "Memory for correspondences between species."});
+        visit(&O::morph_cache_mb,
+              Info{.name = "morph_cache_mb",
+                   .unit = "MiB",
+                   .min = 0,
+                   .max = 1048576,
+                   .doc = "Memory for what lies between shapes that are mixed."});
         visit(&O::threads,
               Info{.name = "threads",
                    .min = 0,
