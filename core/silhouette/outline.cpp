@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "core/params/problems.h"
+#include "core/silhouette/proof.h"
 
 namespace sporeprint {
 
@@ -18,21 +19,6 @@ std::string number(double value) {
     while (text.back() == '0') text.pop_back();
     if (text.back() == '.') text.pop_back();
     return text;
-}
-
-double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
-    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
-}
-
-bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
-    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x))
-        return false;
-    if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
-        return false;
-    const double abc = cross(a, b, c), abd = cross(a, b, d), cda = cross(c, d, a),
-                 cdb = cross(c, d, b);
-    return ((abc <= 0.0 && abd >= 0.0) || (abc >= 0.0 && abd <= 0.0)) &&
-           ((cda <= 0.0 && cdb >= 0.0) || (cda >= 0.0 && cdb <= 0.0));
 }
 
 /// Smallest r at the turning points strictly inside a segment; infinite if r runs one way.
@@ -327,13 +313,6 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
     if (const auto crossing = first_crossing(polyline))
         throw Impossible({{where((*crossing)[0]),
                            "the outline crosses itself here and near " + where((*crossing)[1])}});
-}
-
-std::optional<std::array<std::size_t, 2>> first_crossing(const std::vector<glm::dvec2>& polyline) {
-    for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
-        for (std::size_t j = i + 2; j + 1 < polyline.size(); ++j)
-            if (touch(polyline[i], polyline[i + 1], polyline[j], polyline[j + 1])) return {{i, j}};
-    return std::nullopt;
 }
 
 }  // namespace sporeprint

@@ -4,7 +4,6 @@
 #include <array>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -135,10 +134,5 @@ struct Outline {
   private:
     std::shared_ptr<const RingPlaces> places_;
 };
-
-/// First pair of segments of a polyline that touch without being neighbours; none if it is simple.
-/// Exact for the given coordinates up to rounding of one orientation test. cost O(n^2), boxes first
-[[nodiscard]] std::optional<std::array<std::size_t, 2>> first_crossing(
-    const std::vector<glm::dvec2>& polyline);
 
 }  // namespace sporeprint

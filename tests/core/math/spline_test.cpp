@@ -7,6 +7,7 @@
 
 #include "core/math/random.h"
 #include "core/silhouette/outline.h"
+#include "core/silhouette/proof.h"
 
 namespace sporeprint {
 namespace {

@@ -3,14 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <array>
 #include <cmath>
-#include <cstdint>
 #include <functional>
-#include <optional>
 #include <string>
 
-#include "core/math/random.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint {
@@ -209,64 +205,6 @@ TEST(Outline, CoincidentControlPointsDoNotBreakIt) {
             EXPECT_TRUE(std::isfinite(sample.r) && std::isfinite(sample.y));
             EXPECT_NEAR(std::hypot(sample.tangent_r, sample.tangent_y), 1.0, 1e-9);
         }
-}
-
-/// Whether closed segments share a point, in whole numbers.
-bool meets(const std::array<std::int64_t, 8>& s) {
-    const auto side = [](std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by,
-                         std::int64_t cx, std::int64_t cy) {
-        const std::int64_t area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
-        return area > 0 ? 1 : area < 0 ? -1 : 0;
-    };
-    const auto within = [](std::int64_t a, std::int64_t b, std::int64_t x) {
-        return std::min(a, b) <= x && x <= std::max(a, b);
-    };
-    const auto [ax, ay, bx, by, cx, cy, dx, dy] = s;
-    const int abc = side(ax, ay, bx, by, cx, cy), abd = side(ax, ay, bx, by, dx, dy);
-    const int cda = side(cx, cy, dx, dy, ax, ay), cdb = side(cx, cy, dx, dy, bx, by);
-    if (abc * abd < 0 && cda * cdb < 0) return true;
-    return (abc == 0 && within(ax, bx, cx) && within(ay, by, cy)) ||
-           (abd == 0 && within(ax, bx, dx) && within(ay, by, dy)) ||
-           (cda == 0 && within(cx, dx, ax) && within(cy, dy, ay)) ||
-           (cdb == 0 && within(cx, dx, bx) && within(cy, dy, by));
-}
-
-TEST(Outline, FirstCrossingAgreesWithExactArithmetic) {
-    Random random(23, 0);
-    int crossed = 0;
-    for (int trial = 0; trial < 4000; ++trial) {
-        // A small grid makes points touch, lie on segments and run along one another.
-        const std::uint32_t grid = trial % 2 ? 7 : 1000;
-        const std::size_t count = 3 + random.bits() % 7;
-        std::vector<glm::dvec2> line;
-        for (std::size_t i = 0; i < count; ++i) {
-            const auto x = static_cast<double>(random.bits() % grid);
-            const auto y = static_cast<double>(random.bits() % grid);
-            line.emplace_back(x, y);
-        }
-        std::optional<std::array<std::size_t, 2>> expected;
-        for (std::size_t i = 0; i + 1 < count && !expected; ++i)
-            for (std::size_t j = i + 2; j + 1 < count && !expected; ++j) {
-                std::array<std::int64_t, 8> s{};
-                const glm::dvec2 ends[] = {line[i], line[i + 1], line[j], line[j + 1]};
-                for (std::size_t k = 0; k < 4; ++k) {
-                    s[2 * k] = static_cast<std::int64_t>(ends[k].x);
-                    s[2 * k + 1] = static_cast<std::int64_t>(ends[k].y);
-                }
-                if (meets(s)) expected = {{i, j}};
-            }
-        EXPECT_EQ(first_crossing(line), expected) << "trial " << trial;
-        crossed += expected ? 1 : 0;
-    }
-    EXPECT_GT(crossed, 400);
-    EXPECT_LT(crossed, 3600);
-}
-
-TEST(Outline, FewPointsNeverCross) {
-    EXPECT_FALSE(first_crossing({}));
-    EXPECT_FALSE(first_crossing({{0.0, 0.0}}));
-    EXPECT_FALSE(first_crossing({{0.0, 0.0}, {1.0, 0.0}}));
-    EXPECT_FALSE(first_crossing({{0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}}));
 }
 
 TEST(Outline, RandomOutlinesAreDrawnOrRefusedNeverBroken) {

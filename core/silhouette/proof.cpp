@@ -1,0 +1,283 @@
+#include "core/silhouette/proof.h"
+
+#include <algorithm>
+#include <cassert>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace sporeprint {
+
+namespace {
+
+constexpr double at_an_end = 1e-9;  // of the whole morph
+constexpr double still_on_line =
+    1e-6;  // sine of the angle that rounding may give to three points on a line
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+double cross(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c) {
+    return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
+}
+
+bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const glm::dvec2& d) {
+    if (std::max(a.x, b.x) < std::min(c.x, d.x) || std::max(c.x, d.x) < std::min(a.x, b.x))
+        return false;
+    if (std::max(a.y, b.y) < std::min(c.y, d.y) || std::max(c.y, d.y) < std::min(a.y, b.y))
+        return false;
+    const double abc = cross(a, b, c), abd = cross(a, b, d), cda = cross(c, d, a),
+                 cdb = cross(c, d, b);
+    return ((abc <= 0.0 && abd >= 0.0) || (abc >= 0.0 && abd <= 0.0)) &&
+           ((cda <= 0.0 && cdb >= 0.0) || (cda >= 0.0 && cdb <= 0.0));
+}
+
+/// The vertices left when edges of no length are taken out, and which they were.
+struct Distinct {
+    Polyline points;
+    std::vector<std::size_t> owner;
+
+    explicit Distinct(std::span<const glm::dvec2> polyline) {
+        for (std::size_t i = 0; i < polyline.size(); ++i)
+            if (points.empty() || polyline[i] != points.back()) {
+                points.push_back(polyline[i]);
+                owner.push_back(i);
+            }
+    }
+};
+
+/// A contact of a polyline at rest, t left open.
+std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline) {
+    const Distinct distinct(polyline);
+    const auto& p = distinct.points;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const bool end = i == 0 || i + 1 == p.size();
+        if (end ? p[i].x < 0.0 : p[i].x <= 0.0)
+            return Contact{0.0, distinct.owner[i], distinct.owner[i]};
+    }
+    for (std::size_t i = 0; i + 2 < p.size(); ++i) {
+        const glm::dvec2 in = p[i + 1] - p[i], out = p[i + 2] - p[i + 1];
+        if (cross(in, out) == 0.0 && glm::dot(in, out) < 0.0)
+            return Contact{0.0, distinct.owner[i + 1] - 1, distinct.owner[i + 1]};
+    }
+    if (const auto pair = first_crossing(p))
+        return Contact{0.0, distinct.owner[(*pair)[0]], distinct.owner[(*pair)[1]]};
+    return std::nullopt;
+}
+
+/// A point that moves evenly.
+struct Moving {
+    glm::dvec2 at_0, by;
+
+    [[nodiscard]] glm::dvec2 at(double t) const { return at_0 + t * by; }
+    Moving operator-(const Moving& other) const { return {at_0 - other.at_0, by - other.by}; }
+};
+
+/// c0 + c1 t + c2 t^2
+struct Quadratic {
+    double c0, c1, c2;
+
+    [[nodiscard]] bool is_zero() const { return c0 == 0.0 && c1 == 0.0 && c2 == 0.0; }
+
+    /// Whether its Bernstein coefficients have one sign: no root in [0, 1].
+    [[nodiscard]] bool keeps_sign() const {
+        const double middle = c0 + 0.5 * c1, end = c0 + c1 + c2;
+        return (c0 > 0.0 && middle > 0.0 && end > 0.0) || (c0 < 0.0 && middle < 0.0 && end < 0.0);
+    }
+
+    template <class Visit>
+    void roots(const Visit& visit) const {
+        const double discriminant = c1 * c1 - 4.0 * c2 * c0;
+        if (discriminant < 0.0) return;
+        const double q = -0.5 * (c1 + (c1 < 0.0 ? -1.0 : 1.0) * std::sqrt(discriminant));
+        if (c2 != 0.0) visit(q / c2);
+        if (q != 0.0) visit(c0 / q);
+    }
+};
+
+Quadratic cross(const Moving& a, const Moving& b) {
+    return {cross(a.at_0, b.at_0), cross(a.at_0, b.by) + cross(a.by, b.at_0), cross(a.by, b.by)};
+}
+
+Quadratic dot(const Moving& a, const Moving& b) {
+    return {glm::dot(a.at_0, b.at_0), glm::dot(a.at_0, b.by) + glm::dot(a.by, b.at_0),
+            glm::dot(a.by, b.by)};
+}
+
+bool inside(double t) { return t > at_an_end && t < 1.0 - at_an_end; }
+
+/// Earliest t strictly inside (0, 1) at which X is on the segment YZ; 2 if never.
+double first_touch(const Moving& x, const Moving& y, const Moving& z) {
+    const Moving a = y - x, b = z - x;
+    const Quadratic side = cross(a, b);
+    double first = 2.0;
+    if (side.keeps_sign()) return first;
+    const Quadratic between = dot(a, b);  // not positive where X is between Y and Z on their line
+    const auto consider = [&](double t) {
+        if (!inside(t) || t >= first) return;
+        const glm::dvec2 to_y = a.at(t), to_z = b.at(t);
+        const double scale = glm::dot(to_y, to_y) + glm::dot(to_z, to_z);
+        // Where a sub-curve shrinks to a point at t = 0 or 1 that is a double root, and rounding moves it inwards.
+        const bool on_line = std::abs(cross(to_y, to_z)) <= still_on_line * scale;
+        if (on_line && glm::dot(to_y, to_z) <= 1e-12 * scale) first = t;
+    };
+    if (side.is_zero())
+        between.roots(consider);  // all on one line for ever
+    else
+        side.roots(consider);
+    return first;
+}
+
+struct Box {
+    glm::dvec2 low, high;
+
+    [[nodiscard]] bool apart(const Box& other) const {
+        return high.x < other.low.x || other.high.x < low.x || high.y < other.low.y ||
+               other.high.y < low.y;
+    }
+};
+
+/// The open half plane that holds all vectors seen so far, kept as the two that are furthest apart; exact up to rounding.
+class HalfPlane {
+  public:
+    /// False once the vectors do not fit in an open half plane. Vectors of no length fit everywhere.
+    bool add(const glm::dvec2& v) {
+        if (v.x == 0.0 && v.y == 0.0) return true;
+        if (empty_) {
+            right_ = left_ = v;
+            empty_ = false;
+            return true;
+        }
+        const double past_right = cross(right_, v), past_left = cross(left_, v);
+        if (past_right >= 0.0 && past_left <= 0.0) {
+            // Inside the wedge, or opposite to it: opposite only if the wedge is closed to a ray.
+            return glm::dot(v, right_) > 0.0 || glm::dot(v, left_) > 0.0 ||
+                   (past_right > 0.0 && past_left < 0.0);
+        }
+        if (past_right < 0.0 && past_left < 0.0) {
+            right_ = v;
+            return true;
+        }
+        if (past_right > 0.0 && past_left > 0.0) {
+            left_ = v;
+            return true;
+        }
+        return false;
+    }
+
+  private:
+    glm::dvec2 right_{0.0}, left_{0.0};
+    bool empty_ = true;
+};
+
+}  // namespace
+
+std::optional<std::array<std::size_t, 2>> first_crossing(std::span<const glm::dvec2> polyline) {
+    for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
+        for (std::size_t j = i + 2; j + 1 < polyline.size(); ++j)
+            if (touch(polyline[i], polyline[i + 1], polyline[j], polyline[j + 1])) return {{i, j}};
+    return std::nullopt;
+}
+
+std::optional<Contact> first_contact(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
+    assert(a.size() == b.size() && a.size() >= 2);
+    if (auto at_0 = contact_at_rest(a)) return at_0;
+    const std::size_t n = a.size();
+    std::vector<Moving> points(n);
+    for (std::size_t i = 0; i < n; ++i) points[i] = {a[i], b[i] - a[i]};
+    std::vector<Box> boxes;
+    for (std::size_t i = 0; i + 1 < n; ++i)
+        boxes.push_back({glm::min(glm::min(a[i], a[i + 1]), glm::min(b[i], b[i + 1])),
+                         glm::max(glm::max(a[i], a[i + 1]), glm::max(b[i], b[i + 1]))});
+    // Between t = 0 and 1 r is positive as soon as it is at one of them, and not negative at the other.
+    std::optional<Contact> first;
+    const auto consider = [&](double t, std::size_t i, std::size_t j) {
+        if (t <= 1.0 && (!first || t < first->t)) first = Contact{t, i, j};
+    };
+    for (std::size_t i = 0; i + 2 < n; ++i) {
+        const Moving in = points[i + 1] - points[i], out = points[i + 2] - points[i + 1];
+        const Quadratic turn = cross(in, out);
+        const auto folds = [&](double t) {
+            if (!inside(t)) return;
+            const glm::dvec2 u = in.at(t), v = out.at(t);
+            if (std::abs(cross(u, v)) <= -still_on_line * glm::dot(u, v)) consider(t, i, i + 1);
+        };
+        if (turn.is_zero())
+            dot(in, out).roots(folds);
+        else if (!turn.keeps_sign())
+            turn.roots(folds);
+    }
+    for (std::size_t i = 0; i + 1 < n; ++i)
+        for (std::size_t j = i + 2; j + 1 < n; ++j) {
+            if (boxes[i].apart(boxes[j])) continue;
+            const Moving &p = points[i], &q = points[i + 1], &r = points[j], &s = points[j + 1];
+            consider(first_touch(p, r, s), i, j);
+            consider(first_touch(q, r, s), i, j);
+            consider(first_touch(r, p, q), i, j);
+            consider(first_touch(s, p, q), i, j);
+        }
+    if (first) return first;
+    if (auto at_1 = contact_at_rest(b)) {
+        at_1->t = 1.0;
+        return at_1;
+    }
+    return std::nullopt;
+}
+
+std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
+    assert(!shapes.empty());
+    const std::size_t n = shapes.front().size(), count = shapes.size();
+    for (const Polyline& shape : shapes)
+        if (const auto contact = contact_at_rest(shape)) return Doubt{contact->i, contact->j};
+    // Twice the area of X, Y, Z, the bilinear form of two shapes: its sign over all pairs of shapes, 0 if it has none.
+    const auto side = [&](std::size_t x, std::size_t y, std::size_t z) {
+        int sign = 0;
+        for (std::size_t s = 0; s < count; ++s) {
+            const glm::dvec2 a = shapes[s][y] - shapes[s][x], b = shapes[s][z] - shapes[s][x];
+            for (std::size_t t = s; t < count; ++t) {
+                const glm::dvec2 c = shapes[t][y] - shapes[t][x], d = shapes[t][z] - shapes[t][x];
+                const double area = cross(a, d) + cross(c, b);
+                if (area == 0.0) {
+                    // Nothing to say where the same two points are one in both shapes: a sub-curve that both lack.
+                    constexpr glm::dvec2 none(0.0);
+                    if ((a == b && c == d) || (a == none && (b == none || c == none)) ||
+                        (d == none && (c == none || b == none)))
+                        continue;
+                    return 0;
+                }
+                const int own = area > 0.0 ? 1 : -1;
+                if (sign == 0) sign = own;
+                if (sign != own) return 0;
+            }
+        }
+        return sign;
+    };
+    const auto line_between = [&](std::size_t i, std::size_t j) {
+        const int p = side(i, j, j + 1);
+        if (p != 0 && p == side(i + 1, j, j + 1)) return true;
+        const int r = side(j, i, i + 1);
+        return r != 0 && r == side(j + 1, i, i + 1);
+    };
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        if (i + 2 < n) {
+            HalfPlane directions;
+            bool forwards = true;
+            for (std::size_t s = 0; s < count && forwards; ++s)
+                forwards = directions.add(shapes[s][i + 1] - shapes[s][i]) &&
+                           directions.add(shapes[s][i + 2] - shapes[s][i + 1]);
+            if (!forwards && side(i, i + 1, i + 2) == 0) return Doubt{i, i + 1};
+        }
+        for (std::size_t j = i + 2; j + 1 < n; ++j) {
+            HalfPlane differences;
+            bool apart = true;
+            for (std::size_t s = 0; s < count && apart; ++s) {
+                const Polyline& p = shapes[s];
+                apart = differences.add(p[j] - p[i]) && differences.add(p[j] - p[i + 1]) &&
+                        differences.add(p[j + 1] - p[i]) && differences.add(p[j + 1] - p[i + 1]);
+            }
+            if (!apart && !line_between(i, j)) return Doubt{i, j};
+        }
+    }
+    return std::nullopt;
+}
+
+}  // namespace sporeprint

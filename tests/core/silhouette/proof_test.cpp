@@ -1,0 +1,287 @@
+#include "core/silhouette/proof.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "core/math/random.h"
+
+namespace sporeprint {
+namespace {
+
+/// Whether closed segments share a point, in whole numbers.
+bool meets(const std::array<std::int64_t, 8>& s) {
+    const auto side = [](std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by,
+                         std::int64_t cx, std::int64_t cy) {
+        const std::int64_t area = (bx - ax) * (cy - ay) - (by - ay) * (cx - ax);
+        return area > 0 ? 1 : area < 0 ? -1 : 0;
+    };
+    const auto within = [](std::int64_t a, std::int64_t b, std::int64_t x) {
+        return std::min(a, b) <= x && x <= std::max(a, b);
+    };
+    const auto [ax, ay, bx, by, cx, cy, dx, dy] = s;
+    const int abc = side(ax, ay, bx, by, cx, cy), abd = side(ax, ay, bx, by, dx, dy);
+    const int cda = side(cx, cy, dx, dy, ax, ay), cdb = side(cx, cy, dx, dy, bx, by);
+    if (abc * abd < 0 && cda * cdb < 0) return true;
+    return (abc == 0 && within(ax, bx, cx) && within(ay, by, cy)) ||
+           (abd == 0 && within(ax, bx, dx) && within(ay, by, dy)) ||
+           (cda == 0 && within(cx, dx, ax) && within(cy, dy, ay)) ||
+           (cdb == 0 && within(cx, dx, bx) && within(cy, dy, by));
+}
+
+TEST(Proof, FirstCrossingAgreesWithExactArithmetic) {
+    Random random(23, 0);
+    int crossed = 0;
+    for (int trial = 0; trial < 4000; ++trial) {
+        // A small grid makes points touch, lie on segments and run along one another.
+        const std::uint32_t grid = trial % 2 ? 7 : 1000;
+        const std::size_t count = 3 + random.bits() % 7;
+        std::vector<glm::dvec2> line;
+        for (std::size_t i = 0; i < count; ++i) {
+            const auto x = static_cast<double>(random.bits() % grid);
+            const auto y = static_cast<double>(random.bits() % grid);
+            line.emplace_back(x, y);
+        }
+        std::optional<std::array<std::size_t, 2>> expected;
+        for (std::size_t i = 0; i + 1 < count && !expected; ++i)
+            for (std::size_t j = i + 2; j + 1 < count && !expected; ++j) {
+                std::array<std::int64_t, 8> s{};
+                const glm::dvec2 ends[] = {line[i], line[i + 1], line[j], line[j + 1]};
+                for (std::size_t k = 0; k < 4; ++k) {
+                    s[2 * k] = static_cast<std::int64_t>(ends[k].x);
+                    s[2 * k + 1] = static_cast<std::int64_t>(ends[k].y);
+                }
+                if (meets(s)) expected = {{i, j}};
+            }
+        EXPECT_EQ(first_crossing(line), expected) << "trial " << trial;
+        crossed += expected ? 1 : 0;
+    }
+    EXPECT_GT(crossed, 400);
+    EXPECT_LT(crossed, 3600);
+}
+
+TEST(Proof, FewPointsNeverCross) {
+    EXPECT_FALSE(first_crossing({}));
+    EXPECT_FALSE(first_crossing(Polyline{{0.0, 0.0}}));
+    EXPECT_FALSE(first_crossing(Polyline{{0.0, 0.0}, {1.0, 0.0}}));
+    EXPECT_FALSE(first_crossing(Polyline{{0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}}));
+}
+
+/// A staircase of a mushroom: simple, on the axis at both ends.
+Polyline plain() {
+    return {{0.0, 0.0}, {1.0, 0.0}, {1.0, 4.0}, {3.0, 4.0}, {3.0, 5.0}, {0.0, 6.0}};
+}
+
+Polyline mixed(std::span<const Polyline> shapes, std::span<const double> weights) {
+    Polyline mix(shapes.front().size(), glm::dvec2(0.0));
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+        for (std::size_t i = 0; i < mix.size(); ++i) mix[i] += weights[s] * shapes[s][i];
+    return mix;
+}
+
+Polyline between(const Polyline& a, const Polyline& b, double t) {
+    const std::array<Polyline, 2> both = {a, b};
+    return mixed(both, std::array<double, 2>{1.0 - t, t});
+}
+
+/// A random outline that is more often simple than not.
+Polyline random_outline(Random& random, std::size_t count, double wildness) {
+    Polyline line;
+    for (std::size_t i = 0; i < count; ++i) {
+        const double share = static_cast<double>(i) / static_cast<double>(count - 1);
+        const double r = 4.0 * share * (1.0 - share) + wildness * random.uniform(-0.5, 0.5);
+        const double y = share + wildness * random.uniform(-0.5, 0.5);
+        const bool end = i == 0 || i + 1 == count;
+        line.emplace_back(end ? 0.0 : std::max(r, 0.02), y);
+    }
+    return line;
+}
+
+std::vector<double> random_weights(Random& random, std::size_t count) {
+    std::vector<double> weights;
+    double sum = 0.0;
+    for (std::size_t i = 0; i < count; ++i) {
+        weights.push_back(-std::log(1.0 - random.uniform()));
+        sum += weights.back();
+    }
+    for (double& weight : weights) weight /= sum;
+    return weights;
+}
+
+TEST(Proof, AShapeAtRestIsCheckedToo) {
+    const Polyline simple = plain();
+    EXPECT_FALSE(first_contact(simple, simple));
+    Polyline crossing = simple;
+    crossing[4] = {0.5, 3.0};  // the cap dips into the stem
+    const auto at_0 = first_contact(crossing, simple);
+    ASSERT_TRUE(at_0);
+    EXPECT_EQ(at_0->t, 0.0);
+    Polyline inside_out = simple;
+    inside_out[2].x = -0.1;
+    const auto beyond = first_contact(inside_out, simple);
+    ASSERT_TRUE(beyond);
+    EXPECT_EQ(*beyond, (Contact{0.0, 2, 2}));
+}
+
+TEST(Proof, ACrossingPlantedAtAKnownMomentIsFoundThere) {
+    // The margin moves evenly to the far side of the stem: it touches the stem's skin at x = 1, half way.
+    Polyline a = {{0, 0}, {1, 0}, {1, 10}, {3, 10}, {2, 5}, {4, 11}, {0, 12}};
+    Polyline b = a;
+    b[4] = {0, 5};
+    const auto contact = first_contact(a, b);
+    ASSERT_TRUE(contact);
+    EXPECT_NEAR(contact->t, 0.5, 1e-12);
+    EXPECT_EQ(contact->i, 1u);
+    EXPECT_TRUE(contact->j == 3u || contact->j == 4u);
+    EXPECT_FALSE(first_crossing(between(a, b, 0.4999)));
+    EXPECT_TRUE(first_crossing(between(a, b, 0.5001)));
+}
+
+TEST(Proof, ACrossingThatIsOverBeforeTheEndIsFound) {
+    // A spike runs past the tip of another: simple at both ends, touching in between.
+    const Polyline a = {{0, 0}, {4, 0}, {4, 1}, {1, 1.4}, {4, 2}, {4, 4}, {0, 5}};
+    for (const double far : {0.0, 1.0, 2.0}) {
+        Polyline from = a, to = a;
+        from[3] = {1.0, 1.4};
+        to[3] = {1.0 + far, 1.4};
+        EXPECT_FALSE(first_contact(from, to)) << "a spike that only grows shorter";
+    }
+    // Two points that swap sides round each other: touch at t = 1/2 only if they are on one height.
+    const auto moves = [](double height) {
+        Polyline from = {{0, 0}, {5, 0}, {2, 1}, {5, 2}, {5, 3}, {3, 3.5}, {5, 4}, {0, 5}};
+        Polyline to = from;
+        from[2].y = 1.0;
+        to[2] = {2, 1.0 + height};
+        return first_contact(from, to);
+    };
+    EXPECT_FALSE(moves(0.2));
+    EXPECT_TRUE(moves(5.0));
+}
+
+TEST(Proof, ANearMissIsNoContact) {
+    const double slack = 1e-6;
+    Polyline a = {{0, 0}, {1, 0}, {1, 10}, {3, 10}, {2, 5}, {4, 11}, {0, 12}};
+    Polyline b = a;
+    b[4] = {1.0 + slack, 5};
+    EXPECT_FALSE(first_contact(a, b));
+    b[4] = {1.0 - slack, 5};
+    EXPECT_TRUE(first_contact(a, b));
+}
+
+TEST(Proof, AFoldBackIsFound) {
+    // The middle vertex swings over the line of its neighbours through a spike of no width.
+    const Polyline a = {{0, 0}, {2, 0}, {4, 0.5}, {3, 1}, {0, 2}};
+    Polyline b = a;
+    b[3] = {3, -1};
+    b[4] = {0, -2};
+    const auto contact = first_contact(a, b);
+    ASSERT_TRUE(contact);
+    EXPECT_EQ(contact->j, contact->i + 1);
+}
+
+TEST(Proof, ASubCurveMayShrinkToAPoint) {
+    const Polyline a = {{0, 0}, {1, 0}, {1, 2}, {1.5, 2.2}, {2, 2}, {2.5, 1.5}, {2, 3}, {0, 4}};
+    Polyline b = a;
+    for (std::size_t i = 2; i <= 5; ++i) b[i] = {1.0, 2.0};
+    b[6] = {1.1, 3.0};
+    EXPECT_FALSE(first_contact(a, b));
+    EXPECT_FALSE(first_contact(b, a));
+    const std::array<Polyline, 2> both = {a, b};
+    EXPECT_FALSE(first_doubt(both));
+}
+
+TEST(Proof, AgreesWithFineSampling) {
+    Random random(31, 0);
+    int contacts = 0, none = 0;
+    for (int trial = 0; trial < 1500; ++trial) {
+        const std::size_t count = 5 + static_cast<std::size_t>(trial) % 5;
+        const Polyline a = random_outline(random, count, 0.8),
+                       b = random_outline(random, count, 0.8);
+        if (first_crossing(a) || first_crossing(b)) continue;
+        const auto contact = first_contact(a, b);
+        (contact ? contacts : none)++;
+        double first_seen = 2.0;
+        for (int step = 0; step <= 2000 && first_seen > 1.0; ++step)
+            if (first_crossing(between(a, b, step / 2000.0))) first_seen = step / 2000.0;
+        if (first_seen <= 1.0) {
+            ASSERT_TRUE(contact) << "trial " << trial << " crosses at " << first_seen;
+            EXPECT_LE(contact->t, first_seen + 1e-9) << "trial " << trial;
+        }
+        if (contact && contact->j > contact->i + 1) {
+            // At the moment that is told the two segments are within rounding of each other.
+            const Polyline at = between(a, b, contact->t);
+            const auto distance = [&](std::size_t p, std::size_t s) {
+                const glm::dvec2 along = at[s + 1] - at[s];
+                const double u =
+                    std::clamp(glm::dot(at[p] - at[s], along) / glm::dot(along, along), 0.0, 1.0);
+                const glm::dvec2 off = at[p] - at[s] - u * along;
+                return std::sqrt(glm::dot(off, off));
+            };
+            const std::size_t i = contact->i, j = contact->j;
+            EXPECT_LT(
+                std::min({distance(i, j), distance(i + 1, j), distance(j, i), distance(j + 1, i)}),
+                1e-6);
+        }
+    }
+    EXPECT_GT(contacts, 50);
+    EXPECT_GT(none, 50);
+}
+
+TEST(Proof, CertificatesHoldOnRandomConvexCombinations) {
+    Random random(37, 0);
+    int certified = 0, doubted = 0;
+    for (int trial = 0; trial < 400; ++trial) {
+        const std::size_t count = 5 + static_cast<std::size_t>(trial) % 6;
+        std::vector<Polyline> shapes;
+        for (int s = 0; s < 2 + trial % 4; ++s)
+            shapes.push_back(random_outline(random, count, 0.1 + 0.15 * (trial % 5)));
+        if (first_doubt(shapes)) {
+            ++doubted;
+            continue;
+        }
+        ++certified;
+        for (int draw = 0; draw < 60; ++draw) {
+            const Polyline mix = mixed(shapes, random_weights(random, shapes.size()));
+            EXPECT_FALSE(first_crossing(mix)) << "trial " << trial;
+            for (std::size_t i = 1; i + 1 < mix.size(); ++i) EXPECT_GT(mix[i].x, 0.0);
+        }
+        for (std::size_t s = 1; s < shapes.size(); ++s)
+            EXPECT_FALSE(first_contact(shapes[0], shapes[s])) << "trial " << trial;
+    }
+    EXPECT_GT(certified, 50);
+    EXPECT_GT(doubted, 50);
+}
+
+TEST(Proof, ATurningPairIsCertifiedByTheLineThroughOneOfThem) {
+    // Two parallel strokes turn together by 80 degrees: no fixed direction keeps them apart, but each stays on its side of the other.
+    std::vector<Polyline> shapes;
+    for (const double degrees : {-40.0, 0.0, 40.0}) {
+        const double c = std::cos(degrees * 0.0174532925), s = std::sin(degrees * 0.0174532925);
+        const auto turned = [&](double x, double y) {
+            return glm::dvec2(5.0 + c * x - s * y, 5.0 + s * x + c * y);
+        };
+        shapes.push_back({{0, -9},
+                          turned(-1.0, 0.0),
+                          turned(1.0, 0.0),
+                          turned(3.0, 0.5),
+                          turned(1.0, 1.0),
+                          turned(-1.0, 1.0),
+                          {0, 30}});
+    }
+    EXPECT_FALSE(first_doubt(shapes));
+    Random random(41, 0);
+    for (int draw = 0; draw < 500; ++draw)
+        EXPECT_FALSE(first_crossing(mixed(shapes, random_weights(random, 3))));
+    // By a half turn they change places: nothing may certify that.
+    for (glm::dvec2& p : shapes[2])
+        if (p.x > 0.0) p = glm::dvec2(10.0, 10.0) - p;
+    EXPECT_TRUE(first_doubt(shapes));
+}
+
+}  // namespace
+}  // namespace sporeprint
