@@ -182,8 +182,11 @@ double one_way(const Mesh& from, const Mesh& to) {
         worst = std::max(worst, grid.squared_distance(p, worst));  // nearer ones cannot raise it
     };
     std::vector<bool> seen(from.positions.size());
+    // A piece in the last step of its vanishing is a point beside the surface: nobody sees it.
+    const double whole = extent(from), speck = 1e-12 * whole * whole;
     for (std::size_t t = 0; t < from.triangles(); ++t) {
         const auto [a, b, c] = corners_of(from, t);
+        if (squared(b - a) < speck && squared(c - b) < speck) continue;
         for (std::size_t k = 0; k < 3; ++k) {
             const std::uint32_t vertex = from.indices[3 * t + k];
             if (!seen[vertex]) look(glm::dvec3(from.positions[vertex]));

@@ -56,16 +56,72 @@ TEST(Atlas, HoldsTheEightSpeciesSortedById) {
     EXPECT_EQ(atlas().find("zzz"), nullptr);
 }
 
-TEST(Atlas, EverySpeciesHasAYoungAMatureAndAnOldStage) {
+TEST(Atlas, EverySpeciesLivesFromEggOrButtonToDecay) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const std::string id = entry.species.id.string();
+        const auto& stages = entry.species.stages;
+        ASSERT_GE(stages.size(), 5u) << id;
+        EXPECT_EQ(stages.front().age, 0.0) << id;
+        EXPECT_EQ(stages.back().age, 1.0) << id;
+        const auto between = [&](double from, double to) {
+            return std::any_of(stages.begin(), stages.end(), [&](const Stage& stage) {
+                return stage.age >= from && stage.age <= to;
+            });
+        };
+        EXPECT_TRUE(between(0.2, 0.35)) << id << " is never young";
+        EXPECT_TRUE(between(0.6, 0.6)) << id << " has no template at maturity";
+        EXPECT_TRUE(between(0.8, 0.85)) << id << " is never old";
+        EXPECT_EQ(stages.back().model.weathering.wetness, 0.0) << id << ": rain is no age";
+        EXPECT_FALSE(entry.species.facts.sources.empty());
+    }
+}
+
+TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const std::string id = entry.species.id.string();
+        const auto& stages = entry.species.stages;
+        for (std::size_t i = 1; i < stages.size(); ++i) {
+            const Model &before = stages[i - 1].model, &after = stages[i].model;
+            const Silhouette &young = std::get<Swept>(before.shape).silhouette,
+                             &old = std::get<Swept>(after.shape).silhouette;
+            const auto widest = [](const Silhouette& shape) {
+                double r = 0.0;
+                for (const OutlinePoint& p : shape.cap) r = std::max(r, p.r);
+                return r;
+            };
+            if (stages[i].age <= 0.6) {
+                EXPECT_GT(widest(old), widest(young)) << id << " at " << stages[i].age;
+                EXPECT_GT(old.stem.back().y, young.stem.back().y) << id << " at " << stages[i].age;
+            } else {
+                EXPECT_LE(after.ornaments.warts, before.ornaments.warts) << id;
+                EXPECT_LE(after.ornaments.scales, before.ornaments.scales) << id;
+                EXPECT_LE(after.ornaments.ring, before.ornaments.ring) << id;
+            }
+            EXPECT_GE(after.weathering.fade, before.weathering.fade) << id;
+            EXPECT_GE(after.weathering.waves, before.weathering.waves) << id;
+            EXPECT_GE(after.surface.stem.base_stain, before.surface.stem.base_stain) << id;
+        }
+    }
+}
+
+TEST(Atlas, IndividualsThatDifferMostAreSoundAtEveryStageAndBetween) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const auto& stages = entry.species.stages;
-        ASSERT_GE(stages.size(), 3u) << entry.species.id.string();
-        EXPECT_LE(stages.front().age, 0.3);
-        EXPECT_GE(stages.back().age, 0.9);
-        EXPECT_TRUE(std::any_of(stages.begin(), stages.end(),
-                                [](const Stage& stage) { return stage.age == 0.6; }))
-            << entry.species.id.string() << " has no template at maturity";
-        EXPECT_FALSE(entry.species.facts.sources.empty());
+        for (std::size_t i = 0; i < stages.size(); ++i)
+            for (const double onwards : {0.0, 0.5}) {
+                if (i + 1 == stages.size() && onwards > 0.0) continue;
+                const double next = onwards > 0.0 ? stages[i + 1].age : stages[i].age;
+                for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+                    MushroomOrder order =
+                        order_of(entry.species.id.string(),
+                                 stages[i].age + onwards * (next - stages[i].age), seed, 2);
+                    order.params.variation = 1.0;
+                    SCOPED_TRACE(entry.species.id.string() + " at " +
+                                 std::to_string(order.params.age) + ", seed " +
+                                 std::to_string(seed));
+                    expect_valid(mesh_of(order));
+                }
+            }
     }
 }
 
