@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "core/params/reader.h"
+#include "core/silhouette/morph_set.h"
+#include "core/silhouette/proof.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
@@ -101,6 +103,34 @@ TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
             EXPECT_GE(after.weathering.waves, before.weathering.waves) << id;
             EXPECT_GE(after.surface.stem.base_stain, before.surface.stem.base_stain) << id;
         }
+    }
+}
+
+TEST(Atlas, NoOutlineTouchesItselfAtAnyMomentOfALife) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        std::vector<ControlShape> shapes;
+        for (const Stage& stage : entry.species.stages)
+            shapes.push_back({std::get<Swept>(stage.model.shape).silhouette, 1.0, 0, stage.age});
+        const MorphSet set(shapes);
+        const auto line = [&](std::size_t stage, int lod) {
+            std::vector<double> weights(shapes.size());
+            weights[stage] = 1.0;
+            const Outline outline(set.nodes(weights), set.places());
+            Polyline points;
+            for (const CurveName curve : {CurveName::stem, CurveName::hymenium, CurveName::cap})
+                for (const OutlineSample& ring : outline.rings(curve, lod))
+                    // The first ring of a sub-curve is the last of the one before it.
+                    if (points.empty() || points.back() != glm::dvec2(ring.r, ring.y))
+                        points.emplace_back(ring.r, ring.y);
+            return points;
+        };
+        for (int lod = 0; lod < 4; ++lod)
+            for (std::size_t stage = 0; stage + 1 < shapes.size(); ++stage) {
+                const auto contact = first_contact(line(stage, lod), line(stage + 1, lod));
+                EXPECT_FALSE(contact) << entry.species.id.string() << ", lod " << lod << ": "
+                                      << (contact ? contact->t : 0.0) << " of the way from "
+                                      << shapes[stage].age << " to " << shapes[stage + 1].age;
+            }
     }
 }
 
