@@ -47,17 +47,18 @@ Estimate weighed(const Context& context, const MushroomOrder& order, bool posted
 
 /// The GLB.
 Body grown(const Context& context, const MushroomOrder& order, const std::string& address,
-           const std::string& version, Loan& loan) {
+           Loan& loan) {
     const Atlas& atlas = *context.atlas;
     Extras extras;
     extras.canonical = address;
     if (order.params.textures == Textures::linked) {
-        const PaintParams painted =
-            paint_params(order, atlas, surface_metrics(resolve(order, atlas)));
-        const SurfaceAddress image = surface_address(order, painted);
+        const MushroomOrder surface = surface_order(order, atlas);
+        const SurfaceAddress image =
+            surface_address(surface, surface_metrics(resolve(order, atlas)));
         for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-            extras.image_addresses[i] = with_version(
-                canonical_address(order.mix, static_cast<ImageKind>(i), image), version);
+            extras.image_addresses[i] =
+                with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
+                             version_token(surface.mix, atlas));
     }
     return grow_mushroom(order, atlas, extras, loan.workshop()).glb;
 }
@@ -119,7 +120,7 @@ Plan plan_mushroom(Context& context, const Request& request, MushroomRequest ask
     };
     resource.make = [&context, order, product, address = resource.address,
                      version = resource.version](Loan& loan) {
-        return product == Product::glb ? grown(context, *order, address, version, loan)
+        return product == Product::glb ? grown(context, *order, address, loan)
                                        : described(context, *order, version, loan);
     };
     return plan_resource(context, request, std::move(resource), faults);

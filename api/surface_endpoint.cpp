@@ -29,26 +29,20 @@ Answer surface_head(const SurfaceRequest& asked, std::string_view digest,
 }
 
 /// What is painted at an address; adds to `faults` what of it is impossible.
-PaintParams painted(const Context& context, const SurfaceRequest& asked, Faults& faults) {
-    if (asked.mix.size() > 1)
-        faults.add(422, "mix",
-                   "species cannot be mixed yet; ask for one of " + mix_text(asked.mix) + " alone");
-    PaintParams params;
-    if (faults.empty()) {
-        try {
-            params = painted_at(asked.address, asked.mix, *context.atlas);
-        } catch (const Impossible& impossible) {
-            faults.add(422, named(impossible, false));
-        } catch (const InvalidInput& invalid) {
-            faults.add(400, named(invalid, false));
-        }
-    }
-    const auto side = static_cast<std::uint64_t>(params.side);
+PaintRecipe painted(const Context& context, const SurfaceRequest& asked, Faults& faults) {
+    const auto side = static_cast<std::uint64_t>(asked.address.texture_size.value);
     if (3 * side * side > context.options.most_texels)
         faults.add(422, "texture_size",
                    std::to_string(3 * side * side) + " texels would be painted; at most " +
                        std::to_string(context.options.most_texels) + " are");
-    return params;
+    try {
+        return painted_at(asked.address, asked.mix, *context.atlas);
+    } catch (const Impossible& impossible) {
+        faults.add(422, named(impossible, false));
+    } catch (const InvalidInput& invalid) {
+        faults.add(400, named(invalid, false));
+    }
+    return {};
 }
 
 }  // namespace
@@ -58,7 +52,7 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
     const Answers& answers = context.answers;
     Store& store = context.store;
     if (!faults.empty()) return answers.problem(request, faults);
-    PaintParams params = painted(context, asked, faults);
+    PaintRecipe recipe = painted(context, asked, faults);
     const std::string version = version_token(asked.mix, *context.atlas);
     if (asked.version && *asked.version != version) {
         faults.add(410, "v",
@@ -73,7 +67,7 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
     }
     if (!faults.empty()) return answers.problem(request, faults);
 
-    const Key key = image_key(params);
+    const Key key = image_key(recipe);
     const std::string digest = digest_of(key);
     Answer head = surface_head(asked, digest, version);
     const std::string_view condition = request.header("If-None-Match");
@@ -95,20 +89,20 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
         return head;
     }
     // One flight for the three images of an atlas: its answer holds them all, delivered_surface() hands out the one asked for.
-    const auto side = static_cast<std::uint64_t>(params.side);
-    auto shared = std::make_shared<const PaintParams>(std::move(params));
-    auto run = [&store, shared, key, digest](std::stop_token stop, const Observer& observer,
-                                             const Parallel& parallel) {
+    const auto side = static_cast<std::uint64_t>(side_of(recipe));
+    const std::uint64_t texels = 3 * side * side * recipe.size();
+    const auto shared = std::make_shared<const PaintRecipe>(std::move(recipe));
+    auto run = [&store, shared, digest](std::stop_token stop, const Observer& observer,
+                                        const Parallel& parallel) {
         observer(Step::paint);
         Loan loan(store, std::move(stop), observer, parallel);
-        const Images set = loan.workshop().memo.images(
-            key, [&] { return std::make_shared<const ImageSet>(paint(*shared, parallel)); });
+        const Images set = painted_images(*shared, loan.workshop());
         Answer answer;
         answer.headers = {{digest_header, digest}, {"Cache-Status", loan.cache_status()}};
         answer.body.assign(set->files.begin(), set->files.end());
         return answer;
     };
-    return Job{key, Cost{0, 3 * side * side, 3 * side * side}, std::move(run)};
+    return Job{key, Cost{0, texels, texels}, std::move(run)};
 }
 
 Answer delivered_surface(const Context& context, const SurfaceRequest& asked, Answer shared) {

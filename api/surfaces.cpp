@@ -3,7 +3,6 @@
 #include <cmath>
 
 #include "api/mix.h"
-#include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
 
@@ -14,21 +13,21 @@ static_assert(well_described<SurfaceAddress>());
 
 double quantised_age(double age) { return std::floor(age * 64.0 + 0.5) / 64.0; }
 
-SurfaceAddress surface_address(const MushroomOrder& order, const PaintParams& painted) {
+SurfaceAddress surface_address(const MushroomOrder& order, const SurfaceMetrics& metrics) {
     const MushroomParams& params = order.params;
     SurfaceAddress address;
     address.seed = params.seed;
-    address.age = quantised_age(params.age);
+    address.age = params.age;
     address.variation = params.variation;
-    address.texture_size = {painted.side};
+    address.texture_size = {params.texture_size >> params.lod};
     address.ornaments = params.ornaments;
     address.hymenium = params.hymenium;
     address.weathering = {params.weathering.fade, params.weathering.wetness};
-    address.metrics = painted.metrics;
+    address.metrics = metrics;
     return address;
 }
 
-PaintParams painted_at(const SurfaceAddress& address, const Mix& mix, const Atlas& atlas) {
+PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atlas& atlas) {
     MushroomOrder order;
     order.mix = mix;
     order.params.seed = address.seed;
@@ -38,22 +37,16 @@ PaintParams painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     order.params.hymenium = address.hymenium;
     order.params.weathering.fade = address.weathering.fade;
     order.params.weathering.wetness = address.weathering.wetness;
-    PaintParams painted = paint_params(order, atlas, address.metrics);
-    painted.side = address.texture_size;
-    return painted;
-}
-
-std::string image_key(const PaintParams& painted) {
-    std::string key = "paint " + std::to_string(generator_version) + " ";
-    canonical(painted, key);
-    return key;
+    PaintRecipe recipe = paint_recipe(order, atlas, address.metrics);
+    for (PaintShare& share : recipe) share.painting.side = address.texture_size;
+    return recipe;
 }
 
 SurfaceRequest read_surface(std::string_view mix, std::string_view image,
                             std::span<const std::pair<std::string, std::string>> query,
                             const Atlas& atlas, Faults& faults) {
     SurfaceRequest request;
-    request.mix = read_mix(mix, atlas, faults);
+    request.mix = surface_mix(read_mix(mix, atlas, faults));
     std::vector<std::string> kinds;
     for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) {
         kinds.emplace_back(one);

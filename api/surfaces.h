@@ -9,7 +9,7 @@
 
 #include "api/errors.h"
 #include "core/atlas/atlas.h"
-#include "core/grow/mushroom.h"
+#include "core/grow/painting.h"
 #include "core/surface/paint.h"
 
 namespace sporeprint::api {
@@ -73,27 +73,27 @@ struct SurfaceAddress {
 /// Age in the steps that images know.
 [[nodiscard]] double quantised_age(double age);
 
-/// The address that paints what `painted` (the paint_params of `order`) paints.
-[[nodiscard]] SurfaceAddress surface_address(const MushroomOrder& order,
-                                             const PaintParams& painted);
-
-/// What an address paints: equal to the paint_params of the order that it was made from.
+/// The address, beside the mix, of the images of `order`, which is a surface_order.
 ///
-/// throws  Impossible: what the species cannot have
-[[nodiscard]] PaintParams painted_at(const SurfaceAddress& address, const Mix& mix,
+/// metrics  surface_metrics of the individual
+[[nodiscard]] SurfaceAddress surface_address(const MushroomOrder& order,
+                                             const SurfaceMetrics& metrics);
+
+/// What an address paints: equal to the paint_recipe of the order that it was made from.
+///
+/// mix     a surface_mix
+/// throws  Impossible: what no species of the mix can have
+[[nodiscard]] PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix,
                                      const Atlas& atlas);
 
-/// Key of an image set: the very text under which core's recipe asks its Memo, so that embedded and linked images are one.
-[[nodiscard]] std::string image_key(const PaintParams& painted);
-
 struct SurfaceRequest {
-    Mix mix;
+    Mix mix;  ///< a surface_mix
     std::optional<ImageKind> kind;
     SurfaceAddress address;
     std::optional<std::string> version;
 };
 
-/// Reads {mix}, {image} and query of an address under /v1/surfaces/mushrooms; the age is quantised.
+/// Reads {mix}, {image} and query of an address under /v1/surfaces/mushrooms; weights and age are quantised.
 [[nodiscard]] SurfaceRequest read_surface(
     std::string_view mix, std::string_view image,
     std::span<const std::pair<std::string, std::string>> query, const Atlas& atlas, Faults& faults);

@@ -1,11 +1,8 @@
 #include "core/grow/mushroom.h"
 
-#include <algorithm>
-#include <cmath>
-
 #include "core/build/sweep.h"
 #include "core/gltf/glb.h"
-#include "core/params/canonical.h"
+#include "core/grow/painting.h"
 #include "core/params/reader.h"
 
 namespace sporeprint {
@@ -76,45 +73,6 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas) {
     return e;
 }
 
-SurfaceMetrics surface_metrics(const Individual& individual) {
-    const Outline outline(std::get<Swept>(individual.model.shape).silhouette);
-    double radius = 0.0, stem_radius = 0.0;
-    for (int i = 0; i <= 16; ++i) {
-        radius = std::max(radius, outline.cap.at(i / 16.0).r);
-        stem_radius += outline.stem.at(i / 16.0).r / 17.0;
-    }
-    SurfaceMetrics metrics;
-    metrics.cap_arc = quantised_length(outline.cap.length());
-    metrics.cap_radius = quantised_length(radius);
-    metrics.stem_length = quantised_length(outline.stem.length());
-    metrics.stem_radius = quantised_length(stem_radius);
-    if (!outline.hymenium.empty()) {
-        metrics.hymenium_arc = quantised_length(outline.hymenium.length());
-        metrics.hymenium_inner = quantised_length(outline.hymenium.at(0.0).r);
-    }
-    return metrics;
-}
-
-PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas,
-                         const SurfaceMetrics& metrics) {
-    MushroomOrder stepped = order;
-    stepped.params.age = std::floor(order.params.age * 64.0 + 0.5) / 64.0;
-    Individual individual = resolve(stepped, atlas);
-    PaintParams params;
-    params.seed = order.params.seed;
-    params.lightness = individual.lightness;
-    params.side = order.params.texture_size >> order.params.lod;
-    params.metrics = metrics;
-    params.surface = std::move(individual.model.surface);
-    params.hymenium = individual.model.hymenium;
-    params.warts = individual.model.warts;
-    params.scales = individual.model.scales;
-    params.ornaments = individual.model.ornaments;
-    params.fade = individual.model.weathering.fade;
-    params.wetness = individual.model.weathering.wetness;
-    return params;
-}
-
 Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
     return swept_mesh(individual.model, std::get<Swept>(individual.model.shape), order.params.lod,
                       order.params.seed, textured(order));
@@ -134,12 +92,7 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     std::shared_ptr<const ImageSet> images;
     if (order.params.textures == Textures::embedded) {
         workshop.observer(Step::paint);
-        const PaintParams painting = paint_params(order, atlas, surface_metrics(individual));
-        std::string key = "paint " + std::to_string(generator_version) + " ";
-        canonical(painting, key);
-        images = workshop.memo.images(key, [&] {
-            return std::make_shared<const ImageSet>(paint(painting, workshop.parallel));
-        });
+        images = painted_images(paint_recipe(order, atlas, surface_metrics(individual)), workshop);
         parts.images = images.get();
         stop_if_asked(workshop);
     } else if (order.params.textures == Textures::linked) {

@@ -21,13 +21,6 @@ struct Estimate {
 /// Number of vertices, texels and bytes; microseconds, allocates nothing large.
 [[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas);
 
-/// The quantised lengths of an individual that its images depend on.
-[[nodiscard]] SurfaceMetrics surface_metrics(const Individual& individual);
-
-/// What painting this order depends on. Age is taken in steps of 1/64, so that similar mushrooms share their images.
-[[nodiscard]] PaintParams paint_params(const MushroomOrder& order, const Atlas& atlas,
-                                       const SurfaceMetrics& metrics);
-
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
 

@@ -32,14 +32,43 @@ HWY_INLINE VF wrapped(VF x, float period) {
     return x - hn::IfThenElseZero(x >= set(period), set(period));
 }
 
+/// Where a texel lies among the blades that reach the stem.
+struct Comb {
+    VF x;     ///< the k-th blade stands at k
+    VF wide;  ///< width of the gap here over that of the others
+};
+
+/// Slot of the k-th blade: the one nearest to its even place. Not quite a half, so that a place half-way between two goes one
+/// way however it is rounded.
+HWY_INLINE VF slot_of(const HymeniumPlan& plan, VF k) {
+    return hn::Floor(k * set(plan.slots / plan.stands) + set(0.501F));
+}
+
+/// Blades that stand evenly; or, on a comb with more of them, each on a slot. `bend`: how far `wander` moves them, in turns.
+HWY_INLINE Comb comb_of(const HymeniumPlan& plan, VF turn, VF wander, float bend) {
+    if (plan.slots == 0.0F) {
+        const float n = static_cast<float>(plan.blades);
+        return {turn * set(n) + wander * set(n * bend), set(1.0F)};
+    }
+    const VF one = set(1.0F);
+    const VF x = turn * set(plan.slots) + wander * set(plan.slots * bend);
+    VF k = hn::Floor(x * set(plan.stands / plan.slots));
+    k = k - hn::IfThenElseZero(slot_of(plan, k) > x, one);
+    k = k + hn::IfThenElseZero(slot_of(plan, k + one) <= x, one);
+    const VF from = slot_of(plan, k);
+    const VF wide = slot_of(plan, k + one) - from;
+    return {(k + (x - from) / wide) * set(1.0F / plan.stride),
+            wide * set(plan.stands / plan.slots)};
+}
+
 /// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from
 /// its own radius outwards.
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const VF x = turn * set(n) + wander * set(n * 0.0013F);
-    const VF gap = p.radius * set(6.2831853F / n);
-    const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel));
+    const auto [x, wide] = comb_of(plan, turn, wander, 0.0013F);
+    const VF gap = p.radius * set(6.2831853F / n) * wide;
+    const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
     VF room = one;                                        // share of the gap between two blades
     float scale = 1.0F;
@@ -50,7 +79,12 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
             lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
         const float from = tier == 0 ? 0.30F : tier == 1 ? 0.58F : 0.78F;
         const VF begin = set(from) + chance * set(0.11F);
-        const VF grown = unit((share - begin) * set(9.0F));
+        VF grown = unit((share - begin) * set(9.0F));
+        if (tier + 1 == plan.tiers && plan.last_tier < 1.0F) {
+            // Steps of the golden section spread what is there as evenly as can be, whatever its share.
+            const VF rank = wrapped(place, n * scale) * set(0.61803399F);
+            grown = hn::IfThenElseZero(rank - hn::Floor(rank) < set(plan.last_tier), grown);
+        }
         const VF here = hn::Abs(fine - place - set(0.5F)) * set(1.0F / scale);
         // A blade that has not yet risen is far away.
         distance = hn::Min(distance, here + (one - grown) * set(0.5F / scale));
@@ -70,9 +104,9 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const VF x = turn * set(n) + wander * set(n * 0.0095F);
-    const VF gap = p.radius * set(6.2831853F / n);
-    const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel));
+    const auto [x, wide] = comb_of(plan, turn, wander, 0.0095F);
+    const VF gap = p.radius * set(6.2831853F / n) * wide;
+    const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
     VF room = one;
     const float hidden = 1.0F - plan.forking;

@@ -12,7 +12,7 @@
 #include "core/params/problems.h"
 #include "core/surface/canvas.h"
 #include "core/surface/charts.h"
-#include "core/surface/codecs.h"
+#include "core/surface/given.h"
 #include "core/surface/plan.h"
 
 #undef HWY_TARGET_INCLUDE
@@ -139,6 +139,30 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
+// Stands the blades of a species on the comb of its set. Tiers fill up one after another; a species with so few blades that all
+// would reach the stem keeps its own tiers instead, each blade on a slot. Ridges fork, so only those that reach the stem stand on it.
+void stand_on_comb(const PaintParams& params, HymeniumPlan& plan) {
+    const int own = params.hymenium.blades, comb = params.comb;
+    if (comb < 1) return;
+    const bool ridges = params.surface.hymenium.pattern == HymeniumPattern::ridges;
+    const int all = ridges ? own : own << params.hymenium.tiers;
+    int tiers = 0;
+    while (comb << tiers < all) ++tiers;
+    if (ridges || all < comb) {
+        if (comb << tiers == own) return;
+        plan.slots = static_cast<float>(comb << tiers);
+        plan.stands = static_cast<float>(all);
+        plan.stride = static_cast<float>(all / own);
+        return;
+    }
+    plan.blades = comb;
+    plan.tiers = tiers;
+    if (tiers > 0) {
+        const int before = comb << (tiers - 1);
+        plan.last_tier = single(static_cast<double>(all - before) / before);
+    }
+}
+
 HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     const HymeniumSurface& face = params.surface.hymenium;
     HymeniumPlan plan;
@@ -166,6 +190,7 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.mottle = single(face.mottle);
     plan.blades = params.hymenium.blades;
     plan.tiers = params.hymenium.tiers;
+    stand_on_comb(params, plan);
     plan.forking = single(params.hymenium.forking);
     // The bottom of a slot as deep as `steep` times its width sees that little of the sky; ridges
     // are shallow folds.
@@ -305,40 +330,6 @@ void sort_patches_into_rows(PaintPlan& plan) {
     }
 }
 
-// The decoded upload in linear light, halved until it is no more than twice as fine as its chart.
-GivenImage given_image(const Upload& upload, const Frame& frame, const std::string& path) {
-    GivenImage image;
-    if (upload.empty()) return image;
-    const Picture picture = decoded_picture(upload.bytes, path);
-    const std::array<float, 256>& table = linear_table();
-    image.width = picture.width;
-    image.height = picture.height;
-    image.light.resize(picture.rgb.size());
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.light[i] = table[picture.rgb[i]];
-    while (image.width > 2 * frame.width || image.height > 2 * frame.height) {
-        const int across = image.width > 2 * frame.width ? 2 : 1;
-        const int down = image.height > 2 * frame.height ? 2 : 1;
-        GivenImage half;
-        half.width = image.width / across;
-        half.height = image.height / down;
-        half.light.resize(static_cast<std::size_t>(half.width) *
-                          static_cast<std::size_t>(half.height) * 3);
-        for (int y = 0; y < half.height; ++y)
-            for (int x = 0; x < half.width; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    float sum = 0.0F;
-                    for (int j = 0; j < down; ++j)
-                        for (int i = 0; i < across; ++i)
-                            sum += image.light[static_cast<std::size_t>(
-                                ((y * down + j) * image.width + x * across + i) * 3 + c)];
-                    half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] =
-                        sum / static_cast<float>(across * down);
-                }
-        image = std::move(half);
-    }
-    return image;
-}
-
 void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cells, float frequency,
           std::uint32_t seed) {
     field.values.resize(static_cast<std::size_t>(cells + 1) * static_cast<std::size_t>(cells + 1));
@@ -346,7 +337,16 @@ void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cell
     (disc, frame.inset, cells, frequency, seed, field.values.data());
 }
 
-PaintPlan paint_plan(const PaintParams& params) {
+PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
+    struct Given {
+        const Upload* upload;
+        const char* path;
+        double turn;
+    };
+    const std::array<Given, 3> uploads = {
+        {{&params.surface.cap.image, "/surface/cap/image", turns.cap},
+         {&params.surface.hymenium.image, "/surface/hymenium/image", turns.hymenium},
+         {&params.surface.stem.image, "/surface/stem/image", turns.stem}}};
     PaintPlan plan;
     plan.side = params.side;
     plan.frames = chart_frames(plan.side);
@@ -356,10 +356,10 @@ PaintPlan paint_plan(const PaintParams& params) {
     plan.veil = veil_plan(params, plan.frames[3]);
     plan.fade = single(params.fade);
     plan.wetness = single(params.wetness);
-    plan.given[0] = given_image(params.surface.cap.image, plan.frames[0], "/surface/cap/image");
-    plan.given[1] =
-        given_image(params.surface.hymenium.image, plan.frames[1], "/surface/hymenium/image");
-    plan.given[2] = given_image(params.surface.stem.image, plan.frames[2], "/surface/stem/image");
+    for (std::size_t i = 0; i < 3; ++i) {
+        plan.given[i] = given_image(*uploads[i].upload, plan.frames[i], uploads[i].path);
+        turn(plan.given[i], uploads[i].turn);
+    }
     const auto coarse = seeds<5>(params.seed, coarse_purpose);
     plan.disc_step = plan.side >= 512 ? 2 : 1;
     plan.strip_step = std::clamp(plan.side / 256, 1, 8);
@@ -387,8 +387,9 @@ int checked_side(const PaintParams& params) {
     return side;
 }
 
-void paint_canvas(const PaintParams& params, const Parallel& parallel, Canvas& canvas) {
-    const PaintPlan plan = paint_plan(params);
+void paint_canvas(const PaintParams& params, const GivenTurns& turns, const Parallel& parallel,
+                  Canvas& canvas) {
+    const PaintPlan plan = paint_plan(params, turns);
     const PaintTarget target = canvas.target();
     std::vector<std::function<void()>> pieces;
     for (int part = 0; part < 4; ++part) {
@@ -413,15 +414,15 @@ void in_turn(std::span<const std::function<void()>> pieces) {
     for (const std::function<void()>& piece : pieces) piece();
 }
 
-RawImages paint_raw(const PaintParams& params, const Parallel& parallel) {
+RawImages paint_raw(const PaintParams& params, const Parallel& parallel, const GivenTurns& turns) {
     Canvas canvas(checked_side(params));
-    paint_canvas(params, parallel, canvas);
+    paint_canvas(params, turns, parallel, canvas);
     return raw(canvas);
 }
 
 ImageSet paint(const PaintParams& params, const Parallel& parallel) {
     Canvas canvas(checked_side(params));
-    paint_canvas(params, parallel, canvas);
+    paint_canvas(params, {}, parallel, canvas);
     return encoded(canvas, parallel);
 }
 

@@ -21,6 +21,7 @@ struct PaintParams {
     SurfaceMetrics metrics;
     Surface surface;
     HymeniumOf<Plain> hymenium;
+    int comb = 0;
     PatchStyle warts;
     PatchStyle scales;
     OrnamentsOf<Plain> ornaments;
@@ -44,6 +45,12 @@ struct PaintParams {
         visit(&P::metrics, Info{.name = "metrics", .doc = "Lengths of the shape."});
         visit(&P::surface, Info{.name = "surface", .doc = "What is painted."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
+        visit(&P::comb,
+              Info{.name = "comb",
+                   .min = 0,
+                   .max = 400,
+                   .doc = "Blades that reach the stem in the comb of a set of species: where the "
+                          "blades of each of them stand. 0: where its own stand."});
         visit(&P::warts, Info{.name = "warts", .doc = "Remnants of the universal veil."});
         visit(&P::scales, Info{.name = "scales", .doc = "Scales of the torn skin."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "How much of them is left."});
@@ -103,7 +110,14 @@ struct RawImages {
     }
 };
 
-/// Paints an atlas and leaves it as pixels, for tests and tools; else like paint().
-[[nodiscard]] RawImages paint_raw(const PaintParams& params, const Parallel& parallel = in_turn);
+/// How far given images are turned, in turns: what a texel at an angle shows lies that much further on in the image.
+struct GivenTurns {
+    double cap = 0.0, hymenium = 0.0, stem = 0.0;
+    bool operator==(const GivenTurns&) const = default;
+};
+
+/// Paints an atlas and leaves it as pixels: what a mix dissolves; else like paint().
+[[nodiscard]] RawImages paint_raw(const PaintParams& params, const Parallel& parallel = in_turn,
+                                  const GivenTurns& turns = {});
 
 }  // namespace sporeprint

@@ -56,7 +56,9 @@ struct CoarseField {
 /// painted.
 struct GivenImage {
     int width = 0, height = 0;
-    std::vector<float> light;  ///< rgb
+    std::vector<float> light;          ///< rgb
+    float turn = 0.0F;                 ///< of what is shown, 0..1 turns
+    float cosine = 1.0F, sine = 0.0F;  ///< of that turn
     [[nodiscard]] bool empty() const { return light.empty(); }
 };
 
@@ -105,6 +107,10 @@ struct HymeniumPlan {
     float slot_occlusion = 1.0F;  ///< of the bottom of a slot, with `relief`
     int blades = 60;
     int tiers = 0;
+    float last_tier = 1.0F;  ///< share of the last tier's blades that is there
+    // Blades on the slots of a comb with more: `slots` slots for `stands` blades, of which each `stride`-th reaches the stem.
+    // No slots: the blades stand where they like.
+    float slots = 0.0F, stands = 0.0F, stride = 1.0F;
     float blade = 0.0F;  ///< half thickness, in lengths of one disc radius
     float forking = 0.0F;
     float pore_rows = 1.0F;   ///< from the inner edge to the rim

@@ -360,9 +360,12 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
                 if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
             Texel texel = part == 0 ? cap_texel(plan.cap, p, fields)
                                     : hymenium_texel(plan.hymenium, p, fields);
-            if (!given.empty())
-                texel.colour = sampled(given, set(0.5F) + set(0.5F) * p.rho * p.cosine,
-                                       set(0.5F) + set(0.5F) * p.rho * p.sine);
+            if (!given.empty()) {
+                const VF reach = set(0.5F) * p.rho;
+                const VF c = set(given.cosine), s = set(given.sine);
+                texel.colour = sampled(given, set(0.5F) + reach * (p.cosine * c - p.sine * s),
+                                       set(0.5F) + reach * (p.sine * c + p.cosine * s));
+            }
             store_texel(texel, row, x);
             hn::Store(p.cosine, f, row.cosine + x);
             hn::Store(p.sine, f, row.sine + x);
@@ -385,6 +388,8 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         const unsigned used = part == 2 ? plan.stem.fields : 3U;
         const GivenImage& given = plan.given[2];
         const float per_x = 1.0F / static_cast<float>(frame.width);
+        const float shown_turn = turned + given.turn;
+        const VF given_across = set(shown_turn >= 1.0F ? shown_turn - 1.0F : shown_turn);
         for (std::size_t x = 0; x < width; x += lanes) {
             const VF along = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) -
                               set(frame.inset)) *
@@ -394,7 +399,7 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
             Texel texel;
             if (part == 2) {
                 texel = stem_texel(plan.stem, unit(along), across, fields);
-                if (!given.empty()) texel.colour = sampled(given, along, across);
+                if (!given.empty()) texel.colour = sampled(given, along, given_across);
             } else {
                 texel = veil_texel(plan.veil, along, across, fields);
             }

@@ -5,7 +5,6 @@
 
 #include "api/mix.h"
 #include "api/query.h"
-#include "core/params/canonical.h"
 #include "tests/api/support.h"
 
 namespace sporeprint::api {
@@ -43,12 +42,13 @@ MushroomOrder random_order(const Atlas& atlas) {
 RC_GTEST_PROP(SurfaceAddressProperty, an_address_paints_what_its_order_paints, ()) {
     const auto atlas = built_in_atlas();
     const MushroomOrder order = random_order(*atlas);
-    const PaintParams painted =
-        paint_params(order, *atlas, surface_metrics(resolve(order, *atlas)));
-    const SurfaceAddress address = surface_address(order, painted);
+    const SurfaceMetrics metrics = surface_metrics(resolve(order, *atlas));
+    const PaintRecipe painted = paint_recipe(order, *atlas, metrics);
+    const MushroomOrder surface = surface_order(order, *atlas);
+    const SurfaceAddress address = surface_address(surface, metrics);
 
     // Through its text and back, as another server reads it.
-    const std::string text = canonical_address(order.mix, ImageKind::normal, address);
+    const std::string text = canonical_address(surface.mix, ImageKind::normal, address);
     RC_ASSERT(text.size() <= longest_target);
     std::vector<Problem> problems;
     const Target target = split_target(text, problems);
@@ -59,12 +59,12 @@ RC_GTEST_PROP(SurfaceAddressProperty, an_address_paints_what_its_order_paints, (
         read_surface(target.segments[3], image, target.query, *atlas, faults);
     RC_ASSERT(faults.empty());
     RC_ASSERT(read.kind == ImageKind::normal);
-    RC_ASSERT(read.mix == order.mix);
+    RC_ASSERT(read.mix == surface.mix);
     RC_ASSERT(read.address == address);
     RC_ASSERT(canonical_address(read.mix, *read.kind, read.address) == text);
 
-    const PaintParams again = painted_at(read.address, read.mix, *atlas);
-    RC_ASSERT(canonical_text(again) == canonical_text(painted));
+    const PaintRecipe again = painted_at(read.address, read.mix, *atlas);
+    RC_ASSERT(image_key(again) == image_key(painted));
     RC_ASSERT(again == painted);
 }
 
@@ -73,8 +73,8 @@ TEST(SurfaceAddress, shape_alone_does_not_change_it) {
     MushroomOrder order;
     order.mix = {{test::first_species(), 1000}};
     const auto address_of = [&] {
-        return surface_address(
-            order, paint_params(order, *atlas, surface_metrics(resolve(order, *atlas))));
+        return surface_address(surface_order(order, *atlas),
+                               surface_metrics(resolve(order, *atlas)));
     };
     const SurfaceAddress before = address_of();
     order.params.deformation.bend_deg = 30;

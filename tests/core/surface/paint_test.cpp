@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdlib>
@@ -68,7 +69,8 @@ TEST_F(Paint, GivesEqualBytesWithEveryInstructionSet) {
     for (const HymeniumPattern pattern : all_patterns) {
         for (const int side : {16, 128, 512}) {
             if (side == 512 && pattern != HymeniumPattern::gills) continue;
-            const PaintParams params = motley(pattern, side);
+            PaintParams params = motley(pattern, side);
+            params.comb = side == 128 ? 23 : side == 16 ? 64 : 0;
             force_simd("scalar");
             const RawImages expected = paint_raw(params);
             for (const std::string& name : simd_names()) {
@@ -314,27 +316,88 @@ TEST_F(Paint, BleedsBeyondEveryRim) {
     }
 }
 
-TEST_F(Paint, GillsAreAsManyAsAsked) {
+// A face of plain gills on a comb.
+PaintParams combed(int blades, int tiers, int comb,
+                   HymeniumPattern pattern = HymeniumPattern::gills) {
     PaintParams params;
     params.side = 1024;
     params.metrics = motley(HymeniumPattern::gills).metrics;
-    params.hymenium.blades = 40;
-    params.hymenium.tiers = 0;
+    params.hymenium.blades = blades;
+    params.hymenium.tiers = tiers;
+    params.hymenium.forking = 0.0;
+    params.comb = comb;
+    params.surface.hymenium.pattern = pattern;
     params.surface.hymenium.mottle = 0.0;
-    const RawImages images = paint_raw(params);
-    int crossings = 0;
-    bool was_dark = false;
+    return params;
+}
+
+// Occlusion once round the hymenium at a share of its disc.
+std::vector<int> round_occlusion(const RawImages& images, double radius) {
+    std::vector<int> out;
     for (int i = 0; i < 7200; ++i) {
         const double angle = 2.0 * 3.14159265 * i / 7200.0;
-        const TexturePoint p = disc_point(swept_charts[1], 0.8, std::cos(angle), std::sin(angle));
-        const int occlusion = texel(images, ImageKind::orm, static_cast<int>(p.u * 1024.0),
-                                    static_cast<int>(p.v * 1024.0))
-                                  .r;
-        const bool dark = was_dark ? occlusion < 190 : occlusion < 165;
-        if (dark && !was_dark) ++crossings;
+        const TexturePoint p =
+            disc_point(swept_charts[1], radius, std::cos(angle), std::sin(angle));
+        out.push_back(texel(images, ImageKind::orm, static_cast<int>(p.u * images.side),
+                            static_cast<int>(p.v * images.side))
+                          .r);
+    }
+    return out;
+}
+
+// Dark slots between blades.
+int slots_of(const std::vector<int>& occlusion) {
+    int slots = 0;
+    bool was_dark = false;
+    for (const int value : occlusion) {
+        const bool dark = was_dark ? value < 190 : value < 165;
+        if (dark && !was_dark) ++slots;
         was_dark = dark;
     }
-    EXPECT_NEAR(crossings, 40, 1);
+    return slots;
+}
+
+TEST_F(Paint, GillsAreAsManyAsAsked) {
+    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(40, 0, 0)), 0.8)), 40, 1);
+}
+
+TEST_F(Paint, OnTheCombOfASetGillsAreAsManyAsTheirOwn) {
+    // Fewer than reach the stem in the comb; as many as fill it and half of its first tier.
+    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(40, 0, 64)), 0.8)), 40, 1);
+    const RawImages tiered = paint_raw(combed(60, 0, 40));
+    EXPECT_NEAR(slots_of(round_occlusion(tiered, 0.95)), 60, 1);
+    EXPECT_NEAR(slots_of(round_occlusion(tiered, 0.3)), 40, 1);
+    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(22, 1, 60)), 0.95)), 44, 1);
+}
+
+TEST_F(Paint, BladesOfASetStandOnOneComb) {
+    // A slot is 120 places wide; the unevenness of the face moves a blade by a tenth of that.
+    const auto lightest = [](const std::vector<int>& occlusion, int slot) {
+        int most = 0;
+        for (int i = 7200 + 120 * slot - 15; i <= 7200 + 120 * slot + 15; ++i)
+            most = std::max(most, occlusion[static_cast<std::size_t>(i % 7200)]);
+        return most;
+    };
+    const std::vector<int> comb = round_occlusion(paint_raw(combed(60, 0, 0)), 0.8);
+    for (const int blades : {30, 37, 45, 59}) {
+        const std::vector<int> fewer = round_occlusion(paint_raw(combed(blades, 0, 60)), 0.8);
+        int standing = 0;
+        for (int slot = 0; slot < 60; ++slot) {
+            EXPECT_GE(lightest(comb, slot), 240) << slot;
+            standing += lightest(fewer, slot) >= 240;
+        }
+        EXPECT_EQ(standing, blades);
+    }
+}
+
+TEST_F(Paint, OnItsOwnCombASpeciesIsPaintedAsIfItWereAlone) {
+    EXPECT_EQ(paint_raw(combed(60, 2, 60)).rgb, paint_raw(combed(60, 2, 0)).rgb);
+    EXPECT_EQ(paint_raw(combed(34, 1, 34, HymeniumPattern::ridges)).rgb,
+              paint_raw(combed(34, 1, 0, HymeniumPattern::ridges)).rgb);
+    EXPECT_EQ(paint_raw(combed(60, 2, 90, HymeniumPattern::pores)).rgb,
+              paint_raw(combed(60, 2, 0, HymeniumPattern::pores)).rgb);
+    EXPECT_NE(paint_raw(combed(34, 1, 72, HymeniumPattern::ridges)).rgb,
+              paint_raw(combed(34, 1, 0, HymeniumPattern::ridges)).rgb);
 }
 
 TEST_F(Paint, DeeperGillsAreDarkerBetween) {

@@ -1,0 +1,203 @@
+#include "core/grow/painting.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <utility>
+
+#include "core/grow/mushroom.h"
+#include "core/params/canonical.h"
+#include "core/silhouette/outline.h"
+#include "core/surface/dissolve.h"
+#include "core/surface/given.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr int whole = 64;
+
+// Whole parts of `total` that the weights come to, by largest remainder; of equals the first.
+std::vector<int> apportioned(const std::vector<int>& weights, int total) {
+    const int sum = std::accumulate(weights.begin(), weights.end(), 0);
+    std::vector<int> parts;
+    std::vector<std::size_t> order(weights.size());
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    for (const int weight : weights) parts.push_back(weight * total / sum);
+    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+        return weights[a] * total % sum > weights[b] * total % sum;
+    });
+    int missing = total - std::accumulate(parts.begin(), parts.end(), 0);
+    for (std::size_t i = 0; missing > 0; ++i, --missing) ++parts[order[i]];
+    return parts;
+}
+
+std::vector<int> weights_of(const Mix& mix) {
+    std::vector<int> weights;
+    for (const MixPart& part : mix) weights.push_back(part.weight);
+    return weights;
+}
+
+bool has_blades(const Model& model) {
+    const HymeniumPattern pattern = model.surface.hymenium.pattern;
+    return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
+}
+
+// Blades that reach the stem in the comb of a set: those of the species with the most at the margin, of equals the most.
+int comb_of(const std::vector<SpeciesShare>& parts) {
+    std::pair<int, int> most{0, 0};
+    for (const SpeciesShare& part : parts)
+        if (has_blades(part.model))
+            most = std::max(most, {part.model.hymenium.blades << part.model.hymenium.tiers,
+                                   part.model.hymenium.blades});
+    return most.second;
+}
+
+// Clears each override of `asked` that is not set in `effective`: what the species cannot have.
+template <class T>
+void keep_possible(T& asked, const T& effective) {
+    T::fields([&](auto member, const Info&) {
+        if (!(effective.*member)) (asked.*member).reset();
+    });
+}
+
+std::string painting_key(const PaintParams& painting) {
+    std::string key = "paint " + std::to_string(generator_version) + " ";
+    canonical(painting, key);
+    return key;
+}
+
+}  // namespace
+
+SurfaceMetrics surface_metrics(const Individual& individual) {
+    const Outline outline(std::get<Swept>(individual.model.shape).silhouette);
+    double radius = 0.0, stem_radius = 0.0;
+    for (int i = 0; i <= 16; ++i) {
+        radius = std::max(radius, outline.cap.at(i / 16.0).r);
+        stem_radius += outline.stem.at(i / 16.0).r / 17.0;
+    }
+    SurfaceMetrics metrics;
+    metrics.cap_arc = quantised_length(outline.cap.length());
+    metrics.cap_radius = quantised_length(radius);
+    metrics.stem_length = quantised_length(outline.stem.length());
+    metrics.stem_radius = quantised_length(stem_radius);
+    if (!outline.hymenium.empty()) {
+        metrics.hymenium_arc = quantised_length(outline.hymenium.length());
+        metrics.hymenium_inner = quantised_length(outline.hymenium.at(0.0).r);
+    }
+    return metrics;
+}
+
+Mix surface_mix(const Mix& mix) {
+    if (mix.empty()) return {};
+    const std::vector<int> parts = apportioned(weights_of(mix), whole);
+    Mix kept;
+    for (std::size_t i = 0; i < mix.size(); ++i)
+        if (parts[i] > 0) kept.push_back({mix[i].id, parts[i]});
+    const std::vector<int> thousandths = apportioned(weights_of(kept), 1000);
+    for (std::size_t i = 0; i < kept.size(); ++i) kept[i].weight = thousandths[i];
+    return kept;
+}
+
+MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas) {
+    MushroomOrder stepped = order;
+    MushroomParams& params = stepped.params;
+    params.age = std::floor(params.age * whole + 0.5) / whole;
+    if (order.model) return stepped;
+    params.size = 1.0;
+    params.deformation = {};
+    params.weathering.waves.reset();
+    stepped.mix = surface_mix(order.mix);
+    if (stepped.mix.size() == order.mix.size()) return stepped;
+    MushroomOrder bare = stepped;
+    bare.params.hymenium = {};
+    bare.params.ornaments = {};
+    const MushroomParams effective = resolve(bare, atlas).effective;
+    keep_possible(params.hymenium, effective.hymenium);
+    keep_possible(params.ornaments, effective.ornaments);
+    return stepped;
+}
+
+PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
+                         const SurfaceMetrics& metrics) {
+    const MushroomOrder stepped = surface_order(order, atlas);
+    const Individual individual = resolve(stepped, atlas);
+    std::vector<int> parts = {whole};
+    if (!order.model) parts = apportioned(weights_of(stepped.mix), whole);
+    const int comb = comb_of(individual.parts);
+    std::vector<std::pair<std::string, PaintShare>> shares;
+    for (std::size_t i = 0; i < individual.parts.size(); ++i) {
+        const Model& model = individual.parts[i].model;
+        PaintShare share;
+        // Parts stand by id, whatever the order of the mix.
+        for (std::size_t k = 0; k < stepped.mix.size(); ++k)
+            if (stepped.mix[k].id == individual.parts[i].id) share.sixty_fourths = parts[k];
+        PaintParams& painting = share.painting;
+        painting.seed = order.params.seed;
+        painting.lightness = individual.lightness;
+        painting.side = order.params.texture_size >> order.params.lod;
+        painting.metrics = metrics;
+        painting.surface = model.surface;
+        painting.hymenium = model.hymenium;
+        // A species on whose comb all stand is painted as if it were alone.
+        painting.comb = has_blades(model) && model.hymenium.blades != comb ? comb : 0;
+        painting.warts = model.warts;
+        painting.scales = model.scales;
+        painting.ornaments = model.ornaments;
+        painting.fade = model.weathering.fade;
+        painting.wetness = model.weathering.wetness;
+        shares.emplace_back(canonical_text(painting), std::move(share));
+    }
+    std::sort(shares.begin(), shares.end(),
+              [](const auto& a, const auto& b) { return a.first < b.first; });
+    PaintRecipe recipe;
+    for (std::size_t i = 0; i < shares.size(); ++i)
+        if (i > 0 && shares[i].first == shares[i - 1].first)
+            recipe.back().sixty_fourths += shares[i].second.sixty_fourths;
+        else
+            recipe.push_back(std::move(shares[i].second));
+    return recipe;
+}
+
+int side_of(const PaintRecipe& recipe) { return recipe.front().painting.side; }
+
+std::string image_key(const PaintRecipe& recipe) {
+    if (recipe.size() == 1) return painting_key(recipe.front().painting);
+    std::string key = "dissolve";
+    for (const PaintShare& share : recipe)
+        ((key += ' ') += std::to_string(share.sixty_fourths) + ' ') += painting_key(share.painting);
+    return key;
+}
+
+std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
+                                               const Workshop& workshop) {
+    const auto dissolved = [&] {
+        std::vector<const PaintParams*> params;
+        std::vector<double> weights;
+        for (const PaintShare& share : recipe) {
+            params.push_back(&share.painting);
+            weights.push_back(share.sixty_fourths / static_cast<double>(whole));
+        }
+        const std::vector<GivenTurns> turns = aligned_turns(params, weights);
+        std::vector<std::shared_ptr<const RawImages>> paintings;
+        std::vector<const RawImages*> raw;
+        for (std::size_t i = 0; i < recipe.size(); ++i) {
+            if (workshop.stop.stop_requested()) throw Cancelled();
+            std::string key = "raw " + painting_key(*params[i]);
+            for (const double turn : {turns[i].cap, turns[i].hymenium, turns[i].stem})
+                (key += ' ') += number_text(turn);
+            paintings.push_back(workshop.memo.paintings(key, [&] {
+                return std::make_shared<const RawImages>(
+                    paint_raw(*params[i], workshop.parallel, turns[i]));
+            }));
+            raw.push_back(paintings.back().get());
+        }
+        return std::make_shared<const ImageSet>(dissolve(raw, weights, workshop.parallel));
+    };
+    return workshop.memo.images(image_key(recipe), [&]() -> std::shared_ptr<const ImageSet> {
+        if (recipe.size() > 1) return dissolved();
+        return std::make_shared<const ImageSet>(paint(recipe.front().painting, workshop.parallel));
+    });
+}
+
+}  // namespace sporeprint
