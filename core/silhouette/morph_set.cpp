@@ -16,6 +16,8 @@ namespace {
 constexpr std::array<std::size_t, 3> node_counts = {45, 41, 49};
 constexpr int measure_steps = 128;
 constexpr double mature_age = 0.6;
+constexpr double half_detour = 0.5;
+constexpr int snap_steps = 16, deepest_piece = 9;
 
 using Curves = std::array<SubCurve, 3>;
 
@@ -35,6 +37,12 @@ std::vector<double> stage_weights(std::span<const double> ages, double age) {
         weights[above - 1] = 1.0 - t;
         weights[above] = t;
     }
+    return weights;
+}
+
+std::vector<double> between(std::span<const double> from, std::span<const double> to, double t) {
+    std::vector<double> weights(from.size());
+    for (std::size_t s = 0; s < weights.size(); ++s) weights[s] = (1.0 - t) * from[s] + t * to[s];
     return weights;
 }
 
@@ -172,11 +180,21 @@ std::shared_ptr<const RingPlaces> even_places(bool hymenium) {
 
 }  // namespace
 
+Polyline polyline(const Outline& outline, int lod) {
+    Polyline line;
+    for (const CurveName curve : curve_names) {
+        const auto rings = outline.rings(curve, lod);
+        for (std::size_t i = line.empty() ? 0 : 1; i < rings.size(); ++i)
+            line.emplace_back(rings[i].r, rings[i].y);
+    }
+    return line;
+}
+
 MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, double arcs_age) {
     assert(!shapes.empty());
     std::vector<Curves> curves;
     for (const ControlShape& shape : shapes) {
-        Outline outline(shape.silhouette);
+        Outline outline = Outline::unproven(shape.silhouette);
         curves.push_back(
             {std::move(outline.stem), std::move(outline.hymenium), std::move(outline.cap)});
         if (shape.kin == kins_.size()) kins_.push_back({ages_.size(), 0, ages_.size()});
@@ -301,24 +319,237 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
     }
     align_joins(nodes_, shapes);
     places_ = even_places(hymenium);
+    for (std::size_t s = 0; s < shapes.size(); ++s)
+        for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+            if (contact_at_rest(polyline(nodes_[s], lod))) {
+                (void)Outline(shapes[s].silhouette);  // names the control points if it can
+                throw Impossible("/model/silhouette", "too fine for the rings of level of detail " +
+                                                          std::to_string(lod) +
+                                                          ": there it touches itself or the axis");
+            }
+    certify();
 }
 
-OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
+std::vector<double> MorphSet::kin_weights(std::span<const double> weights) const {
+    std::vector<double> sums;
+    for (const Kin& kin : kins_) {
+        sums.push_back(0.0);
+        for (std::size_t s = kin.first; s < kin.first + kin.count; ++s) sums.back() += weights[s];
+    }
+    return sums;
+}
+
+/// The weights after the detours of all pairs of stages: what stage s gives goes over to the mature stage of its kin.
+std::vector<double> MorphSet::detoured(std::span<const double> weights) const {
+    std::vector<double> moved(weights.begin(), weights.end());
+    if (detours_.empty()) return moved;
+    const std::vector<double> sums = kin_weights(weights);
+    for (std::size_t k = 0; k < kins_.size(); ++k)
+        for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s) {
+            if (weights[s] == 0.0) continue;
+            double share = 0.0;
+            for (std::size_t other = 0; other < weights.size(); ++other)
+                share += 4.0 * sums[k] * weights[other] * detours_[s * weights.size() + other];
+            moved[s] -= share * weights[s];
+            moved[kins_[k].mature] += share * weights[s];
+        }
+    return moved;
+}
+
+OutlineNodes MorphSet::unchecked(std::span<const double> weights) const {
     assert(weights.size() == nodes_.size());
+    const std::vector<double> moved = detoured(weights);
     OutlineNodes mix;
     for (const CurveName curve : curve_names) {
         std::vector<OutlineNode>& nodes = mix.of(curve);
         nodes.resize(nodes_.front().of(curve).size());
-        for (std::size_t s = 0; s < weights.size(); ++s) {
-            if (weights[s] == 0.0) continue;
+        for (std::size_t s = 0; s < moved.size(); ++s) {
+            if (moved[s] == 0.0) continue;
             const std::vector<OutlineNode>& own = nodes_[s].of(curve);
             for (std::size_t i = 0; i < nodes.size(); ++i) {
-                nodes[i].position += weights[s] * own[i].position;
-                nodes[i].velocity += weights[s] * own[i].velocity;
+                nodes[i].position += moved[s] * own[i].position;
+                nodes[i].velocity += moved[s] * own[i].velocity;
             }
         }
     }
     return mix;
+}
+
+Polyline MorphSet::polyline(const OutlineNodes& nodes, int lod) const {
+    Polyline line;
+    for (const CurveName curve : curve_names) {
+        const std::vector<OutlineNode>& own = nodes.of(curve);
+        if (own.empty()) continue;
+        if (line.empty()) line.push_back(own.front().position);
+        const auto last = static_cast<double>(own.size() - 1);
+        const double step = 1.0 / last;
+        const std::vector<double>& places = places_->of(curve, lod);
+        for (std::size_t i = 1; i + 1 < places.size(); ++i) {
+            const double place = places[i] * last;
+            const auto k = std::min(static_cast<std::size_t>(place), own.size() - 2);
+            line.push_back(SplineSegment<glm::dvec2>{own[k].position, own[k + 1].position,
+                                                     own[k].velocity * step,
+                                                     own[k + 1].velocity * step}
+                               .at(place - static_cast<double>(k))
+                               .position);
+        }
+        line.push_back(own.back().position);
+    }
+    return line;
+}
+
+bool MorphSet::touches(const OutlineNodes& nodes) const {
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+        if (contact_at_rest(polyline(nodes, lod))) return true;
+    return false;
+}
+
+/// Whether a certificate covers all mixes of some shapes, at every level of detail.
+bool MorphSet::certified(std::span<const std::size_t> shapes) const {
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+        std::vector<Polyline> lines;
+        for (const std::size_t s : shapes) lines.push_back(polyline(nodes_[s], lod));
+        if (first_doubt(lines)) return false;
+    }
+    return true;
+}
+
+std::size_t MorphSet::kin_of(std::size_t shape) const {
+    std::size_t k = 0;
+    while (shape >= kins_[k].first + kins_[k].count) ++k;
+    return k;
+}
+
+void MorphSet::certify() {
+    std::vector<std::size_t> all;
+    for (std::size_t s = 0; s < nodes_.size(); ++s) all.push_back(s);
+    for_any_weights_ = certified(all);
+    for (std::size_t i = 0; i < kins_.size() && !for_any_weights_; ++i)
+        for (std::size_t j = i + 1; j < kins_.size(); ++j) choose_detours(i, j);
+}
+
+/// Finds the straight ways between stages of two kin that fold, and the detour that mends them.
+void MorphSet::choose_detours(std::size_t i, std::size_t j) {
+    const std::size_t count = nodes_.size();
+    std::vector<std::array<std::size_t, 2>> folding;
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+        std::vector<Polyline> lines(count);
+        for (const std::size_t k : {i, j})
+            for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s)
+                lines[s] = polyline(nodes_[s], lod);
+        for (std::size_t a = 0; a < count; ++a)
+            for (std::size_t b = 0; b < count; ++b)
+                if (kin_of(a) == i && kin_of(b) == j && first_contact(lines[a], lines[b]))
+                    folding.push_back({a, b});
+    }
+    std::sort(folding.begin(), folding.end());
+    folding.erase(std::unique(folding.begin(), folding.end()), folding.end());
+    for (const auto& [a, b] : folding) {
+        if (detours_.empty()) detours_.assign(count * count, 0.0);
+        for (const double amount : {half_detour, 1.0}) {
+            detours_[a * count + b] = detours_[b * count + a] = amount;
+            std::vector<double> from(count, 0.0), to(count, 0.0);
+            from[a] = to[b] = 1.0;
+            if (curved_way_is_simple(from, to)) break;
+        }
+    }
+}
+
+OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
+    OutlineNodes mix = unchecked(weights);
+    if (for_any_weights_ || !touches(mix)) return mix;
+    // Towards the heaviest kin, then towards its nearest stage, which is simple.
+    std::vector<double> here(weights.begin(), weights.end()), goal(weights.size(), 0.0);
+    const std::vector<double> sums = kin_weights(weights);
+    const auto k =
+        static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
+    const Kin& heaviest = kins_[k];
+    const auto first = static_cast<std::ptrdiff_t>(heaviest.first);
+    const auto last = first + static_cast<std::ptrdiff_t>(heaviest.count);
+    for (std::size_t s = heaviest.first; s < heaviest.first + heaviest.count; ++s)
+        goal[s] = weights[s] / sums[k];
+    const auto walk = [&] {
+        for (int step = 1; step <= snap_steps; ++step) {
+            const double t = static_cast<double>(step) / snap_steps;
+            mix = unchecked(between(here, goal, t));
+            if (!touches(mix)) return true;
+        }
+        return false;
+    };
+    if (walk()) return mix;
+    here = goal;
+    const auto nearest = std::max_element(weights.begin() + first, weights.begin() + last);
+    std::fill(goal.begin(), goal.end(), 0.0);
+    goal[static_cast<std::size_t>(nearest - weights.begin())] = 1.0;
+    walk();
+    return mix;
+}
+
+Certificate MorphSet::certificate() const {
+    Certificate known;
+    known.method = for_any_weights_ ? ProofMethod::certificate : ProofMethod::checked;
+    for (const double detour : detours_) known.detour = std::max(known.detour, detour);
+    if (for_any_weights_ || known.detour > 0.0) return known;
+    // Mixes of one age take only the two stages of each kin that are nearest to it.
+    std::vector<double> ages = ages_;
+    ages.insert(ages.end(), {0.0, 1.0});
+    std::sort(ages.begin(), ages.end());
+    for (std::size_t i = 0; i + 1 < ages.size(); ++i) {
+        if (ages[i] == ages[i + 1]) continue;
+        const auto growth = growth_weights(0.5 * (ages[i] + ages[i + 1]));
+        std::vector<std::size_t> active;
+        for (std::size_t s = 0; s < growth.size(); ++s)
+            if (growth[s] > 0.0) active.push_back(s);
+        if (!certified(active)) return known;
+    }
+    known.method = ProofMethod::certificate;
+    return known;
+}
+
+Certificate MorphSet::certificate(std::span<const double> from, std::span<const double> to) const {
+    Certificate known;
+    const auto taken = [&](std::size_t s) { return from[s] > 0.0 || to[s] > 0.0; };
+    if (!detours_.empty())
+        for (std::size_t i = 0; i < from.size(); ++i)
+            for (std::size_t j = 0; j < from.size(); ++j)
+                if (taken(i) && taken(j))
+                    known.detour = std::max(known.detour, detours_[i * from.size() + j]);
+    const OutlineNodes a = unchecked(from), b = unchecked(to);
+    if (known.detour == 0.0) {
+        for (int lod = 0; lod < static_cast<int>(details.size()) && known.simple; ++lod)
+            known.simple = !first_contact(polyline(a, lod), polyline(b, lod));
+        return known;
+    }
+    known.method = ProofMethod::certificate;
+    known.simple = curved_way_is_simple(from, to);
+    return known;
+}
+
+/// Detours make the way from one mix to another a cubic in t. Each piece of it lies among the means of the piece's four Bezier polygons.
+bool MorphSet::curved_way_is_simple(std::span<const double> from,
+                                    std::span<const double> to) const {
+    const auto at = [&](double t, int lod) {
+        return polyline(unchecked(between(from, to, t)), lod);
+    };
+    const auto is_simple = [&](const auto& self, const Polyline& start, const Polyline& end,
+                               double t0, double t1, int lod, int depth) -> bool {
+        std::array<Polyline, 4> bezier = {start, at(t0 + (t1 - t0) / 3.0, lod),
+                                          at(t0 + 2.0 * (t1 - t0) / 3.0, lod), end};
+        for (std::size_t i = 0; i < start.size(); ++i) {
+            const glm::dvec2 b = bezier[1][i], c = bezier[2][i];
+            bezier[1][i] = (-5.0 * start[i] + 18.0 * b - 9.0 * c + 2.0 * end[i]) / 6.0;
+            bezier[2][i] = (2.0 * start[i] - 9.0 * b + 18.0 * c - 5.0 * end[i]) / 6.0;
+        }
+        if (!first_doubt(bezier)) return true;
+        const double middle = 0.5 * (t0 + t1);
+        const Polyline there = at(middle, lod);
+        if (depth == deepest_piece || contact_at_rest(there)) return false;
+        return self(self, start, there, t0, middle, lod, depth + 1) &&
+               self(self, there, end, middle, t1, lod, depth + 1);
+    };
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+        if (!is_simple(is_simple, at(0.0, lod), at(1.0, lod), 0.0, 1.0, lod, 0)) return false;
+    return true;
 }
 
 std::vector<double> MorphSet::growth_weights(double age) const {
@@ -355,7 +586,7 @@ std::vector<Arc> MorphSet::arcs(double age, int count) const {
 }
 
 std::size_t MorphSet::bytes() const {
-    std::size_t bytes = sizeof(MorphSet) + sizeof(RingPlaces);
+    std::size_t bytes = sizeof(MorphSet) + sizeof(RingPlaces) + detours_.size() * sizeof(double);
     for (const OutlineNodes& nodes : nodes_)
         for (const CurveName curve : curve_names)
             bytes += nodes.of(curve).size() * sizeof(OutlineNode);

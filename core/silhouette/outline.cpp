@@ -21,6 +21,12 @@ std::string number(double value) {
     return text;
 }
 
+/// Where a control point is told of: "/cap/" and its number.
+struct Place {
+    const char* curve;
+    std::size_t index;
+};
+
 /// Smallest r at the turning points strictly inside a segment; infinite if r runs one way.
 double least_turning_r(const SplineSegment<glm::dvec2>& s) {
     const double a = s.leaving.x, b = 3.0 * (s.to.x - s.from.x) - 2.0 * s.leaving.x - s.arriving.x;
@@ -231,11 +237,8 @@ std::vector<OutlineSample> Outline::rings(CurveName curve, int lod) const {
     return of(curve).placed(places_->of(curve, lod));
 }
 
-Outline::Outline(const Silhouette& silhouette, const std::string& path) {
-    struct Place {
-        const char* curve;
-        std::size_t index;
-    };
+Outline Outline::unproven(const Silhouette& silhouette, const std::string& path) {
+    Outline outline;
     std::vector<glm::dvec2> points;
     std::vector<Place> places;
     std::array<std::size_t, 4> starts{};
@@ -285,10 +288,14 @@ Outline::Outline(const Silhouette& silhouette, const std::string& path) {
         }
         return SubCurve(std::move(segments));
     };
-    stem = curve(0, starts[1]);
-    hymenium = curve(starts[1], starts[2]);
-    cap = curve(starts[2], starts[3]);
+    outline.stem = curve(0, starts[1]);
+    outline.hymenium = curve(starts[1], starts[2]);
+    outline.cap = curve(starts[2], starts[3]);
+    return outline;
+}
 
+Outline::Outline(const Silhouette& silhouette, const std::string& path)
+    : Outline(unproven(silhouette, path)) {
     // Proof on a polyline finer than any that is swept.
     std::vector<glm::dvec2> polyline;
     std::vector<Place> owners;

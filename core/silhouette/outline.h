@@ -123,6 +123,10 @@ struct Outline {
     /// source  [Desbenoit2004] sec. 3.1; the spline is centripetal Catmull-Rom
     explicit Outline(const Silhouette& silhouette, const std::string& path = "/model/silhouette");
 
+    /// The same, without the proof that it does not cross itself.
+    [[nodiscard]] static Outline unproven(const Silhouette& silhouette,
+                                          const std::string& path = "/model/silhouette");
+
     [[nodiscard]] const SubCurve& of(CurveName curve) const {
         return curve == CurveName::stem ? stem : curve == CurveName::hymenium ? hymenium : cap;
     }

@@ -45,25 +45,6 @@ struct Distinct {
     }
 };
 
-/// A contact of a polyline at rest, t left open.
-std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline) {
-    const Distinct distinct(polyline);
-    const auto& p = distinct.points;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-        const bool end = i == 0 || i + 1 == p.size();
-        if (end ? p[i].x < 0.0 : p[i].x <= 0.0)
-            return Contact{0.0, distinct.owner[i], distinct.owner[i]};
-    }
-    for (std::size_t i = 0; i + 2 < p.size(); ++i) {
-        const glm::dvec2 in = p[i + 1] - p[i], out = p[i + 2] - p[i + 1];
-        if (cross(in, out) == 0.0 && glm::dot(in, out) < 0.0)
-            return Contact{0.0, distinct.owner[i + 1] - 1, distinct.owner[i + 1]};
-    }
-    if (const auto pair = first_crossing(p))
-        return Contact{0.0, distinct.owner[(*pair)[0]], distinct.owner[(*pair)[1]]};
-    return std::nullopt;
-}
-
 /// A point that moves evenly.
 struct Moving {
     glm::dvec2 at_0, by;
@@ -178,6 +159,24 @@ std::optional<std::array<std::size_t, 2>> first_crossing(std::span<const glm::dv
     return std::nullopt;
 }
 
+std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline) {
+    const Distinct distinct(polyline);
+    const auto& p = distinct.points;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+        const bool end = i == 0 || i + 1 == p.size();
+        if (end ? p[i].x < 0.0 : p[i].x <= 0.0)
+            return Contact{0.0, distinct.owner[i], distinct.owner[i]};
+    }
+    for (std::size_t i = 0; i + 2 < p.size(); ++i) {
+        const glm::dvec2 in = p[i + 1] - p[i], out = p[i + 2] - p[i + 1];
+        if (cross(in, out) == 0.0 && glm::dot(in, out) < 0.0)
+            return Contact{0.0, distinct.owner[i + 1] - 1, distinct.owner[i + 1]};
+    }
+    if (const auto pair = first_crossing(p))
+        return Contact{0.0, distinct.owner[(*pair)[0]], distinct.owner[(*pair)[1]]};
+    return std::nullopt;
+}
+
 std::optional<Contact> first_contact(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     assert(a.size() == b.size() && a.size() >= 2);
     if (auto at_0 = contact_at_rest(a)) return at_0;
@@ -257,6 +256,14 @@ std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
         const int r = side(j, i, i + 1);
         return r != 0 && r == side(j + 1, i, i + 1);
     };
+    std::vector<Box> boxes;  // segments in boxes that lie apart are apart in all means
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        Box box{shapes[0][i], shapes[0][i]};
+        for (const Polyline& p : shapes)
+            box = {glm::min(box.low, glm::min(p[i], p[i + 1])),
+                   glm::max(box.high, glm::max(p[i], p[i + 1]))};
+        boxes.push_back(box);
+    }
     for (std::size_t i = 0; i + 1 < n; ++i) {
         if (i + 2 < n) {
             HalfPlane directions;
@@ -267,6 +274,7 @@ std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
             if (!forwards && side(i, i + 1, i + 2) == 0) return Doubt{i, i + 1};
         }
         for (std::size_t j = i + 2; j + 1 < n; ++j) {
+            if (boxes[i].apart(boxes[j])) continue;
             HalfPlane differences;
             bool apart = true;
             for (std::size_t s = 0; s < count && apart; ++s) {

@@ -39,6 +39,10 @@ struct Contact {
     bool operator==(const Contact&) const = default;
 };
 
+/// Where a polyline at rest touches itself, folds back, or leaves r >= 0 (r > 0 between its ends); its t is 0. Edges of no length are
+/// skipped: a sub-curve may be a point.
+[[nodiscard]] std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline);
+
 /// The first moment at which the polyline (1 - t) a + t b touches itself, folds back, or leaves r >= 0 (r > 0 between its ends).
 /// Edges of no length are skipped at the moments when they have none: a sub-curve may shrink to a point there, at t = 0 or 1.
 ///
