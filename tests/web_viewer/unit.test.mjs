@@ -7,7 +7,7 @@ import { packages, root } from "./support.mjs";
 
 const { outputFiles } = packages("esbuild").buildSync({
     stdin: {
-        contents: ["schema", "settings", "http", "camera", "gallery", "dom"].map((name) => `export * from "./${name}";`).join("\n"),
+        contents: ["arcs", "camera", "dom", "gallery", "history", "http", "mix", "schema", "settings", "weights"].map((name) => `export * from "./${name}";`).join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
     bundle: true,
@@ -139,6 +139,182 @@ test("seasons and numbers are said as a person says them", () => {
     assert.equal(page.kilobytes(340_200), "340 kB");
     assert.equal(page.kilobytes(1_240_000), "1.24 MB");
 });
+
+// The morph bench
+
+const close = (one, other, most = 1e-12) => assert.ok(Math.abs(one - other) <= most, `${one} is not ${other}`);
+
+/** Points all over a polygon: corners, edges, inside. */
+function pointsIn(corners) {
+    const points = [];
+    for (let a = 0; a < corners.length; ++a) {
+        for (let b = 0; b < corners.length; ++b) {
+            for (const [s, t] of [[0, 0], [0.5, 0], [1, 0], [0.2, 0.3], [0.35, 0.6], [0.05, 0.9], [0.001, 0.001]]) {
+                points.push({
+                    x: (1 - t) * ((1 - s) * corners[a].x + s * corners[b].x),
+                    y: (1 - t) * ((1 - s) * corners[a].y + s * corners[b].y),
+                });
+            }
+        }
+    }
+    return points;
+}
+
+for (const n of [3, 4, 5]) {
+    const corners = page.polygon(n);
+    test(`weights on a pad of ${n} corners sum to one, are never negative and give their point back`, () => {
+        for (const point of pointsIn(corners)) {
+            const weights = page.weightsAt(point, corners);
+            close(weights.reduce((sum, weight) => sum + weight, 0), 1);
+            assert.ok(weights.every((weight) => weight >= 0), JSON.stringify(weights));
+            const back = page.pointOf(weights, corners);
+            close(back.x, point.x, 1e-9);
+            close(back.y, point.y, 1e-9);
+        }
+    });
+
+    test(`a corner of ${n} is exactly its species, an edge mixes its two ends alone`, () => {
+        corners.forEach((corner, index) => {
+            assert.deepEqual(page.weightsAt(corner, corners), corners.map((_, at) => (at === index ? 1 : 0)));
+            const next = corners[(index + 1) % n];
+            const weights = page.weightsAt({ x: 0.25 * corner.x + 0.75 * next.x, y: 0.25 * corner.y + 0.75 * next.y }, corners);
+            close(weights[index], 0.25, 1e-9);
+            close(weights[(index + 1) % n], 0.75, 1e-9);
+        });
+        for (const weight of page.weightsAt({ x: 0, y: 0 }, corners)) close(weight, 1 / n);
+    });
+
+    test(`a small step on a pad of ${n} corners is a small step of the weights, also towards corners and edges`, () => {
+        for (const point of pointsIn(corners)) {
+            const before = page.weightsAt(point, corners);
+            for (const [dx, dy] of [[1, 0], [0, 1], [-0.6, -0.8]]) {
+                const moved = page.insidePolygon({ x: point.x + 1e-5 * dx, y: point.y + 1e-5 * dy }, corners);
+                page.weightsAt(moved, corners).forEach((weight, index) => close(weight, before[index], 5e-5));
+            }
+        }
+    });
+
+    test(`a point pulled out of ${n} corners stays on the rim at the nearest place`, () => {
+        for (const point of pointsIn(corners)) {
+            const far = { x: point.x * 3 + 0.1, y: point.y * 3 - 0.2 };
+            const kept = page.insidePolygon(far, corners);
+            const again = page.insidePolygon(kept, corners);
+            close(Math.hypot(kept.x - again.x, kept.y - again.y), 0, 1e-12);
+            const distance = Math.hypot(kept.x - far.x, kept.y - far.y);
+            for (const other of pointsIn(corners)) {
+                assert.ok(distance <= Math.hypot(other.x - far.x, other.y - far.y) + 1e-9);
+            }
+        }
+        const near = { x: corners[1].x * 0.98, y: corners[1].y * 0.98 };
+        assert.equal(page.insidePolygon(near, corners, 0.05), corners[1], "a corner close by is taken exactly");
+        assert.notEqual(page.insidePolygon(near, corners), corners[1]);
+    });
+}
+
+test("mixes are spelled as the service's canonical rule does", () => {
+    const mix = (text) => page.canonicalMix(page.readShares(text));
+    assert.equal(mix("a"), "a");
+    assert.equal(mix("a:5"), "a");
+    assert.equal(mix("a:9999,b:1"), "a");
+    assert.equal(mix("b:1,a:1"), "a:0.5,b:0.5");
+    assert.equal(mix("c:1,b:1,a:1"), "a:0.334,b:0.333,c:0.333");
+    assert.equal(mix("a:7e-1,b:0.3,c:0"), "a:0.7,b:0.3");
+    for (const text of ["a:0.334,b:0.333,c:0.333", "a:0.7,b:0.3", "a"]) assert.equal(mix(text), text);
+    for (const text of ["", "a,a", "a:-1", "a:0", "a:0,b:0", "A", "a:x", "a:1,"]) assert.equal(page.readShares(text), undefined, text);
+});
+
+test("another share of one species leaves the others in proportion", () => {
+    const shares = page.readShares("a:0.5,b:0.3,c:0.2");
+    const weights = (index, weight) => page.reweighted(shares, index, weight).map((share) => Number(share.weight.toFixed(9)));
+    assert.deepEqual(weights(0, 0), [0, 0.6, 0.4]);
+    assert.deepEqual(weights(2, 0.6), [0.25, 0.15, 0.6]);
+    assert.deepEqual(weights(1, 1), [0, 1, 0]);
+    assert.deepEqual(page.reweighted(page.readShares("a:1,b:0,c:0"), 0, 0.5).map(({ weight }) => weight), [0.5, 0.25, 0.25]);
+});
+
+test("the bench's address says all shares in their order and the arcs, and is read back", () => {
+    const settings = new page.Settings(fields, "a");
+    const known = (id) => ["a", "b", "c"].includes(id);
+    const read = (query) => settings.readMorph(new URLSearchParams(query), known);
+    assert.deepEqual(read("morph=b:0.6,a:0.4&arcs=cap:0.25:0.4"), []);
+    assert.equal(settings.mix, "a:0.4,b:0.6");
+    assert.equal(settings.pageQuery(new URLSearchParams()), "?morph=b:0.6,a:0.4&arcs=cap:0.25:0.4");
+    assert.deepEqual(read("morph=c,a,b:0"), []);
+    assert.equal(settings.pageQuery(new URLSearchParams()), "?morph=c:0.5,a:0.5,b:0");
+    assert.equal(settings.address(".glb"), "/v1/mushrooms/a:0.5,c:0.5.glb");
+    for (const wrong of ["morph=a", "morph=a,z", "morph=a,a", "morph=", "morph=a,b&arcs=cap:2:1", "morph=a,b&arcs=brim:0:1"]) {
+        assert.equal(read(wrong).length, 1, wrong);
+    }
+    assert.deepEqual(read("species=a"), []);
+    assert.equal(settings.morph, undefined);
+});
+
+test("own arcs are posted with what differs, a mix without them has its plain address", () => {
+    const settings = new page.Settings(fields, "a");
+    settings.readMorph(new URLSearchParams("morph=b:0.6,a:0.4&arcs=cap:0.25:0.4"), () => true);
+    settings.set("age", 0.3);
+    settings.set("deformation.bend_deg", 20);
+    const { address, body } = settings.wanted(settings.draftValues(true));
+    assert.equal(address, "/v1/morphs/b/a.glb");
+    assert.deepEqual(JSON.parse(body), {
+        t: 0.4, arcs: [{ curve: "cap", a: 0.25, b: 0.4 }], age: 0.3, lod: 1, textures: "linked", deformation: { bend_deg: 20 },
+    });
+    settings.readMorph(new URLSearchParams("morph=b:1,a:0&arcs=cap:0.25:0.4"), () => true);
+    assert.equal(settings.wanted().address, "/v1/mushrooms/b.glb?age=0.3&deformation.bend_deg=20");
+    assert.equal(settings.wanted().body, undefined);
+});
+
+test("arcs of one sub-curve cross when their ends change places or meet", () => {
+    const arc = (curve, a, b) => ({ curve, a, b });
+    assert.ok(page.crosses(arc("cap", 0.2, 0.6), arc("cap", 0.4, 0.5)));
+    assert.ok(page.crosses(arc("cap", 0.2, 0.6), arc("cap", 0.2, 0.7)));
+    assert.ok(!page.crosses(arc("cap", 0.2, 0.5), arc("cap", 0.4, 0.6)));
+    assert.ok(!page.crosses(arc("cap", 0.2, 0.6), arc("stem", 0.4, 0.5)));
+    assert.deepEqual(page.crossing([arc("cap", 0.1, 0.1), arc("cap", 0.2, 0.6), arc("cap", 0.4, 0.5)]), [false, true, true]);
+});
+
+test("a new arc goes into the widest gap and crosses nothing", () => {
+    const arcs = [];
+    for (let step = 0; step < 12; ++step) arcs.push(page.widestGap(arcs, "cap"));
+    assert.ok(!page.crossing(arcs).includes(true));
+    assert.deepEqual(arcs[0], { curve: "cap", a: 0.5, b: 0.5 });
+    assert.equal(page.matched([{ curve: "cap", a: 0.5, b: 0.8 }], "cap", 0.25, "a"), 0.4);
+    assert.equal(page.matched([{ curve: "cap", a: 0.5, b: 0.8 }], "cap", 0.9, "b"), 0.75);
+    assert.equal(page.matched([], "stem", 1, "a"), 1);
+    assert.equal(page.matched([], "stem", 0, "a"), 0);
+});
+
+test("undo and redo walk back and forth, and a new step forgets what was undone", () => {
+    const history = new page.History("");
+    for (const value of ["a", "ab", "abc"]) history.push(value);
+    assert.deepEqual([history.undo(), history.undo()], ["ab", "a"]);
+    assert.equal(history.redo(), "ab");
+    history.push("abx");
+    assert.ok(!history.redoable);
+    assert.equal(history.redo(), "abx");
+    assert.deepEqual([history.undo(), history.undo(), history.undo(), history.undo()], ["ab", "a", "", ""]);
+    assert.ok(!history.undoable && history.redoable);
+    history.begin("z");
+    assert.ok(!history.undoable && !history.redoable);
+});
+
+for (const n of [2, 3, 4, 5]) {
+    test(`a variety sheet of ${n} has every control shape and no mushroom twice`, () => {
+        const { cells, columns, rows } = page.varietyLayout(n);
+        assert.equal(cells.length, n === 3 ? 21 : 25);
+        const seen = new Set(cells.map(({ weights, age }) => JSON.stringify([page.thousandths(weights), age])));
+        assert.equal(seen.size, cells.length);
+        for (const { weights, column, row } of cells) {
+            assert.equal(weights.length, n);
+            assert.ok(weights.every((weight) => weight >= 0));
+            close(weights.reduce((sum, weight) => sum + weight, 0), 1);
+            assert.ok(column >= 0 && column < columns && row >= 0 && row < rows);
+        }
+        for (let index = 0; index < n; ++index) {
+            assert.ok(cells.some(({ weights }) => page.controlShape(weights) === index), `control shape ${index}`);
+        }
+    });
+}
 
 test("the page's TypeScript has no type errors", () => {
     const { status, stdout } = spawnSync(process.execPath, [packages.resolve("typescript/bin/tsc"), "--noEmit"], {

@@ -17,6 +17,21 @@ export function make<K extends keyof HTMLElementTagNameMap>(
     return element;
 }
 
+/** Makes an element of a drawing. */
+export function draw<K extends keyof SVGElementTagNameMap>(
+    tag: K,
+    attributes: Attributes = {},
+    ...children: (Node | string | undefined)[]
+): SVGElementTagNameMap[K] {
+    const element = document.createElementNS("http://www.w3.org/2000/svg", tag);
+    for (const [name, value] of Object.entries(attributes)) {
+        if (value === undefined || value === false) continue;
+        element.setAttribute(name, value === true ? "" : String(value));
+    }
+    element.append(...children.filter((child) => child !== undefined));
+    return element;
+}
+
 /** The element of index.html with this id. */
 export function byId<T extends HTMLElement>(id: string): T {
     const element = document.getElementById(id);

@@ -88,6 +88,16 @@ export class Gallery {
         }
     }
 
+    /** Puts letters to the species of a morph, in their order; none when there is no morph. */
+    letter(ids: readonly string[]): void {
+        for (const [id, button] of this.buttons) {
+            const at = ids.indexOf(id);
+            const picture = button.querySelector<HTMLElement>(".picture");
+            if (at < 0) picture?.removeAttribute("data-letter");
+            else picture?.setAttribute("data-letter", String.fromCharCode(65 + at));
+        }
+    }
+
     picture(id: string, address: string): void {
         const host = this.buttons.get(id)?.querySelector(".picture");
         host?.replaceChildren(make("img", { src: address, alt: "", width: 96, height: 96 }));

@@ -3,14 +3,15 @@
 import type { Object3D } from "three";
 import { getJson, getModel, RequestFailed, type Answer, type Progress } from "./http";
 import { parseModel } from "./model";
-import type { Settings } from "./settings";
+import type { Paint } from "./paint";
+import type { Settings, Wanted } from "./settings";
 
 export interface Grown {
     answer: Answer;
     model: Object3D;
     draft: boolean;
-    /** Address that was asked for. */
-    address: string;
+    /** What was asked for. */
+    wanted: Wanted;
 }
 
 export interface GrowerEvents {
@@ -35,20 +36,21 @@ export class Grower {
     private refit = true;
     private linked = true;
     private shown: string | undefined;
-    private failure: { address: string; error: RequestFailed } | undefined;
+    private failure: { key: string; error: RequestFailed } | undefined;
     private waiting: (() => void)[] = [];
 
     constructor(
         private readonly settings: Settings,
+        private readonly paint: Paint,
         private readonly events: GrowerEvents,
     ) {}
 
     /** Something is being moved: a rough model soon. */
-    draft(): void {
+    draft(pause = pauseMs): void {
         // A final model on its way is out of date; a draft on its way is finished first, so that
         // a long drag shows something also when the server is slow.
         if (this.flight && !this.flight.draft) this.stop();
-        this.plan(true, pauseMs);
+        this.plan(true, pause);
     }
 
     /** The settings stand: the model as chosen. */
@@ -61,10 +63,10 @@ export class Grower {
     /** Resolves when what stands on the stage is what the settings say. */
     async settled(): Promise<void> {
         for (;;) {
-            const address = this.settings.address(".glb");
+            const { key } = this.settings.wanted();
             const idle = !this.flight && !this.pending;
-            if (idle && this.shown === address) return;
-            if (idle && this.failure?.address === address) throw this.failure.error;
+            if (idle && this.shown === key) return;
+            if (idle && this.failure?.key === key) throw this.failure.error;
             await new Promise<void>((resolve) => this.waiting.push(resolve));
         }
     }
@@ -95,29 +97,29 @@ export class Grower {
         const flight: Flight = { draft, stop: new AbortController() };
         this.flight = flight;
         const replaced = draft ? this.settings.draftValues(this.linked) : undefined;
-        const address = this.settings.address(".glb", replaced);
+        const wanted = this.settings.wanted(replaced);
         const current = (): boolean => this.flight === flight;
         try {
             const effective = draft ? undefined : this.readEffective(flight.stop.signal);
-            const answer = await getModel(address, flight.stop.signal, (progress) => {
+            const answer = await getModel(wanted, flight.stop.signal, (progress) => {
                 if (current()) this.events.progress(progress);
             });
             if (!current()) return;
             this.events.progress({ stage: "unpacking" });
-            const model = await parseModel(answer.bytes);
+            const model = await parseModel(answer.bytes, draft ? this.paint : undefined);
             const refit = this.refit;
-            if (!(await this.events.show({ answer, model, draft, address }, refit, current))) return;
+            if (!(await this.events.show({ answer, model, draft, wanted }, refit, current))) return;
             this.refit = false;
             if (!draft) {
                 const resource = await effective;
                 if (!current()) return;
                 if (resource) this.events.effective(resource);
-                this.shown = address;
+                this.shown = wanted.key;
                 this.failure = undefined;
             }
         } catch (error) {
             if (!current()) return;
-            this.fail(address, replaced?.has("textures") ?? false, draft, error);
+            this.fail(wanted, replaced?.has("textures") ?? false, draft, error);
         } finally {
             if (current()) {
                 this.flight = undefined;
@@ -130,18 +132,18 @@ export class Grower {
         }
     }
 
-    private fail(address: string, linked: boolean, draft: boolean, error: unknown): void {
+    private fail(wanted: Wanted, linked: boolean, draft: boolean, error: unknown): void {
         const known =
             error instanceof RequestFailed
                 ? error
                 : new RequestFailed("The model could not be shown", error instanceof Error ? error.message : "", 0);
-        if (draft && linked && known.status === 422) {
+        if (draft && linked && known.status === 422 && known.items.some(({ parameter }) => parameter.replace("/", "") === "textures")) {
             // A server with signed URLs has no linked images: drafts embed them from now on.
             this.linked = false;
             this.pending ??= { draft: true };
             return;
         }
-        if (!draft) this.failure = { address, error: known };
+        if (!draft) this.failure = { key: wanted.key, error: known };
         this.events.failed(known);
     }
 

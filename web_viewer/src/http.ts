@@ -111,13 +111,14 @@ export async function getJson<T>(address: string, signal?: AbortSignal): Promise
     return (await response.json()) as T;
 }
 
-/** Fetches a model, reporting each piece that arrives. */
+/** Fetches a model, reporting each piece that arrives; with a body it is posted. */
 export async function getModel(
-    address: string,
+    { address, body }: { address: string; body?: string | undefined },
     signal: AbortSignal,
-    report: (progress: Progress) => void,
+    report: (progress: Progress) => void = () => undefined,
 ): Promise<Answer> {
-    const response = await send(address, { signal }, report);
+    const posted = body === undefined ? {} : { method: "POST", body, headers: { "Content-Type": "application/json" } };
+    const response = await send(address, { ...posted, signal }, report);
     const length = Number(response.headers.get("content-length"));
     const plain = !response.headers.get("content-encoding");
     const total = plain && length > 0 ? length : undefined;

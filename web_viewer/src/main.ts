@@ -1,14 +1,18 @@
 // The page: puts gallery, stage, controls and service together.
 import "./app.css";
+import { Bench } from "./bench";
 import { centimetres, scaleBar, viewNames, type ViewName } from "./camera";
 import { Controls } from "./controls";
 import { byId, grouped, kilobytes, make } from "./dom";
 import { factLine, Gallery, type Species } from "./gallery";
 import { Grower, type Grown } from "./grower";
-import { getJson, RequestFailed, send, type Progress } from "./http";
-import { countsOf } from "./model";
+import { getJson, RequestFailed, send, type ProblemItem, type Progress } from "./http";
+import { readShares } from "./mix";
+import { countsOf, paintOf } from "./model";
+import { Paint } from "./paint";
 import { groupsOf, words, type Schema, type Value } from "./schema";
 import { mixPattern, Settings, type Fault } from "./settings";
+import { Sheet, sheetButtons, type SheetKind } from "./sheet";
 import { Stage } from "./stage";
 import { makeThumbnails } from "./thumbnails";
 
@@ -37,13 +41,16 @@ const say = (text: string): void => {
     status.textContent = text;
 };
 
-function showProblem(error: RequestFailed | undefined, controls?: Controls, retry?: () => void): void {
+/** Something that can show a problem at its own place; false when it has no such place. */
+type Place = (item: ProblemItem) => boolean;
+
+function showProblem(error: RequestFailed | undefined, place: Place = () => false, retry?: () => void): void {
     const box = byId("problem");
     box.hidden = !error;
     box.replaceChildren();
     if (!error) return;
     box.append(make("strong", {}, error.title));
-    const left = error.items.filter((item) => !controls?.fail(item.parameter, item.detail));
+    const left = error.items.filter((item) => !place(item));
     if (error.detail) box.append(make("p", {}, error.detail));
     if (left.length > 0) {
         box.append(make("ul", {}, ...left.map((item) =>
@@ -62,6 +69,10 @@ class Page {
     private readonly gallery: Gallery;
     private readonly controls: Controls;
     private readonly grower: Grower;
+    private readonly paint = new Paint();
+    private readonly bench: Bench;
+    private readonly sheet: Sheet;
+    private readonly place: Place = (item) => this.controls.fail(item.parameter, item.detail) || this.bench.fail(item);
     private readonly lods = new Map<number, HTMLButtonElement>();
     private grown: Grown | undefined;
     private faults: Fault[] = [];
@@ -85,7 +96,25 @@ class Page {
             },
             moved: (field) => this.changed(field.name),
         });
-        this.grower = new Grower(this.settings, {
+        this.bench = new Bench(this.settings, species, {
+            moving: () => {
+                this.showNames();
+                this.grower.draft(0);
+            },
+            moved: (name) => this.changed(name),
+            chosen: () => {
+                this.writeAddress("morph");
+                this.begin(true);
+            },
+            say,
+        });
+        this.sheet = new Sheet(this.settings, species, {
+            changed: (kind) => this.sheetChanged(kind),
+            say,
+            save: (blob, name) => this.save(blob, name),
+        });
+        this.paint.onChange = () => stage.draw();
+        this.grower = new Grower(this.settings, this.paint, {
             progress: (progress) => this.showProgress(progress),
             show: (grown, refit, current) => this.show(grown, refit, current),
             effective: (resource) => this.controls.show(resource.effective),
@@ -94,6 +123,7 @@ class Page {
         stage.onFrame = () => this.showScale();
         this.makeTools();
         this.makeActions();
+        this.makeModes();
         this.makeDrop();
         byId("form").addEventListener("submit", (event) => event.preventDefault());
         addEventListener("popstate", () => this.readAddress());
@@ -103,7 +133,9 @@ class Page {
 
     async settled(): Promise<void> {
         this.flushAddress();
+        await this.bench.settled();
         await this.grower.settled();
+        await this.sheet.settled();
     }
 
     get counts(): ReturnType<typeof countsOf> {
@@ -111,14 +143,67 @@ class Page {
     }
 
     private choose(mix: string): void {
+        if (this.settings.morph) return this.bench.toggle(mix);
         if (mix === this.settings.mix) return;
         this.settings.choose(mix);
         this.writeAddress("species");
         this.begin(true);
     }
 
+    /** From one species to the bench and back; what was mixed goes along. */
+    private makeModes(): void {
+        byId("mode-species").addEventListener("click", (event) => {
+            if (!plainClick(event)) return;
+            event.preventDefault();
+            const { morph } = this.settings;
+            if (!morph) return;
+            const strongest = [...morph.shares].sort((one, other) => other.weight - one.weight)[0];
+            this.settings.setMorph(undefined);
+            this.settings.choose(strongest?.id ?? this.settings.mix);
+            this.writeAddress("mode");
+            this.begin(true);
+        });
+        byId("mode-morph").addEventListener("click", (event) => {
+            if (!plainClick(event)) return;
+            event.preventDefault();
+            if (!this.settings.morph) this.bench.enter(readShares(this.settings.mix) ?? []);
+        });
+        byId("sheets").append(sheetButtons((kind) => this.sheet.show(kind)));
+    }
+
+    private showMode(): void {
+        const { morph } = this.settings;
+        document.documentElement.classList.toggle("morphing", morph !== undefined);
+        for (const [id, on] of [["mode-species", !morph], ["mode-morph", Boolean(morph)]] as const) {
+            if (on) byId(id).setAttribute("aria-current", "page");
+            else byId(id).removeAttribute("aria-current");
+        }
+        const first = morph?.shares.find(({ weight }) => weight > 0)?.id ?? this.settings.mix.split(/[:,]/)[0];
+        const other = this.gallery.species.find(({ id }) => id !== first)?.id;
+        byId("mode-species").setAttribute("href", `?species=${first}`);
+        byId("mode-morph").setAttribute("href", morph ? location.search : `?morph=${first}:0.5,${other}:0.5`);
+        byId("variety").hidden = !morph;
+        this.gallery.letter(morph?.shares.map(({ id }) => id) ?? []);
+    }
+
+    private sheetChanged(kind: SheetKind | undefined): void {
+        const query = new URLSearchParams(location.search);
+        if ((query.get("sheet") ?? undefined) === kind) return;
+        this.flushAddress();
+        const address = this.settings.pageQuery(query) + (kind ? `&sheet=${kind}` : "");
+        history[kind ? "pushState" : "replaceState"](null, "", address);
+    }
+
+    private save(blob: Blob, name: string): void {
+        const address = URL.createObjectURL(blob);
+        make("a", { href: address, download: name }).click();
+        setTimeout(() => URL.revokeObjectURL(address), 10_000);
+        say(`${name} saved`);
+    }
+
     private changed(name: string): void {
         this.writeAddress(name);
+        if (name === "age") this.bench.readGraph();
         this.controls.show();
         this.markLod();
         this.showFaults([]);
@@ -129,7 +214,9 @@ class Page {
     private begin(refit: boolean): void {
         this.controls.clearFaults();
         this.showFaults([]);
-        this.gallery.mark(this.settings.mix);
+        this.gallery.mark(this.settings.morph?.shares.map(({ id }) => id).join(",") ?? this.settings.mix);
+        this.showMode();
+        this.bench.show();
         this.controls.show(undefined);
         this.markLod();
         this.showNames();
@@ -168,14 +255,19 @@ class Page {
         this.writing = undefined;
         const query = new URLSearchParams(location.search);
         const asked = query.get("species");
-        const mix = asked && this.canShow(asked) ? asked : (this.gallery.species[0]?.id ?? "");
-        const refit = mix !== this.settings.mix || !this.grown;
+        const before = this.settings.mix;
+        const faults = this.settings.readMorph(query, (id) => this.gallery.find(id) !== undefined);
+        const mix = this.settings.morph ? this.settings.mix : asked && this.canShow(asked) ? asked : (this.gallery.species[0]?.id ?? "");
+        const refit = mix !== before || !this.grown;
         this.settings.mix = mix;
-        const faults = this.settings.read(query);
+        faults.push(...this.settings.read(query));
         this.written = undefined;
         this.begin(refit);
         if (asked && asked !== mix) faults.push({ parameter: "species", detail: `'${asked}' is no species here` });
         this.showFaults(faults);
+        const sheet = query.get("sheet");
+        if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) this.sheet.show(sheet);
+        else this.sheet.close();
     }
 
     /** Whether all members of a mix are species of this server. */
@@ -188,18 +280,25 @@ class Page {
         this.faults = faults;
         if (faults.length === 0) return showProblem(undefined);
         const title = faults.length === 1 ? "One setting of the address was left out" : `${faults.length} settings of the address were left out`;
-        showProblem(new RequestFailed(title, "", 0, faults), this.controls);
+        showProblem(new RequestFailed(title, "", 0, faults), this.place);
     }
 
     private async show(grown: Grown, refit: boolean, current: () => boolean): Promise<boolean> {
         if (!(await this.stage.show(grown.model, refit, current))) return false;
         this.grown = grown;
+        if (grown.draft) this.paint.dress(paintOf(grown.model));
+        else this.paint.adopt(grown.model);
+        this.bench.accept();
         if (!grown.draft) this.controls.clearFaults();
         this.showFaults(this.faults);
         this.showNumbers(grown);
         this.showDimensions();
         for (const id of ["download", "copy-url", "copy-curl"]) {
             byId<HTMLButtonElement>(id).disabled = grown.draft;
+        }
+        if (grown.wanted.body !== undefined) {
+            // Own arcs are told in a request's body: no URL says them.
+            byId<HTMLButtonElement>("copy-url").disabled = !grown.answer.response.headers.has("content-location");
         }
         if (!grown.draft) {
             const { triangles } = countsOf(grown.model);
@@ -209,7 +308,7 @@ class Page {
     }
 
     private failed(error: RequestFailed): void {
-        showProblem(error, this.controls, () => {
+        showProblem(error, this.place, () => {
             showProblem(undefined);
             this.grower.final();
         });
@@ -217,14 +316,18 @@ class Page {
     }
 
     private showNames(): void {
-        const members = this.settings.mix.split(",").map((member) => member.split(":")[0] ?? "");
-        const known = members.map((id) => this.gallery.find(id));
-        const common = known.map((one, index) => one?.common_name ?? words(members[index] ?? ""));
-        const latin = known.map((one, index) => one?.scientific_name ?? words(members[index] ?? ""));
-        byId("common-name").textContent = common.join(" × ");
-        byId("scientific-name").textContent = latin.join(" × ");
-        byId("facts").textContent = known.length === 1 && known[0] ? factLine(known[0]) : "";
-        document.title = `${common.join(" × ")} · Sporeprint`;
+        const shares = readShares(this.settings.mix) ?? [];
+        const members = shares.map(({ id }) => ({ id, known: this.gallery.find(id) }));
+        const common = members.map(({ id, known }) => known?.common_name ?? words(id));
+        const latin = members.map(({ id, known }) => known?.scientific_name ?? words(id));
+        const lone = members.length === 1 ? members[0]?.known : undefined;
+        const title = common.length > 2 ? `Morph of ${common.length} species` : common.join(" × ");
+        byId("common-name").textContent = title;
+        byId("scientific-name").textContent = common.length > 2 ? "" : latin.join(" × ");
+        byId("facts").textContent = lone
+            ? factLine(lone)
+            : shares.map(({ weight }, index) => `${Number((weight * 100).toFixed(1))} % ${common[index]}`).join(" · ");
+        document.title = `${title} · Sporeprint`;
     }
 
     private showDimensions(): void {
@@ -337,8 +440,15 @@ class Page {
 
     /** Canonical URL of what is shown, absolute. */
     private canonical(): string {
-        const { answer, address } = this.grown!;
-        return new URL(answer.response.headers.get("content-location") ?? address, location.href).href;
+        const { answer, wanted } = this.grown!;
+        return new URL(answer.response.headers.get("content-location") ?? wanted.address, location.href).href;
+    }
+
+    private curl(): string {
+        const { answer, wanted } = this.grown!;
+        const posted = wanted.body !== undefined && !answer.response.headers.has("content-location");
+        const data = posted ? ` -H 'Content-Type: application/json' -d '${wanted.body}'` : "";
+        return `curl -o '${this.fileName()}'${data} '${this.canonical()}'`;
     }
 
     private fileName(): string {
@@ -358,15 +468,11 @@ class Page {
         };
         byId("download").addEventListener("click", () => {
             if (!this.grown) return;
-            const blob = new Blob([this.grown.answer.bytes], { type: "model/gltf-binary" });
-            const address = URL.createObjectURL(blob);
-            make("a", { href: address, download: this.fileName() }).click();
-            setTimeout(() => URL.revokeObjectURL(address), 10_000);
-            say(`${this.fileName()} saved`);
+            this.save(new Blob([this.grown.answer.bytes], { type: "model/gltf-binary" }), this.fileName());
         });
         byId("copy-url").addEventListener("click", () => void copy(this.canonical(), "URL"));
         byId("copy-curl").addEventListener("click", () =>
-            void copy(`curl -o '${this.fileName()}' '${this.canonical()}'`, "curl command"));
+            void copy(this.curl(), "curl command"));
         const file = byId<HTMLInputElement>("file");
         byId("open").addEventListener("click", () => file.click());
         file.addEventListener("change", () => {
@@ -412,6 +518,7 @@ class Page {
                 throw new RequestFailed(`${file.name} is not a mushroom of this page`, canonical ? `It was made by ${canonical}` : "It names no recipe.", 0);
             }
             const refit = mix !== this.settings.mix;
+            this.settings.setMorph(undefined);
             this.settings.mix = mix;
             const faults = this.settings.read(address.searchParams);
             this.writeAddress("file");
@@ -422,7 +529,7 @@ class Page {
             const failed = error instanceof RequestFailed
                 ? error
                 : new RequestFailed(`${file.name} could not be read`, error instanceof Error ? error.message : "", 0);
-            showProblem(failed, this.controls);
+            showProblem(failed, this.place);
             say(failed.message);
         }
     }
@@ -442,6 +549,11 @@ class Page {
         await makeThumbnails(models, (id, picture) => this.gallery.picture(id, picture), this.thumbnails.signal);
         document.documentElement.dataset["gallery"] = "complete";
     }
+}
+
+/** A click that means this window. */
+function plainClick(event: MouseEvent): boolean {
+    return !(event.ctrlKey || event.metaKey || event.shiftKey || event.altKey);
 }
 
 /** Day: ink on paper. Dusk: the same sheet on the forest floor. */

@@ -1,6 +1,7 @@
 // A parsed GLB on its way to the stage and off it again: reading, measuring, counting, freeing.
 import { Box3, Mesh, Texture, type Material, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import type { Paint } from "./paint";
 
 export interface Counts {
     triangles: number;
@@ -33,9 +34,18 @@ export function texturesOf(model: Object3D): Set<Texture> {
     return textures;
 }
 
-/** Reads GLB bytes; linked images are fetched from this server. */
-export async function parseModel(bytes: ArrayBuffer): Promise<Object3D> {
-    const { scene } = await new GLTFLoader().parseAsync(bytes, `${location.origin}/`);
+/** Addresses of the linked images that a model lent its paint still waits for, by what they are. */
+export function paintOf(model: Object3D): Map<string, string> {
+    return (model.userData["paint"] as Map<string, string> | undefined) ?? new Map<string, string>();
+}
+
+/** Reads GLB bytes; linked images are fetched from this server, or with `paint` lent now and fetched later. */
+export async function parseModel(bytes: ArrayBuffer, paint?: Paint): Promise<Object3D> {
+    const loader = new GLTFLoader();
+    const late = new Map<string, string>();
+    if (paint) loader.register(paint.plugin(late));
+    const { scene } = await loader.parseAsync(bytes, `${location.origin}/`);
+    scene.userData["paint"] = late;
     for (const mesh of meshesOf(scene)) {
         mesh.castShadow = true;
         mesh.receiveShadow = true;
@@ -72,8 +82,11 @@ export function setWireframe(model: Object3D, shown: boolean): void {
 /** Frees all that a model holds on the graphics card, and its decoded images. */
 export function disposeModel(model: Object3D): void {
     for (const texture of texturesOf(model)) {
+        // Paint that drafts share stays; of a finished model's texture only the image goes on living.
+        if (texture.userData["shared"] && !texture.userData["lent"]) continue;
         const image: unknown = texture.image;
         texture.dispose();
+        if (texture.userData["lent"]) continue;
         if (typeof ImageBitmap !== "undefined" && image instanceof ImageBitmap) image.close();
     }
     for (const mesh of meshesOf(model)) {

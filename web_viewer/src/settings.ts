@@ -1,5 +1,7 @@
 // What the person asks for: a species (or a mix) and the parameters that differ from what the
 // server would take anyway. It is written to and read from the page's URL and the service's URLs.
+import { arcsText, readArcs, type Arc } from "./arcs";
+import { canonicalMix, fewestMembers, mostMembers, readShares, sharesText, type Share } from "./mix";
 import { fault, parsed, type Field, type Value } from "./schema";
 
 export interface Fault {
@@ -10,11 +12,28 @@ export interface Fault {
 /** A mix as the service spells it: "boletus_edulis" or "a:0.7,b:0.3". */
 export const mixPattern = /^[a-z0-9_]+(:[0-9.eE+-]+)?(,[a-z0-9_]+(:[0-9.eE+-]+)?){0,7}$/;
 
+/** What stands on the morph bench: every share, also those of nothing, and the designer's arcs between two. */
+export interface Morph {
+    shares: readonly Share[];
+    arcs: readonly Arc[];
+}
+
+/** What is asked of the service. */
+export interface Wanted {
+    address: string;
+    /** JSON, where own arcs have to be told. */
+    body: string | undefined;
+    /** Tells one model from another. */
+    key: string;
+}
+
 /** The page's own query names, which are no parameters of a mushroom. */
-const pageNames = new Set(["species", "shot"]);
+const pageNames = new Set(["species", "shot", "morph", "arcs", "sheet"]);
 
 export class Settings {
     mix: string;
+    /** While the bench is open; `mix` is then what its shares make. */
+    morph: Morph | undefined;
     readonly values = new Map<string, Value>();
 
     constructor(readonly fields: readonly Field[], mix: string) {
@@ -55,10 +74,42 @@ export class Settings {
         return parts.join("&");
     }
 
+    /** The values that differ, as the JSON body of a request: dotted names become objects. */
+    private nested(replaced: ReadonlyMap<string, Value>): Record<string, unknown> {
+        const out: Record<string, unknown> = {};
+        for (const field of this.fields) {
+            const value = replaced.get(field.name) ?? this.values.get(field.name);
+            if (value === undefined || (!field.fromSpecies && value === field.fallback)) continue;
+            const path = field.name.split(".");
+            let at = out;
+            for (const part of path.slice(0, -1)) at = (at[part] ??= {}) as Record<string, unknown>;
+            at[path.at(-1)!] = value;
+        }
+        return out;
+    }
+
     /** Address of the model, ".glb" or ".json". */
     address(suffix: ".glb" | ".json", replaced?: ReadonlyMap<string, Value>): string {
         const query = this.query(replaced);
         return `/v1/mushrooms/${this.mix}${suffix}${query ? `?${query}` : ""}`;
+    }
+
+    setMorph(morph: Morph | undefined): void {
+        this.morph = morph;
+        if (morph) this.mix = canonicalMix(morph.shares);
+    }
+
+    /** The model, with the designer's own arcs where there are any. */
+    wanted(replaced: ReadonlyMap<string, Value> = new Map()): Wanted {
+        const [a, b] = this.morph?.shares ?? [];
+        const between = this.morph?.shares.length === 2 && a && b && a.weight > 0 && b.weight > 0;
+        if (!between || !this.morph?.arcs.length) {
+            const address = this.address(".glb", replaced);
+            return { address, body: undefined, key: address };
+        }
+        const address = `/v1/morphs/${a.id}/${b.id}.glb`;
+        const body = JSON.stringify({ t: b.weight, arcs: this.morph.arcs, ...this.nested(replaced) });
+        return { address, body, key: address + body };
     }
 
     /** What a drag asks for: linked textures and at most the second level of detail. */
@@ -81,7 +132,27 @@ export class Settings {
     pageQuery(kept: URLSearchParams): string {
         const query = this.query();
         const shot = kept.get("shot");
-        return `?species=${this.mix}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
+        const arcs = this.morph?.shares.length === 2 && this.morph.arcs.length ? `&arcs=${arcsText(this.morph.arcs)}` : "";
+        const what = this.morph ? `morph=${sharesText(this.morph.shares)}${arcs}` : `species=${this.mix}`;
+        return `?${what}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
+    }
+
+    /** Reads the bench's part of the page's query; `known` says whether a species is there. */
+    readMorph(query: URLSearchParams, known: (id: string) => boolean): Fault[] {
+        this.morph = undefined;
+        const text = query.get("morph");
+        if (text === null) return [];
+        const shares = readShares(text);
+        if (!shares) return [{ parameter: "morph", detail: `'${text}' is no list of species and their shares` }];
+        const stranger = shares.find(({ id }) => !known(id));
+        if (stranger) return [{ parameter: "morph", detail: `'${stranger.id}' is no species here` }];
+        if (shares.length < fewestMembers || shares.length > mostMembers) {
+            return [{ parameter: "morph", detail: `a morph has ${fewestMembers} to ${mostMembers} species` }];
+        }
+        const written = query.get("arcs") ?? "";
+        const arcs = shares.length === 2 ? readArcs(written) : undefined;
+        this.setMorph({ shares, arcs: arcs ?? [] });
+        return arcs || written === "" ? [] : [{ parameter: "arcs", detail: `'${written}' are no arcs between two species` }];
     }
 
     /** Reads a query of the page or of a canonical URL; returns what it could not use. */

@@ -1,20 +1,11 @@
 // Takes the gallery's pictures: small models, one after the other, on one renderer off the page.
 // They are kept in Cache Storage under the model's ETag, so that a second visit draws nothing.
-import { PerspectiveCamera, Sphere, Vector3, type Scene, type WebGLRenderer, type DirectionalLight } from "three";
-import { fittingDistance, viewDirections } from "./camera";
 import { getModel, send } from "./http";
-import { boundsOf, disposeModel, parseModel } from "./model";
-import { aimSun, litScene } from "./stage";
+import { disposeModel, parseModel } from "./model";
+import { Studio } from "./studio";
 
 const cacheName = "sporeprint-thumbnails-1";
 const pixels = 192;
-
-interface Studio {
-    renderer: WebGLRenderer;
-    scene: Scene;
-    sun: DirectionalLight;
-    canvas: HTMLCanvasElement;
-}
 
 /** Cache Storage is there on https and on this machine only; without it pictures are just drawn again. */
 async function openCache(): Promise<Cache | undefined> {
@@ -44,23 +35,10 @@ async function keep(cache: Cache, id: string, version: string, picture: Blob): P
 
 async function photograph(studio: Studio, bytes: ArrayBuffer): Promise<Blob> {
     const model = await parseModel(bytes);
-    const camera = new PerspectiveCamera(24, 1, 0.001, 100);
-    const bounds = boundsOf(model);
-    const ball = bounds.getBoundingSphere(new Sphere());
-    const direction = viewDirections["three-quarter"];
-    const distance = fittingDistance(bounds, direction, camera, { x: 0.08, y: 0.08 });
-    camera.position.copy(direction).multiplyScalar(distance).add(ball.center);
-    camera.near = distance / 50;
-    camera.far = distance * 10;
-    camera.lookAt(bounds.getCenter(new Vector3()));
-    camera.updateProjectionMatrix();
-    aimSun(studio.sun, ball);
-    studio.scene.add(model);
-    studio.renderer.render(studio.scene, camera);
+    const canvas = studio.photograph(model, { view: "three-quarter", margin: { x: 0.08, y: 0.08 } });
     const picture = await new Promise<Blob>((resolve, reject) => {
-        studio.canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/webp", 0.9);
+        canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/webp", 0.9);
     });
-    studio.scene.remove(model);
     disposeModel(model);
     return picture;
 }
@@ -84,13 +62,8 @@ export async function makeThumbnails(
                     done(id, URL.createObjectURL(await kept.blob()));
                     continue;
                 }
-                const answer = await getModel(address, signal, () => undefined);
-                if (!studio) {
-                    const canvas = document.createElement("canvas");
-                    studio = { canvas, ...litScene(canvas, true) };
-                    studio.renderer.setSize(pixels, pixels, false);
-                    studio.sun.shadow.mapSize.set(512, 512);
-                }
+                const answer = await getModel({ address }, signal);
+                studio ??= new Studio(pixels);
                 const picture = await photograph(studio, answer.bytes);
                 done(id, URL.createObjectURL(picture));
                 const version = versionOf(answer.response);
@@ -100,10 +73,6 @@ export async function makeThumbnails(
             }
         }
     } finally {
-        if (studio) {
-            studio.scene.environment?.dispose();
-            studio.renderer.dispose();
-            studio.renderer.forceContextLoss();
-        }
+        studio?.dispose();
     }
 }

@@ -1,0 +1,387 @@
+// The morph bench: two to five species, a point or a slider between them, and for two of them the graph of
+// correspondence between their outlines. It changes `settings.morph`; main.ts grows what that says.
+import { crossing, matched, mostArcs, rounded, widestGap, type Arc, type CurveName } from "./arcs";
+import { byId, make } from "./dom";
+import type { Species } from "./gallery";
+import { Graph, type Correspondence } from "./graph";
+import { History } from "./history";
+import { getJson, type ProblemItem } from "./http";
+import { fewestMembers, mostMembers, reweighted, thousandths, type Share } from "./mix";
+import { letterOf, Pad } from "./pad";
+import type { Settings } from "./settings";
+import { words } from "./schema";
+
+export interface BenchEvents {
+    /** The morph is being changed: a rough model soon. */
+    moving: () => void;
+    /** It was let go; `name` is what was changed. */
+    moved: (name: string) => void;
+    /** Another set of species. */
+    chosen: () => void;
+    say: (text: string) => void;
+}
+
+/** How long a key must rest before the whole model is asked for. */
+const keyRestMs = 350;
+
+export class Bench {
+    private readonly pad: Pad;
+    private readonly graph: Graph;
+    private readonly slider = make("input", {
+        type: "range", id: "morph-t", name: "t", min: 0, max: 1, step: 0.01, "aria-label": "From A to B",
+    });
+    private readonly history = new History<readonly Arc[]>([]);
+    private selected: number | undefined;
+    private refused = new Map<number, string>();
+    private rest: ReturnType<typeof setTimeout> | undefined;
+    private known: { address: string; answer: Correspondence } | undefined;
+    private asking: { address: string; stop: AbortController } | undefined;
+    private readonly curve = make("select", { id: "arc-curve", "aria-label": "Sub-curve of a new arc" });
+    private readonly buttons: Record<"add" | "remove" | "undo" | "redo" | "reset", HTMLButtonElement>;
+
+    constructor(
+        private readonly settings: Settings,
+        private readonly species: readonly Species[],
+        private readonly events: BenchEvents,
+    ) {
+        this.pad = new Pad({
+            moving: (weights) => this.weigh(weights, false),
+            moved: (weights) => this.weigh(weights, true),
+        });
+        this.slider.addEventListener("input", () => {
+            const t = Number(this.slider.value);
+            this.weigh([1 - t, t], false);
+        });
+        this.slider.addEventListener("change", () => this.letGo("t"));
+        byId("weights").append(this.pad.element, make("div", { class: "between" }, make("b", { "aria-hidden": true }, "A"), this.slider, make("b", { "aria-hidden": true }, "B")));
+        this.graph = new Graph({
+            change: (arcs, settled) => this.changeArcs(arcs, settled),
+            select: (index) => {
+                this.selected = index;
+                this.showGraph();
+            },
+        });
+        const button = (label: string, title: string, act: () => void): HTMLButtonElement => {
+            const made = make("button", { type: "button", title }, label);
+            made.addEventListener("click", act);
+            return made;
+        };
+        this.buttons = {
+            add: button("Add arc", "Or double-click an outline", () => this.addArc()),
+            remove: button("Remove", "Takes the picked arc away (Delete)", () => this.removeArc()),
+            undo: button("Undo", "Ctrl+Z", () => this.travel(this.history.undo())),
+            redo: button("Redo", "Ctrl+Shift+Z", () => this.travel(this.history.redo())),
+            reset: button("Reset", "Takes all own arcs away", () => this.commit([])),
+        };
+        // On a narrow page the graph follows the weights, so that the mushroom stays in sight.
+        const narrow = matchMedia("(max-width: 900px)");
+        const place = (): void => {
+            if (narrow.matches) byId("bench").after(byId("graph"));
+            else document.querySelector("main")?.append(byId("graph"));
+        };
+        narrow.addEventListener("change", place);
+        place();
+        byId("graph-drawing").append(this.graph.element);
+        byId("graph-tools").append(this.curve, ...Object.values(this.buttons));
+        byId("graph").addEventListener("keydown", (event) => this.onGraphKey(event));
+    }
+
+    /** Chooses a species or takes it off the pad; says why when neither can be. */
+    toggle(id: string): void {
+        const shares = this.settings.morph?.shares ?? [];
+        const kept = shares.filter((share) => share.id !== id);
+        if (kept.length === shares.length) {
+            if (shares.length >= mostMembers) return this.events.say(`A morph has at most ${mostMembers} species: take one off first`);
+            this.choose([...shares, { id, weight: 0 }]);
+        } else {
+            if (kept.length < fewestMembers) return this.events.say(`A morph needs ${fewestMembers} species: choose another one first`);
+            this.choose(kept);
+        }
+    }
+
+    /** Opens with these shares; fewer than two are joined by what comes next in the gallery. */
+    enter(shares: readonly Share[]): void {
+        const chosen = shares.slice(0, mostMembers);
+        const start = this.species.findIndex(({ id }) => id === chosen[0]?.id);
+        for (let step = 1; chosen.length < fewestMembers && step <= this.species.length; ++step) {
+            const next = this.species[(start + step + this.species.length) % this.species.length];
+            if (next && !chosen.some(({ id }) => id === next.id)) chosen.push({ id: next.id, weight: 0 });
+        }
+        if (chosen.length < fewestMembers) return this.events.say("This server has too few species for a morph");
+        const alone = chosen.length === fewestMembers && shares.length < fewestMembers;
+        this.choose(alone ? chosen.map(({ id }) => ({ id, weight: 0.5 })) : chosen);
+    }
+
+    /** Brings everything to the settings. */
+    show(): void {
+        const morph = this.settings.morph;
+        byId("bench").hidden = !morph;
+        byId("graph").hidden = morph?.shares.length !== 2;
+        this.history.begin(morph?.arcs ?? []);
+        this.selected = undefined;
+        this.refused.clear();
+        this.showWeights();
+        this.readGraph();
+    }
+
+    /** Weights only: while something moves. */
+    showWeights(): void {
+        const morph = this.settings.morph;
+        if (!morph) return;
+        const { shares } = morph;
+        const names = shares.map(({ id }) => this.nameOf(id));
+        const two = shares.length === 2;
+        this.pad.element.style.display = two ? "none" : "";
+        this.slider.parentElement!.hidden = !two;
+        if (two) {
+            const t = shares[1]!.weight;
+            this.slider.value = String(t);
+            this.slider.style.setProperty("--to", `${t * 100}%`);
+            this.slider.setAttribute("aria-valuetext", names.map((name, index) => `${name} ${Math.round(shares[index]!.weight * 100)} %`).join(", "));
+        } else {
+            this.pad.show(names, shares.map(({ weight }) => weight));
+        }
+        this.showMembers(names, shares);
+    }
+
+    /** The age or another setting changed: outlines may be others. */
+    readGraph(): void {
+        const address = this.graphAddress();
+        if (!address) {
+            this.asking?.stop.abort();
+            this.asking = undefined;
+            return;
+        }
+        if (this.known?.address === address || this.asking?.address === address) return this.showGraph();
+        this.asking?.stop.abort();
+        const asking = { address, stop: new AbortController() };
+        this.asking = asking;
+        if (this.known && !this.known.address.startsWith(address.split("?")[0] ?? "")) this.known = undefined;
+        this.showGraph();
+        byId("graph").setAttribute("aria-busy", "true");
+        getJson<Correspondence>(address, asking.stop.signal).then((answer) => {
+            if (this.asking !== asking) return;
+            this.known = { address, answer: this.turned(answer) };
+            this.tell("");
+        }, (error: unknown) => {
+            if (this.asking !== asking) return;
+            this.known = undefined;
+            this.tell(error instanceof Error ? error.message : "The outlines could not be read");
+        }).finally(() => {
+            if (this.asking !== asking) return;
+            this.asking = undefined;
+            byId("graph").removeAttribute("aria-busy");
+            this.showGraph();
+        });
+    }
+
+    /** Resolves once the graph shows the settings. */
+    async settled(): Promise<void> {
+        while (this.asking || this.rest !== undefined) await new Promise((resolve) => setTimeout(resolve, 20));
+    }
+
+    /** What stands against an arc, in the service's words; false when it is about something else. */
+    fail({ parameter, detail }: ProblemItem): boolean {
+        const index = /^\/?arcs[/.](\d+)/.exec(parameter)?.[1];
+        if (index === undefined || !this.settings.morph?.arcs[Number(index)]) return false;
+        this.refused.set(Number(index), detail);
+        this.showGraph();
+        return true;
+    }
+
+    /** The model of these settings was grown: nothing is refused. */
+    accept(): void {
+        if (this.refused.size === 0) return;
+        this.refused.clear();
+        this.showGraph();
+    }
+
+    private nameOf(id: string): string {
+        return this.species.find((one) => one.id === id)?.common_name ?? words(id);
+    }
+
+    private choose(shares: readonly Share[]): void {
+        const sum = shares.reduce((all, { weight }) => all + weight, 0);
+        const even = shares.map(({ id }) => ({ id, weight: 1 / shares.length }));
+        const joined = shares.some(({ weight }) => weight === 0) && sum > 0;
+        this.settings.setMorph({ shares: joined || sum <= 0 ? even : shares.map(({ id, weight }) => ({ id, weight: weight / sum })), arcs: [] });
+        this.events.chosen();
+    }
+
+    private weigh(weights: readonly number[], letGo: boolean): void {
+        const morph = this.settings.morph;
+        if (!morph) return;
+        const parts = thousandths(weights);
+        this.settings.setMorph({
+            ...morph,
+            shares: morph.shares.map(({ id }, index) => ({ id, weight: (parts[index] ?? 0) / 1000 })),
+        });
+        this.showWeights();
+        this.events.moving();
+        if (letGo) this.letGo("weights");
+    }
+
+    private letGo(name: string): void {
+        clearTimeout(this.rest);
+        this.rest = setTimeout(() => {
+            this.rest = undefined;
+            this.events.moved(name);
+        }, this.slider.matches(":active") || name === "pointer" ? 0 : keyRestMs);
+    }
+
+    private showMembers(names: readonly string[], shares: readonly Share[]): void {
+        const list = byId("members");
+        const ids = shares.map(({ id }) => id).join(",");
+        if (list.dataset["ids"] !== ids) {
+            list.dataset["ids"] = ids;
+            list.replaceChildren(...shares.map(({ id }, index) => this.member(id, index, names[index] ?? "")));
+        }
+        [...list.children].forEach((row, index) => {
+            const entry = row.querySelector("input");
+            const percent = String(Math.round((shares[index]?.weight ?? 0) * 1000) / 10);
+            if (entry && (entry !== document.activeElement || Number(entry.value) !== Number(percent))) entry.value = percent;
+            (row as HTMLElement).style.setProperty("--share", `${percent}%`);
+        });
+    }
+
+    private member(id: string, index: number, name: string): HTMLElement {
+        const entry = make("input", {
+            type: "number", min: 0, max: 100, step: "any", inputmode: "decimal", "aria-label": `Share of ${name}, percent`, "data-share": id,
+        });
+        entry.addEventListener("change", () => {
+            const percent = Number(entry.value);
+            const shares = this.settings.morph?.shares ?? [];
+            if (entry.value === "" || !(percent >= 0 && percent <= 100)) {
+                this.events.say(`A share is between 0 and 100 %`);
+                return this.showWeights();
+            }
+            this.weigh(reweighted(shares, index, percent / 100).map(({ weight }) => weight), true);
+        });
+        const alone = make("button", { type: "button", class: "letter", title: `Only ${name}`, "aria-label": `Only ${name}` }, letterOf(index));
+        alone.addEventListener("click", () => this.weigh((this.settings.morph?.shares ?? []).map((_, at) => (at === index ? 1 : 0)), true));
+        const off = make("button", { type: "button", class: "off", title: `Take ${name} off`, "aria-label": `Take ${name} off` }, "×");
+        off.addEventListener("click", () => this.toggle(id));
+        return make("li", { "data-member": index }, alone, make("span", { class: "member" }, name), entry, make("span", { class: "unit", "aria-hidden": true }, "%"), off);
+    }
+
+    // The graph
+
+    private graphAddress(): string | undefined {
+        const shares = this.settings.morph?.shares;
+        if (shares?.length !== 2) return undefined;
+        const age = this.settings.values.get("age");
+        return `/v1/morphs/${shares[0]!.id}/${shares[1]!.id}${age === undefined ? "" : `?age=${age}`}`;
+    }
+
+    /** The service may answer for b and a: the graph has A on the left. */
+    private turned(answer: Correspondence): Correspondence {
+        if (answer.a === this.settings.morph?.shares[0]?.id) return answer;
+        return {
+            ...answer,
+            a: answer.b,
+            b: answer.a,
+            outlines: { a: answer.outlines.b, b: answer.outlines.a },
+            arcs: answer.arcs.map(({ curve, a, b }) => ({ curve, a: b, b: a })),
+        };
+    }
+
+    private tell(problem: string): void {
+        const box = byId("graph-problem");
+        box.textContent = problem;
+        box.hidden = problem === "";
+    }
+
+    private showGraph(): void {
+        const morph = this.settings.morph;
+        if (morph?.shares.length !== 2) return;
+        const names: [string, string] = [this.nameOf(morph.shares[0]!.id), this.nameOf(morph.shares[1]!.id)];
+        this.graph.show(this.known?.answer, names);
+        this.graph.showArcs(morph.arcs, new Set(this.refused.keys()), this.selected);
+        const shared = this.graph.shared;
+        if ([...this.curve.options].map(({ value }) => value).join() !== shared.join()) {
+            this.curve.replaceChildren(...shared.map((curve) => make("option", { value: curve }, words(curve))));
+            if (shared.includes("cap")) this.curve.value = "cap";
+        }
+        const { add, remove, undo, redo, reset } = this.buttons;
+        add.disabled = shared.length === 0 || morph.arcs.length >= mostArcs;
+        remove.disabled = this.selected === undefined || !morph.arcs[this.selected];
+        undo.disabled = !this.history.undoable;
+        redo.disabled = !this.history.redoable;
+        reset.disabled = morph.arcs.length === 0;
+        if (this.known || this.refused.size > 0) this.tell(this.refusal(morph.arcs));
+        byId("graph-state").textContent = this.state(morph.arcs);
+    }
+
+    private refusal(arcs: readonly Arc[]): string {
+        return [...this.refused].map(([index, detail]) => `Arc ${index + 1} (${arcs[index]?.curve ?? ""}) is refused: ${detail}`).join(" ");
+    }
+
+    private state(arcs: readonly Arc[]): string {
+        const answer = this.known?.answer;
+        if (!answer) return this.asking ? "Reading the outlines…" : "";
+        const proof = answer.certificate?.simple ? ", proven not to fold" : "";
+        const own = arcs.length ? `, ${arcs.length} of yours` : "";
+        return `${answer.arcs.length} arcs found${own}${arcs.length ? "" : proof}`;
+    }
+
+    private changeArcs(arcs: readonly Arc[], settled: boolean): void {
+        const morph = this.settings.morph;
+        if (!morph) return;
+        const now = arcs.map((arc) => ({ ...arc }));
+        if (settled) return this.commit(now);
+        this.settings.setMorph({ ...morph, arcs: now });
+        // A crossing arc would be refused: that is asked once it is let go.
+        if (!crossing(now).includes(true)) this.events.moving();
+    }
+
+    private commit(arcs: readonly Arc[]): void {
+        this.history.push(arcs);
+        this.travel(arcs);
+    }
+
+    private travel(arcs: readonly Arc[]): void {
+        const morph = this.settings.morph;
+        if (!morph) return;
+        this.settings.setMorph({ ...morph, arcs: arcs.map((arc) => ({ ...arc })) });
+        this.refused.clear();
+        if (this.selected !== undefined && !arcs[this.selected]) this.selected = undefined;
+        this.showGraph();
+        if (!crossing(arcs).includes(true)) this.events.moving();
+        this.letGo("arcs");
+    }
+
+    private addArc(): void {
+        const arcs = this.settings.morph?.arcs ?? [];
+        const gap = widestGap(arcs, this.curve.value as CurveName);
+        const a = rounded(gap.a);
+        const guided = rounded(matched(this.graph.guides, gap.curve, a, "a"));
+        const free = arcs.every((arc) => arc.curve !== gap.curve || (arc.a - a) * (arc.b - guided) > 0);
+        this.selected = arcs.length;
+        this.commit([...arcs, { curve: gap.curve, a, b: free ? guided : rounded(gap.b) }]);
+        this.graph.focusEnd(arcs.length);
+        this.events.say(`Arc ${arcs.length + 1} added on the ${gap.curve}`);
+    }
+
+    private removeArc(): void {
+        const index = this.selected;
+        const arcs = this.settings.morph?.arcs ?? [];
+        if (index === undefined || !arcs[index]) return;
+        this.selected = undefined;
+        this.commit(arcs.filter((_, at) => at !== index));
+        this.events.say(`Arc ${index + 1} removed`);
+        this.buttons.add.focus();
+    }
+
+    private onGraphKey(event: KeyboardEvent): void {
+        const key = event.key.toLowerCase();
+        if ((event.ctrlKey || event.metaKey) && (key === "z" || key === "y")) {
+            const again = key === "y" || event.shiftKey;
+            if (again ? !this.history.redoable : !this.history.undoable) return;
+            event.preventDefault();
+            this.travel(again ? this.history.redo() : this.history.undo());
+        } else if ((event.key === "Delete" || event.key === "Backspace") && (event.target as Element).closest("[data-side]")) {
+            event.preventDefault();
+            this.removeArc();
+        }
+    }
+}

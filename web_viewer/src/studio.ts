@@ -1,0 +1,69 @@
+// A renderer off the page that takes pictures of models, one after the other: thumbnails and sheets.
+import { Box3, PerspectiveCamera, Sphere, Vector3, type DirectionalLight, type Object3D, type Scene, type WebGLRenderer } from "three";
+import { fittingDistance, viewDirections, type Margin, type ViewName } from "./camera";
+import { ContactShadow } from "./contact_shadow";
+import { boundsOf } from "./model";
+import { aimSun, litScene } from "./stage";
+
+export interface Pose {
+    view: ViewName;
+    /** What has to fit into the picture, metres; the model's own bounds when absent. */
+    frame?: Box3;
+    margin: Margin;
+    /** With the soft shadow of what stands on the ground. */
+    grounded?: boolean;
+}
+
+export class Studio {
+    readonly canvas = document.createElement("canvas");
+    private readonly renderer: WebGLRenderer;
+    private readonly scene: Scene;
+    private readonly sun: DirectionalLight;
+    private readonly camera: PerspectiveCamera;
+    private readonly contact = new ContactShadow();
+
+    /** Pictures are `width` times `height` pixels. */
+    constructor(width: number, height = width) {
+        const { renderer, scene, sun } = litScene(this.canvas, true);
+        this.renderer = renderer;
+        this.scene = scene;
+        this.sun = sun;
+        renderer.setSize(width, height, false);
+        sun.shadow.mapSize.set(512, 512);
+        this.camera = new PerspectiveCamera(24, width / height, 0.001, 100);
+        this.scene.add(this.contact);
+    }
+
+    /** Draws a model on the canvas, on nothing; the picture has to be taken off before the next task. */
+    photograph(model: Object3D, { view, frame, margin, grounded = false }: Pose): HTMLCanvasElement {
+        const bounds = boundsOf(model);
+        const framed = frame ?? bounds;
+        const ball = bounds.getBoundingSphere(new Sphere());
+        const centre = framed.getCenter(new Vector3());
+        const direction = viewDirections[view];
+        const distance = fittingDistance(framed, direction, this.camera, margin);
+        this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
+        this.camera.near = distance / 50;
+        this.camera.far = distance * 10;
+        this.camera.lookAt(centre);
+        this.camera.updateProjectionMatrix();
+        aimSun(this.sun, ball);
+        this.scene.add(model);
+        this.contact.visible = grounded;
+        if (grounded) {
+            const { min, max } = bounds;
+            const half = Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
+            this.contact.position.y = ball.radius * 0.0015;
+            this.contact.update(this.renderer, this.scene, model, half, max.y - min.y);
+        }
+        this.renderer.render(this.scene, this.camera);
+        this.scene.remove(model);
+        return this.canvas;
+    }
+
+    dispose(): void {
+        this.scene.environment?.dispose();
+        this.renderer.dispose();
+        this.renderer.forceContextLoss();
+    }
+}
