@@ -226,7 +226,10 @@ double jump(const Mesh& a, const Mesh& b) {
     worst = std::sqrt(worst);
     if (a.indices != b.indices)
         for (const Mesh& alone : {only_in(a, b), only_in(b, a)})
-            for (const Mesh& piece : pieces(alone)) worst = std::max(worst, extent(piece));
+            for (const Mesh& piece : pieces(alone)) {
+                const double length = extent(piece);
+                if (length > 0.0) worst = std::max(worst, area(piece) / length);
+            }
     return worst;
 }
 

@@ -16,8 +16,9 @@ namespace sporeprint {
 /// cost  O(n) for meshes of like resolution: triangles are found through a grid
 [[nodiscard]] double hausdorff(const Mesh& a, const Mesh& b);
 
-/// What the eye would see jump between two frames of one film, metres: the largest move of a vertex that both show, or the
-/// largest extent of a piece that only one of them shows. Frames with different numbers of vertices: hausdorff().
+/// What the eye would see jump between two frames of one film, metres: the largest move of a vertex that both show, or the mean
+/// width (area over length) of a piece that only one of them shows: a ring is born thin, not short.
+/// Frames with different numbers of vertices: hausdorff().
 [[nodiscard]] double jump(const Mesh& a, const Mesh& b);
 
 /// The triangles of `mesh` that `other` lacks (by their three indices), as a mesh of their own with all vertices.

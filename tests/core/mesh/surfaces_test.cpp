@@ -133,15 +133,16 @@ TEST(Surfaces, AJumpIsTheFarthestMoveOrTheSizeOfWhatAppears) {
     before.positions.emplace_back(9.0f);
     after.positions.emplace_back(-9.0f);
     EXPECT_NEAR(jump(before, after), 0.125, 1e-6);
-    // A new piece of its own, 0.2 x 0.1.
+    // A new piece 0.4 long and 0.1 wide: half of that in the mean.
     for (Mesh* mesh : {&before, &after})
-        for (const glm::vec3 corner : {glm::vec3(2.0f, 0.0f, 0.0f), glm::vec3(2.2f, 0.0f, 0.0f),
+        for (const glm::vec3 corner : {glm::vec3(2.0f, 0.0f, 0.0f), glm::vec3(2.4f, 0.0f, 0.0f),
                                        glm::vec3(2.0f, 0.1f, 0.0f)})
             mesh->positions.push_back(corner);
+    after.positions[25] = before.positions[25];
     const auto n = static_cast<std::uint32_t>(before.positions.size());
     after.indices.insert(after.indices.end(), {n - 3, n - 2, n - 1});
-    EXPECT_NEAR(jump(before, after), std::sqrt(0.05), 1e-6);
-    EXPECT_NEAR(jump(after, before), std::sqrt(0.05), 1e-6);
+    EXPECT_NEAR(jump(before, after), 0.02 / std::sqrt(0.17), 1e-6);
+    EXPECT_NEAR(jump(after, before), 0.02 / std::sqrt(0.17), 1e-6);
     EXPECT_EQ(only_in(after, before).triangles(), 1u);
     EXPECT_EQ(only_in(before, after).triangles(), 0u);
     EXPECT_THROW((void)only_in(before, ball(1.0, 3)), std::invalid_argument);
