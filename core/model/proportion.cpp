@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "core/silhouette/proof.h"
+
 namespace sporeprint {
 
 namespace {

@@ -225,8 +225,9 @@ double jump(const Mesh& a, const Mesh& b) {
                 std::max(worst, squared(glm::dvec3(a.positions[i]) - glm::dvec3(b.positions[i])));
     worst = std::sqrt(worst);
     if (a.indices != b.indices)
-        for (const Mesh& alone : {only_in(a, b), only_in(b, a)})
-            for (const Mesh& piece : pieces(alone)) worst = std::max(worst, extent(piece));
+        for (const bool born : {false, true})
+            for (const Mesh& piece : pieces(born ? only_in(b, a) : only_in(a, b)))
+                worst = std::max(worst, std::min(extent(piece), one_way(piece, born ? a : b)));
     return worst;
 }
 

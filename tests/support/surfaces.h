@@ -17,7 +17,8 @@ namespace sporeprint {
 [[nodiscard]] double hausdorff(const Mesh& a, const Mesh& b);
 
 /// What the eye would see jump between two frames of one film, metres: the largest move of a vertex that both show, or the
-/// largest extent of a piece that only one of them shows. Frames with different numbers of vertices: hausdorff().
+/// largest extent of a piece that only one of them shows, or how far it stands out from what the other shows if that is less
+/// (a ring is born all round the stem, but without width). Frames with different numbers of vertices: hausdorff().
 [[nodiscard]] double jump(const Mesh& a, const Mesh& b);
 
 /// The triangles of `mesh` that `other` lacks (by their three indices), as a mesh of their own with all vertices.
