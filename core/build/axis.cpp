@@ -11,49 +11,9 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int stations = 96;
-constexpr int samples_per_segment = 32;
+constexpr int stations = AxisCurve::stations;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
-
-glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& about, double angle) {
-    const auto [s, c] = sine_cosine(angle);
-    return c * v + s * glm::cross(about, v) + (1.0 - c) * glm::dot(about, v) * about;
-}
-
-/// Unit tangents at equal shares of the arc length.
-std::vector<glm::dvec3> template_tangents(const std::vector<AxisPoint>& controls) {
-    std::vector<glm::dvec3> tangents(stations + 1, glm::dvec3(0.0, 1.0, 0.0));
-    std::vector<glm::dvec3> points;
-    for (const AxisPoint& p : controls) {
-        const glm::dvec3 point(p.x, p.y, p.z);
-        if (points.empty() || points.back() != point) points.push_back(point);
-    }
-    if (points.size() < 2) return tangents;
-    const auto segments = open_spline(points);
-    std::vector<double> arc{0.0};
-    std::vector<glm::dvec3> directions{unit(segments.front().leaving)};
-    glm::dvec3 last = points.front();
-    for (const auto& segment : segments)
-        for (int i = 1; i <= samples_per_segment; ++i) {
-            const auto s = segment.at(static_cast<double>(i) / samples_per_segment);
-            arc.push_back(arc.back() + std::sqrt(glm::dot(s.position - last, s.position - last)));
-            directions.push_back(glm::dot(s.derivative, s.derivative) > 1e-18 ? unit(s.derivative)
-                                                                              : directions.back());
-            last = s.position;
-        }
-    std::size_t k = 1;
-    for (int i = 0; i <= stations; ++i) {
-        const double wanted = arc.back() * i / stations;
-        while (k + 1 < arc.size() && arc[k] < wanted) ++k;
-        const double t = arc[k] > arc[k - 1]
-                             ? std::clamp((wanted - arc[k - 1]) / (arc[k] - arc[k - 1]), 0.0, 1.0)
-                             : 0.0;
-        const glm::dvec3 d = (1.0 - t) * directions[k - 1] + t * directions[k];
-        tangents[static_cast<std::size_t>(i)] = glm::dot(d, d) > 1e-18 ? unit(d) : directions[k];
-    }
-    return tangents;
-}
 
 double zone_share(const DeformationOf<Plain>& d, double share) {
     return std::clamp((share - d.zone_from) / (d.zone_to - d.zone_from), 0.0, 1.0);
@@ -84,10 +44,10 @@ std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3
     return normals;
 }
 
-Axis::Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& deformation,
+Axis::Axis(const AxisCurve& curve, const DeformationOf<Plain>& deformation,
            const AxisAngles& angles, double base, double top)
     : deformation_(deformation), base_(base), top_(top) {
-    std::vector<glm::dvec3> tangents = template_tangents(controls);
+    const std::vector<glm::dvec3> tangents = curve.tangents();
     const auto across = [](double azimuth) {
         const auto [s, c] = sine_cosine(azimuth);
         return glm::dvec3(s, 0.0, -c);  // turning about this tips +Y towards (c, 0, s)

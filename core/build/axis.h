@@ -4,7 +4,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/model/model.h"
+#include "core/model/axis_curve.h"
 
 namespace sporeprint {
 
@@ -32,11 +32,11 @@ struct AxisAngles {
 
 class Axis {
   public:
-    /// controls  spline control points in stem heights, empty for straight; the curve is scaled to the stem's length
+    /// curve     the individual's own, before it bends and leans; it is given the stem's length
     /// base, top heights between which the stem lives, metres, top > base; above the top the frame is frozen, so caps stay rigid
     /// source    [Lazarus1994] axial deformation; [Wang2008] double reflection; zone of influence along the axis
-    Axis(const std::vector<AxisPoint>& controls, const DeformationOf<Plain>& deformation,
-         const AxisAngles& angles, double base, double top);
+    Axis(const AxisCurve& curve, const DeformationOf<Plain>& deformation, const AxisAngles& angles,
+         double base, double top);
 
     [[nodiscard]] AxisStation at(double height) const;
 

@@ -40,8 +40,9 @@ struct Solid {
         false;  ///< the last row meets the first (a ring); else the base is closed by a polygon
 };
 
-/// Appends a solid: normals by area over what shares a place, texture from the veil's strip.
-void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured) {
+/// Appends a solid: normals by area over what shares a place, texture from the veil's strip. Without `drawn` its vertices alone.
+void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured, bool drawn) {
+    const std::size_t indices = mesh.indices.size();
     const int row = solid.columns + 1;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * row + j); };
@@ -96,6 +97,7 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured)
             mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
                                        mirrored ? 1.0F : -1.0F);
         }
+    if (!drawn) mesh.indices.resize(indices);
     if (solid.loops) return;
     // The base, seen from below.
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
@@ -111,22 +113,23 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured)
         mesh.texture_coordinates.emplace_back(uv.u, uv.v);
         mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(0, 1)] - p[at(0, 0)])), 1.0F);
     }
-    for (int j = 1; j + 1 < solid.columns; ++j)
+    for (int j = 1; drawn && j + 1 < solid.columns; ++j)
         mesh.indices.insert(mesh.indices.end(), {base, base + static_cast<std::uint32_t>(j + 1),
                                                  base + static_cast<std::uint32_t>(j)});
 }
 
-/// Adds the pieces of one kind. `on_stem`: positions run up the stem instead of from the apex down.
-void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t purpose,
-              bool on_stem, const Ground& ground) {
-    if (amount <= 0.0 || style.count == 0 || ground.detail.patch_sides == 0) return;
+/// Adds the pieces of one layer.
+void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
+    if (ground.detail.patch_sides == 0) return;
+    const PatchStyle& style = layer.style;
+    // Positions run up the stem, or from the apex down.
+    const bool on_stem = layer.purpose == volva_purpose;
     const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
     const double length = ground.outline.cap.length();
     const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
     Solid solid;
-    for (const Patch& patch : patches(style, ground.seed, purpose)) {
-        const double scale = patch_scale(patch, amount);
-        if (scale <= 0.0) continue;
+    for (const Patch& patch : patches(style, ground.seed, layer.purpose)) {
+        const double scale = layer.weight * patch_scale(patch, layer.amount);
         const OutlineSample at = curve.at(on_stem ? patch.sigma : 1.0 - patch.sigma);
         const auto [s, c] = sine_cosine(patch.theta);
         const glm::dvec3 meridian(at.tangent_r * c, at.tangent_y, at.tangent_r * s),
@@ -144,7 +147,7 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
         solid.rows = between + 2;
         solid.columns = sides;
         solid.corners.clear();
-        Random random(ground.seed, corner_purpose + purpose, patch.id);
+        Random random(ground.seed, corner_purpose + layer.purpose, patch.id);
         // Seven draws whatever the detail; a coarser outline takes some of them, so that its corners lie on the finer one.
         std::array<double, 7> reach{};
         for (double& r : reach) r = random.uniform(0.78, 1.12);
@@ -172,7 +175,7 @@ void add_kind(Mesh& mesh, const PatchStyle& style, double amount, std::uint32_t 
         ground.deformer.apply(solid.corners, station);
         const glm::dvec3 fallback =
             unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
-        append(mesh, solid, fallback, ground.textured);
+        append(mesh, solid, fallback, ground.textured, radius > 0.0 || ground.keep_absent);
     }
 }
 
@@ -188,20 +191,22 @@ OutlineSample stem_at(const SubCurve& stem, double height) {
 
 }  // namespace
 
-void add_patches(Mesh& mesh, const Model& model, const Ground& ground) {
-    add_kind(mesh, model.warts, model.ornaments.warts, wart_purpose, false, ground);
-    add_kind(mesh, model.scales, model.ornaments.scales, scale_purpose, false, ground);
-    add_kind(mesh, model.volva, 1.0, volva_purpose, true, ground);
+int piece_count(const PatchLayer& layer) {
+    return std::abs(layer.style.to - layer.style.from) < least_window ? 0 : layer.style.count;
 }
 
-void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
-    const RingStyle& style = model.ring;
+void add_patches(Mesh& mesh, const Individual& individual, const Ground& ground) {
+    for (const PatchLayer& layer : individual.layers) add_layer(mesh, layer, ground);
+}
+
+void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
+    const RingStyle& style = individual.ring;
     const int rings = ground.detail.veil_rings;
-    if (rings == 0 || style.width <= 0.0 || model.ornaments.ring <= 0.0) return;
+    if (rings == 0 || !individual.has_ring) return;
     const double height =
         ground.deformer.base() + style.height * (ground.deformer.top() - ground.deformer.base());
     const OutlineSample attachment = stem_at(ground.outline.stem, height);
-    const double width = style.width * model.ornaments.ring;
+    const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);
     Random random(ground.seed, ruffle_purpose);
     const int waves = 5 + static_cast<int>(random.bits() % 4);
@@ -248,7 +253,8 @@ void add_ring(Mesh& mesh, const Model& model, const Ground& ground) {
         }
     }
     ground.deformer.apply(solid.corners, station);
-    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured);
+    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured,
+           width > 0.0 || ground.keep_absent);
 }
 
 }  // namespace sporeprint

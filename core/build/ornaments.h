@@ -2,7 +2,7 @@
 #pragma once
 
 #include "core/build/sweep.h"
-#include "core/model/patches.h"
+#include "core/model/individual.h"
 
 namespace sporeprint {
 
@@ -14,12 +14,17 @@ struct Ground {
     const Detail& detail;
     std::uint32_t seed;
     bool textured;
+    bool keep_absent;  ///< whether what has no size keeps its triangles
 };
 
-/// Appends warts, scales and bulb scales, each a closed solid a little sunk into the surface.
-void add_patches(Mesh& mesh, const Model& model, const Ground& ground);
+/// Pieces of a layer: those that are gone too, so that no amount changes the number of vertices.
+[[nodiscard]] int piece_count(const PatchLayer& layer);
 
-/// Appends the ring: a closed thin shell attached to the stem.
-void add_ring(Mesh& mesh, const Model& model, const Ground& ground);
+/// Appends warts, scales and bulb scales, each a closed solid a little sunk into the surface. A piece of which nothing is left
+/// is a point on the surface, with unit normals.
+void add_patches(Mesh& mesh, const Individual& individual, const Ground& ground);
+
+/// Appends the ring: a closed thin shell attached to the stem; a line round it when nothing is left.
+void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground);
 
 }  // namespace sporeprint

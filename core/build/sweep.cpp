@@ -7,6 +7,7 @@
 #include "core/build/ornaments.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/proportion.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
 
@@ -24,12 +25,6 @@ AxisAngles angles_of(std::uint32_t seed) {
     const double bend = random.uniform(0.0, 2.0 * pi);
     const double lean = random.uniform(0.0, 2.0 * pi);
     return {bend, lean};
-}
-
-double greatest_radius(const SubCurve& curve) {
-    double radius = 0.0;
-    for (int i = 0; i <= 32; ++i) radius = std::max(radius, curve.at(i / 32.0).r);
-    return radius;
 }
 
 std::string text(double value) {
@@ -60,8 +55,7 @@ class Sweeper {
         }
     }
 
-    void face(const Face& face, int rings) {
-        const auto samples = face.curve->sampled(rings);
+    void face(const Face& face, const std::vector<OutlineSample>& samples) {
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
         for (const OutlineSample& sample : samples) ring(face, sample);
         const auto row = static_cast<std::uint32_t>(columns_ + 1);
@@ -94,8 +88,9 @@ class Sweeper {
                 const double share = face.part == Part::cap ? 1.0 - sample.share : sample.share;
                 const auto wave = waves_.at(share, phases_[static_cast<std::size_t>(j)]);
                 point.position.y += wave.height;
-                point.meridian.y +=
-                    (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
+                if (length > 0.0)
+                    point.meridian.y +=
+                        (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
                 if (sample.r > 0.0) point.azimuth.y += wave.by_angle / sample.r;
             }
         }
@@ -155,17 +150,20 @@ class Sweeper {
 
 }  // namespace
 
-Deformer::Deformer(const Model& model, const Swept& shape, const Outline& outline,
-                   std::uint32_t seed)
-    : base_(shape.silhouette.stem.front().y),
-      top_(std::max(shape.silhouette.stem.back().y, shape.silhouette.stem.front().y + 1e-4)),
-      axis_(shape.axis, model.deformation, angles_of(seed), base_, top_) {
+Deformer::Deformer(const Individual& individual)
+    : base_(individual.stem_base),
+      top_(std::max(individual.stem_top, individual.stem_base + 1e-4)),
+      axis_(individual.axis, individual.model.deformation, angles_of(individual.effective.seed),
+            base_, top_) {
+    const Model& model = individual.model;
+    const Outline& outline = individual.outline;
+    const std::uint32_t seed = individual.effective.seed;
     const double radius = greatest_radius(outline.stem);
     const double fold = axis_.greatest_curvature() * radius;
     DeformationOf<Plain> unbent = model.deformation;
     unbent.bend_deg = 0.0;
     if (fold >= 0.98 &&
-        Axis(shape.axis, unbent, {}, base_, top_).greatest_curvature() * radius >= 0.98)
+        Axis(individual.axis, unbent, {}, base_, top_).greatest_curvature() * radius >= 0.98)
         throw Impossible({{"/model/axis", "curves so tightly that the stem, " +
                                               text(2000.0 * radius) + " mm wide, folds"}});
     if (fold >= 0.98)
@@ -245,37 +243,37 @@ Waves::Value Waves::at(double share, const Phases& phases) const {
     return value;
 }
 
-Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed,
-                bool textured) {
-    const Outline outline(shape.silhouette);
+Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& options) {
+    const Outline& outline = individual.outline;
     const Detail& detail = details[static_cast<std::size_t>(lod)];
-    const Deformer deformer(model, shape, outline, seed);
-    // A club has no margin that could wave.
-    const Waves waves(outline.hymenium.empty() ? 0.0 : model.weathering.waves,
-                      greatest_radius(outline.cap), detail.columns, seed);
+    const std::uint32_t seed = individual.effective.seed;
+    const Deformer deformer(individual);
+    const Waves waves(individual.waves, greatest_radius(outline.cap), detail.columns, seed);
     Mesh mesh;
     const int rings =
         detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
-    const int pieces =
-        detail.patch_sides > 0 ? model.warts.count + model.scales.count + model.volva.count : 0;
+    int pieces = 0;
+    for (const PatchLayer& layer : individual.layers)
+        pieces += detail.patch_sides > 0 ? piece_count(layer) : 0;
     const auto vertices = static_cast<std::size_t>(
         rings * (detail.columns + 1) +
         pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
     mesh.indices.reserve(vertices * 6);
-    if (textured) {
+    if (options.textured) {
         mesh.texture_coordinates.reserve(vertices);
         mesh.tangents.reserve(vertices);
     }
-    Sweeper sweeper(mesh, deformer, waves, detail.columns, textured);
-    sweeper.face({&outline.stem, Part::stem, false}, detail.stem_rings);
-    if (!outline.hymenium.empty())
-        sweeper.face({&outline.hymenium, Part::hymenium, true}, detail.hymenium_rings);
-    sweeper.face({&outline.cap, Part::cap, true}, detail.cap_rings);
-    const Ground ground{outline, deformer, waves, detail, seed, textured};
-    add_patches(mesh, model, ground);
-    add_ring(mesh, model, ground);
+    Sweeper sweeper(mesh, deformer, waves, detail.columns, options.textured);
+    sweeper.face({&outline.stem, Part::stem, false}, outline.rings(CurveName::stem, lod));
+    sweeper.face({&outline.hymenium, Part::hymenium, true},
+                 outline.rings(CurveName::hymenium, lod));
+    sweeper.face({&outline.cap, Part::cap, true}, outline.rings(CurveName::cap, lod));
+    const Ground ground{outline,          deformer,           waves, detail, seed,
+                        options.textured, options.keep_absent};
+    add_patches(mesh, individual, ground);
+    add_ring(mesh, individual, ground);
     return mesh;
 }
 

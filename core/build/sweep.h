@@ -1,4 +1,4 @@
-// Turns a Model into a mesh: the outline swept round the axis, with deformation, waves and ornaments.
+// Turns an individual into a mesh: the outline swept round the axis, with deformation, waves and ornaments.
 #pragma once
 
 #include "core/build/axis.h"
@@ -6,7 +6,7 @@
 #include "core/build/free_form.h"
 #include "core/math/elementary.h"
 #include "core/mesh/mesh.h"
-#include "core/silhouette/outline.h"
+#include "core/model/individual.h"
 
 namespace sporeprint {
 
@@ -14,7 +14,7 @@ namespace sporeprint {
 class Deformer {
   public:
     /// throws Impossible if the stem would fold: "/deformation/bend_deg", or "/model/axis" if it folds without a bend
-    Deformer(const Model& model, const Swept& shape, const Outline& outline, std::uint32_t seed);
+    explicit Deformer(const Individual& individual);
 
     /// Moves points that belong to one station of the axis: the stem's skin to that of its height, caps and rings to the frozen one
     /// where they are attached. A dent moves a point by far less than the axis' radius of curvature, so it keeps its station.
@@ -59,14 +59,20 @@ class Waves {
     std::vector<Mode> modes_;
 };
 
-/// Mesh of a swept Model.
+/// What a mesh is for.
+struct SweepOptions {
+    bool textured = true;  ///< whether texture coordinates and tangents are made
+    bool keep_absent =
+        false;  ///< whether triangles of what is absent stay, without area: then all ages have the same triangles
+};
+
+/// Mesh of an individual at a level of detail, 0..3.
 ///
-/// lod       0..3; seed  the individual
-/// textured  whether texture coordinates and tangents are made
-/// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last
-/// throws    InvalidInput for a bad outline, Impossible for a stem that folds
+/// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last. The number and order of its vertices are
+///           those of the set of species: ages and weights inside the mix do not change them
+/// throws    Impossible for a stem that folds
 /// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by meridian arc length, so that they never fold
-[[nodiscard]] Mesh swept_mesh(const Model& model, const Swept& shape, int lod, std::uint32_t seed,
-                              bool textured);
+[[nodiscard]] Mesh swept_mesh(const Individual& individual, int lod,
+                              const SweepOptions& options = {});
 
 }  // namespace sporeprint

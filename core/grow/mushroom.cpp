@@ -1,5 +1,6 @@
 #include "core/grow/mushroom.h"
 
+#include "core/build/ornaments.h"
 #include "core/build/sweep.h"
 #include "core/gltf/glb.h"
 #include "core/grow/painting.h"
@@ -41,25 +42,28 @@ bool textured(const MushroomOrder& order) { return order.params.textures != Text
 
 }  // namespace
 
-Estimate estimate(const MushroomOrder& order, const Atlas& atlas) {
-    const Individual individual = resolve(order, atlas);
-    const Model& model = individual.model;
+Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
+    return estimate(order, resolve(order, atlas, memo.morphs));
+}
+
+Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     const Detail& detail = details[static_cast<std::size_t>(order.params.lod)];
     const auto columns = static_cast<std::uint64_t>(detail.columns) + 1;
-    const auto rings =
-        static_cast<std::uint64_t>(detail.stem_rings + detail.hymenium_rings + detail.cap_rings);
+    const bool lower_face = !individual.outline.hymenium.empty();
+    const auto rings = static_cast<std::uint64_t>(
+        detail.stem_rings + (lower_face ? detail.hymenium_rings : 0) + detail.cap_rings);
+    const std::uint64_t faces = lower_face ? 3 : 2;
     const auto sides = static_cast<std::uint64_t>(detail.patch_sides),
                rows = static_cast<std::uint64_t>(detail.patch_rings) + 2;
-    const auto pieces = static_cast<std::uint64_t>(
-        (model.ornaments.warts > 0.0 ? model.warts.count : 0) +
-        (model.ornaments.scales > 0.0 ? model.scales.count : 0) + model.volva.count);
-    const std::uint64_t loop =
-        model.ornaments.ring > 0.0 && model.ring.width > 0.0 && detail.veil_rings > 0
-            ? 2 * (static_cast<std::uint64_t>(detail.veil_rings) + 1)
-            : 0;
+    std::uint64_t pieces = 0;
+    for (const PatchLayer& layer : individual.layers)
+        pieces += static_cast<std::uint64_t>(piece_count(layer));
+    const std::uint64_t loop = individual.has_ring && detail.veil_rings > 0
+                                   ? 2 * (static_cast<std::uint64_t>(detail.veil_rings) + 1)
+                                   : 0;
     Estimate e;
     e.vertices = rings * columns + loop * columns;
-    e.triangles = 2 * (rings - 3) * (columns - 1) + 2 * loop * (columns - 1);
+    e.triangles = 2 * (rings - faces) * (columns - 1) + 2 * loop * (columns - 1);
     if (sides > 0) {
         e.vertices += pieces * (rows * (sides + 1) + sides);
         e.triangles += pieces * (2 * (rows - 1) * sides - sides + sides - 2);
@@ -74,14 +78,13 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas) {
 }
 
 Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
-    return swept_mesh(individual.model, std::get<Swept>(individual.model.shape), order.params.lod,
-                      order.params.seed, textured(order));
+    return swept_mesh(individual, order.params.lod, {.textured = textured(order)});
 }
 
 Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras,
                        const Workshop& workshop) {
     workshop.observer(Step::resolve);
-    const Individual individual = resolve(order, atlas);
+    const Individual individual = resolve(order, atlas, workshop.memo.morphs);
     workshop.observer(Step::build);
     const Mesh mesh = mushroom_mesh(order, individual);
     stop_if_asked(workshop);
@@ -92,7 +95,8 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     std::shared_ptr<const ImageSet> images;
     if (order.params.textures == Textures::embedded) {
         workshop.observer(Step::paint);
-        images = painted_images(paint_recipe(order, atlas, surface_metrics(individual)), workshop);
+        images = painted_images(
+            paint_recipe(order, atlas, surface_metrics(individual), workshop.memo), workshop);
         parts.images = images.get();
         stop_if_asked(workshop);
     } else if (order.params.textures == Textures::linked) {

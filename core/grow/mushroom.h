@@ -7,6 +7,7 @@
 #include "core/mesh/mesh.h"
 #include "core/model/request.h"
 #include "core/model/resolve.h"
+#include "core/version.h"
 
 namespace sporeprint {
 
@@ -18,8 +19,10 @@ struct Estimate {
     std::uint64_t bytes = 0;
 };
 
-/// Number of vertices, texels and bytes; microseconds, allocates nothing large.
-[[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas);
+/// Number of vertices (exact), triangles (at most), texels and bytes; microseconds, allocates nothing large.
+[[nodiscard]] Estimate estimate(const MushroomOrder& order, const Individual& individual);
+[[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas,
+                                const Memo& memo = {});
 
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
@@ -41,8 +44,5 @@ struct Mushroom {
 /// throws   InvalidInput, GenerationError, Cancelled
 [[nodiscard]] Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas,
                                      const Extras& extras = {}, const Workshop& workshop = {});
-
-/// Raised whenever bytes change for an unchanged request.
-inline constexpr int generator_version = 2;
 
 }  // namespace sporeprint

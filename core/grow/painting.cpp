@@ -7,7 +7,6 @@
 
 #include "core/grow/mushroom.h"
 #include "core/params/canonical.h"
-#include "core/silhouette/outline.h"
 #include "core/surface/dissolve.h"
 #include "core/surface/given.h"
 
@@ -70,7 +69,7 @@ std::string painting_key(const PaintParams& painting) {
 }  // namespace
 
 SurfaceMetrics surface_metrics(const Individual& individual) {
-    const Outline outline(std::get<Swept>(individual.model.shape).silhouette);
+    const Outline& outline = individual.outline;
     double radius = 0.0, stem_radius = 0.0;
     for (int i = 0; i <= 16; ++i) {
         radius = std::max(radius, outline.cap.at(i / 16.0).r);
@@ -99,7 +98,7 @@ Mix surface_mix(const Mix& mix) {
     return kept;
 }
 
-MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas) {
+MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
     MushroomOrder stepped = order;
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;
@@ -112,16 +111,16 @@ MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas) {
     MushroomOrder bare = stepped;
     bare.params.hymenium = {};
     bare.params.ornaments = {};
-    const MushroomParams effective = resolve(bare, atlas).effective;
+    const MushroomParams effective = resolve(bare, atlas, memo.morphs).effective;
     keep_possible(params.hymenium, effective.hymenium);
     keep_possible(params.ornaments, effective.ornaments);
     return stepped;
 }
 
 PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
-                         const SurfaceMetrics& metrics) {
-    const MushroomOrder stepped = surface_order(order, atlas);
-    const Individual individual = resolve(stepped, atlas);
+                         const SurfaceMetrics& metrics, const Memo& memo) {
+    const MushroomOrder stepped = surface_order(order, atlas, memo);
+    const Individual individual = resolve(stepped, atlas, memo.morphs);
     std::vector<int> parts = {whole};
     if (!order.model) parts = apportioned(weights_of(stepped.mix), whole);
     const int comb = comb_of(individual.parts);

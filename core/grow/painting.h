@@ -33,7 +33,8 @@ using PaintRecipe = std::vector<PaintShare>;
 
 /// The order as images know it: age in steps of 1/64, surface_mix, nothing that shapes; overrides that no species of that mix can
 /// have are dropped. Its images are those of the order. A model of one's own stays as it is.
-[[nodiscard]] MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas);
+[[nodiscard]] MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas,
+                                          const Memo& memo = {});
 
 /// What painting an order depends on. Each species is painted as itself at this age, with the person's overrides, the lengths of
 /// the mixed individual, and blades on one comb: that of the species with the most at the margin.
@@ -41,7 +42,7 @@ using PaintRecipe = std::vector<PaintShare>;
 /// metrics  surface_metrics of the individual
 /// throws   InvalidInput, Impossible as resolve()
 [[nodiscard]] PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
-                                       const SurfaceMetrics& metrics);
+                                       const SurfaceMetrics& metrics, const Memo& memo = {});
 
 /// Side of the atlas that a recipe paints.
 [[nodiscard]] int side_of(const PaintRecipe& recipe);

@@ -5,11 +5,10 @@
 #include <stop_token>
 
 #include "core/remember.h"
+#include "core/silhouette/morph_set.h"
 #include "core/surface/paint.h"
 
 namespace sporeprint {
-
-class MorphSet;  // core/silhouette/morph.h
 
 enum class Step { resolve, build, paint, pack };
 

@@ -67,7 +67,7 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
     std::vector<Patch> out;
     const double from = std::min(style.from, style.to) * quarter_turn;
     const double to = std::max(style.from, style.to) * quarter_turn;
-    if (style.count <= 0 || to - from < 1e-6) return out;
+    if (style.count <= 0 || to - from < least_window * quarter_turn) return out;
     const Rings rings = rings_between(from, to, style.count);
     out.reserve(static_cast<std::size_t>(style.count));
     std::vector<Place> places;
@@ -103,7 +103,7 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             // Rain takes the margin first.
             patch.survival = 0.02 + 0.86 * (0.8 * luck + 0.2 * reach);
             patch.id = id;
-            // A crowded piece is smaller, a badly crowded one never formed.
+            // A crowded piece is smaller, a badly crowded one never formed: it stays in the row, without size.
             double room = patch.radius;
             const Place place = place_of(patch);
             for (std::size_t other = 0; other < out.size(); ++other) {
@@ -117,8 +117,7 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
                                           out[other].radius);
             }
             // Continuous in the style's size, so that nothing pops while the cap grows.
-            patch.radius = room * smooth_step(0.2, 0.5, room / patch.radius);
-            if (!(patch.radius > 0.0)) continue;
+            patch.radius = std::max(0.0, room) * smooth_step(0.2, 0.5, room / patch.radius);
             out.push_back(patch);
             places.push_back(place);
         }

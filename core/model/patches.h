@@ -20,10 +20,14 @@ struct Patch {
     std::uint32_t id = 0;  ///< names its own random stream
 };
 
+/// A window of the meridian that is no wider has no pieces.
+inline constexpr double least_window = 1e-6;
+
 /// Places the pieces of a style evenly on the young face (a hemisphere for the cap), from the individual's own stream.
 ///
 /// seed     the individual; purpose  which kind of piece, so that kinds do not share draws
-/// returns  style.count pieces or fewer (none overlaps another by more than a fifth), in a fixed order
+/// returns  style.count pieces in a fixed order, none for a window narrower than least_window; none overlaps another by more than
+///          a fifth, and one that has no room has radius 0
 [[nodiscard]] std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed,
                                          std::uint32_t purpose);
 

@@ -1,7 +1,7 @@
 // What a person may ask of a mushroom: the query parameters and the mix of species.
 #pragma once
 
-#include "core/model/model.h"
+#include "core/silhouette/morph_set.h"
 
 namespace sporeprint {
 
@@ -88,6 +88,9 @@ struct MushroomOrder {
     Mix mix;
     std::optional<Model> model;
     MushroomParams params;
+    /// The designer's own links between the two species of a pair: `a` on the outline of mix[0], `b` on that of mix[1], both as
+    /// they are at params.age. Empty for any other number of species.
+    std::vector<Arc> arcs{};
 };
 
 }  // namespace sporeprint

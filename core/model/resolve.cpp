@@ -5,13 +5,19 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/proportion.h"
 #include "core/params/blend.h"
+#include "core/params/canonical.h"
+#include "core/version.h"
 
 namespace sporeprint {
 
 namespace {
 
 constexpr std::uint32_t variation_purpose = 0;
+constexpr double mature_age = 0.6;  // of recorded sizes, for every species
+constexpr double most_natural_fold =
+    0.6;  // curvature of the axis times the radius of the stem; it folds at 1
 
 /// The individual's own draws, -1..1 or 0..1. Drawn in a fixed order; a new one goes last.
 struct Draws {
@@ -32,94 +38,335 @@ Draws draws_of(std::uint32_t seed) {
     return d;
 }
 
-Model model_at(const Species& species, double age) {
-    const auto& stages = species.stages;
-    if (age <= stages.front().age) return stages.front().model;
+/// One species of the order, or the client's own Model as a species of a single stage.
+struct Source {
+    std::string id, who;
+    double weight = 1.0;
+    std::uint64_t hash = 0;
+    Spread spread{0, 0, 0, 0, 0, 0, 0, 0};
+    std::vector<const Model*> stages;
+    std::vector<double> ages;    ///< of the stages
+    std::vector<double> growth;  ///< of each stage at this age; at most two are not 0
+    double size = 1.0;           ///< of its mature shape, metres
+    Model now;                   ///< at this age
+
+    [[nodiscard]] const Model& first() const { return *stages.front(); }
+    [[nodiscard]] HymeniumPattern pattern() const { return first().surface.hymenium.pattern; }
+    [[nodiscard]] bool has_blades() const {
+        return pattern() == HymeniumPattern::gills || pattern() == HymeniumPattern::ridges;
+    }
+    [[nodiscard]] bool has_ring() const {
+        return std::any_of(stages.begin(), stages.end(),
+                           [](const Model* stage) { return stage->ring.width > 0.0; });
+    }
+    [[nodiscard]] bool has_margin() const {
+        return !std::get<Swept>(first().shape).silhouette.hymenium.empty();
+    }
+};
+
+std::vector<double> growth_weights(const std::vector<Stage>& stages, double age) {
+    std::vector<double> weights(stages.size(), 0.0);
+    if (age <= stages.front().age) {
+        weights.front() = 1.0;
+        return weights;
+    }
     for (std::size_t i = 1; i < stages.size(); ++i)
-        if (age <= stages[i].age)
-            return blend(stages[i - 1].model, stages[i].model,
-                         (age - stages[i - 1].age) / (stages[i].age - stages[i - 1].age));
-    return stages.back().model;
+        if (age <= stages[i].age) {
+            weights[i] = (age - stages[i - 1].age) / (stages[i].age - stages[i - 1].age);
+            weights[i - 1] = 1.0 - weights[i];
+            return weights;
+        }
+    weights.back() = 1.0;
+    return weights;
+}
+
+/// Overall size of a shape: the half diagonal of the box round its control points turned about the axis.
+double size_of(const Silhouette& s) {
+    double radius = 0.0, low = s.stem.front().y, high = low;
+    for (const auto* part : {&s.stem, &s.hymenium, &s.cap})
+        for (const OutlinePoint& p : *part) {
+            radius = std::max(radius, p.r);
+            low = std::min(low, p.y);
+            high = std::max(high, p.y);
+        }
+    return std::sqrt(radius * radius + 0.25 * (high - low) * (high - low));
+}
+
+const Silhouette& silhouette_of(const Model& model) {
+    return std::get<Swept>(model.shape).silhouette;
+}
+
+Source source_of(const AtlasEntry& entry, double weight, double age) {
+    const Species& species = entry.species;
+    Source source;
+    source.id = species.id.string();
+    source.who = species.facts.scientific_name.string();
+    source.weight = weight;
+    source.hash = entry.hash;
+    source.spread = species.spread;
+    source.growth = growth_weights(species.stages, age);
+    const std::vector<double> mature = growth_weights(species.stages, mature_age);
+    Shares<Model> stages;
+    double size = 0.0;
+    for (std::size_t i = 0; i < species.stages.size(); ++i) {
+        const Model& model = species.stages[i].model;
+        source.stages.push_back(&model);
+        source.ages.push_back(species.stages[i].age);
+        stages.add(model, source.growth[i]);
+        size += mature[i] * size_of(silhouette_of(model));
+    }
+    source.size = size;
+    source.now = blend(stages);
+    // A comb is one thing: the tiers of one stage do not go with the blades of another.
+    Comb most;
+    for (const Model* stage : source.stages) {
+        const Comb comb{stage->hymenium.blades, stage->hymenium.tiers};
+        if (comb.at_margin() > most.at_margin()) most = comb;
+    }
+    source.now.hymenium.blades = most.blades;
+    source.now.hymenium.tiers = most.tiers;
+    return source;
+}
+
+std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
+    std::vector<Source> sources;
+    if (order.model) {
+        Source own;
+        own.who = "this model";
+        own.stages = {&*order.model};
+        own.ages = {mature_age};
+        own.growth = {1.0};
+        own.size = size_of(silhouette_of(*order.model));
+        own.now = *order.model;
+        sources.push_back(std::move(own));
+        return sources;
+    }
+    std::vector<Problem> problems;
+    if (order.mix.empty() || order.mix.size() > most_blended)
+        report(problems, "mix",
+               std::to_string(order.mix.size()) + " species; a mix has 1 to " +
+                   std::to_string(most_blended));
+    double sum = 0.0;
+    for (const MixPart& part : order.mix) {
+        if (!atlas.find(part.id))
+            report(problems, "mix", "'" + part.id + "' is no species of the atlas");
+        if (part.weight <= 0)
+            report(problems, "mix", "the weight of '" + part.id + "' is not positive");
+        for (const MixPart& other : order.mix)
+            if (&other < &part && other.id == part.id)
+                report(problems, "mix", "'" + part.id + "' is named twice");
+        sum += part.weight;
+    }
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    Mix mix = order.mix;
+    std::sort(mix.begin(), mix.end(),
+              [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
+    for (const MixPart& part : mix)
+        sources.push_back(source_of(*atlas.find(part.id), part.weight / sum, order.params.age));
+    return sources;
+}
+
+/// What the sources have together; `counts` says which of them count, the rest weigh nothing.
+template <class Counts, class Of>
+auto among(const std::vector<Source>& sources, Counts counts, Of of) {
+    Shares<std::remove_cvref_t<decltype(of(sources[0]))>> shares;
+    double sum = 0.0;
+    for (const Source& source : sources)
+        if (counts(source)) sum += source.weight;
+    for (const Source& source : sources)
+        if (counts(source) || sum == 0.0)
+            shares.add(of(source), sum > 0.0 ? source.weight / sum : source.weight);
+    return blend(shares);
 }
 
 double factor(double draw, double spread, double variation) {
     return exponential(draw * spread * variation);
 }
 
-/// Stem longer and wider, cap higher over its margin; the junction and the margin stay joined.
-void proportion(Silhouette& s, double longer, double wider, double higher) {
-    const OutlinePoint junction = s.stem.back();
-    const double lift = (longer - 1.0) * std::max(junction.y, 0.0);
-    const OutlinePoint margin = s.hymenium.empty() ? junction : s.hymenium.back();
-    // What hugs the stem widens with it; further out the change dies away, so that an open cap keeps its diameter.
-    double stem = 0.0;
-    for (const OutlinePoint& p : s.stem)
-        if (p.y >= margin.y || p.r == junction.r) stem = std::max(stem, p.r);
-    const auto width_at = [&](double r) {
-        const double share =
-            s.hymenium.empty() ? 0.0 : std::clamp((r - stem) / (2.0 * stem), 0.0, 1.0);
-        return 1.0 + (wider - 1.0) * (1.0 - share);
+/// The correspondence of all control shapes of the sources: kept under what they are.
+std::shared_ptr<const MorphSet> morph_set(const std::vector<Source>& sources,
+                                          const std::vector<Arc>& arcs, double age,
+                                          const Remember<MorphSet>& morphs) {
+    std::string key = "morph " + std::to_string(generator_version);
+    for (const Source& source : sources)
+        if (source.id.empty()) {
+            key += ' ';
+            canonical(silhouette_of(source.first()), key);
+        } else {
+            key += ' ' + source.id + ' ' + std::to_string(source.hash);
+        }
+    if (!arcs.empty()) key += " at " + number_text(age);
+    for (const Arc& arc : arcs) {
+        key += ' ';
+        canonical(arc, key);
+    }
+    return morphs(key, [&] {
+        std::vector<ControlShape> shapes;
+        for (std::size_t kin = 0; kin < sources.size(); ++kin)
+            for (std::size_t i = 0; i < sources[kin].stages.size(); ++i)
+                shapes.push_back({silhouette_of(*sources[kin].stages[i]), sources[kin].size, kin,
+                                  sources[kin].ages[i]});
+        return std::make_shared<const MorphSet>(std::move(shapes), arcs, age);
+    });
+}
+
+/// Weights of all control shapes, in the order of morph_set().
+std::vector<double> shape_weights(const std::vector<Source>& sources) {
+    std::vector<double> weights;
+    for (const Source& source : sources)
+        for (const double growth : source.growth) weights.push_back(source.weight * growth);
+    return weights;
+}
+
+AxisCurve axis_of(const std::vector<Source>& sources) {
+    AxisCurve axis;
+    for (const Source& source : sources)
+        for (std::size_t i = 0; i < source.stages.size(); ++i) {
+            const auto& controls = std::get<Swept>(source.stages[i]->shape).axis;
+            if (source.growth[i] > 0.0 && !controls.empty())
+                axis.add(AxisCurve(controls), source.weight * source.growth[i]);
+        }
+    return axis;
+}
+
+/// One layer for each kind of piece of each species; species whose pieces have equal places share theirs.
+std::vector<PatchLayer> layers_of(const std::vector<Source>& sources) {
+    std::vector<PatchLayer> layers;
+    const auto lay = [&](std::uint32_t purpose, PatchStyle Model::*style, auto amount) {
+        std::vector<bool> merged(sources.size(), false);
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            const PatchStyle& one = sources[i].now.*style;
+            if (one.count == 0 || merged[i]) continue;
+            const auto alike = [&](const Source& other) {
+                const PatchStyle& two = other.now.*style;
+                return two.count == one.count && two.from == one.from && two.to == one.to &&
+                       two.elongation == one.elongation;
+            };
+            double weight = 0.0;
+            for (std::size_t j = i; j < sources.size(); ++j)
+                if (alike(sources[j])) {
+                    merged[j] = true;
+                    weight += sources[j].weight;
+                }
+            layers.push_back(
+                {purpose,
+                 among(sources, alike,
+                       [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
+                 among(sources, alike, amount), weight});
+        }
     };
-    for (OutlinePoint& p : s.stem) p = {p.r * wider, p.y > 0.0 ? p.y * longer : p.y};
-    for (OutlinePoint& p : s.hymenium) p = {p.r * width_at(p.r), p.y + lift};
-    for (OutlinePoint& p : s.cap)
-        p = {p.r * width_at(p.r), margin.y + lift + (p.y - margin.y) * higher};
-    if (!s.hymenium.empty()) {
-        s.hymenium.front() = s.stem.back();
-        s.cap.front() = s.hymenium.back();
-    } else {
-        s.cap.front() = s.stem.back();
+    static constexpr double whole = 1.0;
+    lay(wart_purpose, &Model::warts,
+        [](const Source& s) -> const double& { return s.now.ornaments.warts; });
+    lay(scale_purpose, &Model::scales,
+        [](const Source& s) -> const double& { return s.now.ornaments.scales; });
+    lay(volva_purpose, &Model::volva, [](const Source&) -> const double& { return whole; });
+    return layers;
+}
+
+/// One ring from those of all species: its width is the sum of theirs, as shares of each one's size; the rest goes by the width
+/// that each contributes.
+RingStyle ring_of(const std::vector<Source>& sources) {
+    std::vector<RingStyle> styles;
+    std::vector<double> widths;
+    double width = 0.0;
+    for (const Source& source : sources) {
+        RingStyle style = source.now.ring;
+        style.thickness /= source.size;
+        widths.push_back(source.weight * source.now.ornaments.ring * style.width / source.size);
+        width += widths.back();
+        styles.push_back(style);
+    }
+    const auto weight_of = [&](std::size_t i) {
+        return width > 0.0 ? widths[i] / width : sources[i].weight;
+    };
+    Shares<RingStyle> shares;
+    for (std::size_t i = 0; i < styles.size(); ++i) shares.add(styles[i], weight_of(i));
+    RingStyle ring = blend(shares);
+    ring.width = width;
+    return ring;
+}
+
+/// The lightest step back from an individual's own proportions with which no level of detail crosses itself.
+Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingPlaces>& places,
+                    const std::function<Proportions(double)>& own, double open, double size) {
+    for (double variation = 1.0;; variation = variation > 0.1 ? 0.5 * variation : 0.0) {
+        Outline outline(scaled(proportioned(nodes, own(variation), open), size), places);
+        std::optional<CurveName> fault;
+        for (int lod = 0; lod < 4 && !fault; ++lod) fault = fault_of(outline, lod);
+        if (!fault || variation == 0.0) return outline;
     }
 }
 
-void scale(Model& model, Swept& shape, double by) {
-    for (auto* part : {&shape.silhouette.stem, &shape.silhouette.hymenium, &shape.silhouette.cap})
-        for (OutlinePoint& p : *part) p = {p.r * by, p.y * by};
-    model.ring.width *= by;
-    model.ring.thickness *= by;
-}
-
-/// Largest bend that this stem can take without folding, degrees.
-double bend_limit(const Swept& shape, const DeformationOf<Plain>& deformation) {
-    double radius = 1e-6;
-    for (const OutlinePoint& p : shape.silhouette.stem) radius = std::max(radius, p.r);
-    const double length = shape.silhouette.stem.back().y - shape.silhouette.stem.front().y;
-    return 0.6 * (deformation.zone_to - deformation.zone_from) * length / radius * (180.0 / pi);
-}
-
-/// What a species cannot have, in words.
-void check_anatomy(const MushroomParams& asked, const Model& model, const std::string& who) {
+/// What no species of the order can have, in words.
+void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sources) {
     std::vector<Problem> problems;
     const auto refuse = [&](const char* path, const std::string& why) {
         report(problems, path, why);
     };
-    const HymeniumPattern pattern = model.surface.hymenium.pattern;
-    const bool blades = pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
-    const std::string carries =
-        pattern == HymeniumPattern::pores    ? who + " carries pores, not gills"
-        : pattern == HymeniumPattern::gills  ? who + " carries gills, not pores"
-        : pattern == HymeniumPattern::ridges ? who + " carries ridges, not pores"
-                                             : who + " has a smooth lower face";
-    if (asked.hymenium.blades && !blades) refuse("/hymenium/blades", carries);
-    if (asked.hymenium.tiers && !blades) refuse("/hymenium/tiers", carries);
+    const auto none = [&](auto has) { return std::none_of(sources.begin(), sources.end(), has); };
+    const bool mixed = sources.size() > 1;
+    const std::string who = mixed ? "no species of this mix" : sources.front().who;
+    const HymeniumPattern pattern = sources.front().pattern();
+    const auto carries = [&](const char* wanted) {
+        if (mixed) return who + " carries " + wanted;
+        return pattern == HymeniumPattern::pores    ? who + " carries pores, not gills"
+               : pattern == HymeniumPattern::gills  ? who + " carries gills, not pores"
+               : pattern == HymeniumPattern::ridges ? who + " carries ridges, not pores"
+                                                    : who + " has a smooth lower face";
+    };
+    const auto without = [&](const char* lacks, const char* has) {
+        return who + (mixed ? std::string(" has ") + lacks : std::string(" has ") + has);
+    };
+    if (none([](const Source& s) { return s.has_blades(); })) {
+        if (asked.hymenium.blades) refuse("/hymenium/blades", carries("gills or ridges"));
+        if (asked.hymenium.tiers) refuse("/hymenium/tiers", carries("gills or ridges"));
+    }
     if (asked.hymenium.forking && *asked.hymenium.forking > 0.0 &&
-        pattern != HymeniumPattern::ridges)
-        refuse("/hymenium/forking", pattern == HymeniumPattern::gills
+        none([](const Source& s) { return s.pattern() == HymeniumPattern::ridges; }))
+        refuse("/hymenium/forking", !mixed && pattern == HymeniumPattern::gills
                                         ? who + " carries gills, which do not fork; ridges do"
-                                        : carries);
-    if (asked.hymenium.pores_per_mm && pattern != HymeniumPattern::pores)
-        refuse("/hymenium/pores_per_mm", carries);
-    if (asked.ornaments.warts && *asked.ornaments.warts > 0.0 && model.warts.count == 0)
-        refuse("/ornaments/warts", who + " has no universal veil that could leave warts");
-    if (asked.ornaments.scales && *asked.ornaments.scales > 0.0 && model.scales.count == 0)
-        refuse("/ornaments/scales", who + " has a skin that does not tear into scales");
-    if (asked.ornaments.ring && *asked.ornaments.ring > 0.0 && model.ring.width == 0.0)
-        refuse("/ornaments/ring", who + " has no partial veil that could leave a ring");
+                                        : carries("ridges, which fork"));
+    if (asked.hymenium.pores_per_mm &&
+        none([](const Source& s) { return s.pattern() == HymeniumPattern::pores; }))
+        refuse("/hymenium/pores_per_mm", carries("pores"));
+    if (asked.ornaments.warts && *asked.ornaments.warts > 0.0 &&
+        none([](const Source& s) { return s.first().warts.count > 0; }))
+        refuse("/ornaments/warts", without("a universal veil that could leave warts",
+                                           "no universal veil that could leave warts"));
+    if (asked.ornaments.scales && *asked.ornaments.scales > 0.0 &&
+        none([](const Source& s) { return s.first().scales.count > 0; }))
+        refuse("/ornaments/scales",
+               without("a skin that tears into scales", "a skin that does not tear into scales"));
+    if (asked.ornaments.ring && *asked.ornaments.ring > 0.0 &&
+        none([](const Source& s) { return s.has_ring(); }))
+        refuse("/ornaments/ring", without("a partial veil that could leave a ring",
+                                          "no partial veil that could leave a ring"));
     if (!problems.empty()) throw Impossible(std::move(problems));
 }
 
+/// Amounts that only some species of a mix can have: those of these species alone.
+void blend_amounts(Model& model, const std::vector<Source>& sources) {
+    const auto blend_among = [&](auto counts, auto of, double& to) {
+        to = among(sources, counts, of);
+    };
+    using S = const Source&;
+    using D = const double&;
+    blend_among([](S s) { return s.first().warts.count > 0; },
+                [](S s) -> D { return s.now.ornaments.warts; }, model.ornaments.warts);
+    blend_among([](S s) { return s.first().scales.count > 0; },
+                [](S s) -> D { return s.now.ornaments.scales; }, model.ornaments.scales);
+    blend_among([](S s) { return s.has_ring(); }, [](S s) -> D { return s.now.ornaments.ring; },
+                model.ornaments.ring);
+    blend_among([](S s) { return s.pattern() == HymeniumPattern::ridges; },
+                [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
+    blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
+                [](S s) -> D { return s.now.hymenium.pores_per_mm; }, model.hymenium.pores_per_mm);
+}
+
 /// The same amounts as overrides: what the individual really has.
-void report_effective(MushroomParams& effective, const Model& model) {
+void report_effective(MushroomParams& effective, const Model& model,
+                      const std::vector<Source>& sources) {
     const auto set = [](auto& to, const auto& from) {
         using To = std::remove_cvref_t<decltype(to)>;
         using From = std::remove_cvref_t<decltype(from)>;
@@ -138,82 +385,131 @@ void report_effective(MushroomParams& effective, const Model& model) {
     set(effective.ornaments, model.ornaments);
     set(effective.hymenium, model.hymenium);
     set(effective.weathering, model.weathering);
-    const HymeniumPattern pattern = model.surface.hymenium.pattern;
-    if (pattern != HymeniumPattern::pores) effective.hymenium.pores_per_mm.reset();
-    if (pattern == HymeniumPattern::pores || pattern == HymeniumPattern::smooth) {
+    const auto none = [&](auto has) { return std::none_of(sources.begin(), sources.end(), has); };
+    if (none([](const Source& s) { return s.pattern() == HymeniumPattern::pores; }))
+        effective.hymenium.pores_per_mm.reset();
+    if (none([](const Source& s) { return s.has_blades(); })) {
         effective.hymenium.blades.reset();
         effective.hymenium.tiers.reset();
     }
-    if (pattern != HymeniumPattern::ridges) effective.hymenium.forking.reset();
-    if (model.warts.count == 0) effective.ornaments.warts.reset();
-    if (model.scales.count == 0) effective.ornaments.scales.reset();
-    if (model.ring.width == 0.0) effective.ornaments.ring.reset();
+    if (none([](const Source& s) { return s.pattern() == HymeniumPattern::ridges; }))
+        effective.hymenium.forking.reset();
+    if (none([](const Source& s) { return s.first().warts.count > 0; }))
+        effective.ornaments.warts.reset();
+    if (none([](const Source& s) { return s.first().scales.count > 0; }))
+        effective.ornaments.scales.reset();
+    if (none([](const Source& s) { return s.has_ring(); })) effective.ornaments.ring.reset();
+}
+
+void overlay_all(const MushroomParams& asked, Model& model) {
+    overlay(asked.deformation, model.deformation);
+    overlay(asked.ornaments, model.ornaments);
+    overlay(asked.hymenium, model.hymenium);
+    overlay(asked.weathering, model.weathering);
 }
 
 }  // namespace
 
-Individual resolve(const MushroomOrder& order, const Atlas& atlas) {
+Individual resolve(const MushroomOrder& order, const Atlas& atlas,
+                   const Remember<MorphSet>& morphs) {
     const MushroomParams& asked = order.params;
     std::vector<Problem> problems;
     check(asked, Info{.name = ""}, "", problems);
     if (order.model) check(*order.model, Info{.name = ""}, "/model", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
+    std::vector<Source> sources = sources_of(order, atlas);
+    if (!order.arcs.empty() && sources.size() != 2)
+        throw InvalidInput("/arcs",
+                           "arcs link two species; this mix has " + std::to_string(sources.size()));
+    check_anatomy(asked, sources);
+    // Arcs name the species in the order of the mix; from here on species stand by id.
+    std::vector<Arc> arcs = order.arcs;
+    if (!arcs.empty() && order.mix[0].id != sources[0].id)
+        for (Arc& arc : arcs) std::swap(arc.a, arc.b);
+
     Individual individual;
     individual.effective = asked;
-    Spread spread{};
-    std::string who = "this model";
-    if (order.model) {
-        individual.model = *order.model;
-        individual.parts.push_back({"", 1.0, *order.model});
-        spread = {0, 0, 0, 0, 0, 0, 0, 0};
-    } else {
-        if (order.mix.size() != 1)
-            throw Impossible("mix", std::to_string(order.mix.size()) +
-                                        " species; this version grows one species at a time");
-        const AtlasEntry* entry = atlas.find(order.mix.front().id);
-        if (!entry)
-            throw InvalidInput("mix", "'" + order.mix.front().id + "' is no species of the atlas");
-        individual.model = model_at(entry->species, asked.age);
-        individual.parts.push_back({order.mix.front().id, 1.0, individual.model});
-        spread = entry->species.spread;
-        who = entry->species.facts.scientific_name.string();
-    }
+    const auto everyone = [](const Source&) { return true; };
+    const Spread spread =
+        among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });
     Model& model = individual.model;
-    check_anatomy(asked, model, who);
+    model = among(sources, everyone, [](const Source& s) -> const Model& { return s.now; });
+    model.shape = Swept{};
 
+    // The outline: shapes are blended in unit size, sizes by their ratio.
     const Draws draws = draws_of(asked.seed);
     const double variation = asked.variation;
-    Swept& shape = std::get<Swept>(model.shape);
-    proportion(shape.silhouette, factor(draws.stem_length, spread.stem_length, variation),
-               factor(draws.stem_width, spread.stem_width, variation),
-               factor(draws.cap_height, spread.cap_height, variation));
-    scale(model, shape, asked.size * factor(draws.size, spread.size, variation));
+    double size = 0.0, open = 0.0;
+    for (const Source& source : sources) {
+        size += source.weight * logarithm(source.size);
+        if (source.has_margin()) open += source.weight;
+    }
+    size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
+           factor(draws.size, spread.size, variation);
+    individual.set = morph_set(sources, arcs, asked.age, morphs);
+    const auto own = [&](double share) {
+        return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
+                           factor(draws.stem_width, spread.stem_width, share * variation),
+                           factor(draws.cap_height, spread.cap_height, share * variation)};
+    };
+    individual.outline = own_outline(individual.set->nodes(shape_weights(sources)),
+                                     individual.set->places(), own, open, size);
+    if (const auto fault = fault_of(individual.outline, asked.lod))
+        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
+                         "the outline crosses itself at this level of detail, near the " +
+                             std::string(name(*fault)));
+    const auto stem = individual.outline.rings(CurveName::stem, 0);
+    individual.stem_base = stem.front().y;
+    individual.stem_top = stem.back().y;
     individual.lightness = factor(draws.lightness, spread.lightness, variation);
 
+    // The axis and its deformation. An individual bends as far as its own stem allows; what a person asks for, or draws, is
+    // checked by build instead.
+    const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
+                           greatest_radius(individual.outline.stem);
+    individual.axis = axis_of(sources);
     DeformationOf<Plain>& deformation = model.deformation;
-    // An individual bends as far as its own stem allows; what a person asks for is checked by build instead.
-    const double own_bend = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
-    deformation.bend_deg =
-        std::clamp(own_bend, 0.0,
-                   std::min(90.0, std::max(deformation.bend_deg, bend_limit(shape, deformation))));
+    if (!order.model) {
+        const double fold = individual.axis.greatest_turn() / slender;
+        if (fold > most_natural_fold)
+            individual.axis = individual.axis.scaled(most_natural_fold / fold);
+        const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
+        const double room = std::min(0.6, (0.95 - std::min(fold, most_natural_fold)) / 1.5);
+        const double of_template = std::min(deformation.bend_deg, 1.5 * room * zone);
+        const double drawn = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
+        deformation.bend_deg = std::min({90.0, drawn, std::max(of_template, room * zone)});
+    }
     deformation.lean_deg =
         std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
     deformation.imperfection = std::min(
         1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
-    overlay(asked.deformation, model.deformation);
-    overlay(asked.ornaments, model.ornaments);
-    overlay(asked.hymenium, model.hymenium);
-    overlay(asked.weathering, model.weathering);
-    for (SpeciesShare& part : individual.parts) {
-        overlay(asked.deformation, part.model.deformation);
-        overlay(asked.ornaments, part.model.ornaments);
-        overlay(asked.hymenium, part.model.hymenium);
-        overlay(asked.weathering, part.model.weathering);
-    }
+
+    // What was asked holds for every species that can have it.
+    for (Source& source : sources) overlay_all(asked, source.now);
+    blend_amounts(model, sources);
+    overlay_all(asked, model);
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    report_effective(individual.effective, model);
+
+    individual.layers = layers_of(sources);
+    individual.ring = ring_of(sources);
+    individual.ring.width *= size;
+    individual.ring.thickness *= size;
+    for (const Source& source : sources) {
+        individual.has_ring = individual.has_ring || source.has_ring();
+        if (source.has_margin()) individual.waves += source.weight * source.now.weathering.waves;
+        const Comb comb{source.now.hymenium.blades, source.now.hymenium.tiers};
+        if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
+            individual.comb = comb;
+    }
+    if (individual.comb.blades > 0) {
+        model.hymenium.blades = individual.comb.blades;
+        model.hymenium.tiers = individual.comb.tiers;
+    }
+    report_effective(individual.effective, model, sources);
+    for (Source& source : sources)
+        individual.parts.push_back({source.id, source.weight, std::move(source.now)});
     return individual;
 }
 

@@ -1,31 +1,22 @@
-// From an order to one individual: growth stage, variation and overrides, everything decided.
+// From an order to one individual: growth stages, mix, variation and overrides, everything decided.
 #pragma once
 
 #include "core/atlas/atlas.h"
-#include "core/model/request.h"
+#include "core/model/individual.h"
+#include "core/remember.h"
 
 namespace sporeprint {
 
-/// One species of an individual, or its own Model (`id` empty).
-struct SpeciesShare {
-    std::string id;
-    double weight = 1.0;  ///< weights of an individual sum to 1
-    Model model;          ///< the species' own at this age, overrides applied: what is painted
-};
-
-/// An order with everything decided: the individual's own Model (sizes, colours and amounts after age, variation and overrides).
-struct Individual {
-    Model model;
-    MushroomParams
-        effective;  ///< every optional that the species can have, set to what the individual really has
-    double lightness = 1.0;           ///< factor on the linear colour of the cap
-    std::vector<SpeciesShare> parts;  ///< by id
-};
-
-/// Decides everything about one individual. A Model of the client's own has no species: age and variation do not touch it.
+/// Decides everything about one individual. Growing is morphing: age moves weights between a species' own stages, a mix between
+/// species, and one morph of all control shapes serves both. Sizes mix by ratio, bends of the axis as rotations.
+/// A Model of the client's own has no species: age and variation do not touch it.
 ///
-/// throws  InvalidInput for a range, Impossible for what the species cannot have; paths like "/hymenium/blades", "mix"
-/// source  [Desbenoit2004] sec. 4; ages blend linearly between the stages of a species
-[[nodiscard]] Individual resolve(const MushroomOrder& order, const Atlas& atlas);
+/// morphs   keeps the correspondence of a set of species, the dear part
+/// returns  the same whatever the order of the species
+/// throws   InvalidInput for a range or an unknown species, Impossible for what no species of the mix can have and for an outline
+///          that crosses itself; paths like "/hymenium/blades", "mix"
+/// source   [Desbenoit2004] sec. 4
+[[nodiscard]] Individual resolve(const MushroomOrder& order, const Atlas& atlas,
+                                 const Remember<MorphSet>& morphs = make_anew<MorphSet>);
 
 }  // namespace sporeprint

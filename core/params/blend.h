@@ -1,10 +1,13 @@
-// Between two parameter structs, and overrides over values: both field by field.
+// Several weighted parameter structs made one, and overrides over values: both field by field.
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
-#include <string>
+#include <functional>
+#include <limits>
+#include <string_view>
 #include <type_traits>
 
 #include "core/math/elementary.h"
@@ -12,67 +15,135 @@
 
 namespace sporeprint {
 
-/// a + t (b - a), never outside [a, b]; exactly a at t = 0 and b at t = 1.
-inline double between(double a, double b, double t) {
-    if (t >= 1.0) return b;
-    return std::clamp(a + t * (b - a), std::min(a, b), std::max(a, b));
+/// As many values as are ever blended at once: the species of a mix, or the stages of a species.
+inline constexpr std::size_t most_blended = 8;
+
+/// What is blended: one to `most_blended` values of one type, each with its weight.
+template <class T>
+struct Shares {
+    std::array<const T*, most_blended> values{};
+    std::array<double, most_blended> weights{};  ///< >= 0, sum 1
+    std::size_t count = 0;
+
+    void add(const T& value, double weight) {
+        assert(count < most_blended && weight >= 0.0);
+        values[count] = &value;
+        weights[count++] = weight;
+    }
+    /// The same shares of what `part` (a member, or a function of a value that returns a reference) picks.
+    template <class Part>
+    [[nodiscard]] auto of(Part part) const {
+        Shares<std::remove_cvref_t<decltype(std::invoke(part, *values[0]))>> parts;
+        parts.count = count;
+        parts.weights = weights;
+        for (std::size_t i = 0; i < count; ++i) parts.values[i] = &std::invoke(part, *values[i]);
+        return parts;
+    }
+    /// The value of the largest weight; of equal ones the first.
+    [[nodiscard]] const T& heaviest() const {
+        std::size_t best = 0;
+        for (std::size_t i = 1; i < count; ++i)
+            if (weights[i] > weights[best]) best = i;
+        return *values[best];
+    }
+};
+
+/// Whether numbers of this description are sizes, which mix by ratio: lengths that cannot be 0.
+inline bool is_size(const Info& info) { return std::string_view(info.unit) == "m" && info.min > 0; }
+
+/// The weighted mean of numbers (`by_ratio`: of positive ones, of their logarithms), never outside those that weigh
+/// something, and exact when these are equal.
+template <Number T>
+double mean_of(const Shares<T>& shares, bool by_ratio = false) {
+    double sum = 0.0, least = std::numeric_limits<double>::infinity(), most = -least;
+    for (std::size_t i = 0; i < shares.count; ++i) {
+        if (!(shares.weights[i] > 0.0)) continue;
+        const auto x = static_cast<double>(*shares.values[i]);
+        sum += shares.weights[i] * (by_ratio ? logarithm(x) : x);
+        least = std::min(least, x);
+        most = std::max(most, x);
+    }
+    if (!(least < most)) return least;
+    return std::clamp(by_ratio ? exponential(sum) : sum, least, most);
+}
+
+inline Colour blend_colours(const Shares<Colour>& shares) {
+    const auto channel = [&](std::uint8_t Colour::*which) {
+        double light = 0.0;
+        std::uint8_t least = 255, most = 0;
+        for (std::size_t i = 0; i < shares.count; ++i) {
+            if (!(shares.weights[i] > 0.0)) continue;
+            const std::uint8_t x = shares.values[i]->*which;
+            light += shares.weights[i] * srgb_to_linear(x / 255.0);
+            least = std::min(least, x);
+            most = std::max(most, x);
+        }
+        if (least >= most) return most;
+        const double encoded = std::floor(linear_to_srgb(light) * 255.0 + 0.5);
+        return static_cast<std::uint8_t>(
+            std::clamp(encoded, static_cast<double>(least), static_cast<double>(most)));
+    };
+    return {channel(&Colour::r), channel(&Colour::g), channel(&Colour::b)};
 }
 
 template <class T>
-T blend_at(const T& a, const T& b, double t, const std::string& path) {
+T blend_shares(const Shares<T>& shares, const Info& info) {
+    const T& heaviest = shares.heaviest();
     if constexpr (Described<T>) {
         prove<T>();
-        T out = a;
+        T out = heaviest;
         T::fields([&](auto member, const Info& sub) {
-            out.*member = blend_at(a.*member, b.*member, t, member_path(path, sub));
+            out.*member = blend_shares(shares.of(member), sub);
         });
         return out;
     } else if constexpr (is_variant<T>) {
-        if (a.index() != b.index()) return t < 0.5 ? a : b;
         return std::visit(
             [&](const auto& one) -> T {
                 using Alternative = std::remove_cvref_t<decltype(one)>;
-                return blend_at(one, std::get<Alternative>(b), t, path);
+                for (std::size_t i = 0; i < shares.count; ++i)
+                    if (shares.values[i]->index() != heaviest.index()) return heaviest;
+                return blend_shares(shares.of([](const T& value) -> const Alternative& {
+                    return *std::get_if<Alternative>(&value);
+                }),
+                                    info);
             },
-            a);
+            heaviest);
     } else if constexpr (is_list<T> || is_tuple<T>) {
-        if (a.size() != b.size())
-            throw GenerationError("lists of " + std::to_string(a.size()) + " and " +
-                                  std::to_string(b.size()) + " items cannot be blended: " + path);
-        T out = a;
-        for (std::size_t i = 0; i < a.size(); ++i)
-            out[i] = blend_at<typename T::value_type>(a[i], b[i], t, path);
+        for (std::size_t i = 0; i < shares.count; ++i)
+            if (shares.values[i]->size() != heaviest.size()) return heaviest;
+        T out = heaviest;
+        for (std::size_t k = 0; k < out.size(); ++k)
+            out[k] = blend_shares(
+                shares.of([k](const T& list) -> const typename T::value_type& { return list[k]; }),
+                info);
         return out;
     } else if constexpr (std::is_same_v<T, Range>) {
-        return {between(a.from, b.from, t), between(a.to, b.to, t)};
+        return {mean_of(shares.of(&Range::from), is_size(info)),
+                mean_of(shares.of(&Range::to), is_size(info))};
     } else if constexpr (std::is_same_v<T, Colour>) {
-        const auto channel = [&](std::uint8_t x, std::uint8_t y) {
-            if (x == y) return x;
-            const double light = between(srgb_to_linear(x / 255.0), srgb_to_linear(y / 255.0), t);
-            const double encoded = std::floor(linear_to_srgb(light) * 255.0 + 0.5);
-            return static_cast<std::uint8_t>(std::clamp(encoded, 0.0, 255.0));
-        };
-        return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b)};
+        return blend_colours(shares);
     } else if constexpr (std::is_integral_v<T> && Number<T>) {
-        return static_cast<T>(
-            std::floor(between(static_cast<double>(a), static_cast<double>(b), t) + 0.5));
+        T most = *shares.values[0];
+        for (std::size_t i = 1; i < shares.count; ++i) most = std::max(most, *shares.values[i]);
+        return most;
     } else if constexpr (Number<T>) {
-        return static_cast<T>(between(static_cast<double>(a), static_cast<double>(b), t));
+        return static_cast<T>(mean_of(shares, is_size(info)));
     } else {
-        return t < 0.5 ? a : b;
+        return heaviest;
     }
 }
 
-/// The struct at `t` in [0, 1] on the way from `a` (t = 0, exactly) to `b` (t = 1, exactly):
-/// numbers and ranges linearly, integers rounded half up, lists item by item, colours in linear
-/// light, equal alternatives of a variant inside; everything else from the nearer (t < 0.5: a).
-/// Throws GenerationError when two lists differ in length.
+/// The struct that several weighted ones give together, the same whatever their order (up to ties and rounding):
+/// numbers and ranges by their weighted mean, lengths that cannot be 0 (sizes) by that of their logarithms, colours
+/// in linear light, lists of equal length item by item, equal alternatives of a variant inside. Whole numbers are
+/// counts, fixed for a set: the largest of all, also of those that weigh nothing, so that nothing pops. Everything
+/// else (names, switches, lists of unequal length) is that of the heaviest.
+///
+/// returns  exactly the one value when a single one weighs anything, except for its counts
 template <class T>
-T blend(const T& a, const T& b, double t) {
-    assert(t >= 0.0 && t <= 1.0);
-    if (t <= 0.0) return a;
-    if (t >= 1.0) return b;
-    return blend_at(a, b, t, "");
+T blend(const Shares<T>& shares) {
+    assert(shares.count > 0);
+    return blend_shares(shares, Info{.name = ""});
 }
 
 template <Described Overrides, Described Values>

@@ -12,7 +12,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr double steepest = 8.0;
+constexpr double steepest_map = 8.0;
 constexpr int edges_per_curve = 48, fewest_edges = 4;
 constexpr int smoothings = 3;
 
@@ -67,7 +67,7 @@ std::vector<double> even_offsets(const std::vector<Link>& links, int n) {
         }
     }
     // db/da = (1 + d/2) / (1 - d/2) for an offset that grows by d from place to place.
-    constexpr double most = 2.0 * (steepest - 1.0) / (steepest + 1.0);
+    constexpr double most = 2.0 * (steepest_map - 1.0) / (steepest_map + 1.0);
     offsets.front() = offsets.back() = 0.0;
     for (std::size_t i = 1; i < offsets.size(); ++i)
         offsets[i] = std::clamp(offsets[i], offsets[i - 1] - most, offsets[i - 1] + most);
@@ -79,7 +79,7 @@ std::vector<double> even_offsets(const std::vector<Link>& links, int n) {
 
 }  // namespace
 
-ShareMap::ShareMap(std::vector<double> from, std::vector<double> to)
+ShareMap::ShareMap(std::vector<double> from, std::vector<double> to, double steepest)
     : from_(std::move(from)), to_(std::move(to)) {
     assert(from_.size() == to_.size() && from_.size() >= 2);
     const std::size_t n = from_.size();

@@ -19,9 +19,9 @@ class ShareMap {
 
     ShareMap() : ShareMap({0.0, 1.0}, {0.0, 1.0}) {}
 
-    /// from, to  knots, equally many, strictly rising from 0 to 1. Derivatives at the knots are kept within [1/8, 8],
-    ///           and always low enough for the map to rise everywhere.
-    ShareMap(std::vector<double> from, std::vector<double> to);
+    /// from, to  knots, equally many, strictly rising from 0 to 1. Derivatives at the knots are kept within
+    ///           [1 / steepest, steepest], and always low enough for the map to rise everywhere.
+    ShareMap(std::vector<double> from, std::vector<double> to, double steepest = 8.0);
 
     [[nodiscard]] Value operator()(double share) const;
 

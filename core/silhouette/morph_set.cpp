@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "core/build/detail.h"
@@ -287,7 +288,8 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
         }
         node_shares.front() = 0.0;
         node_shares.back() = 1.0;
-        const ShareMap hub_from_u(u, node_shares);
+        // As steep as it comes: a bound would give short steps a speed that they do not have.
+        const ShareMap hub_from_u(u, node_shares, std::numeric_limits<double>::infinity());
         for (std::size_t s = 0; s < shapes.size(); ++s) {
             std::vector<OutlineNode>& nodes = nodes_[s].of(curve);
             if (at(s).empty()) {

@@ -280,7 +280,7 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
     if (amount <= 0.0) return;
     for (const Patch& patch : patches(style, params.seed, purpose)) {
         const double scale = patch_scale(patch, amount);
-        if (scale <= 0.0) continue;
+        if (scale <= 0.0 || patch.radius <= 0.0) continue;
         // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
         const double radius = patch.radius * (kind == 0 ? scale : 0.7 + 0.3 * scale);
         const double length = std::max(radius * style.elongation, 1e-4);

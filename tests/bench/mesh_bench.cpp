@@ -42,8 +42,8 @@ void resolved(benchmark::State& state, const std::string& id) {
 void outlined(benchmark::State& state, const std::string& id) {
     const auto atlas = built_in_atlas();
     const Individual individual = resolve(order_of(id, 0), *atlas);
-    for (auto _ : state)
-        benchmark::DoNotOptimize(Outline(std::get<Swept>(individual.model.shape).silhouette));
+    const auto& silhouette = std::get<Swept>(individual.parts[0].model.shape).silhouette;
+    for (auto _ : state) benchmark::DoNotOptimize(Outline(silhouette));
 }
 
 void packed(benchmark::State& state, const std::string& id) {

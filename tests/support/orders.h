@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -56,6 +58,32 @@ inline Mesh mesh_of(const MushroomOrder& order) {
 
 inline const Silhouette& silhouette_of(const Model& model) {
     return std::get<Swept>(model.shape).silhouette;
+}
+
+/// The outline that a species' author drew for the age nearest to 0.6.
+inline const Silhouette& mature_silhouette(const std::string& id) {
+    const std::vector<Stage>& stages = atlas().find(id)->species.stages;
+    const auto nearest =
+        std::min_element(stages.begin(), stages.end(), [](const Stage& a, const Stage& b) {
+            return std::abs(a.age - 0.6) < std::abs(b.age - 0.6);
+        });
+    return silhouette_of(nearest->model);
+}
+
+/// The individual of a model of one's own.
+inline Individual individual_of(const Model& model, std::uint32_t seed = 1, int lod = 0) {
+    MushroomOrder order;
+    order.model = model;
+    order.params.seed = seed;
+    order.params.lod = lod;
+    return resolve(order, Atlas({}));
+}
+
+/// An order for a mix, weights in thousandths, without images.
+inline MushroomOrder mix_of(const Mix& mix, double age = 0.6, std::uint32_t seed = 1, int lod = 0) {
+    MushroomOrder order = order_of("", age, seed, lod);
+    order.mix = mix;
+    return order;
 }
 
 /// The bytes of a body, one after another.

@@ -170,7 +170,7 @@ TEST(Axis, StationsAreRightHandedFramesWithTheirDerivatives) {
     deformation.zone_from = 0.2;
     const std::vector<AxisPoint> controls = {
         {0.0, 0.0, 0.0}, {0.1, 0.4, 0.05}, {-0.05, 0.8, 0.0}, {0.0, 1.0, 0.1}};
-    const Axis axis(controls, deformation, {0.7, 1.9}, 0.0, 0.1);
+    const Axis axis(AxisCurve(controls), deformation, {0.7, 1.9}, 0.0, 0.1);
     for (double y = 0.0031; y < 0.1; y += 0.0093) {
         const AxisStation s = axis.at(y);
         const double size = glm::length(s.x);
@@ -208,7 +208,7 @@ TEST(Axis, ATemplateAxisIsFollowedAndScaledToTheStem) {
         const double angle = 0.5 * pi * i / 8.0;
         controls.push_back({1.7 * (1.0 - std::cos(angle)), 1.7 * std::sin(angle), 0.0});
     }
-    const Axis axis(controls, {}, {}, 0.0, 0.2);
+    const Axis axis(AxisCurve(controls), {}, {}, 0.0, 0.2);
     EXPECT_NEAR(arc_length(axis, 0.0, 0.2), 0.2, 1e-6);
     const double radius = 0.2 / (0.5 * pi);
     EXPECT_LT(glm::distance(axis.at(0.2).origin, glm::dvec3(radius, radius, 0.0)), 2e-3);
@@ -218,7 +218,7 @@ TEST(Axis, APointlessTemplateAxisIsStraight) {
     for (const std::vector<AxisPoint>& controls :
          {std::vector<AxisPoint>{{0.5, 0.5, 0.5}},
           std::vector<AxisPoint>{{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}}) {
-        const Axis axis(controls, {}, {}, 0.0, 0.2);
+        const Axis axis(AxisCurve(controls), {}, {}, 0.0, 0.2);
         EXPECT_LT(glm::distance(axis.at(0.1).origin, glm::dvec3(0.0, 0.1, 0.0)), 1e-15);
     }
 }

@@ -115,15 +115,14 @@ TEST(Ornaments, TheirTextureComesFromTheVeilsStrip) {
 
 TEST(Ornaments, RingsOfEveryKindAreValid) {
     Individual individual = resolve(order_of("amanita_muscaria"), atlas());
-    individual.model.ornaments = {0.0, 0.0, 1.0};
+    individual.layers.clear();
     for (const double flare : {0.0, 60.0, 120.0})
         for (const double width : {0.001, 0.02, 0.1})
             for (const double thickness : {0.0001, 0.01})
                 for (const double height : {0.0, 0.7, 1.0})
                     for (const int lod : {0, 2}) {
-                        individual.model.ring = {height, width, flare, thickness, 1.0};
-                        const auto& shape = std::get<Swept>(individual.model.shape);
-                        expect_valid(swept_mesh(individual.model, shape, lod, 1, true));
+                        individual.ring = {height, width, flare, thickness, 1.0};
+                        expect_valid(swept_mesh(individual, lod));
                     }
 }
 

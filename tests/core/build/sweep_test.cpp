@@ -25,10 +25,14 @@ Model bare(Silhouette silhouette) {
     return model;
 }
 
-Mesh swept(const Model& model, int lod, std::uint32_t seed = 1, bool with_texture = false) {
-    Mesh mesh = swept_mesh(model, std::get<Swept>(model.shape), lod, seed, with_texture);
+Mesh swept(const Individual& individual, int lod, bool with_texture = false) {
+    Mesh mesh = swept_mesh(individual, lod, {.textured = with_texture});
     expect_valid(mesh);
     return mesh;
+}
+
+Mesh swept(const Model& model, int lod, std::uint32_t seed = 1, bool with_texture = false) {
+    return swept(individual_of(model, seed, lod), lod, with_texture);
 }
 
 std::size_t row_of(int lod) {
@@ -150,55 +154,45 @@ TEST(Sweep, AStraightMushroomIsTheSumOfItsFrusta) {
     for (const AtlasEntry& entry : atlas().entries())
         for (const Stage& stage : entry.species.stages)
             for (const int lod : {0, 2}) {
-                const Model model = bare(silhouette_of(stage.model));
-                const Detail& detail = details[static_cast<std::size_t>(lod)];
-                const Outline outline(silhouette_of(model));
+                const Individual individual = individual_of(bare(silhouette_of(stage.model)));
                 double sum = 0.0;
-                const auto add = [&](const SubCurve& curve, int rings) {
-                    const auto samples = curve.sampled(rings);
-                    for (std::size_t i = 0; i + 1 < samples.size(); ++i) {
-                        const double a = samples[i].r, b = samples[i + 1].r;
-                        sum += (a * a + a * b + b * b) / 3.0 * (samples[i + 1].y - samples[i].y);
+                for (const CurveName curve : curve_names) {
+                    const auto rings = individual.outline.rings(curve, lod);
+                    for (std::size_t i = 0; i + 1 < rings.size(); ++i) {
+                        const double a = rings[i].r, b = rings[i + 1].r;
+                        sum += (a * a + a * b + b * b) / 3.0 * (rings[i + 1].y - rings[i].y);
                     }
-                };
-                add(outline.stem, detail.stem_rings);
-                if (!outline.hymenium.empty()) add(outline.hymenium, detail.hymenium_rings);
-                add(outline.cap, detail.cap_rings);
-                EXPECT_NEAR(volume(swept(model, lod)) / (polygon_area(lod) * sum), 1.0, 1e-5);
+                }
+                EXPECT_NEAR(volume(swept(individual, lod)) / (polygon_area(lod) * sum), 1.0, 1e-5);
             }
 }
 
-/// The order's own model, without what stands on the surface.
-Model body_of(const MushroomOrder& order) {
-    Model model = resolve(order, atlas()).model;
-    model.ornaments = {0.0, 0.0, 0.0};
-    model.volva.count = 0;
-    return model;
+/// The order's own individual, without what stands on the surface.
+Individual body_of(const MushroomOrder& order) {
+    Individual individual = resolve(order, atlas());
+    individual.layers.clear();
+    individual.has_ring = false;
+    return individual;
 }
 
 TEST(Sweep, WithoutDeformationEveryRingLiesWhereItsOutlineIs) {
-    const Model model = bare(silhouette_of(body_of(order_of("boletus_edulis"))));
-    const Mesh mesh = swept(model, 1);
+    const Individual individual = individual_of(bare(mature_silhouette("boletus_edulis")));
+    const Mesh mesh = swept(individual, 1);
     const Detail& detail = details[1];
-    const Outline outline(silhouette_of(model));
     std::size_t at = 0;
-    const auto check = [&](const SubCurve& curve, int rings) {
-        for (const OutlineSample& sample : curve.sampled(rings))
+    for (const CurveName curve : curve_names)
+        for (const OutlineSample& sample : individual.outline.rings(curve, 1))
             for (int j = 0; j <= detail.columns; ++j, ++at) {
                 const auto [s, c] = sine_cosine(2.0 * pi * (j % detail.columns) / detail.columns);
                 EXPECT_EQ(mesh.positions[at].x, static_cast<float>(sample.r * c));
                 EXPECT_EQ(mesh.positions[at].z, static_cast<float>(sample.r * s));
                 EXPECT_NEAR(mesh.positions[at].y, sample.y, 1e-8);
             }
-    };
-    check(outline.stem, detail.stem_rings);
-    check(outline.hymenium, detail.hymenium_rings);
-    check(outline.cap, detail.cap_rings);
     EXPECT_EQ(at, mesh.positions.size());
 }
 
 TEST(Sweep, DeformationOfAmountZeroChangesNoByte) {
-    const Model model = bare(silhouette_of(body_of(order_of("russula_vinosa"))));
+    const Model model = bare(mature_silhouette("russula_vinosa"));
     Model zero = model;
     zero.deformation.zone_from = 0.3;  // a zone of nothing, and directions that differ by seed
     zero.deformation.zone_to = 0.6;
@@ -242,11 +236,11 @@ struct Surface3 {
     }
 };
 
-/// Largest and mean normal error over the three faces of a model.
-std::pair<double, double> normal_errors(const Model& model, std::uint32_t seed) {
-    const Outline outline(silhouette_of(model));
-    const Deformer deformer(model, std::get<Swept>(model.shape), outline, seed);
-    const Waves waves(model.weathering.waves, 0.05, 72, seed);
+/// Largest and mean normal error over the three faces of an individual.
+std::pair<double, double> normal_errors(const Individual& individual, std::uint32_t seed) {
+    const Outline& outline = individual.outline;
+    const Deformer deformer(individual);
+    const Waves waves(individual.waves, 0.05, 72, seed);
     double worst = 0.0, sum = 0.0;
     int count = 0;
     Random random(seed, 99);
@@ -289,14 +283,14 @@ TEST(Sweep, NormalsFollowDentsThroughTheirJacobian) {
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             MushroomOrder order = order_of(id, 0.6, seed);
             order.params.deformation.imperfection = 1.0;
-            Model model = body_of(order);
-            const auto [worst, mean] = normal_errors(model, seed);
+            Individual individual = body_of(order);
+            const auto [worst, mean] = normal_errors(individual, seed);
             // On a bent stem a dent keeps the station of its undented height: a small second-order error.
             EXPECT_LT(worst, 0.12) << id << ' ' << seed;
             EXPECT_LT(mean, 0.01) << id << ' ' << seed;
-            model.deformation.bend_deg = model.deformation.lean_deg = 0.0;
-            model.weathering.waves = 0.0;
-            const auto [straight_worst, straight_mean] = normal_errors(model, seed);
+            individual.model.deformation.bend_deg = individual.model.deformation.lean_deg = 0.0;
+            individual.waves = 0.0;
+            const auto [straight_worst, straight_mean] = normal_errors(individual, seed);
             EXPECT_LT(straight_worst, 0.02) << id << ' ' << seed;
             EXPECT_LT(straight_mean, 1e-3) << id << ' ' << seed;
         }
@@ -306,7 +300,7 @@ TEST(Sweep, NormalsOfTheMeshComeCloserToItsFacesWithDetail) {
     for (const std::string& id : species_ids()) {
         double means[3];
         for (int lod = 0; lod < 3; ++lod) {
-            const Mesh mesh = swept(body_of(order_of(id, 0.6, 3, lod)), lod, 3);
+            const Mesh mesh = swept(body_of(order_of(id, 0.6, 3, lod)), lod);
             std::vector<glm::dvec3> sums(mesh.positions.size(), glm::dvec3(0.0));
             for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
                 const auto corner = [&](std::size_t k) {
@@ -364,7 +358,7 @@ TEST(Sweep, PolesPointAlongTheAxis) {
     for (const std::string& id : species_ids())
         for (int lod = 0; lod < 4; ++lod) {
             const Detail& detail = details[static_cast<std::size_t>(lod)];
-            const Model model = bare(silhouette_of(body_of(order_of(id))));
+            const Model model = bare(mature_silhouette(id));
             const Mesh mesh = swept(model, lod, 1, true);
             for (std::size_t j = 0; j < row_of(lod); ++j) {
                 EXPECT_LT(glm::distance(mesh.normals[j], glm::vec3(0.0f, -1.0f, 0.0f)), 1e-6f);
@@ -380,7 +374,7 @@ TEST(Sweep, TheSeamColumnRepeatsColumnZeroBitForBit) {
         for (int lod = 0; lod < 4; ++lod) {
             MushroomOrder order = order_of(id, 0.9, 4, lod);
             order.params.variation = 1.0;
-            const Mesh mesh = swept(body_of(order), lod, 4, true);
+            const Mesh mesh = swept(body_of(order), lod, true);
             const std::size_t row = row_of(lod);
             const Detail& detail = details[static_cast<std::size_t>(lod)];
             for (std::size_t i = 0; i + row <= mesh.positions.size(); i += row) {
@@ -405,10 +399,10 @@ TEST(Sweep, StemHymeniumAndCapAreWeldedBitForBit) {
                 MushroomOrder order = order_of(id, 0.2 * seed, seed, lod);
                 order.params.variation = 1.0;
                 order.params.weathering.waves = 1.0;
-                const Mesh mesh = swept(body_of(order), lod, seed);
+                const Mesh mesh = swept(body_of(order), lod);
                 const Detail& detail = details[static_cast<std::size_t>(lod)];
                 const std::size_t row = row_of(lod);
-                const bool has_hymenium = !silhouette_of(body_of(order)).hymenium.empty();
+                const bool has_hymenium = !body_of(order).outline.hymenium.empty();
                 std::vector<int> joints = {detail.stem_rings};
                 if (has_hymenium) joints.push_back(detail.stem_rings + detail.hymenium_rings);
                 for (const int joint : joints)
@@ -522,8 +516,7 @@ TEST(Sweep, AnAxisThatFoldsTheStemIsRefusedWithOrWithoutABend) {
     std::get<Swept>(model.shape).axis = {{0.0, 0.0, 0.0}, {0.0, 0.5, 0.0}, {0.5, 0.5, 0.0}};
     for (const double bend : {0.0, 20.0}) {
         model.deformation.bend_deg = bend;
-        const auto problems =
-            refusal([&] { (void)swept_mesh(model, std::get<Swept>(model.shape), 2, 1, false); });
+        const auto problems = refusal([&] { (void)swept_mesh(individual_of(model), 2); });
         EXPECT_TRUE(names(problems, "/model/axis", "mm wide, folds"));
     }
     model.deformation.bend_deg = 0.0;
@@ -549,7 +542,7 @@ TEST(Sweep, RandomOutlinesSweepToValidMeshes) {
         model.deformation.imperfection = arbitrary_fraction();
         model.weathering.waves = arbitrary_fraction();
         try {
-            const Mesh mesh = swept_mesh(model, std::get<Swept>(model.shape), 2, 7, true);
+            const Mesh mesh = swept_mesh(individual_of(model, 7, 2), 2);
             RC_ASSERT(defects(mesh).empty());
             RC_ASSERT(volume(mesh) > 0.0);
             ++grown;

@@ -26,17 +26,19 @@ TEST(Patches, LieWhereTheirStyleSays) {
     style.from = 0.2;
     style.to = 0.9;
     const std::vector<Patch> found = patches(style, 5, wart_purpose);
-    EXPECT_GT(found.size(), 120U);
-    EXPECT_LE(found.size(), 150U);
+    ASSERT_EQ(found.size(), 150U);
+    std::size_t crowded_out = 0;
     for (const Patch& patch : found) {
         EXPECT_GE(patch.sigma, 0.2);
         EXPECT_LE(patch.sigma, 0.9);
         EXPECT_GE(patch.theta, 0.0);
         EXPECT_LT(patch.theta, 2.0 * pi);
-        EXPECT_GT(patch.radius, 0.0);
+        EXPECT_GE(patch.radius, 0.0);
+        if (patch.radius == 0.0) ++crowded_out;
         EXPECT_GE(patch.survival, 0.0);
         EXPECT_LT(patch.survival, 1.0);
     }
+    EXPECT_LT(crowded_out, 30U) << "they stay in the row, without size";
 }
 
 TEST(Patches, AreEvenlySpreadOverTheHemisphere) {
@@ -70,7 +72,9 @@ TEST(Patches, OverlapByAFifthAtMost) {
             const auto a = place(found[i]), b = place(found[j]);
             const double dot = a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
             const double apart = std::acos(std::min(1.0, dot)) / (0.5 * pi);
-            EXPECT_GT(apart, 0.76 * (found[i].radius + found[j].radius));
+            if (found[i].radius > 0.0 && found[j].radius > 0.0) {
+                EXPECT_GT(apart, 0.76 * (found[i].radius + found[j].radius));
+            }
         }
 }
 

@@ -244,8 +244,7 @@ TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
             for (std::uint32_t seed = 0; seed < 6; ++seed) {
                 MushroomOrder order = order_of(id, step / 63.0, 1000 * seed + 7);
                 order.params.variation = 1.0;
-                const auto problems =
-                    refusal([&] { (void)Outline(silhouette_of(resolve(order, atlas()).model)); });
+                const auto problems = refusal([&] { (void)resolve(order, atlas()); });
                 EXPECT_TRUE(problems.empty())
                     << id << " at age " << order.params.age << ", seed " << order.params.seed
                     << ": " << problems[0].path << ' ' << problems[0].message;

@@ -1,0 +1,63 @@
+// One individual: an order with everything decided. What is swept, deformed, ornamented and painted reads from here.
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "core/model/axis_curve.h"
+#include "core/model/patches.h"
+#include "core/model/request.h"
+#include "core/silhouette/morph_set.h"
+
+namespace sporeprint {
+
+/// One species of an individual, or its own Model (`id` empty).
+struct SpeciesShare {
+    std::string id;
+    double weight = 1.0;  ///< weights of an individual sum to 1
+    Model model;          ///< the species' own at this age, overrides applied: what is painted
+};
+
+/// The torn pieces that one species brings to an individual. Species whose pieces have equal places share a layer.
+struct PatchLayer {
+    std::uint32_t purpose = wart_purpose;
+    PatchStyle style;     ///< places are drawn from it, whatever the weight
+    double amount = 0.0;  ///< of the veil or skin: 0..1
+    double weight = 1.0;  ///< of the species in the mix: factor on the size of every piece
+    bool operator==(const PatchLayer&) const = default;
+};
+
+/// The gills or ridges of a whole set, so that no weight and no age changes their number: those of the species and stage with the
+/// most at the margin. A species with fewer shows its own, the last tiers dropped first. 0 blades: none carries any.
+struct Comb {
+    int blades = 0;
+    int tiers = 0;
+
+    [[nodiscard]] long at_margin() const { return static_cast<long>(blades) << tiers; }
+    bool operator==(const Comb&) const = default;
+};
+
+/// An order with everything decided: what `resolve` answers.
+struct Individual {
+    Model
+        model;  ///< all amounts and sizes, blended; its shape is empty: `outline` and `axis` are the individual's own
+    MushroomParams
+        effective;  ///< every optional that a species of the mix can have, set to what the individual really has
+    double lightness = 1.0;           ///< factor on the linear colour of the cap
+    std::vector<SpeciesShare> parts;  ///< by id
+    std::shared_ptr<const MorphSet>
+        set;                 ///< of all control shapes of its species; knows what is proven
+    Outline outline;         ///< metres; proportions and size of the individual
+    double stem_base = 0.0;  ///< height of the first point of the stem, metres
+    double stem_top = 0.0;   ///< of its last
+    AxisCurve axis;
+    std::vector<PatchLayer>
+        layers;  ///< warts, scales and volvas of all species, also those of which nothing is left
+    RingStyle ring;         ///< its width holds amounts and weights; metres
+    bool has_ring = false;  ///< whether a species of the mix can have one at some age
+    double waves = 0.0;     ///< of the margin: what no species with a margin has, none can show
+    Comb comb;
+};
+
+}  // namespace sporeprint

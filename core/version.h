@@ -1,0 +1,9 @@
+// The generator's version: part of every key, ETag and golden hash.
+#pragma once
+
+namespace sporeprint {
+
+/// Raised whenever bytes change for an unchanged request.
+inline constexpr int generator_version = 2;
+
+}  // namespace sporeprint
