@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "api/answers.h"
+#include "api/morphs.h"
 #include "api/mushrooms.h"
 #include "api/service.h"
 #include "api/store.h"
@@ -34,8 +35,12 @@ struct Resource {
     std::string file_name;
     std::optional<std::string> asked_version;
 
-    /// What making it costs; adds to the faults what of it is impossible, as far as can be told without making it.
-    std::function<Cost(Faults&)> weigh;
+    /// What making it costs. Throws InvalidInput or Impossible, with paths of core, for all of it that can be told without
+    /// making it; asks only `morphs` of the Memo.
+    std::function<Cost(const Memo&)> weigh;
+
+    /// About what making it costs, where its correspondence is not kept: then the job weighs it.
+    Cost guess;
 
     /// Makes the body. Called on any thread, at most once at a time.
     std::function<Body(Loan&)> make;
@@ -50,6 +55,10 @@ struct Resource {
 /// A mushroom as GLB or JSON, by address or by body.
 [[nodiscard]] Plan plan_mushroom(Context& context, const Request& request, MushroomRequest asked,
                                  Faults& faults);
+
+/// The correspondence of two species.
+[[nodiscard]] Plan plan_morph(Context& context, const Request& request, const MorphRequest& asked,
+                              Faults& faults);
 
 /// One image of an atlas.
 [[nodiscard]] Plan plan_surface(Context& context, const Request& request,

@@ -7,6 +7,17 @@
 
 namespace sporeprint::api {
 
+namespace {
+
+bool is_address(std::string_view text) {
+    std::vector<Problem> problems;
+    const Target target = split_target(text, problems);
+    return problems.empty() && text.starts_with("/v1/") &&
+           match_route("GET", target.segments).route;
+}
+
+}  // namespace
+
 Plan plan_inspection(Context& context, const Request& request, Faults& faults) {
     if (!faults.empty()) return context.answers.problem(request, faults);
     auto file = std::make_shared<const std::string>(request.body);
@@ -15,14 +26,11 @@ Plan plan_inspection(Context& context, const Request& request, Faults& faults) {
         observer(Step::resolve);
         const Inspection found =
             inspect_glb({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
-        std::vector<Problem> problems;
-        const Target target = split_target(found.canonical, problems);
-        const bool ours =
-            found.canonical.empty() || (problems.empty() && found.canonical.starts_with("/v1/") &&
-                                        match_route("GET", target.segments).route);
-        if (!ours)
+        // A model of one's own, or arcs, have no address.
+        if (!found.canonical.empty() && !is_address(found.canonical))
             throw InvalidInput(
                 "", "the canonical request in this file is not an address of Sporeprint");
+        std::vector<Problem> problems;
         Value effective =
             parse(found.effective_json.empty() ? "{}" : found.effective_json, problems);
         if (!problems.empty() || !effective.is_object())

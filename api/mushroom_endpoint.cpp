@@ -10,39 +10,43 @@ namespace sporeprint::api {
 
 namespace {
 
-/// What an order will come to; adds to `faults` what of it is well-formed but impossible, as far as it can be told without
-/// making it (the individual is decided, nothing is built).
-Estimate weighed(const Context& context, const MushroomOrder& order, bool posted, Faults& faults) {
+/// What an order will come to. Refuses what of it is well-formed but impossible, as far as it can be told without making it (the
+/// individual is decided, nothing is built).
+Estimate weighed(const Context& context, const MushroomOrder& order, const Memo& memo) {
     const ServiceOptions& options = context.options;
-    const auto where = [&](const char* parameter) {
-        return posted ? '/' + std::string(parameter) : std::string(parameter);
-    };
-    if (order.mix.size() > 1)
-        faults.add(422, "mix",
-                   "species cannot be mixed yet; ask for one of " + mix_text(order.mix) + " alone");
     if (order.model && order.params.textures == Textures::linked)
-        faults.add(422, where("textures"),
-                   "a model of your own has no address that images could be linked to; ask for "
-                   "embedded or none");
-    if (!faults.empty()) return {};
-    Estimate cost;
-    try {
-        cost = estimate(order, *context.atlas);
-    } catch (const Impossible& impossible) {
-        faults.add(422, named(impossible, posted));
-    } catch (const InvalidInput& invalid) {
-        faults.add(400, named(invalid, posted));
-    }
+        throw Impossible(
+            "/textures",
+            "a model of your own has no address that images could be linked to; ask for embedded "
+            "or none");
+    const Estimate cost = estimate(order, *context.atlas, memo);
+    std::vector<Problem> problems;
     if (cost.vertices > options.most_vertices)
-        faults.add(422, where("lod"),
-                   std::to_string(cost.vertices) + " vertices would be made; at most " +
-                       std::to_string(options.most_vertices) + " are. Raise lod");
+        report(problems, "/lod",
+               std::to_string(cost.vertices) + " vertices would be made; at most " +
+                   std::to_string(options.most_vertices) + " are. Raise lod");
     if (cost.texels > options.most_texels)
-        faults.add(422, where("texture_size"),
-                   std::to_string(cost.texels) + " texels would be painted; at most " +
-                       std::to_string(options.most_texels) +
-                       " are. Lower texture_size or raise lod");
+        report(problems, "/texture_size",
+               std::to_string(cost.texels) + " texels would be painted; at most " +
+                   std::to_string(options.most_texels) + " are. Lower texture_size or raise lod");
+    if (!problems.empty()) throw Impossible(std::move(problems));
     return cost;
+}
+
+/// What the HTTP side is told of an estimate.
+Cost cost_of(const Estimate& estimated, Product product) {
+    return product == Product::glb ? Cost{estimated.vertices, estimated.texels, estimated.bytes}
+                                   : Cost{estimated.vertices, 0, estimated.vertices * 32};
+}
+
+/// About what an order comes to, before its individual is known.
+Estimate guessed(const MushroomParams& params) {
+    const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
+    Estimate guess;
+    guess.vertices = std::uint64_t{12'000} >> (2 * params.lod);
+    guess.texels = params.textures == Textures::none ? 0 : 3 * side * side;
+    guess.bytes = 60 * guess.vertices + guess.texels / 3;
+    return guess;
 }
 
 /// The GLB.
@@ -52,9 +56,10 @@ Body grown(const Context& context, const MushroomOrder& order, const std::string
     Extras extras;
     extras.canonical = address;
     if (order.params.textures == Textures::linked) {
-        const MushroomOrder surface = surface_order(order, atlas);
+        const Memo& memo = loan.workshop().memo;
+        const MushroomOrder surface = surface_order(order, atlas, memo);
         const SurfaceAddress image =
-            surface_address(surface, surface_metrics(resolve(order, atlas)));
+            surface_address(surface, surface_metrics(resolve(order, atlas, memo.morphs)));
         for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
             extras.image_addresses[i] =
                 with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
@@ -67,17 +72,28 @@ Value vector_value(const glm::vec3& vector) {
     return Value(Value::Array{write(vector.x), write(vector.y), write(vector.z)});
 }
 
+/// How it is known that no outline of this mix touches itself.
+Certificate certificate(const MushroomOrder& order, const Atlas& atlas,
+                        const Remember<MorphSet>& morphs) {
+    // resolve() checks the outline that is swept by exact predicates and refuses one that touches itself: who got here has passed.
+    if (order.mix.size() < 2) return {};
+    const SpeciesShapes shapes = species_shapes(order, atlas, morphs);
+    return order.mix.size() == 2 ? shapes.set->certificate(shapes.weights[0], shapes.weights[1])
+                                 : shapes.set->certificate();
+}
+
 /// What would be made, as JSON.
 Body described(const Context& context, const MushroomOrder& order, const std::string& version,
                Loan& loan) {
     const Atlas& atlas = *context.atlas;
     const Observer& observer = loan.workshop().observer;
     observer(Step::resolve);
-    const Individual individual = resolve(order, atlas);
+    const Memo& memo = loan.workshop().memo;
+    const Individual individual = resolve(order, atlas, memo.morphs);
     observer(Step::build);
     const Bounds box = bounds(mushroom_mesh(order, individual));
     observer(Step::pack);
-    const Estimate cost = estimate(order, atlas);
+    const Estimate cost = estimate(order, individual);
     Value mix = Value::array();
     for (const MixPart& part : order.mix)
         mix.push(Value::object().set("id", part.id).set("weight", part.weight / 1000.0));
@@ -93,8 +109,7 @@ Body described(const Context& context, const MushroomOrder& order, const std::st
                              .set("bytes", cost.bytes));
     body.set("bounds_m",
              Value::object().set("min", vector_value(box.min)).set("max", vector_value(box.max)));
-    // resolve() refuses crossing outlines by exact predicates on the sampled polyline; who got here has passed.
-    body.set("certificate", Value::object().set("simple", true).set("method", "exact"));
+    body.set("certificate", write(certificate(order, atlas, memo.morphs)));
     return {slice_of(dump(body))};
 }
 
@@ -103,21 +118,20 @@ Body described(const Context& context, const MushroomOrder& order, const std::st
 Plan plan_mushroom(Context& context, const Request& request, MushroomRequest asked,
                    Faults& faults) {
     if (!faults.empty()) return context.answers.problem(request, faults);
-    const bool posted = request.method == "POST";
     const Product product = asked.product;
     const auto order = std::make_shared<const MushroomOrder>(std::move(asked.order));
     Resource resource;
     resource.version = version_token(order->mix, *context.atlas);
-    resource.address = order->model ? std::string() : canonical_address(*order, product);
+    resource.address =
+        order->model || !order->arcs.empty() ? std::string() : canonical_address(*order, product);
     resource.key = key_of(*order, product, resource.version);
     resource.type = product == Product::glb ? "model/gltf-binary" : "application/json";
     resource.file_name = file_name(*order, product);
     resource.asked_version = std::move(asked.version);
-    resource.weigh = [&context, order, product, posted](Faults& found) {
-        const Estimate estimated = weighed(context, *order, posted, found);
-        return product == Product::glb ? Cost{estimated.vertices, estimated.texels, estimated.bytes}
-                                       : Cost{estimated.vertices, 0, estimated.vertices * 32};
+    resource.weigh = [&context, order, product](const Memo& memo) {
+        return cost_of(weighed(context, *order, memo), product);
     };
+    resource.guess = cost_of(guessed(order->params), product);
     resource.make = [&context, order, product, address = resource.address,
                      version = resource.version](Loan& loan) {
         return product == Product::glb ? grown(context, *order, address, loan)

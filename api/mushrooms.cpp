@@ -112,6 +112,10 @@ std::string key_of(const MushroomOrder& order, Product product, std::string_view
         canonical(*order.model, key);
     else
         key += mix_text(order.mix);
+    for (const Arc& arc : order.arcs) {
+        key += ' ';
+        canonical(arc, key);
+    }
     key += '\n';
     canonical(order.params, key);
     return key;

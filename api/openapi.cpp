@@ -7,6 +7,7 @@
 #include "api/catalogue.h"
 #include "api/errors.h"
 #include "api/mix.h"
+#include "api/morphs.h"
 #include "api/routes.h"
 #include "api/surfaces.h"
 #include "core/model/request.h"
@@ -66,6 +67,14 @@ std::string example_id(const Atlas& atlas) {
     return atlas.entries().front().species.id.string();
 }
 
+/// A second species for examples of morphs.
+std::string other_id(const Atlas& atlas) {
+    const std::string first = example_id(atlas);
+    for (const AtlasEntry& entry : atlas.entries())
+        if (entry.species.id.string() != first) return entry.species.id.string();
+    return "boletus_edulis";
+}
+
 Value parameters_of(const Route& route, const Atlas& atlas) {
     Value parameters = Value::array();
     const std::string_view pattern = route.pattern;
@@ -78,6 +87,10 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
                                        text, example));
     if (pattern.find("{id}") != std::string_view::npos)
         parameters.push(path_parameter("id", "A species id.", text, example));
+    if (pattern.find("{a}") != std::string_view::npos) {
+        parameters.push(path_parameter("a", "Id of the first species.", text, example));
+        parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
+    }
     if (pattern.find("{name}") != std::string_view::npos)
         parameters.push(path_parameter("name", "Name of the file.", text, "favicon.svg"));
     if (pattern.find("{image}") != std::string_view::npos) {
@@ -96,6 +109,10 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
             add_query_parameters(schema<MushroomParams>(), "", parameters);
             parameters.push(version_parameter());
             break;
+        case Endpoint::morph:
+            add_query_parameters(schema<MorphParams>(), "", parameters);
+            parameters.push(version_parameter());
+            break;
         case Endpoint::surface:
             add_query_parameters(schema<SurfaceAddress>(), "", parameters);
             parameters.push(version_parameter());
@@ -110,6 +127,11 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
     return parameters;
 }
 
+Value version_member() {
+    return object(
+        {{"type", "string"}, {"description", "Version token; another than today's is 410."}});
+}
+
 /// Body of POST /v1/mushrooms.glb: mix or model, beside the nested parameters.
 Value order_schema() {
     Value out = schema<MushroomParams>();
@@ -121,14 +143,20 @@ Value order_schema() {
                  {"additionalProperties", object({{"type", "number"}, {"exclusiveMinimum", 0}})},
                  {"description", "Species ids and their weights."}})},
         {"model", reference("schemas/model")},
-        {"v", object({{"type", "string"},
-                      {"description", "Version token; another than today's is 410."}})},
+        {"v", version_member()},
     });
     for (const auto& [key, property] : out.find("properties")->members())
         properties.set(key, property);
     out.set("properties", std::move(properties));
     out.set("oneOf", Value(Value::Array{object({{"required", Value(Value::Array{"mix"})}}),
                                         object({{"required", Value(Value::Array{"model"})}})}));
+    return out;
+}
+
+/// Body of POST /v1/morphs/{a}/{b}.glb.
+Value morph_order_schema() {
+    Value out = schema<MorphOrder>();
+    out.find("properties")->set("v", version_member());
     return out;
 }
 
@@ -149,6 +177,27 @@ Value triple() {
         {{"type", "array"}, {"items", typed("number")}, {"minItems", 3}, {"maxItems", 3}});
 }
 
+/// What GET /v1/morphs/{a}/{b} answers.
+Value morph_schema() {
+    Value polyline = list_of(
+        object({{"type", "array"}, {"items", typed("number")}, {"minItems", 2}, {"maxItems", 2}}));
+    polyline.set("description",
+                 "Points [r, y] in metres from base to apex. Point k of one species becomes point "
+                 "k of the other.");
+    const Value outline =
+        objects({{"stem", polyline}, {"hymenium", polyline}, {"cap", std::move(polyline)}});
+    Value arcs = list_of(schema<Arc>());
+    arcs.set("description", "Some of the pairs as shares of arc length, landmarks among them.");
+    return objects({{"canonical", typed("string")},
+                    {"v", typed("string")},
+                    {"a", typed("string")},
+                    {"b", typed("string")},
+                    {"age", typed("number")},
+                    {"outlines", objects({{"a", outline}, {"b", outline}})},
+                    {"arcs", std::move(arcs)},
+                    {"certificate", reference("schemas/certificate")}});
+}
+
 Value schemas() {
     const Value whole = typed("integer"), text = typed("string");
     const Value pair =
@@ -166,6 +215,9 @@ Value schemas() {
     return object({
         {"mushroom_params", schema<MushroomParams>()},
         {"mushroom_order", order_schema()},
+        {"morph_order", morph_order_schema()},
+        {"morph", morph_schema()},
+        {"certificate", schema<Certificate>()},
         {"model", schema<Model>()},
         {"species", schema<Species>()},
         {"species_list", objects({{"species", list_of(objects({{"id", text},
@@ -189,7 +241,7 @@ Value schemas() {
               {"effective", reference("schemas/mushroom_params")},
               {"estimate", objects({{"vertices", whole}, {"triangles", whole}, {"bytes", whole}})},
               {"bounds_m", objects({{"min", triple()}, {"max", triple()}})},
-              {"certificate", objects({{"simple", typed("boolean")}, {"method", text}})}})},
+              {"certificate", reference("schemas/certificate")}})},
         {"inspection",
          objects({{"generator", text},
                   {"canonical", text},
@@ -211,11 +263,14 @@ Value body_schema(Endpoint endpoint) {
             return reference("schemas/mushroom_description");
         case Endpoint::inspect:
             return reference("schemas/inspection");
+        case Endpoint::morph:
+            return reference("schemas/morph");
         case Endpoint::mushroom_schema:
         case Endpoint::openapi:
             return typed("object");
         case Endpoint::mushroom_glb:
         case Endpoint::mushroom_post:
+        case Endpoint::morph_post:
         case Endpoint::surface:
             return object({{"type", "string"}, {"format", "binary"}});
         default:
@@ -244,9 +299,47 @@ std::set<int> problems_of(Endpoint endpoint) {
         case Endpoint::inspect:
             return {400, 405, 408, 411, 413, 414, 415, 429, 431, 500, 503, 504};
         case Endpoint::mushroom_post:
+        case Endpoint::morph_post:
             return {400, 404, 405, 408, 410, 411, 413, 414, 415, 422, 429, 431, 500, 503, 504};
         default:
             return {400, 404, 405, 410, 414, 422, 429, 431, 500, 503, 504};
+    }
+}
+
+/// Whether a route answers with something made and kept.
+bool is_made(Endpoint endpoint) {
+    switch (endpoint) {
+        case Endpoint::mushroom_glb:
+        case Endpoint::mushroom_json:
+        case Endpoint::mushroom_post:
+        case Endpoint::morph:
+        case Endpoint::morph_post:
+        case Endpoint::surface:
+            return true;
+        default:
+            return false;
+    }
+}
+
+/// What a route takes: the schema of its body, and an example where it is JSON.
+Value taken(Endpoint endpoint, const Atlas& atlas) {
+    switch (endpoint) {
+        case Endpoint::mushroom_post:
+            return object(
+                {{"schema", reference("schemas/mushroom_order")},
+                 {"example",
+                  object({{"mix", object({{example_id(atlas), 1}})}, {"age", 0.6}, {"seed", 7}})}});
+        case Endpoint::morph_post:
+            return object(
+                {{"schema", reference("schemas/morph_order")},
+                 {"example",
+                  object(
+                      {{"t", 0.4},
+                       {"arcs", Value(Value::Array{object(
+                                    {{"curve", name(CurveName::cap)}, {"a", 0.25}, {"b", 0.4}})})},
+                       {"age", 0.6}})}});
+        default:
+            return object({{"schema", object({{"type", "string"}, {"format", "binary"}})}});
     }
 }
 
@@ -254,21 +347,12 @@ Value operation(const Route& route, const Atlas& atlas) {
     Value out = object({{"operationId", route.id}, {"summary", route.summary}});
     Value parameters = parameters_of(route, atlas);
     if (!parameters.items().empty()) out.set("parameters", std::move(parameters));
-    if (*route.takes) {
-        Value content =
-            object({{"schema", route.endpoint == Endpoint::mushroom_post
-                                   ? reference("schemas/mushroom_order")
-                                   : object({{"type", "string"}, {"format", "binary"}})}});
-        if (route.endpoint == Endpoint::mushroom_post)
-            content.set(
-                "example",
-                object({{"mix", object({{example_id(atlas), 1}})}, {"age", 0.6}, {"seed", 7}}));
-        out.set("requestBody", object({{"required", true},
-                                       {"content", object({{route.takes, std::move(content)}})}}));
-    }
+    if (*route.takes)
+        out.set("requestBody",
+                object({{"required", true},
+                        {"content", object({{route.takes, taken(route.endpoint, atlas)}})}}));
     Value success = object({{"description", route.summary}});
-    if (route.endpoint == Endpoint::mushroom_glb || route.endpoint == Endpoint::mushroom_json ||
-        route.endpoint == Endpoint::mushroom_post || route.endpoint == Endpoint::surface) {
+    if (is_made(route.endpoint)) {
         Value headers = Value::object();
         for (const char* header : {"ETag", "Cache-Control", "Content-Location", "Cache-Status",
                                    "Server-Timing", "X-Request-Id"})

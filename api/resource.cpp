@@ -27,10 +27,23 @@ Answer unmade(const Context& context, const Request& request, Answer head) {
     return head;
 }
 
+/// What `resource` costs; what of it is impossible goes to the faults, named as the client wrote it.
+Cost weighed(const Request& request, const Resource& resource, const Memo& memo, Faults& faults) {
+    const bool posted = request.method == "POST";
+    try {
+        return resource.weigh(memo);
+    } catch (const Impossible& impossible) {
+        faults.add(422, named(impossible, posted));
+    } catch (const InvalidInput& invalid) {
+        faults.add(400, named(invalid, posted));
+    }
+    return {};
+}
+
 /// 410, or whatever is stronger.
-Answer superseded(const Context& context, const Request& request, const Resource& resource,
+Answer superseded(Context& context, const Request& request, const Resource& resource,
                   Faults& faults) {
-    static_cast<void>(resource.weigh(faults));
+    static_cast<void>(weighed(request, resource, made_at_once(context.store), faults));
     faults.add(410, request.method == "POST" ? "/v" : "v",
                in_quotes(*resource.asked_version) + " is no longer made; today's version is " +
                    in_quotes(resource.version));
@@ -82,17 +95,28 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
         context.answers.represent(request, answer);
         return answer;
     }
-    const Cost cost = resource.weigh(faults);
+    // A correspondence that is not kept takes milliseconds: the job finds it, unless the answer is needed here.
+    const bool made_here = request.method == "HEAD" || names_any(condition);
+    std::optional<Cost> cost;
+    try {
+        cost =
+            weighed(request, resource, made_here ? made_at_once(store) : kept_only(store), faults);
+    } catch (const NotKept&) {
+    }
     if (!faults.empty()) return context.answers.problem(request, faults);
     if (names_any(condition)) return not_modified();
     if (request.method == "HEAD") return unmade(context, request, std::move(head));
 
     ++store.counters.glb_misses;
     take_header(head, "Cache-Control");
-    auto run = [&store, make = std::move(resource.make), head = std::move(head),
-                key = resource.key](std::stop_token stop, const Observer& observer,
-                                    const Parallel& parallel) {
+    auto run = [&store, weigh = cost ? nullptr : std::move(resource.weigh),
+                make = std::move(resource.make), head = std::move(head), key = resource.key](
+                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
         Loan loan(store, std::move(stop), observer, parallel);
+        if (weigh) {
+            observer(Step::resolve);
+            static_cast<void>(weigh(loan.workshop().memo));
+        }
         Answer answer = head;
         answer.body = make(loan);
         ++store.counters.generated;
@@ -102,7 +126,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
         set_header(answer, "Cache-Status", status + cache_member("sporeprint", false, stored));
         return answer;
     };
-    return Job{std::move(resource.key), cost, std::move(run)};
+    return Job{std::move(resource.key), cost.value_or(resource.guess), std::move(run)};
 }
 
 }  // namespace sporeprint::api

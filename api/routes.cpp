@@ -13,7 +13,7 @@ namespace {
 constexpr const char* json = "application/json";
 constexpr const char* glb = "model/gltf-binary";
 
-constexpr std::array<Route, 16> table = {{
+constexpr std::array<Route, 18> table = {{
     {Endpoint::page, "GET", "/", "page", "The viewer page.", "text/html", ""},
     {Endpoint::docs, "GET", "/docs", "docs", "A page that shows this document.", "text/html", ""},
     {Endpoint::asset, "GET", "/assets/{name}", "asset", "A file of the viewer page.",
@@ -31,6 +31,13 @@ constexpr std::array<Route, 16> table = {{
      "What would be grown: canonical address, effective parameters, cost and bounds.", json, ""},
     {Endpoint::mushroom_post, "POST", "/v1/mushrooms.glb", "post_mushroom",
      "Grows a mushroom from a body: a mix, or a whole model of your own.", glb, json},
+    {Endpoint::morph_post, "POST", "/v1/morphs/{a}/{b}.glb", "post_morph",
+     "Grows a mushroom between two species, with your own arcs from one outline to the other.", glb,
+     json},
+    {Endpoint::morph, "GET", "/v1/morphs/{a}/{b}", "get_morph",
+     "Correspondence of two species: both outlines, what of one becomes what of the other, and "
+     "whether any morph between them crosses itself.",
+     json, ""},
     {Endpoint::surface, "GET", "/v1/surfaces/mushrooms/{mix}/{image}.jpg", "get_surface",
      "One image of a mushroom's atlas; what textures=linked points to.", "image/jpeg", ""},
     {Endpoint::inspect, "POST", "/v1/inspect", "inspect",

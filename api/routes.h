@@ -20,6 +20,8 @@ enum class Endpoint {
     mushroom_json,
     mushroom_schema,
     mushroom_post,
+    morph,
+    morph_post,
     surface,
     inspect,
     openapi,

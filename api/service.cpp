@@ -18,7 +18,9 @@ namespace sporeprint::api {
 
 namespace {
 
-bool kept_by_key(const Key& key) { return key.starts_with("mushroom."); }
+bool kept_by_key(const Key& key) {
+    return key.starts_with("mushroom.") || key.starts_with("morph.");
+}
 
 /// "queue;dur=0.01, build;dur=2.5" of the steps that were taken.
 std::string server_timing(const Timing& timing) {
@@ -141,6 +143,17 @@ Plan Service::Parts::plan(const Request& request) {
             refuse_query(target, faults);
             return plan_mushroom(context, request, read_mushroom(request.body, atlas, faults),
                                  faults);
+        case Endpoint::morph:
+            return plan_morph(
+                context, request,
+                read_morph(read_pair(match.captured[0], match.captured[1], atlas, faults),
+                           target.query, faults),
+                faults);
+        case Endpoint::morph_post: {
+            refuse_query(target, faults);
+            const SpeciesPair pair = read_pair(match.captured[0], match.captured[1], atlas, faults);
+            return plan_mushroom(context, request, read_morph(pair, request.body, faults), faults);
+        }
         case Endpoint::surface:
             return plan_surface(
                 context, request,

@@ -25,10 +25,11 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
     : atlas_(std::move(atlas)), answers_(answers) {
     if (!assets.empty()) assets_ = read_assets(assets);
     Value links = Value::object();
-    links.set("species", "/v1/species")
-        .set("mushroom_schema", "/v1/mushrooms/schema")
-        .set("openapi", "/openapi.json")
-        .set("docs", "/docs");
+    links.set("species", "/v1/species").set("mushroom_schema", "/v1/mushrooms/schema");
+    if (atlas_->entries().size() > 1)  // an example: any two will do
+        links.set("morph", "/v1/morphs/" + atlas_->entries()[0].species.id.string() + '/' +
+                               atlas_->entries()[1].species.id.string());
+    links.set("openapi", "/openapi.json").set("docs", "/docs");
     Value root = Value::object();
     root.set("name", "sporeprint")
         .set("version", SPOREPRINT_VERSION)

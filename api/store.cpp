@@ -60,6 +60,28 @@ void Store::measure() {
     counters.morph_evictions = of_morphs.evictions;
 }
 
+Memo kept_only(Store& store) {
+    Memo memo;
+    memo.morphs = [&store](const std::string& key, const std::function<Morph()>&) {
+        if (std::optional<Morph> kept = store.morphs.cache().find(key)) return *std::move(kept);
+        throw NotKept();
+    };
+    return memo;
+}
+
+Memo made_at_once(Store& store) {
+    Memo memo;
+    memo.morphs = [&store](const std::string& key, const std::function<Morph()>& make) {
+        const std::optional<Morph> kept = store.morphs.cache().find(key);
+        count(store.counters.morph_hits, store.counters.morph_misses, kept.has_value());
+        if (kept) return *kept;
+        Morph made = make();
+        store.morphs.cache().insert(key, made);
+        return made;
+    };
+    return memo;
+}
+
 std::string cache_member(std::string_view cache, bool hit, bool stored) {
     return std::string(cache) + (hit ? "; hit" : stored ? "; fwd=miss; stored" : "; fwd=miss");
 }

@@ -39,6 +39,15 @@ struct Store {
     std::atomic<std::uint64_t> inspections{0};  ///< uploads so far, to tell them apart
 };
 
+/// Thrown by `kept_only` for what is not kept.
+struct NotKept {};
+
+/// A Memo for plan(): finds what is kept, throws NotKept where something would have to be made. Counts nothing.
+[[nodiscard]] Memo kept_only(Store& store);
+
+/// A Memo for plan(): makes the correspondences that are not kept, a millisecond each, and waits for nobody who makes the same.
+[[nodiscard]] Memo made_at_once(Store& store);
+
 /// What a cache said, as a member of Cache-Status: "sporeprint-images; fwd=miss; stored".
 [[nodiscard]] std::string cache_member(std::string_view cache, bool hit, bool stored);
 

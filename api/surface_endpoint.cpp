@@ -29,14 +29,14 @@ Answer surface_head(const SurfaceRequest& asked, std::string_view digest,
 }
 
 /// What is painted at an address; adds to `faults` what of it is impossible.
-PaintRecipe painted(const Context& context, const SurfaceRequest& asked, Faults& faults) {
+PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& faults) {
     const auto side = static_cast<std::uint64_t>(asked.address.texture_size.value);
     if (3 * side * side > context.options.most_texels)
         faults.add(422, "texture_size",
                    std::to_string(3 * side * side) + " texels would be painted; at most " +
                        std::to_string(context.options.most_texels) + " are");
     try {
-        return painted_at(asked.address, asked.mix, *context.atlas);
+        return painted_at(asked.address, asked.mix, *context.atlas, made_at_once(context.store));
     } catch (const Impossible& impossible) {
         faults.add(422, named(impossible, false));
     } catch (const InvalidInput& invalid) {

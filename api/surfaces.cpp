@@ -27,7 +27,8 @@ SurfaceAddress surface_address(const MushroomOrder& order, const SurfaceMetrics&
     return address;
 }
 
-PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atlas& atlas) {
+PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atlas& atlas,
+                       const Memo& memo) {
     MushroomOrder order;
     order.mix = mix;
     order.params.seed = address.seed;
@@ -37,7 +38,7 @@ PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     order.params.hymenium = address.hymenium;
     order.params.weathering.fade = address.weathering.fade;
     order.params.weathering.wetness = address.weathering.wetness;
-    PaintRecipe recipe = paint_recipe(order, atlas, address.metrics);
+    PaintRecipe recipe = paint_recipe(order, atlas, address.metrics, memo);
     for (PaintShare& share : recipe) share.painting.side = address.texture_size;
     return recipe;
 }

@@ -84,7 +84,7 @@ struct SurfaceAddress {
 /// mix     a surface_mix
 /// throws  Impossible: what no species of the mix can have
 [[nodiscard]] PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix,
-                                     const Atlas& atlas);
+                                     const Atlas& atlas, const Memo& memo = {});
 
 struct SurfaceRequest {
     Mix mix;  ///< a surface_mix

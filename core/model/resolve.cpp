@@ -513,4 +513,24 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     return individual;
 }
 
+SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
+                             const Remember<MorphSet>& morphs) {
+    std::vector<Problem> problems;
+    check(order.params, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    const std::vector<Source> sources = sources_of(order, atlas);
+    SpeciesShapes shapes;
+    shapes.set = morph_set(sources, {}, order.params.age, morphs);
+    std::size_t first = 0;
+    for (const Source& source : sources) {
+        std::vector<double> weights(shapes.set->size(), 0.0);
+        std::copy(source.growth.begin(), source.growth.end(),
+                  weights.begin() + static_cast<std::ptrdiff_t>(first));
+        first += source.growth.size();
+        shapes.weights.push_back(std::move(weights));
+        shapes.sizes.push_back(source.size);
+    }
+    return shapes;
+}
+
 }  // namespace sporeprint

@@ -19,4 +19,17 @@ namespace sporeprint {
 [[nodiscard]] Individual resolve(const MushroomOrder& order, const Atlas& atlas,
                                  const Remember<MorphSet>& morphs = make_anew<MorphSet>);
 
+/// The control shapes of the species of an order, as their templates are: no individual's own.
+struct SpeciesShapes {
+    std::shared_ptr<const MorphSet> set;
+    /// One for each species by id: weights of all shapes of the set when it counts alone, at the age of the order.
+    std::vector<std::vector<double>> weights;
+    std::vector<double> sizes;  ///< metres, by id: what the shapes of the set are divided by
+};
+
+/// pre     the order has no arcs
+/// throws  InvalidInput for a range or an unknown species
+[[nodiscard]] SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
+                                           const Remember<MorphSet>& morphs = make_anew<MorphSet>);
+
 }  // namespace sporeprint

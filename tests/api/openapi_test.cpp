@@ -6,6 +6,7 @@
 #include <set>
 
 #include "api/errors.h"
+#include "api/morphs.h"
 #include "api/routes.h"
 #include "api/surfaces.h"
 #include "core/model/request.h"
@@ -84,9 +85,33 @@ TEST(OpenApi, names_every_query_parameter) {
     EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}.glb")), mushroom);
     EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}.json")), mushroom);
     EXPECT_EQ(query_names(get("/v1/surfaces/mushrooms/{mix}/{image}.jpg")), surface);
+    EXPECT_EQ(query_names(get("/v1/morphs/{a}/{b}")), (std::set<std::string>{"age", "v"}));
     EXPECT_EQ(query_names(get("/v1/species")),
               (std::set<std::string>{"form", "family", "substrate", "month", "colour",
                                      "min_diameter_m", "max_diameter_m"}));
+}
+
+TEST(OpenApi, names_every_member_of_a_body) {
+    const Value api = document();
+    const auto properties = [&](const char* schema) {
+        std::set<std::string> out;
+        const std::string at = std::string("/components/schemas/") + schema + "/properties";
+        for (const auto& [key, ignored] : api.at_pointer(at)->members()) out.insert(key);
+        return out;
+    };
+    std::set<std::string> params, morph = {"t", "arcs", "v"}, mushroom = {"mix", "model", "v"};
+    MushroomParams::fields([&](auto, const Info& info) { params.insert(info.name); });
+    morph.insert(params.begin(), params.end());
+    mushroom.insert(params.begin(), params.end());
+    EXPECT_EQ(properties("morph_order"), morph);
+    EXPECT_EQ(properties("mushroom_order"), mushroom);
+    const auto& arc =
+        *api.at_pointer("/components/schemas/morph_order/properties/arcs/items/properties");
+    EXPECT_EQ(arc.at_pointer("/curve/enum/1")->as_string(), "hymenium");
+    EXPECT_EQ(arc.at_pointer("/a/maximum")->as_number(), 1.0);
+    EXPECT_EQ(
+        api.at_pointer("/components/schemas/morph_order/properties/arcs/maxItems")->as_number(),
+        static_cast<double>(most_arcs));
 }
 
 TEST(OpenApi, tells_ranges_units_and_whose_default_it_is) {

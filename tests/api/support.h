@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/errors.h"
 #include "api/service.h"
 #include "core/atlas/atlas.h"
 #include "core/params/value.h"
@@ -76,10 +77,31 @@ inline bool names(const Answer& answer, std::string_view parameter, std::string_
     return false;
 }
 
+/// Expects problem+json as the contract has it.
+inline void expect_problem(const Answer& answer, int status) {
+    EXPECT_EQ(answer.status, status) << text_of(answer);
+    EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
+    EXPECT_EQ(header(answer, "Cache-Control"), "no-store");
+    for (const char* absent : {"ETag", "Cache-Status", "Content-Location"})
+        EXPECT_EQ(header(answer, absent), "") << absent;
+    const Value body = json_of(answer);
+    EXPECT_EQ(body.find("status")->as_number(), status);
+    EXPECT_EQ(body.find("type")->as_string(),
+              std::string("/problems/") + problem_type(status).slug);
+    EXPECT_EQ(body.find("title")->as_string(), problem_type(status).title);
+    EXPECT_FALSE(body.find("detail")->as_string().empty());
+    EXPECT_EQ(body.find("instance")->as_string(), "test-1");
+    EXPECT_EQ(header(answer, "X-Request-Id"), "test-1");
+    EXPECT_EQ(header(answer, "Access-Control-Allow-Origin"), "*");
+    EXPECT_EQ(header(answer, "X-Content-Type-Options"), "nosniff");
+}
+
 /// A species of the built-in atlas, and its address at the smallest cost.
 inline std::string first_species() {
     return built_in_atlas()->entries().front().species.id.string();
 }
+
+inline std::string second_species() { return built_in_atlas()->entries()[1].species.id.string(); }
 
 inline std::string small(std::string_view more = "") {
     return "/v1/mushrooms/" + first_species() + ".glb?lod=3&texture_size=128" + std::string(more);

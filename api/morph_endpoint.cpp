@@ -1,0 +1,61 @@
+#include <utility>
+
+#include "api/endpoints.h"
+#include "core/grow/species_morph.h"
+#include "core/params/reader.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+Value polyline(const std::vector<OutlineSample>& rings) {
+    Value points = Value::array();
+    for (const OutlineSample& ring : rings) points.push(Value(Value::Array{ring.r, ring.y}));
+    return points;
+}
+
+Body told(const Context& context, const MorphRequest& asked, const std::string& version,
+          Loan& loan) {
+    const SpeciesMorph found =
+        species_morph(asked.species, asked.params.age, *context.atlas, loan.workshop());
+    loan.workshop().observer(Step::pack);
+    Value outlines = Value::object();
+    for (std::size_t side = 0; side < 2; ++side) {
+        Value outline = Value::object();
+        for (const CurveName curve : curve_names)
+            outline.set(name(curve),
+                        polyline(found.outlines[side][static_cast<std::size_t>(curve)]));
+        outlines.set(side == 0 ? "a" : "b", std::move(outline));
+    }
+    Value body = Value::object();
+    body.set("canonical", canonical_address(asked));
+    body.set("v", version);
+    body.set("a", asked.species[0]);
+    body.set("b", asked.species[1]);
+    body.set("age", asked.params.age);
+    body.set("outlines", std::move(outlines));
+    body.set("arcs", write(found.arcs));
+    body.set("certificate", write(found.certificate));
+    return {slice_of(dump(body))};
+}
+
+}  // namespace
+
+Plan plan_morph(Context& context, const Request& request, const MorphRequest& asked,
+                Faults& faults) {
+    if (!faults.empty()) return context.answers.problem(request, faults);
+    Resource resource;
+    resource.version = version_token(asked.species, *context.atlas);
+    resource.address = canonical_address(asked);
+    resource.key = key_of(asked, resource.version);
+    resource.type = "application/json";
+    resource.file_name = asked.species[0] + '-' + asked.species[1] + ".json";
+    resource.asked_version = asked.version;
+    resource.weigh = [](const Memo&) { return Cost{4000, 0, 64u << 10}; };
+    resource.make = [&context, asked, version = resource.version](Loan& loan) {
+        return told(context, asked, version, loan);
+    };
+    return plan_resource(context, request, std::move(resource), faults);
+}
+
+}  // namespace sporeprint::api

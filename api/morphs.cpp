@@ -1,0 +1,144 @@
+#include "api/morphs.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "api/catalogue.h"
+#include "api/mix.h"
+#include "core/grow/mushroom.h"
+#include "core/params/canonical.h"
+#include "core/params/messages.h"
+#include "core/params/query.h"
+#include "core/params/reader.h"
+
+namespace sporeprint::api {
+
+static_assert(well_described<MorphParams>());
+static_assert(well_described<MorphOrder>());
+
+namespace {
+
+/// Whether both arcs can hold in one rising map: they lie in the same order on both outlines.
+bool agree(const Arc& one, const Arc& other) {
+    return one.curve != other.curve || (one.a < other.a && one.b < other.b) ||
+           (one.a > other.a && one.b > other.b);
+}
+
+/// Whether an arc leads from an end of a sub-curve to where no end is.
+bool leaves_end(const Arc& arc) {
+    return (arc.a <= 0.0) != (arc.b <= 0.0) || (arc.a >= 1.0) != (arc.b >= 1.0);
+}
+
+std::string told(const Arc& arc) {
+    return std::string(name(arc.curve)) + ' ' + number_text(arc.a) + " to " + number_text(arc.b);
+}
+
+/// Names each arc that crosses another or an end.
+void refuse_crossings(const std::vector<Arc>& arcs, Faults& faults) {
+    for (std::size_t i = 0; i < arcs.size(); ++i) {
+        const std::string path = "/arcs/" + std::to_string(i);
+        if (leaves_end(arcs[i])) {
+            faults.add(422, path,
+                       "the arc " + told(arcs[i]) +
+                           " parts the ends of the two curves, which belong together");
+            continue;
+        }
+        for (std::size_t k = 0; k < arcs.size(); ++k) {
+            if (k == i || agree(arcs[i], arcs[k])) continue;
+            faults.add(422, path,
+                       "the arc " + told(arcs[i]) + " crosses /arcs/" + std::to_string(k) + ", " +
+                           told(arcs[k]));
+            break;
+        }
+    }
+}
+
+}  // namespace
+
+SpeciesPair read_pair(std::string_view a, std::string_view b, const Atlas& atlas, Faults& faults) {
+    SpeciesPair species = {std::string(a), std::string(b)};
+    const AtlasEntry* first = atlas.find(species[0]);
+    const AtlasEntry* second = atlas.find(species[1]);
+    if (!first) faults.add(404, "a", unknown_species(a, atlas));
+    if (!second) faults.add(404, "b", unknown_species(b, atlas));
+    if (!first || !second) return species;
+    if (first == second)
+        faults.add(
+            422, "b",
+            in_quotes(b) + " cannot be morphed into itself; name two species. Its growth is age");
+    const Family family = family_of(first->species), other = family_of(second->species);
+    if (family != other)
+        faults.add(422, "b",
+                   in_quotes(b) + " is " + name(other) + " and " + in_quotes(a) + " is " +
+                       name(family) + "; only species of one family can be morphed");
+    return species;
+}
+
+MorphRequest read_morph(SpeciesPair species,
+                        std::span<const std::pair<std::string, std::string>> query,
+                        Faults& faults) {
+    MorphRequest request;
+    request.species = std::move(species);
+    std::vector<std::pair<std::string, std::string>> rest;
+    request.version = take_version(query, rest, faults);
+    std::vector<Problem> problems;
+    read_query(rest, request.params, problems);
+    faults.add(400, problems);
+    request.params.age += 0.0;  // -0 is 0
+    return request;
+}
+
+MushroomRequest read_morph(const SpeciesPair& species, std::string_view body, Faults& faults) {
+    MushroomRequest request;
+    std::vector<Problem> problems;
+    Value json = parse(body, problems);
+    if (problems.empty() && !json.is_object())
+        report(problems, "", "expected an object, got " + shown(json));
+    if (!problems.empty()) {
+        faults.add(400, problems);
+        return request;
+    }
+    request.version = take_version(json, problems);
+    MorphOrder order;
+    read(json, order, Info{.name = ""}, "", problems);
+    faults.add(400, problems);
+    refuse_crossings(order.arcs, faults);
+    without_negative_zero(order);
+
+    Weights weights;
+    if (order.t < 1.0) weights.emplace_back(species[0], 1.0 - order.t);
+    if (order.t > 0.0) weights.emplace_back(species[1], order.t);
+    request.order.mix = canonical_mix(std::move(weights));
+    request.order.params = std::move(order.params);
+    if (request.order.mix.size() < 2) return request;  // a lone species: no arc leads anywhere
+    for (Arc arc : order.arcs) {
+        if (arc.a <= 0.0 || arc.a >= 1.0) continue;  // the ends belong together anyway
+        if (species[1] < species[0]) std::swap(arc.a, arc.b);
+        request.order.arcs.push_back(arc);
+    }
+    std::sort(request.order.arcs.begin(), request.order.arcs.end(),
+              [](const Arc& one, const Arc& other) {
+                  return std::tie(one.curve, one.a) < std::tie(other.curve, other.a);
+              });
+    return request;
+}
+
+std::string canonical_address(const MorphRequest& request) {
+    std::string address = "/v1/morphs/" + request.species[0] + '/' + request.species[1];
+    const std::string query = query_text(request.params);
+    return query.empty() ? address : address + '?' + query;
+}
+
+std::string version_token(const SpeciesPair& species, const Atlas& atlas) {
+    return version_token(canonical_mix({{species[0], 1.0}, {species[1], 1.0}}), atlas);
+}
+
+std::string key_of(const MorphRequest& request, std::string_view version) {
+    std::string key = "morph.json ";
+    ((key += version) += '\n') += request.species[0];
+    ((key += ' ') += request.species[1]) += '\n';
+    canonical(request.params, key);
+    return key;
+}
+
+}  // namespace sporeprint::api
