@@ -105,6 +105,26 @@ test("a drag asks for linked textures and a lower level of detail, never a highe
     assert.deepEqual([...settings.draftValues(true)], [["lod", 3]]);
 });
 
+test("playing asks for the growth of the settings at most at LOD 1, and frames are only sent with a clip", () => {
+    const properties = {
+        ...schema.properties,
+        animation: { enum: ["none", "growth"], default: "none" },
+        frames: { type: "integer", minimum: 2, maximum: 16, default: 9 },
+    };
+    const settings = new page.Settings(page.groupsOf({ ...schema, properties }).flatMap((group) => group.fields), "a");
+    assert.ok(settings.grows);
+    assert.ok(!new page.Settings(fields, "a").grows);
+    settings.set("frames", 5);
+    assert.equal(settings.address(".glb"), "/v1/mushrooms/a.glb");
+    assert.equal(settings.matters(settings.field("frames")), false);
+    assert.equal(settings.address(".glb", settings.clipValues()), "/v1/mushrooms/a.glb?lod=1&animation=growth&frames=5");
+    settings.set("lod", 3);
+    settings.set("animation", "growth");
+    assert.equal(settings.address(".glb"), "/v1/mushrooms/a.glb?lod=3&animation=growth&frames=5");
+    assert.equal(settings.address(".glb", settings.clipValues()), settings.address(".glb"));
+    assert.equal(settings.address(".glb", settings.draftValues(false)), "/v1/mushrooms/a.glb?lod=3", "drafts do not move");
+});
+
 test("values outside the schema have their fault in words", () => {
     assert.equal(page.fault(named("age"), 1.7), "is above 1");
     assert.equal(page.fault(named("seed"), 1.5), "needs a whole number");

@@ -85,7 +85,7 @@ class Control {
         this.row.classList.toggle("inherited", set === undefined && this.field.fromSpecies);
         this.reset.hidden = set === undefined;
         // What a species cannot have is not offered.
-        this.row.hidden = this.field.fromSpecies && set === undefined && effective !== undefined && own === undefined;
+        this.row.hidden = !this.settings.matters(this.field) || this.field.fromSpecies && set === undefined && effective !== undefined && own === undefined;
         for (const entry of this.entries) {
             if (entry instanceof HTMLInputElement && entry.type === "checkbox") {
                 entry.checked = value === true;

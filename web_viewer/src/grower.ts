@@ -10,6 +10,8 @@ export interface Grown {
     answer: Answer;
     model: Object3D;
     draft: boolean;
+    /** Asked for to be played. */
+    clip: boolean;
     /** What was asked for. */
     wanted: Wanted;
 }
@@ -24,6 +26,11 @@ export interface GrowerEvents {
 
 const pauseMs = 120;
 
+interface Wish {
+    draft: boolean;
+    clip: boolean;
+}
+
 interface Flight {
     draft: boolean;
     stop: AbortController;
@@ -32,7 +39,7 @@ interface Flight {
 export class Grower {
     private flight: Flight | undefined;
     private timer: ReturnType<typeof setTimeout> | undefined;
-    private pending: { draft: boolean } | undefined;
+    private pending: Wish | undefined;
     private refit = true;
     private linked = true;
     private shown: string | undefined;
@@ -60,6 +67,12 @@ export class Grower {
         this.plan(false, delay);
     }
 
+    /** The growth of what the settings say, to be played. */
+    clip(): void {
+        this.stop();
+        this.plan(false, 0, true);
+    }
+
     /** Resolves when what stands on the stage is what the settings say. */
     async settled(): Promise<void> {
         for (;;) {
@@ -71,8 +84,8 @@ export class Grower {
         }
     }
 
-    private plan(draft: boolean, delay: number): void {
-        this.pending = { draft };
+    private plan(draft: boolean, delay: number, clip = false): void {
+        this.pending = { draft, clip };
         if (this.flight) return;
         if (this.timer !== undefined && draft) return;
         clearTimeout(this.timer);
@@ -93,10 +106,10 @@ export class Grower {
         const pending = this.pending;
         if (!pending) return;
         this.pending = undefined;
-        const { draft } = pending;
+        const { draft, clip } = pending;
         const flight: Flight = { draft, stop: new AbortController() };
         this.flight = flight;
-        const replaced = draft ? this.settings.draftValues(this.linked) : undefined;
+        const replaced = draft ? this.settings.draftValues(this.linked) : clip ? this.settings.clipValues() : undefined;
         const wanted = this.settings.wanted(replaced);
         const current = (): boolean => this.flight === flight;
         try {
@@ -108,23 +121,24 @@ export class Grower {
             this.events.progress({ stage: "unpacking" });
             const model = await parseModel(answer.bytes, draft ? this.paint : undefined);
             const refit = this.refit;
-            if (!(await this.events.show({ answer, model, draft, wanted }, refit, current))) return;
+            if (!(await this.events.show({ answer, model, draft, clip, wanted }, refit, current))) return;
             this.refit = false;
             if (!draft) {
                 const resource = await effective;
                 if (!current()) return;
                 if (resource) this.events.effective(resource);
-                this.shown = wanted.key;
+                this.shown = clip ? this.settings.wanted().key : wanted.key;
                 this.failure = undefined;
             }
         } catch (error) {
             if (!current()) return;
-            this.fail(wanted, replaced?.has("textures") ?? false, draft, error);
+            this.fail(wanted, replaced?.has("textures") ?? false, pending, error);
         } finally {
             if (current()) {
                 this.flight = undefined;
                 this.events.progress({ stage: "idle" });
-                if (this.pending) this.plan((this.pending as { draft: boolean }).draft, 0);
+                const next = this.pending as Wish | undefined;
+                if (next) this.plan(next.draft, 0, next.clip);
             }
             const waiting = this.waiting;
             this.waiting = [];
@@ -132,7 +146,7 @@ export class Grower {
         }
     }
 
-    private fail(wanted: Wanted, linked: boolean, draft: boolean, error: unknown): void {
+    private fail(wanted: Wanted, linked: boolean, { draft, clip }: Wish, error: unknown): void {
         const known =
             error instanceof RequestFailed
                 ? error
@@ -140,10 +154,11 @@ export class Grower {
         if (draft && linked && known.status === 422 && known.items.some(({ parameter }) => parameter.replace("/", "") === "textures")) {
             // A server with signed URLs has no linked images: drafts embed them from now on.
             this.linked = false;
-            this.pending ??= { draft: true };
+            this.pending ??= { draft: true, clip: false };
             return;
         }
-        if (!draft) this.failure = { key: wanted.key, error: known };
+        // Without its clip the model on the stage is still what the settings say.
+        if (!draft && !clip) this.failure = { key: wanted.key, error: known };
         this.events.failed(known);
     }
 

@@ -6,6 +6,7 @@ import { Controls } from "./controls";
 import { byId, grouped, kilobytes, make } from "./dom";
 import { factLine, Gallery, type Species } from "./gallery";
 import { Grower, type Grown } from "./grower";
+import { Growth } from "./growth";
 import { getJson, RequestFailed, send, type ProblemItem, type Progress } from "./http";
 import { readShares } from "./mix";
 import { countsOf, paintOf } from "./model";
@@ -19,6 +20,9 @@ import { makeThumbnails } from "./thumbnails";
 const shot = new URLSearchParams(location.search).get("shot") === "1";
 const calm = shot || matchMedia("(prefers-reduced-motion: reduce)").matches;
 
+/** How long a hand must rest on the age of a clip before the model of that age is asked for. */
+const restMs = 900;
+
 interface TestHandle {
     /** The shown model equals the controls, and a frame of it was drawn. */
     ready(): Promise<void>;
@@ -26,6 +30,8 @@ interface TestHandle {
     /** Of the last frame, and what the graphics card holds; `frames` drawn so far. */
     readonly renderer: { frames: number; calls: number; triangles: number; geometries: number; textures: number };
     readonly counts: { triangles: number; vertices: number; drawCalls: number; textures: number };
+    /** The age that a clip shows now, and whether it runs. */
+    readonly growth: { age: number | undefined; playing: boolean };
     /** Metres. */
     readonly size: { above: number; width: number; height: number; depth: number };
 }
@@ -73,6 +79,8 @@ class Page {
     private readonly bench: Bench;
     private readonly sheet: Sheet;
     private readonly place: Place = (item) => this.controls.fail(item.parameter, item.detail) || this.bench.fail(item);
+    private readonly growth: Growth;
+    private readonly playButton = make("button", { type: "button", id: "play", class: "play" });
     private readonly lods = new Map<number, HTMLButtonElement>();
     private grown: Grown | undefined;
     private faults: Fault[] = [];
@@ -90,11 +98,11 @@ class Page {
         this.settings = new Settings(fields, species[0]?.id ?? "");
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
         this.controls = new Controls(byId("form"), groups, this.settings, {
-            moving: () => {
+            moving: ({ name }) => {
                 this.controls.show();
-                this.grower.draft();
+                if (name !== "age" || !this.scrub()) this.grower.draft();
             },
-            moved: (field) => this.changed(field.name),
+            moved: ({ name }) => this.changed(name),
         });
         this.bench = new Bench(this.settings, species, {
             moving: () => {
@@ -120,8 +128,16 @@ class Page {
             effective: (resource) => this.controls.show(resource.effective),
             failed: (error) => this.failed(error),
         });
+        this.growth = new Growth({
+            posed: (age) => {
+                this.stage.posed();
+                this.showAge(age);
+            },
+            ended: () => this.endGrowth(),
+        });
         stage.onFrame = () => this.showScale();
         this.makeTools();
+        this.makePlay();
         this.makeActions();
         this.makeModes();
         this.makeDrop();
@@ -136,6 +152,10 @@ class Page {
         await this.bench.settled();
         await this.grower.settled();
         await this.sheet.settled();
+    }
+
+    get growing(): TestHandle["growth"] {
+        return { age: this.growth.age, playing: this.growth.playing };
     }
 
     get counts(): ReturnType<typeof countsOf> {
@@ -207,12 +227,87 @@ class Page {
         this.controls.show();
         this.markLod();
         this.showFaults([]);
+        // Who moves through a clip sees it at once; the model of that age follows when the hand rests.
+        if (name === "age" && this.scrub()) return this.grower.final(false, restMs);
+        this.leaveGrowth();
         this.grower.final(false, 60);
+    }
+
+    /** Poses the clip on the stage, if there is one, at the age of the settings. */
+    private scrub(): boolean {
+        this.growth.pause();
+        this.markPlay();
+        const age = this.settings.values.get("age") ?? this.settings.field("age")?.fallback;
+        return typeof age === "number" && this.growth.pose(age);
+    }
+
+    private leaveGrowth(): void {
+        this.growth.leave();
+        this.markPlay();
+    }
+
+    /** The button beside the age: grows what is on the stage. */
+    private makePlay(): void {
+        const row = byId("form").querySelector('.control[data-name="age"]');
+        if (!row || !this.settings.grows) return;
+        row.classList.add("playable");
+        row.querySelector(".entry")?.append(this.playButton);
+        this.playButton.addEventListener("click", () => {
+            if (this.growth.playing) this.pauseGrowth();
+            else if (this.growth.ready) this.startGrowth();
+            else this.grower.clip();
+            this.markPlay();
+        });
+        this.markPlay();
+    }
+
+    private markPlay(): void {
+        const { playing } = this.growth;
+        const label = playing ? "Stay at this age" : "Play growth";
+        this.playButton.textContent = playing ? "❚❚" : "▶";
+        this.playButton.title = label;
+        this.playButton.setAttribute("aria-label", label);
+    }
+
+    private startGrowth(): void {
+        if (calm) {
+            say("Growth is loaded: move the age to see it");
+            document.querySelector<HTMLElement>('[name="age"]')?.focus();
+            return;
+        }
+        this.growth.play(0);
+        this.markPlay();
+        say("Growing");
+    }
+
+    /** What is seen becomes what is asked for. */
+    private pauseGrowth(): void {
+        this.growth.pause();
+        const step = this.settings.field("age")?.step ?? 0.01;
+        const age = Math.round((this.growth.age ?? 0) / step) * step;
+        this.settings.set("age", Number(age.toFixed(4)));
+        this.changed("age");
+        say(`Stopped at age ${age.toFixed(2)}`);
+    }
+
+    /** Grown to the end: back to the mushroom that was asked for. */
+    private endGrowth(): void {
+        this.markPlay();
+        this.grower.final(false, restMs);
+    }
+
+    /** The slider follows the clip; the settings stay. */
+    private showAge(age: number): void {
+        for (const entry of byId("form").querySelectorAll<HTMLInputElement>('input[name="age"]')) {
+            if (entry !== document.activeElement || entry.type === "range") entry.value = String(Number(age.toFixed(3)));
+            entry.style.setProperty("--to", `${100 * age}%`);
+        }
     }
 
     /** Shows new settings from scratch: another species, another address, a dropped file. */
     private begin(refit: boolean): void {
         this.controls.clearFaults();
+        this.leaveGrowth();
         this.showFaults([]);
         this.gallery.mark(this.settings.morph?.shares.map(({ id }) => id).join(",") ?? this.settings.mix);
         this.showMode();
@@ -289,6 +384,9 @@ class Page {
         if (grown.draft) this.paint.dress(paintOf(grown.model));
         else this.paint.adopt(grown.model);
         this.bench.accept();
+        if (this.growth.ready) this.controls.show();
+        this.growth.take(grown.model);
+        this.markPlay();
         if (!grown.draft) this.controls.clearFaults();
         this.showFaults(this.faults);
         this.showNumbers(grown);
@@ -304,6 +402,7 @@ class Page {
             const { triangles } = countsOf(grown.model);
             say(`${byId("common-name").textContent}: ${grouped(triangles)} triangles, ${kilobytes(grown.answer.bytes.byteLength)}`);
         }
+        if (grown.clip) this.startGrowth();
         return true;
     }
 
@@ -584,6 +683,9 @@ async function open(): Promise<void> {
         },
         get counts() {
             return page.counts;
+        },
+        get growth() {
+            return page.growing;
         },
         get size() {
             return stage.size;

@@ -1,5 +1,5 @@
 // A parsed GLB on its way to the stage and off it again: reading, measuring, counting, freeing.
-import { Box3, Mesh, Texture, type Material, type Object3D } from "three";
+import { Box3, Mesh, MeshStandardMaterial, Texture, type Material, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { Paint } from "./paint";
 
@@ -34,6 +34,17 @@ export function texturesOf(model: Object3D): Set<Texture> {
     return textures;
 }
 
+/** Morph targets turn normals, but the tangents of the file stay: where a face turns far, both would meet. The
+ *  tangents that three derives from positions and texture coordinates turn with the face. */
+function useDerivativeTangents(mesh: Mesh): void {
+    if (!mesh.geometry.getAttribute("tangent")) return;
+    mesh.geometry.deleteAttribute("tangent");
+    for (const material of materialsOf(mesh)) {
+        // As the loader does for files without tangents.
+        if (material instanceof MeshStandardMaterial) material.normalScale.y *= -1;
+    }
+}
+
 /** Addresses of the linked images that a model lent its paint still waits for, by what they are. */
 export function paintOf(model: Object3D): Map<string, string> {
     return (model.userData["paint"] as Map<string, string> | undefined) ?? new Map<string, string>();
@@ -44,9 +55,11 @@ export async function parseModel(bytes: ArrayBuffer, paint?: Paint): Promise<Obj
     const loader = new GLTFLoader();
     const late = new Map<string, string>();
     if (paint) loader.register(paint.plugin(late));
-    const { scene } = await loader.parseAsync(bytes, `${location.origin}/`);
+    const { scene, animations } = await loader.parseAsync(bytes, `${location.origin}/`);
+    scene.animations = animations;
     scene.userData["paint"] = late;
     for (const mesh of meshesOf(scene)) {
+        if (mesh.geometry.morphAttributes.position) useDerivativeTangents(mesh);
         mesh.castShadow = true;
         mesh.receiveShadow = true;
     }

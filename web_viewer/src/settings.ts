@@ -63,10 +63,19 @@ export class Settings {
         }
     }
 
+    /** Whether a field says anything: the frames of a clip do not while there is none. */
+    matters(field: Field, replaced: ReadonlyMap<string, Value> = new Map()): boolean {
+        if (field.name !== "frames") return true;
+        const animation = this.field("animation");
+        const chosen = replaced.get("animation") ?? this.values.get("animation") ?? animation?.fallback;
+        return !animation || chosen !== animation.fallback;
+    }
+
     /** Query in schema order; `replaced` stands in for single values. */
     query(replaced: ReadonlyMap<string, Value> = new Map()): string {
         const parts: string[] = [];
         for (const field of this.fields) {
+            if (!this.matters(field, replaced)) continue;
             const value = replaced.get(field.name) ?? this.values.get(field.name);
             if (value === undefined || (!field.fromSpecies && value === field.fallback)) continue;
             parts.push(`${encodeURIComponent(field.name)}=${encodeURIComponent(String(value))}`);
@@ -78,6 +87,7 @@ export class Settings {
     private nested(replaced: ReadonlyMap<string, Value>): Record<string, unknown> {
         const out: Record<string, unknown> = {};
         for (const field of this.fields) {
+            if (!this.matters(field, replaced)) continue;
             const value = replaced.get(field.name) ?? this.values.get(field.name);
             if (value === undefined || (!field.fromSpecies && value === field.fallback)) continue;
             const path = field.name.split(".");
@@ -124,6 +134,23 @@ export class Settings {
         const chosen = this.values.get("textures") ?? textures?.fallback;
         if (linked && textures?.options.includes("linked") && chosen === "embedded") {
             replaced.set("textures", "linked");
+        }
+        const still = this.field("animation")?.fallback;
+        if (still !== undefined) replaced.set("animation", still);
+        return replaced;
+    }
+
+    /** Whether this server makes clips of growth. */
+    get grows(): boolean {
+        return this.field("animation")?.options.includes("growth") ?? false;
+    }
+
+    /** What playing asks for: the growth of these settings, at most at the second level of detail. */
+    clipValues(): Map<string, Value> {
+        const replaced = new Map<string, Value>([["animation", "growth"]]);
+        const lod = this.field("lod");
+        if (lod?.max !== undefined && lod.max >= 1) {
+            replaced.set("lod", Math.max(Number(this.values.get("lod") ?? lod.fallback ?? 0), 1));
         }
         return replaced;
     }

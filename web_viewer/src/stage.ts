@@ -183,6 +183,12 @@ export class Stage {
         return true;
     }
 
+    /** The model moved by itself: its shadow on the ground follows. */
+    posed(): void {
+        this.castContact();
+        this.draw();
+    }
+
     /** Looks from a named side, at once. */
     view(name: ViewName, atOnce = true): void {
         this.fit(name, atOnce);
@@ -240,19 +246,21 @@ export class Stage {
 
     private settle(): void {
         const ball = this.bounds.getBoundingSphere(new Sphere());
-        const size = this.bounds.getSize(new Vector3());
         aimSun(this.sun, ball);
         this.ground.visible = true;
         this.ground.fit(ball.radius, this.ruling);
-        const half = Math.max(
-            Math.abs(this.bounds.min.x), Math.abs(this.bounds.max.x),
-            Math.abs(this.bounds.min.z), Math.abs(this.bounds.max.z),
-        ) * 1.6;
         this.contact.visible = true;
         this.contact.position.y = ball.radius * 0.0015;
-        if (this.model) this.contact.update(this.renderer, this.scene, this.model, half, size.y);
+        this.castContact();
         this.controls.minDistance = ball.radius * 0.4;
         this.controls.maxDistance = ball.radius * 24;
+    }
+
+    private castContact(): void {
+        if (!this.model) return;
+        const { min, max } = this.bounds;
+        const half = Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
+        this.contact.update(this.renderer, this.scene, this.model, half, max.y - min.y);
     }
 
     private outOfPicture(): boolean {
