@@ -219,8 +219,9 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
         double r, y, normal_r, normal_y, share;
     };
     std::vector<Station> line;
-    double r = std::max(attachment.r - 0.5 * thickness - 0.02 * attachment.r, thickness),
-           y = height;
+    // A little inside the stem; a ring that comes or goes no deeper than it is wide.
+    const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
+    double r = std::max(attachment.r - 0.5 * thickness - sunk, thickness), y = height;
     for (int i = 0; i <= rings; ++i) {
         const double share = static_cast<double>(i) / rings;
         const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - 0.45 * share));

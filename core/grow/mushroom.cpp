@@ -34,8 +34,12 @@ std::string extras_json(const Extras& extras, const Individual& individual, cons
     return dump(json);
 }
 
-std::string name_of(const MushroomOrder& order) {
-    return order.mix.empty() ? "mushroom" : order.mix.front().id;
+/// That of the species with the most weight, so that the order of a mix changes nothing.
+std::string name_of(const Individual& individual) {
+    const auto most = std::max_element(
+        individual.parts.begin(), individual.parts.end(),
+        [](const SpeciesShare& a, const SpeciesShare& b) { return a.weight < b.weight; });
+    return most == individual.parts.end() || most->id.empty() ? "mushroom" : most->id;
 }
 
 bool textured(const MushroomOrder& order) { return order.params.textures != Textures::none; }
@@ -88,7 +92,7 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     workshop.observer(Step::build);
     const Mesh mesh = mushroom_mesh(order, individual);
     stop_if_asked(workshop);
-    GlbParts parts{.name = name_of(order),
+    GlbParts parts{.name = name_of(individual),
                    .images = nullptr,
                    .image_addresses = {},
                    .extras_json = extras_json(extras, individual, mesh)};

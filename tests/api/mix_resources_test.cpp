@@ -64,5 +64,14 @@ TEST_F(MixResources, a_lone_species_is_itself_whatever_its_weight) {
     EXPECT_EQ(service_.counters().generated, 1u);
 }
 
+TEST_F(MixResources, a_mix_is_itself_in_any_order_and_at_any_scale) {
+    const std::string a = species(0), b = species(1), c = species(2);
+    expect_one_resource({a + ":0.5," + b + ":0.5", b + ":1," + a + ":1", a + ":500," + b + ":500"},
+                        a + ":0.5," + b + ":0.5");
+    expect_one_resource({a + ":0.2," + b + ":0.3," + c + ":0.5", c + ":5," + a + ":2," + b + ":3",
+                         b + ":0.6," + c + ":1," + a + ":0.4"},
+                        a + ":0.2," + b + ":0.3," + c + ":0.5");
+}
+
 }  // namespace
 }  // namespace sporeprint::api

@@ -1,14 +1,14 @@
-// Morphing: the correspondence of a new pair, and outlines of mixes whose correspondence is known.
+// Morphing: the correspondence of a new pair, outlines and whole mushrooms of mixes whose correspondence is known.
 
 #include <benchmark/benchmark.h>
 
 #include <algorithm>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "core/atlas/atlas.h"
-#include "core/silhouette/morph_set.h"
+#include "core/grow/mushroom.h"
 
 namespace {
 
@@ -43,6 +43,45 @@ void mixed_outline(benchmark::State& state, const std::vector<std::string>& ids)
     for (auto _ : state) benchmark::DoNotOptimize(Outline(set.nodes(weights), set.places()));
 }
 
+MushroomOrder pair_of(const std::string& a, const std::string& b, int lod) {
+    MushroomOrder order;
+    order.mix = {{a, 500}, {b, 500}};
+    order.params.lod = lod;
+    return order;
+}
+
+/// Everything that a mix of a pair never seen before needs decided, correspondence and proof included.
+void new_pair(benchmark::State& state, const std::string& a, const std::string& b) {
+    const auto atlas = built_in_atlas();
+    const MushroomOrder order = pair_of(a, b, 0);
+    for (auto _ : state) benchmark::DoNotOptimize(resolve(order, *atlas));
+}
+
+/// A drag of the weight: correspondence and images from the cache, everything else anew.
+void dragged(benchmark::State& state, const std::string& a, const std::string& b, int lod) {
+    const auto atlas = built_in_atlas();
+    MushroomOrder order = pair_of(a, b, lod);
+    std::shared_ptr<const ImageSet> images;
+    std::shared_ptr<const MorphSet> morphs;
+    Workshop workshop;
+    workshop.memo.images = [&](const std::string&, const auto& make) {
+        if (!images) images = make();
+        return images;
+    };
+    workshop.memo.morphs = [&](const std::string&, const auto& make) {
+        if (!morphs) morphs = make();
+        return morphs;
+    };
+    (void)grow_mushroom(order, *atlas, {"/v1/bench", {}}, workshop);
+    int t = 1;
+    for (auto _ : state) {
+        order.mix[0].weight = 1000 - t;
+        order.mix[1].weight = t;
+        t = t < 999 ? t + 1 : 1;
+        benchmark::DoNotOptimize(grow_mushroom(order, *atlas, {"/v1/bench", {}}, workshop));
+    }
+}
+
 [[maybe_unused]] const bool registered = [] {
     const auto atlas = built_in_atlas();
     std::vector<std::string> ids;
@@ -56,6 +95,18 @@ void mixed_outline(benchmark::State& state, const std::vector<std::string>& ids)
         for (std::size_t j = i + 1; j < ids.size(); ++j)
             add(ids[i] + "_and_" + ids[j], {ids[i], ids[j]});
     add("all_eight", ids);
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        for (std::size_t j = i + 1; j < ids.size(); ++j) {
+            const std::string a = ids[i], b = ids[j];
+            benchmark::RegisterBenchmark(("new_pair/" + a + "_and_" + b).c_str(),
+                                         [a, b](benchmark::State& s) { new_pair(s, a, b); })
+                ->Unit(benchmark::kMillisecond);
+            for (const int lod : {0, 1})
+                benchmark::RegisterBenchmark(
+                    ("morph/" + a + "_and_" + b + "/lod" + std::to_string(lod)).c_str(),
+                    [a, b, lod](benchmark::State& s) { dragged(s, a, b, lod); })
+                    ->Unit(benchmark::kMicrosecond);
+        }
     benchmark::RegisterBenchmark("mixed_outline/all_eight", [ids](benchmark::State& s) {
         mixed_outline(s, ids);
     })->Unit(benchmark::kMicrosecond);
