@@ -1,0 +1,83 @@
+// Bodies of POST as a stranger sends them: read as orders, and read again from our own text of what was understood.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "api/morphs.h"
+#include "api/mushrooms.h"
+#include "core/atlas/atlas.h"
+#include "core/params/reader.h"
+#include "tests/fuzz/expect.h"
+
+using namespace sporeprint;
+
+namespace {
+
+std::string key(const MushroomOrder& order, const Atlas& atlas) {
+    return api::key_of(order, api::Product::glb, api::version_token(order.mix, atlas));
+}
+
+void read_as_mushroom(std::string_view text, const Atlas& atlas) {
+    api::Faults faults;
+    const MushroomOrder order = api::read_mushroom(text, atlas, faults).order;
+    if (!faults.empty()) return;
+    Value own = write(order.params);
+    if (order.model) {
+        own.set("model", write(*order.model));
+    } else {
+        Value mix = Value::object();
+        int sum = 0;
+        for (const MixPart& part : order.mix) {
+            mix.set(part.id, part.weight);
+            sum += part.weight;
+        }
+        expect(sum == 1000, "weights sum to a thousand");
+        own.set("mix", std::move(mix));
+    }
+    api::Faults none;
+    const MushroomOrder again = api::read_mushroom(dump(own), atlas, none).order;
+    expect(none.empty() && key(again, atlas) == key(order, atlas),
+           "an order reads back from its own text");
+}
+
+void read_as_morph(std::string_view text, const Atlas& atlas) {
+    const api::SpeciesPair pair = {atlas.entries()[0].species.id.string(),
+                                   atlas.entries()[1].species.id.string()};
+    api::Faults faults;
+    const MushroomOrder order = api::read_morph(pair, text, faults).order;
+    if (!faults.empty()) return;
+    Value own = write(order.params);
+    double t = 0.0;
+    for (const MixPart& part : order.mix)
+        if (part.id == pair[1]) t = part.weight / 1000.0;
+    own.set("t", t);
+    own.set("arcs", write(order.arcs));
+    api::Faults none;
+    const MushroomOrder again = api::read_morph(pair, dump(own), none).order;
+    expect(none.empty() && key(again, atlas) == key(order, atlas),
+           "a morph reads back from its own text");
+
+    // Seen from the other species it is the same.
+    Value mirrored = Value::array();
+    for (Arc arc : order.arcs) {
+        std::swap(arc.a, arc.b);
+        mirrored.push(write(arc));
+    }
+    own.set("t", (1000 - static_cast<int>(t * 1000.0 + 0.5)) / 1000.0);
+    own.set("arcs", std::move(mirrored));
+    const MushroomOrder other = api::read_morph({pair[1], pair[0]}, dump(own), none).order;
+    expect(none.empty() && key(other, atlas) == key(order, atlas),
+           "a morph is the same from either side");
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const auto atlas = built_in_atlas();
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    read_as_mushroom(text, *atlas);
+    read_as_morph(text, *atlas);
+    return 0;
+}
