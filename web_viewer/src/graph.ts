@@ -102,6 +102,8 @@ export class Graph {
     }
 
     show(known: Correspondence | undefined, names: [string, string]): void {
+        // What was clicked once must still be there for the second click.
+        if (known === this.known && names.join() === this.names.join()) return;
         this.known = known;
         this.names = names;
         this.layOut();

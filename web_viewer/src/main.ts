@@ -203,6 +203,8 @@ class Page {
         byId("mode-species").setAttribute("href", `?species=${first}`);
         byId("mode-morph").setAttribute("href", morph ? location.search : `?morph=${first}:0.5,${other}:0.5`);
         byId("variety").hidden = !morph;
+        // On the bench sheets are what one comes for; beside a lone species they are one thing more to take along.
+        (morph ? byId("bench") : byId("form")).after(byId("sheets"));
         this.gallery.letter(morph?.shares.map(({ id }) => id) ?? []);
     }
 
@@ -407,6 +409,8 @@ class Page {
     }
 
     private failed(error: RequestFailed): void {
+        // What is against arcs stands beside the arcs.
+        if (error.items.length > 0 && error.items.every((item) => this.bench.fail(item))) return say(error.items[0]?.detail ?? error.message);
         showProblem(error, this.place, () => {
             showProblem(undefined);
             this.grower.final();

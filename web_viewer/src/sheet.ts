@@ -45,7 +45,7 @@ const cells: Record<SheetKind, { width: number; height: number }> = {
 };
 const captionHeight = 38;
 /** Round things leave the corners of their box free; above stands the arrow of a control shape. */
-const margin = { x: 0, y: 0.14 };
+const margins = { variety: { x: 0, y: 0.19 }, growth: { x: 0, y: 0.08 } };
 const edge = 30;
 const head = 92;
 const growthAges = [0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1];
@@ -65,6 +65,8 @@ export class Sheet {
     private made: Made[] = [];
     private plans: Plan[] = [];
     private studio: Studio | undefined;
+    private cell = cells.variety;
+    private grid = { columns: 1, rows: 1 };
     private title = "";
     private legend = "";
     private work: Promise<void> = Promise.resolve();
@@ -188,7 +190,9 @@ export class Sheet {
         const { columns, rows, plans } = this.plan(kind);
         this.plans = plans;
         byId("sheet-title").textContent = kind === "growth" ? "Growth" : "Variety";
-        this.begin(columns, rows);
+        this.cell = cells[kind];
+        this.grid = { columns, rows };
+        this.begin();
         this.buttons(false);
         const waiting = [...plans];
         const one = async (): Promise<void> => {
@@ -237,6 +241,7 @@ export class Sheet {
         if (this.scale.checked) {
             frame = new Box3();
             for (const { box } of this.made) frame.union(box);
+            if (this.kind === "growth") this.trim(frame);
         }
         let done = 0;
         for (const made of this.made) {
@@ -246,6 +251,15 @@ export class Sheet {
             disposeModel(model);
             this.progress(++done / this.made.length, `drawing ${done} of ${this.made.length}`);
         }
+    }
+
+    /** A row of low things needs less paper than one of tall things. */
+    private trim(frame: Box3): void {
+        const size = frame.getSize(new Vector3());
+        const { width, height } = cells.growth;
+        const needed = width * (0.4 + (1.25 * size.y) / Math.max(size.x, size.z));
+        this.cell = { width, height: Math.round(Math.min(Math.max(needed, width * 0.75), height)) };
+        if (this.cell.height < height) this.begin();
     }
 
     private progress(part: number | undefined, text: string): void {
@@ -263,16 +277,12 @@ export class Sheet {
 
     // The picture
 
-    private get cell(): { width: number; height: number } {
-        return cells[this.kind ?? "variety"];
-    }
-
-    private begin(columns: number, rows: number): void {
-        const { cell } = this;
+    private begin(): void {
+        const { columns, rows } = this.grid;
         // Cells of another shape need another camera.
         this.studio?.dispose();
         this.studio = undefined;
-        const { canvas } = this;
+        const { canvas, cell } = this;
         canvas.width = 2 * edge + columns * cell.width;
         canvas.height = head + edge + rows * (cell.height + captionHeight);
         canvas.setAttribute("aria-label", `${this.title}: ${this.legend}`);
@@ -302,12 +312,8 @@ export class Sheet {
         const y = head + plan.row * (cell.height + captionHeight);
         context.fillStyle = ink.paper;
         context.fillRect(x, y, cell.width, cell.height + captionHeight);
-        const light = context.createRadialGradient(x + cell.width * 0.47, y + cell.height * 0.45, 10, x + cell.width / 2, y + cell.height / 2, cell.width * 0.62);
-        light.addColorStop(0, "#fdf9f0");
-        light.addColorStop(0.6, "#f3ebdb");
-        light.addColorStop(1, ink.paper);
-        context.fillStyle = light;
-        context.fillRect(x, y, cell.width, cell.height);
+        if (this.kind === "variety") this.light(x, y);
+        const margin = margins[this.kind ?? "variety"];
         // Twice the pixels, halved by the canvas: edges without steps.
         this.studio ??= new Studio(cell.width * 2, cell.height * 2);
         const view: ViewName = "three-quarter";
@@ -326,6 +332,17 @@ export class Sheet {
         context.fillStyle = ink.soft;
         const above = box.max.y - Math.max(box.min.y, 0);
         context.fillText(centimetres(above, 1), x + cell.width / 2, y + cell.height + 31);
+    }
+
+    /** Each mushroom of a grid has its own spot of light. */
+    private light(x: number, y: number): void {
+        const { context, cell } = this;
+        const light = context.createRadialGradient(x + cell.width * 0.47, y + cell.height * 0.45, 10, x + cell.width / 2, y + cell.height / 2, cell.width * 0.62);
+        light.addColorStop(0, "#fdf9f0");
+        light.addColorStop(0.6, "#f3ebdb");
+        light.addColorStop(1, ink.paper);
+        context.fillStyle = light;
+        context.fillRect(x, y, cell.width, cell.height);
     }
 
     /** Points out a control shape, as Figure 7 does. */
@@ -381,7 +398,7 @@ export class Sheet {
                 scene.remove(group);
                 scene.add(only);
             }
-            const bytes = (await new GLTFExporter().parseAsync(scene, { binary: true })) as ArrayBuffer;
+            const bytes = (await new GLTFExporter().parseAsync(scene, { binary: true, trs: true })) as ArrayBuffer;
             signal?.throwIfAborted();
             this.events.save(new Blob([bytes], { type: "model/gltf-binary" }), this.fileName("glb"));
             this.progress(undefined, `${this.made.length} mushrooms in one GLB of ${kilobytes(bytes.byteLength)}`);

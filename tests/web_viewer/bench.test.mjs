@@ -1,0 +1,406 @@
+// The morph bench in headless Chromium against a running server (SPOREPRINT_URL): what a person sees and does.
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { galleryComplete, launchBrowser, listen, packages, ready, screenshotFolder, serverUrl } from "./support.mjs";
+
+const base = serverUrl();
+const [a, b, c, d, e] = ["amanita_muscaria", "boletus_edulis", "coprinus_comatus", "russula_vinosa", "cantharellus_cibarius"];
+let browser;
+let shared;
+let folder;
+let species;
+
+before(async () => {
+    folder = await screenshotFolder();
+    browser = await launchBrowser();
+    shared = await browser.newContext({ viewport: { width: 1000, height: 700 }, reducedMotion: "reduce" });
+    species = (await (await fetch(`${base}/v1/species`)).json()).species;
+});
+
+after(() => browser?.close());
+
+/** A page of its own; `heard` is what it said and asked for. */
+async function open(t, query, viewport = undefined) {
+    const page = await shared.newPage();
+    t.after(() => page.close());
+    if (viewport) await page.setViewportSize(viewport);
+    const heard = listen(page);
+    await page.goto(`${base}/${query}`);
+    await ready(page);
+    return { page, heard };
+}
+
+function quiet(heard) {
+    assert.deepEqual(heard.console, []);
+    assert.deepEqual(heard.failed, []);
+}
+
+const parameters = (page) => new URL(page.url()).searchParams;
+const shares = (page) => Object.fromEntries(parameters(page).get("morph").split(",").map((part) => {
+    const [id, weight] = part.split(":");
+    return [id, Number(weight)];
+}));
+const models = (heard) => heard.requests.filter((url) => /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url)).map((url) => decodeURIComponent(url));
+const arcs = (page) => page.locator(".drawing .own > g").evaluateAll((groups) => groups.map((group) => group.getAttribute("class").split(" ")[1]));
+
+async function centre(locator) {
+    const box = await locator.boundingBox();
+    return { x: box.x + box.width / 2, y: box.y + box.height / 2 };
+}
+
+/** Drags by steps, as a hand does; `during` looks at the page before the button is let go. */
+async function drag(page, from, to, during = async () => undefined) {
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    for (let step = 1; step <= 10; ++step) {
+        await page.mouse.move(from.x + ((to.x - from.x) * step) / 10, from.y + ((to.y - from.y) * step) / 10);
+        await page.waitForTimeout(60);
+    }
+    await during();
+    await page.mouse.up();
+}
+
+test("the bench opens with two species, takes up to five, and gives the way back", async (t) => {
+    const { page, heard } = await open(t, `?species=${a}&seed=3`, { width: 1280, height: 800 });
+    await galleryComplete(page);
+    await page.locator("#mode-morph").click();
+    await ready(page);
+    assert.equal(await page.locator("#mode-morph").getAttribute("aria-current"), "page");
+    assert.equal(Object.keys(shares(page)).length, 2);
+    assert.ok(await page.locator("#morph-t").isVisible());
+    for (const id of [b, c, d, e]) {
+        const button = page.locator(`#gallery button[data-species="${id}"]`);
+        if (await button.getAttribute("aria-pressed") === "false") await button.click();
+    }
+    await ready(page);
+    assert.deepEqual(shares(page), Object.fromEntries([a, b, c, d, e].map((id) => [id, 0.2])));
+    assert.equal(await page.locator(".pad .corner").count(), 5);
+    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 5);
+    const sixth = species.find(({ id }) => ![a, b, c, d, e].includes(id));
+    await page.locator(`#gallery button[data-species="${sixth.id}"]`).click();
+    assert.match(await page.locator("#status").textContent(), /at most 5/);
+    assert.equal(Object.keys(shares(page)).length, 5);
+    await page.screenshot({ path: path.join(folder, "bench.png") });
+    assert.equal(parameters(page).get("seed"), "3", "what was set stays");
+    await page.goBack();
+    await ready(page);
+    assert.equal(Object.keys(shares(page)).length, 4);
+    await page.locator("#mode-species").click();
+    await ready(page);
+    assert.ok(parameters(page).has("species") && await page.locator("#bench").isHidden());
+    quiet(heard);
+});
+
+test("the weight point is dragged: drafts with linked images, then the whole model; a corner is the species itself", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a},${b},${c},${d},${e}`);
+    await galleryComplete(page);
+    const before_ = await page.locator("#stage").screenshot();
+    const asked = models(heard).length;
+    const from = await centre(page.locator("#weight-point"));
+    const corner = await centre(page.locator('.pad .corner[data-corner="1"] circle'));
+    const half = { x: (from.x + corner.x) / 2, y: (from.y + corner.y) / 2 };
+    await drag(page, from, half, () => page.waitForTimeout(500));
+    const drafts = models(heard).slice(asked).map((url) => new URL(url).searchParams);
+    assert.ok(drafts.length >= 1 && drafts.length <= 11, `${drafts.length} drafts for one drag`);
+    assert.ok(drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"));
+    await ready(page);
+    const weights = shares(page);
+    assert.ok(weights[b] > 0.35 && weights[b] < 0.95, JSON.stringify(weights));
+    assert.ok(Math.abs(Object.values(weights).reduce((sum, weight) => sum + weight, 0) - 1) < 1e-9);
+    assert.equal(new URL(models(heard).at(-1)).search, "", "the whole model as it is by default");
+    assert.notDeepEqual(await page.locator("#stage").screenshot(), before_);
+    assert.match(await page.locator("#weight-point").getAttribute("aria-valuetext"), /Cep \d+ %/);
+
+    await drag(page, half, { x: corner.x + 3, y: corner.y - 2 });
+    await ready(page);
+    assert.equal(shares(page)[b], 1);
+    assert.equal(new URL(models(heard).at(-1)).pathname, `/v1/mushrooms/${b}.glb`);
+    await page.goBack();
+    await ready(page);
+    assert.deepEqual(shares(page), weights, "one step back per drag");
+    quiet(heard);
+});
+
+test("a shape that is dragged does not wait for its paint", async (t) => {
+    const { page } = await open(t, `?morph=${a}:0.5,${b}:0.3,${c}:0.2`);
+    await galleryComplete(page);
+    let painted = 0;
+    await page.route(/\/v1\/surfaces\//, async (route) => {
+        painted += 1;
+        await new Promise((resolve) => setTimeout(resolve, 4000));
+        await route.continue().catch(() => undefined);
+    });
+    const triangles = await page.evaluate(() => window.sporeprint.counts.triangles);
+    const from = await centre(page.locator("#weight-point"));
+    await page.mouse.move(from.x, from.y);
+    await page.mouse.down();
+    await page.mouse.move(from.x + 30, from.y + 10);
+    await page.waitForFunction((before_) => window.sporeprint.counts.triangles < before_, triangles, { timeout: 3500 });
+    assert.equal(await page.evaluate(() => window.sporeprint.counts.textures), 3, "it wears the paint of before");
+    assert.ok(painted <= 3, "one set of paint is on its way");
+    await page.unroute(/\/v1\/surfaces\//, { behavior: "ignoreErrors" });
+    await page.mouse.up();
+    await ready(page);
+});
+
+test("the canonical mix is what is copied, and those bytes are what is downloaded", async (t) => {
+    const { page, heard } = await open(t, `?morph=${c}:0.25,${a}:0.5,${b}:0.25`);
+    await shared.grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
+    await page.locator("#copy-url").click();
+    await page.waitForFunction(() => document.querySelector("#status").textContent === "URL copied");
+    const address = await page.evaluate(() => navigator.clipboard.readText());
+    assert.equal(decodeURIComponent(new URL(address).pathname), `/v1/mushrooms/${a}:0.5,${b}:0.25,${c}:0.25.glb`);
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    assert.deepEqual(Buffer.from(await (await fetch(address)).arrayBuffer()), await readFile(await download.path()));
+    quiet(heard);
+});
+
+test("what a bench address gets wrong is said in words", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a}:0.5,amanita_unicornis:0.5`);
+    assert.match(await page.locator("#problem").textContent(), /'amanita_unicornis' is no species here/);
+    assert.ok(await page.locator("#bench").isHidden());
+    quiet(heard);
+});
+
+test("both outlines stand side by side with their arcs, and own arcs are added, dragged, undone and reset", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a}:0.6,${b}:0.4`, { width: 1280, height: 800 });
+    await galleryComplete(page);
+    const { arcs: given } = await (await fetch(`${base}/v1/morphs/${a}/${b}`)).json();
+    assert.equal(await page.locator(".drawing .given .arc").count(), given.length);
+    assert.equal(await page.locator(".drawing .body").count(), 2);
+    assert.match(await page.locator("#graph-state").textContent(), /proven not to fold/);
+    await page.screenshot({ path: path.join(folder, "bench-graph.png") });
+
+    await page.locator("#graph-tools button", { hasText: "Add arc" }).click();
+    await ready(page);
+    assert.deepEqual(await arcs(page), ["accepted"]);
+    const first = parameters(page).get("arcs");
+    assert.match(first, /^cap:0\.\d+:0\.\d+$/);
+    assert.match(models(heard).at(-1), new RegExp(`/v1/morphs/${a}/${b}.glb$`));
+
+    const end = await centre(page.locator('.drawing [data-index="0"] [data-side="b"] .knob'));
+    await drag(page, end, { x: end.x - 30, y: end.y + 8 });
+    await ready(page);
+    const dragged = parameters(page).get("arcs");
+    assert.notEqual(dragged, first);
+    assert.equal(dragged.split(":")[1], first.split(":")[1], "the other end stays");
+    assert.deepEqual(await arcs(page), ["accepted"]);
+
+    const undo = page.locator("#graph-tools button", { hasText: "Undo" });
+    await undo.click();
+    await ready(page);
+    assert.equal(parameters(page).get("arcs"), first);
+    await undo.click();
+    await ready(page);
+    assert.equal(parameters(page).get("arcs"), null);
+    assert.ok(await undo.isDisabled());
+    for (let step = 0; step < 2; ++step) await page.locator("#graph-tools button", { hasText: "Redo" }).click();
+    await ready(page);
+    assert.equal(parameters(page).get("arcs"), dragged);
+
+    // A double click on an outline adds one more there.
+    const place = await page.locator(".drawing .curve.stem").first().evaluate((path_) => {
+        const { x, y } = path_.getPointAtLength(path_.getTotalLength() * 0.6);
+        const box = path_.ownerSVGElement.getBoundingClientRect();
+        return { x: box.x + x, y: box.y + y };
+    });
+    await page.mouse.dblclick(place.x, place.y);
+    await ready(page);
+    assert.equal((await arcs(page)).length, 2);
+    await page.locator("#graph-tools button", { hasText: "Reset" }).click();
+    await ready(page);
+    assert.deepEqual(await arcs(page), []);
+    assert.equal(parameters(page).get("arcs"), null);
+    quiet(heard);
+});
+
+test("an arc that crosses is red and crossed out, with the service's own sentence, and the mushroom stays", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a}:0.6,${b}:0.4&arcs=cap:0.3:0.3,cap:0.6:0.6`);
+    await galleryComplete(page);
+    assert.deepEqual(await arcs(page), ["accepted", "accepted"]);
+    const handle = page.locator('.drawing [data-index="1"] [data-side="b"]');
+    const other = await centre(page.locator('.drawing [data-index="0"] [data-side="b"] .knob'));
+    const end = await centre(handle.locator(".knob"));
+    const beyond = { x: other.x + (other.x - end.x) * 0.5, y: other.y + (other.y - end.y) * 0.5 };
+    await drag(page, end, beyond, async () => assert.ok((await arcs(page)).includes("refused"), "red while it is dragged"));
+    await page.locator("#graph-problem:not([hidden])").waitFor();
+    await assert.rejects(page.evaluate(() => window.sporeprint.ready()));
+    const told = await page.locator("#graph-problem").textContent();
+    assert.match(told, /^Arc [12] \(cap\) is refused: ./);
+    const answer = await fetch(`${base}/v1/morphs/${a}/${b}.glb`, {
+        method: "POST",
+        headers: { "Content-Type": "application/json" },
+        body: JSON.stringify({ t: 0.4, arcs: parameters(page).get("arcs").split(",").map((arc) => {
+            const [curve, from, to] = arc.split(":");
+            return { curve, a: Number(from), b: Number(to) };
+        }) }),
+    });
+    assert.equal(answer.status, 422);
+    for (const { detail } of (await answer.json()).errors) assert.ok(told.includes(detail), `${told} says ${detail}`);
+    assert.ok((await arcs(page)).includes("refused"));
+    assert.equal(await page.locator(".drawing .refused .mark").first().isVisible(), true, "not by colour alone");
+    assert.ok(await page.locator("#problem").isHidden(), "it is said once, beside the arcs");
+    assert.ok((await page.evaluate(() => window.sporeprint.counts)).triangles > 100);
+    await page.screenshot({ path: path.join(folder, "bench-refused.png") });
+    await page.locator("#graph-tools button", { hasText: "Undo" }).click();
+    await ready(page);
+    assert.deepEqual(await arcs(page), ["accepted", "accepted"]);
+    assert.ok(await page.locator("#graph-problem").isHidden());
+    assert.deepEqual(heard.console.filter((line) => !/status of 422/.test(line)), []);
+});
+
+test("the bench can be walked and worked by keyboard alone", async (t) => {
+    const { page, heard } = await open(t, `?species=${a}`);
+    await galleryComplete(page);
+    const press = async (key, times = 1) => {
+        for (let time = 0; time < times; ++time) await page.keyboard.press(key);
+    };
+    await page.locator("#mode-morph").focus();
+    await press("Enter");
+    await ready(page);
+    await page.locator("#morph-t").focus();
+    await press("ArrowRight", 5);
+    await ready(page);
+    assert.equal(Object.values(shares(page))[1], 0.55);
+
+    // To the graph, an arc, its end; every stop has a ring or a thick knob.
+    const reach = async (matches) => {
+        for (let step = 0; step < 90; ++step) {
+            const found = await page.evaluate(() => {
+                const element = document.activeElement;
+                return { text: element.textContent?.trim(), label: element.getAttribute("aria-label") ?? "", id: element.id };
+            });
+            if (matches(found)) return found;
+            await press("Tab");
+        }
+        throw new Error("no such stop");
+    };
+    await page.locator(".skip").focus();
+    await reach(({ text }) => text === "Add arc");
+    await press("Enter");
+    await ready(page);
+    const { label } = await page.evaluate(() => ({ label: document.activeElement.getAttribute("aria-label") }));
+    assert.match(label, /^Arc 1, cap, end on Fly agaric$/);
+    const start = parameters(page).get("arcs");
+    await press("ArrowUp", 3);
+    await ready(page);
+    assert.notEqual(parameters(page).get("arcs"), start);
+    await press("Control+z");
+    await ready(page);
+    await press("Delete");
+    await ready(page);
+    assert.equal(parameters(page).get("arcs"), null);
+
+    // A third species by keyboard: the pad, its point, corners by digits.
+    await page.locator(`#gallery button[data-species="${c}"]`).focus();
+    await press("Enter");
+    await ready(page);
+    await page.locator("#weight-point").focus();
+    const middle = shares(page);
+    await press("ArrowUp", 4);
+    await ready(page);
+    assert.ok(Object.values(shares(page))[0] > Object.values(middle)[0]);
+    await press("3");
+    await ready(page);
+    assert.equal(Object.values(shares(page))[2], 1);
+    await press("ArrowUp");
+    await ready(page);
+    assert.ok(Object.values(shares(page))[2] < 1, "a key leaves a corner again");
+    await press("Home");
+    await ready(page);
+    for (const weight of Object.values(shares(page))) assert.ok(Math.abs(weight - 1 / 3) < 0.002);
+    quiet(heard);
+});
+
+test("a share is typed as a number, and one press makes it the only one", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a}:0.5,${b}:0.3,${c}:0.2`);
+    await galleryComplete(page);
+    await page.locator(`[data-share="${a}"]`).fill("75");
+    await page.locator(`[data-share="${a}"]`).press("Enter");
+    await ready(page);
+    assert.equal(shares(page)[a], 0.75);
+    assert.ok(Math.abs(shares(page)[b] / shares(page)[c] - 1.5) < 0.02);
+    await page.locator('#members [data-member="2"] .letter').click();
+    await ready(page);
+    assert.equal(shares(page)[c], 1);
+    quiet(heard);
+});
+
+test("a variety sheet of five shapes has 25 morphs, as a picture and as one clean GLB", { timeout: 600_000 }, async (t) => {
+    const { page, heard } = await open(t, `?morph=${a},${b},${c},${d},${e}&texture_size=256`, { width: 1280, height: 800 });
+    await galleryComplete(page);
+    await page.locator("#variety").click();
+    await page.evaluate(() => window.sporeprint.ready());
+    assert.equal(parameters(page).get("sheet"), "variety");
+    assert.match(await page.locator("#sheet-state").textContent(), /^25 mushrooms/);
+    await page.screenshot({ path: path.join(folder, "bench-sheet.png") });
+    const [picture] = await Promise.all([page.waitForEvent("download"), page.locator("#sheet-png").click()]);
+    assert.match(picture.suggestedFilename(), /^variety-.*\.png$/);
+    const png = await readFile(await picture.path());
+    assert.equal(png.readUInt32BE(16), 1360, "five cells wide");
+    await picture.saveAs(path.join(folder, "variety.png"));
+
+    const [model] = await Promise.all([page.waitForEvent("download", { timeout: 300_000 }), page.locator("#sheet-glb").click()]);
+    assert.match(model.suggestedFilename(), /^variety-.*\.glb$/);
+    const glb = new Uint8Array(await readFile(await model.path()));
+    const { issues, info } = await packages("gltf-validator").validateBytes(glb, { maxIssues: 20 });
+    assert.deepEqual(issues.messages, []);
+    assert.equal(info.drawCallCount, 25);
+    const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + new DataView(glb.buffer, glb.byteOffset).getUint32(12, true))));
+    assert.equal(json.scenes.length, 1);
+    const names = json.scenes[0].nodes.map((node) => json.nodes[node].name);
+    assert.equal(new Set(names).size, 25);
+    for (const name of [a, b, c, d, e, `${a}:0.5,${b}:0.5`]) assert.ok(names.includes(name), `${name} is one of ${names}`);
+    const places = json.scenes[0].nodes.map((node) => json.nodes[node].translation ?? [0, 0, 0]);
+    assert.equal(new Set(places.map(([x, , z]) => `${x.toFixed(4)} ${z.toFixed(4)}`)).size, 25, "each stands on its own place");
+    await page.locator("#sheet-close").click();
+    assert.equal(parameters(page).get("sheet"), null);
+    quiet(heard);
+});
+
+test("a sheet can be stopped, and one by its address opens by itself", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a},${b},${c},${d}&texture_size=128`);
+    await galleryComplete(page);
+    await page.route(/lod=1/, async (route) => {
+        await new Promise((resolve) => setTimeout(resolve, 300));
+        await route.continue().catch(() => undefined);
+    });
+    await page.locator("#variety").click();
+    await page.locator("#sheet-cancel").click();
+    assert.match(await page.locator("#sheet-state").textContent(), /^Stopped after \d+ of 25/);
+    const asked = models(heard).length;
+    await page.waitForTimeout(900);
+    assert.equal(models(heard).length, asked, "nothing more is asked for");
+    assert.ok(await page.locator("#sheet-png").isDisabled());
+    await page.keyboard.press("Escape");
+    assert.ok(await page.locator("#sheet").isHidden());
+
+    await page.unroute(/lod=1/);
+    await page.goto(`${base}/?species=${c}&texture_size=128&sheet=growth`);
+    await ready(page);
+    assert.match(await page.locator("#sheet-state").textContent(), /^9 mushrooms/);
+    const [picture] = await Promise.all([page.waitForEvent("download"), page.locator("#sheet-png").click()]);
+    assert.match(picture.suggestedFilename(), /^growth-coprinus_comatus.png$/);
+    await picture.saveAs(path.join(folder, "growth.png"));
+    quiet(heard);
+});
+
+test("a window 390 pixels wide has the whole bench and no sideways scrolling", async (t) => {
+    for (const [name, query] of [["two", `${a},${c}&arcs=cap:0.4:0.5`], ["five", `${a},${b},${c},${d},${e}`]]) {
+        const { page, heard } = await open(t, `?morph=${query}`, { width: 390, height: 844 });
+        await galleryComplete(page);
+        const { wide, over } = await page.evaluate(() => ({
+            wide: document.documentElement.scrollWidth,
+            over: [...document.querySelectorAll("main *, aside *, header *, footer")]
+                .filter((element) => !element.closest("svg") && element.getBoundingClientRect().right > innerWidth + 0.5 && element.getClientRects().length)
+                .map((element) => element.id || element.className || element.tagName),
+        }));
+        assert.ok(wide <= 390, `the page is ${wide} pixels wide`);
+        assert.deepEqual(over, []);
+        await page.screenshot({ path: path.join(folder, `bench-phone-${name}.png`) });
+        await page.screenshot({ path: path.join(folder, `bench-phone-${name}-whole.png`), fullPage: true });
+        quiet(heard);
+    }
+});
