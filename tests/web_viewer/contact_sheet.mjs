@@ -11,7 +11,12 @@
 //     --vary name=v1,v2     any other parameter as columns; may be repeated
 //     --cell 320            side of a cell in pixels
 //     --wireframe           draws edges
-import { writeFile, mkdir } from "node:fs/promises";
+//
+// or the page's own sheets, as a person downloads them:
+//     --mixes a,b,c,d,e     variety sheet of the morphs between two to five control shapes
+//     --glb FILE            and the same as one GLB
+//     --growth              growth strips of all species, or of those of --species (mixes too), one below the other
+import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { launchBrowser, listen, ready, root } from "./support.mjs";
 
@@ -28,9 +33,12 @@ function readArguments(argv) {
         "--set": (text) => options.set.push(text),
         "--vary": (text) => options.vary.push([text.split("=")[0], list(text.slice(text.indexOf("=") + 1))]),
         "--cell": (text) => (options.cell = Number(text)),
+        "--mixes": (text) => (options.mixes = list(text)),
+        "--glb": (text) => (options.glb = path.resolve(text)),
     };
     for (let i = 0; i < argv.length; ++i) {
         if (argv[i] === "--wireframe") options.wireframe = true;
+        else if (argv[i] === "--growth") options.growth = true;
         else if (take[argv[i]] && argv[i + 1] !== undefined) take[argv[i]](argv[++i]);
         else if (/^https?:/.test(argv[i]) && !options.base) options.base = argv[i].replace(/\/+$/, "");
         else throw new Error(`cannot use argument '${argv[i]}'`);
@@ -67,7 +75,43 @@ async function go(page, address) {
 
 const browser = await launchBrowser();
 let broken = 0;
-try {
+
+/** Opens a sheet of the page by its address and takes what its button saves. */
+async function downloaded(page, address, button) {
+    if (address) {
+        await page.goto(options.base + address);
+        await ready(page);
+        const state = await page.locator("#sheet-state").textContent();
+        if (!/^\d+ mushrooms,/.test(state)) throw new Error(`${address}: ${state}`);
+    }
+    const [file] = await Promise.all([page.waitForEvent("download", { timeout: 600_000 }), page.locator(button).click()]);
+    return file;
+}
+
+async function pageSheets() {
+    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    const heard = listen(page);
+    await mkdir(path.dirname(options.out), { recursive: true });
+    const rest = options.set.map((one) => `&${one}`).join("");
+    if (options.mixes) {
+        await (await downloaded(page, `/?morph=${options.mixes.join(",")}${rest}&sheet=variety`, "#sheet-png")).saveAs(options.out);
+        if (options.glb) await (await downloaded(page, undefined, "#sheet-glb")).saveAs(options.glb);
+    } else {
+        const strips = [];
+        for (const mix of species) {
+            const file = await downloaded(page, `/?species=${mix}${rest}&sheet=growth`, "#sheet-png");
+            strips.push((await readFile(await file.path())).toString("base64"));
+        }
+        const all = await browser.newPage({ viewport: { width: 1644, height: 600 } });
+        await all.setContent(`<!doctype html><style>body { margin: 0; background: #f5efe2; } img { display: block; }</style>${
+            strips.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}`);
+        await writeFile(options.out, await all.screenshot({ fullPage: true }));
+    }
+    for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
+    for (const file of [options.out, options.mixes && options.glb].filter(Boolean)) console.log(file);
+}
+
+async function ownSheet() {
     const page = await browser.newPage({ viewport: { width: options.cell, height: options.cell } });
     const heard = listen(page);
     const rows = [];
@@ -112,6 +156,10 @@ p { margin: 2px 5px; min-height: 2.6em; }</style>
     await mkdir(path.dirname(options.out), { recursive: true });
     await writeFile(options.out, await sheet.screenshot({ fullPage: true }));
     console.log(options.out);
+}
+
+try {
+    await (options.mixes || options.growth ? pageSheets() : ownSheet());
 } finally {
     await browser.close();
 }
