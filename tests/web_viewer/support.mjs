@@ -63,13 +63,13 @@ export function listen(page) {
 
 /** Waits until the shown model equals the controls and a frame was drawn. */
 export async function ready(page) {
-    await page.waitForFunction(() => window.sporeprint, undefined, { timeout: 30_000 });
+    await page.waitForFunction(() => window.sporeprint, undefined, { timeout: 120_000 });
     await page.evaluate(() => window.sporeprint.ready());
 }
 
 /** Waits until the gallery has all its pictures. */
 export async function galleryComplete(page) {
     await page.waitForFunction(() => document.documentElement.dataset.gallery === "complete", undefined, {
-        timeout: 60_000,
+        timeout: 180_000,
     });
 }
