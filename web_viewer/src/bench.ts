@@ -308,12 +308,16 @@ export class Bench {
         undo.disabled = !this.history.undoable;
         redo.disabled = !this.history.redoable;
         reset.disabled = morph.arcs.length === 0;
-        if (this.known || this.refused.size > 0) this.tell(this.refusal(morph.arcs));
+        if (this.known || this.refused.size > 0) this.tell(this.refusal());
         byId("graph-state").textContent = this.state(morph.arcs);
     }
 
-    private refusal(arcs: readonly Arc[]): string {
-        return [...this.refused].map(([index, detail]) => `Arc ${index + 1} (${arcs[index]?.curve ?? ""}) is refused: ${detail}`).join(" ");
+    /** The service's sentence about the arc in hand, or about the first refused; it counts from 0, people from 1. */
+    private refusal(): string {
+        if (this.refused.size === 0) return "";
+        const picked = this.selected !== undefined && this.refused.has(this.selected) ? this.selected : [...this.refused.keys()][0]!;
+        const detail = (this.refused.get(picked) ?? "").replace(/\/arcs\/(\d+)/g, (_, index) => `arc ${Number(index) + 1}`);
+        return `Arc ${picked + 1} is refused: ${detail}`;
     }
 
     private state(arcs: readonly Arc[]): string {
