@@ -20,6 +20,7 @@ constexpr int whole = 64;
 std::vector<int> apportioned(const std::vector<int>& weights, int total) {
     const int sum = std::accumulate(weights.begin(), weights.end(), 0);
     std::vector<int> parts;
+    parts.reserve(weights.size());
     std::vector<std::size_t> order(weights.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
     for (const int weight : weights) parts.push_back(weight * total / sum);
@@ -40,16 +41,6 @@ std::vector<int> weights_of(const Mix& mix) {
 bool has_blades(const Model& model) {
     const HymeniumPattern pattern = model.surface.hymenium.pattern;
     return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
-}
-
-// Blades that reach the stem in the comb of a set: those of the species with the most at the margin, of equals the most.
-int comb_of(const std::vector<SpeciesShare>& parts) {
-    std::pair<int, int> most{0, 0};
-    for (const SpeciesShare& part : parts)
-        if (has_blades(part.model))
-            most = std::max(most, {part.model.hymenium.blades << part.model.hymenium.tiers,
-                                   part.model.hymenium.blades});
-    return most.second;
 }
 
 // Clears each override of `asked` that is not set in `effective`: what the species cannot have.
@@ -102,6 +93,7 @@ MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, cons
     MushroomOrder stepped = order;
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;
+    stepped.arcs.clear();
     if (order.model) return stepped;
     params.size = 1.0;
     params.deformation = {};
@@ -123,7 +115,7 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
     const Individual individual = resolve(stepped, atlas, memo.morphs);
     std::vector<int> parts = {whole};
     if (!order.model) parts = apportioned(weights_of(stepped.mix), whole);
-    const int comb = comb_of(individual.parts);
+    const int comb = individual.comb.blades;
     std::vector<std::pair<std::string, PaintShare>> shares;
     for (std::size_t i = 0; i < individual.parts.size(); ++i) {
         const Model& model = individual.parts[i].model;

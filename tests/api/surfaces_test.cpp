@@ -3,6 +3,10 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
+#include <string>
+#include <utility>
+
 #include "api/mix.h"
 #include "api/query.h"
 #include "tests/api/support.h"
@@ -12,14 +16,21 @@ namespace {
 
 double share() { return *rc::gen::inRange(0, 1001) / 1000.0; }
 
-/// A random order of one species, with overrides of what that species has.
+/// A random order of one to four species, with overrides of what they have.
 MushroomOrder random_order(const Atlas& atlas) {
     const auto& entries = atlas.entries();
     MushroomOrder order;
-    order.mix = {{entries[static_cast<std::size_t>(
-                              *rc::gen::inRange<int>(0, static_cast<int>(entries.size())))]
-                      .species.id.string(),
-                  1000}};
+    Weights weights;
+    const int count = *rc::gen::inRange(1, 5);
+    for (int i = 0; i < count; ++i) {
+        const auto number =
+            static_cast<std::size_t>(*rc::gen::inRange<int>(0, static_cast<int>(entries.size())));
+        const std::string id = entries[number].species.id.string();
+        const bool named = std::any_of(weights.begin(), weights.end(),
+                                       [&](const auto& one) { return one.first == id; });
+        if (!named) weights.emplace_back(id, 0.001 + share());
+    }
+    order.mix = canonical_mix(std::move(weights));
     order.params.seed = *rc::gen::arbitrary<std::uint32_t>();
     order.params.age = share();
     order.params.variation = share();
@@ -82,6 +93,55 @@ TEST(SurfaceAddress, shape_alone_does_not_change_it) {
     order.params.weathering.waves = 0.5;
     order.params.age += 0.0001;
     EXPECT_EQ(address_of(), before);
+}
+
+TEST(SurfaceAddress, weights_come_in_steps_of_a_sixty_fourth) {
+    const auto atlas = built_in_atlas();
+    const auto canonical = [&](const std::string& mix) {
+        Faults faults;
+        const SurfaceRequest read = read_surface(mix, "normal", {}, *atlas, faults);
+        EXPECT_TRUE(faults.empty()) << mix;
+        return canonical_address(read.mix, ImageKind::normal, read.address);
+    };
+    const std::string half = "/v1/surfaces/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5";
+    EXPECT_EQ(canonical("amanita_muscaria:1,boletus_edulis:1"), half + "/normal.jpg");
+    EXPECT_EQ(canonical("boletus_edulis:0.503,amanita_muscaria:0.497"), half + "/normal.jpg");
+    EXPECT_EQ(canonical("amanita_muscaria:0.7,boletus_edulis:0.3"),
+              "/v1/surfaces/mushrooms/amanita_muscaria:0.703,boletus_edulis:0.297/normal.jpg");
+    EXPECT_EQ(canonical("amanita_muscaria:0.703,boletus_edulis:0.297"),
+              "/v1/surfaces/mushrooms/amanita_muscaria:0.703,boletus_edulis:0.297/normal.jpg");
+    EXPECT_EQ(canonical("amanita_muscaria:0.996,boletus_edulis:0.004"),
+              "/v1/surfaces/mushrooms/amanita_muscaria/normal.jpg");
+}
+
+/// Images of a mix: those inside the file, those at the addresses that another file names, and those of another server.
+TEST(SurfaceAddress, linked_images_of_a_mix_are_those_embedded) {
+    for (const std::string mix :
+         {"amanita_muscaria:0.7,boletus_edulis:0.3", "coprinus_comatus:0.997,russula_vinosa:0.003",
+          "cantharellus_cibarius:0.2,disciotis_venosa:0.3,mycena_sanguinolenta:0.5"}) {
+        Service service(built_in_atlas(), ServiceOptions{}),
+            other(built_in_atlas(), ServiceOptions{});
+        const std::string address =
+            "/v1/mushrooms/" + mix + ".glb?age=0.71&seed=3&lod=2&texture_size=256";
+        const std::string embedded = test::text_of(handle(service, test::get(address)));
+        const Answer linked = handle(service, test::get(address + "&textures=linked"));
+        ASSERT_EQ(linked.status, 200) << test::text_of(linked);
+        const std::string file = test::text_of(linked);
+        int found = 0;
+        for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
+            const std::string image = file.substr(at, file.find('"', at) - at);
+            const Answer kept = handle(service, test::get(image));
+            ASSERT_EQ(kept.status, 200) << image << test::text_of(kept);
+            EXPECT_EQ(test::header(kept, "Cache-Status"), "sporeprint-images; hit") << image;
+            EXPECT_EQ(test::header(kept, "Content-Location"), image);
+            EXPECT_NE(embedded.find(test::text_of(kept)), std::string::npos) << image;
+            const Answer elsewhere = handle(other, test::get(image));
+            EXPECT_EQ(test::text_of(elsewhere), test::text_of(kept));
+            EXPECT_EQ(test::header(elsewhere, "ETag"), test::header(kept, "ETag"));
+            ++found;
+        }
+        EXPECT_EQ(found, 3);
+    }
 }
 
 TEST(SurfaceAddress, ages_come_in_steps_of_a_sixty_fourth) {

@@ -3,13 +3,15 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <memory>
-#include <numeric>
+#include <optional>
 #include <set>
 #include <stop_token>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/grow/mushroom.h"
@@ -120,6 +122,118 @@ TEST(Painting, AModelOfOnesOwnHasARecipe) {
     const PaintRecipe recipe = recipe_of(order);
     ASSERT_EQ(recipe.size(), 1U);
     EXPECT_EQ(recipe[0].painting.surface, order.model->surface);
+}
+
+MushroomOrder mixed(Mix mix) {
+    MushroomOrder order = painted(order_of("x", 0.6, 3));
+    order.mix = std::move(mix);
+    return order;
+}
+
+TEST(Painting, EachSpeciesOfAMixIsPaintedAsItself) {
+    const PaintRecipe recipe =
+        recipe_of(mixed({{"amanita_muscaria", 703}, {"boletus_edulis", 297}}));
+    ASSERT_EQ(recipe.size(), 2U);
+    EXPECT_EQ(recipe[0].sixty_fourths + recipe[1].sixty_fourths, 64);
+    EXPECT_EQ(recipe[0].painting.metrics, recipe[1].painting.metrics);
+    EXPECT_EQ(recipe[0].painting.lightness, recipe[1].painting.lightness);
+    for (const PaintShare& share : recipe) {
+        const bool agaric = share.painting.surface.hymenium.pattern == HymeniumPattern::gills;
+        const std::string id = agaric ? "amanita_muscaria" : "boletus_edulis";
+        EXPECT_EQ(share.sixty_fourths, agaric ? 45 : 19);
+        const PaintParams alone = recipe_of(painted(order_of(id, 0.6, 3))).at(0).painting;
+        EXPECT_EQ(share.painting.surface, alone.surface);
+        EXPECT_EQ(share.painting.warts, alone.warts);
+        EXPECT_EQ(share.painting.ornaments, alone.ornaments);
+    }
+}
+
+TEST(Painting, TheOrderOfSpeciesDoesNotMatter) {
+    const PaintRecipe there = recipe_of(
+        mixed({{"amanita_muscaria", 250}, {"boletus_edulis", 250}, {"russula_vinosa", 500}}));
+    const PaintRecipe back = recipe_of(
+        mixed({{"russula_vinosa", 500}, {"boletus_edulis", 250}, {"amanita_muscaria", 250}}));
+    EXPECT_EQ(there, back);
+    EXPECT_EQ(image_key(there), image_key(back));
+}
+
+TEST(Painting, EightSpeciesMakeOneRecipe) {
+    Mix mix;
+    for (const std::string& id : species_ids())
+        if (mix.size() < 8) mix.push_back({id, 125});
+    const PaintRecipe recipe = recipe_of(mixed(mix));
+    EXPECT_EQ(recipe.size(), mix.size());
+    int sum = 0;
+    for (const PaintShare& share : recipe) sum += share.sixty_fourths;
+    EXPECT_EQ(sum, 64);
+    EXPECT_GT(painted_images(recipe, {})->bytes(), 3000U);
+}
+
+TEST(Painting, ATraceOfASpeciesIsNotPainted) {
+    // Nor asked for what it alone could have.
+    MushroomOrder order = mixed({{"amanita_muscaria", 997}, {"boletus_edulis", 3}});
+    order.params.hymenium.pores_per_mm = 2.0;
+    order.params.ornaments.warts = 0.5;
+    order.arcs = {{.curve = CurveName::cap, .a = 0.3, .b = 0.35}};
+    const MushroomOrder surface = surface_order(order, atlas());
+    EXPECT_EQ(surface.mix, (Mix{{"amanita_muscaria", 1000}}));
+    EXPECT_EQ(surface.params.hymenium.pores_per_mm, std::nullopt);
+    EXPECT_EQ(surface.params.ornaments.warts, 0.5);
+    EXPECT_TRUE(surface.arcs.empty()) << "links of a pair";
+    const PaintRecipe recipe = recipe_of(order);
+    ASSERT_EQ(recipe.size(), 1U);
+    EXPECT_EQ(recipe[0].painting.comb, 0);
+    EXPECT_EQ(recipe[0].painting.ornaments.warts, 0.5);
+}
+
+TEST(Painting, GillsOfAMixStandOnTheCombOfTheMost) {
+    const PaintRecipe recipe = recipe_of(mixed({{"boletus_edulis", 200},
+                                                {"cantharellus_cibarius", 200},
+                                                {"coprinus_comatus", 300},
+                                                {"mycena_sanguinolenta", 300}}));
+    ASSERT_EQ(recipe.size(), 4U);
+    const auto blades_of = [](const std::string& id) {
+        return recipe_of(painted(order_of(id))).at(0).painting.hymenium.blades;
+    };
+    const int most = blades_of("coprinus_comatus");
+    for (const PaintShare& share : recipe) {
+        const PaintParams& p = share.painting;
+        const bool bladed = p.surface.hymenium.pattern == HymeniumPattern::gills ||
+                            p.surface.hymenium.pattern == HymeniumPattern::ridges;
+        EXPECT_EQ(p.comb, bladed && p.hymenium.blades != most ? most : 0);
+    }
+}
+
+TEST(Painting, WhatAPersonAsksForActsOnEverySpecies) {
+    MushroomOrder order = mixed({{"amanita_muscaria", 500}, {"coprinus_comatus", 500}});
+    order.params.weathering.fade = 0.7;
+    order.params.weathering.wetness = 0.2;
+    order.params.hymenium.blades = 50;
+    order.params.ornaments.scales = 0.9;
+    for (const PaintShare& share : recipe_of(order)) {
+        EXPECT_EQ(share.painting.fade, 0.7);
+        EXPECT_EQ(share.painting.wetness, 0.2);
+        EXPECT_EQ(share.painting.hymenium.blades, 50);
+        EXPECT_EQ(share.painting.ornaments.scales, 0.9);
+    }
+}
+
+TEST(Painting, AMixedMushroomCarriesTheImagesOfItsRecipe) {
+    const MushroomOrder order = mixed({{"amanita_muscaria", 400}, {"russula_vinosa", 600}});
+    Keeper keeper;
+    const Mushroom mushroom = grow_mushroom(order, atlas(), {}, keeper.workshop);
+    EXPECT_EQ(keeper.dissolved, 1);
+    EXPECT_EQ(keeper.painted, 2);
+    const auto images = painted_images(recipe_of(order), keeper.workshop);
+    EXPECT_EQ(keeper.dissolved, 1);
+    for (const Slice& file : images->files)
+        EXPECT_TRUE(std::any_of(mushroom.glb.begin(), mushroom.glb.end(),
+                                [&](const Slice& s) { return s.owner == file.owner; }));
+    // A thousandth is less than an image knows, but for the lengths.
+    MushroomOrder near = order;
+    near.mix[0].weight = 401;
+    near.mix[1].weight = 599;
+    EXPECT_EQ(surface_order(near, atlas()).mix, surface_order(order, atlas()).mix);
 }
 
 TEST(Painting, AMixIsDissolvedFromPaintingsThatAreKept) {
