@@ -34,7 +34,12 @@ void shape_only(benchmark::State& state, const std::string& id) {
     const auto atlas = built_in_atlas();
     MushroomOrder order = order_of(id, 1024);
     std::shared_ptr<const ImageSet> kept;
+    std::shared_ptr<const MorphSet> morphs;
     Workshop workshop;
+    workshop.memo.morphs = [&](const std::string&, const auto& make) {
+        if (!morphs) morphs = make();
+        return morphs;
+    };
     workshop.memo.images = [&](const std::string&, const auto& make) {
         if (!kept) kept = make();
         return kept;
