@@ -25,6 +25,10 @@ void read_as_mushroom(std::string_view text, const Atlas& atlas) {
     if (!faults.empty()) return;
     Value own = write(order.params);
     if (order.model) {
+        // What is left out is looked at when the individual is decided.
+        std::vector<Problem> problems;
+        check(*order.model, Info{.name = ""}, "/model", problems);
+        if (!problems.empty()) return;
         own.set("model", write(*order.model));
     } else {
         Value mix = Value::object();
