@@ -71,11 +71,10 @@ class Sweeper {
 
   private:
     void ring(const Face& face, const OutlineSample& sample) {
+        // What rises above the stem's end (a bulging top) moves with the cap: there the frame is frozen.
         const AxisStation station =
-            face.on_cap
-                ? deformer_.frozen_station(deformer_.top())
-                : deformer_.station(sample.share == 1.0 ? deformer_.top()
-                                                        : std::min(sample.y, deformer_.top()));
+            face.on_cap ? deformer_.frozen_station(deformer_.top())
+                        : deformer_.station(sample.share == 1.0 ? deformer_.top() : sample.y);
         const Chart& chart = swept_charts[static_cast<std::size_t>(face.part)];
         const double length = face.curve->length();
         for (int j = 0; j <= columns_; ++j) {

@@ -11,6 +11,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/proportion.h"
 #include "core/surface/charts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -220,7 +221,7 @@ struct Surface3 {
             point.azimuth.y += wave.by_angle / sample.r;
         }
         deformer.apply({&point, 1}, on_cap ? deformer.frozen_station(deformer.top())
-                                           : deformer.station(std::min(sample.y, deformer.top())));
+                                           : deformer.station(sample.y));
         return point;
     }
 
@@ -240,7 +241,7 @@ struct Surface3 {
 std::pair<double, double> normal_errors(const Individual& individual, std::uint32_t seed) {
     const Outline& outline = individual.outline;
     const Deformer deformer(individual);
-    const Waves waves(individual.waves, 0.05, 72, seed);
+    const Waves waves(individual.waves, greatest_radius(outline.cap), 72, seed);
     double worst = 0.0, sum = 0.0;
     int count = 0;
     Random random(seed, 99);
