@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <glm/geometric.hpp>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -455,6 +458,54 @@ TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {
                 triangles = mesh.triangles();
             }
         }
+}
+
+/// Triangles of a mesh, by their indices.
+std::set<std::array<std::uint32_t, 3>> triangles_of(const Mesh& mesh) {
+    std::set<std::array<std::uint32_t, 3>> triangles;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
+        triangles.insert({mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]});
+    return triangles;
+}
+
+TEST(Sweep, KeptAbsentTrianglesAreTheSameAtEveryAgeAndHaveNoArea) {
+    for (const std::string& id : species_ids())
+        for (int lod = 0; lod < 4; ++lod) {
+            const auto kept_at = [&](double age) {
+                return swept_mesh(resolve(order_of(id, age, 4), atlas()), lod,
+                                  {.textured = true, .keep_absent = true});
+            };
+            const Mesh mature = kept_at(0.6);
+            for (const double age : {0.0, 0.1, 0.25, 0.45, 0.8, 1.0}) {
+                const Mesh kept = kept_at(age);
+                EXPECT_EQ(kept.indices, mature.indices) << id << " at " << age;
+                expect_valid(kept);
+                const Mesh drawn = swept_mesh(resolve(order_of(id, age, 4), atlas()), lod);
+                EXPECT_TRUE(same_bits(drawn.positions, kept.positions));
+                EXPECT_TRUE(same_bits(drawn.normals, kept.normals));
+                const auto all = triangles_of(kept), shown = triangles_of(drawn);
+                EXPECT_TRUE(std::includes(all.begin(), all.end(), shown.begin(), shown.end()));
+                for (const auto& triangle : all) {
+                    if (shown.contains(triangle)) continue;
+                    const auto place = [&](std::size_t k) {
+                        return glm::dvec3(kept.positions[triangle[k]]);
+                    };
+                    EXPECT_LT(glm::length(glm::cross(place(1) - place(0), place(2) - place(0))),
+                              1e-9);
+                }
+            }
+        }
+}
+
+TEST(Sweep, AmountsMoveVerticesAndNeverTheirNumber) {
+    MushroomOrder order = textured(order_of("amanita_muscaria", 0.6, 4));
+    const std::size_t count = mesh_of(order).positions.size();
+    for (const double amount : {0.0, 0.02, 0.4, 1.0}) {
+        order.params.ornaments.warts = order.params.ornaments.ring = amount;
+        const Mesh mesh = mesh_of(order);
+        EXPECT_EQ(mesh.positions.size(), count);
+        expect_valid(mesh);
+    }
 }
 
 TEST(Sweep, AnotherSeedIsAnotherIndividual) {
