@@ -81,21 +81,17 @@ OutlineNodes scaled(OutlineNodes nodes, double by) {
 }
 
 std::optional<CurveName> fault_of(const Outline& outline, int lod) {
-    std::vector<glm::dvec2> polyline;
-    std::vector<CurveName> owners;
-    for (const CurveName curve : curve_names)
-        for (const OutlineSample& sample : outline.rings(curve, lod)) {
-            const glm::dvec2 place(sample.r, sample.y);
-            if (!polyline.empty() && polyline.back() == place) continue;
-            polyline.push_back(place);
-            owners.push_back(curve);
-        }
-    for (std::size_t i = 0; i < polyline.size(); ++i)
-        if (polyline[i].x < 0.0 || (polyline[i].x == 0.0 && i > 0 && i + 1 < polyline.size()))
-            return owners[i];
-    const auto crossing = first_crossing(polyline);
-    if (!crossing) return std::nullopt;
-    return owners[(*crossing)[1] + 1];
+    const auto contact = contact_at_rest(polyline(outline, lod));
+    if (!contact) return std::nullopt;
+    // The vertex where the later of the two segments ends; or the vertex itself that is on the wrong side of the axis.
+    std::size_t vertex = contact->j == contact->i ? contact->i : contact->j + 1;
+    for (const CurveName curve : {CurveName::stem, CurveName::hymenium}) {
+        const std::size_t rings = outline.rings(curve, lod).size();
+        if (rings == 0) continue;
+        if (vertex < rings) return curve;
+        vertex -= rings - 1;  // joins count once
+    }
+    return CurveName::cap;
 }
 
 double greatest_radius(const SubCurve& curve) {

@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "core/silhouette/outline.h"
+#include "core/silhouette/morph_set.h"
 
 namespace sporeprint {
 
@@ -25,7 +25,7 @@ struct Proportions {
 /// The outline in another size.
 [[nodiscard]] OutlineNodes scaled(OutlineNodes nodes, double by);
 
-/// The sub-curve in which the swept polyline of one level of detail crosses itself or reaches the axis between its ends;
+/// The sub-curve in which the swept polyline of one level of detail touches itself, folds back or reaches the axis between its ends;
 /// none if it is simple. Places that coincide count once: a sub-curve that has shrunk to a point crosses nothing.
 [[nodiscard]] std::optional<CurveName> fault_of(const Outline& outline, int lod);
 
