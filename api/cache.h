@@ -247,7 +247,7 @@ class RememberingCache {
                 }
             }
             hit = false;
-            if (leads) return lead(key, *flight, make);
+            if (leads) return lead(key, *flight, make, hit);
             if (flight->leader == std::this_thread::get_id()) return make();
             std::unique_lock lock(flight->mutex);
             if (!flight->landed.wait(lock, stop, [&] { return flight->done; })) throw Cancelled();
@@ -267,11 +267,13 @@ class RememberingCache {
         std::optional<Value> value;
     };
 
-    Value lead(std::string_view key, Flight& flight, const std::function<Value()>& make) {
+    Value lead(std::string_view key, Flight& flight, const std::function<Value()>& make,
+               bool& hit) {
         // Another may have landed between our look-up and our flight: look again before making.
         std::optional<Value> made;
         try {
             made = cache_.holds(key) ? cache_.find(key) : std::nullopt;
+            hit = made.has_value();
             if (!made) made = make();
             cache_.insert(key, *made);
         } catch (...) {

@@ -109,7 +109,7 @@ MushroomRequest read_morph(const SpeciesPair& species, std::string_view body, Fa
     if (order.t < 1.0) weights.emplace_back(species[0], 1.0 - order.t);
     if (order.t > 0.0) weights.emplace_back(species[1], order.t);
     request.order.mix = canonical_mix(std::move(weights));
-    request.order.params = std::move(order.params);
+    request.order.params = order.params;
     if (request.order.mix.size() < 2) return request;  // a lone species: no arc leads anywhere
     for (Arc arc : order.arcs) {
         if (arc.a <= 0.0 || arc.a >= 1.0) continue;  // the ends belong together anyway

@@ -73,7 +73,7 @@ struct Service::Parts {
     Plan plan(const Request& request);
 };
 
-Service::Service(std::shared_ptr<const Atlas> atlas, ServiceOptions options)
+Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
     : parts_(std::make_unique<Parts>(std::move(atlas), options)) {}
 
 Service::~Service() = default;

@@ -45,7 +45,7 @@ struct Timing {
 
 class Service {
   public:
-    Service(std::shared_ptr<const Atlas> atlas, ServiceOptions options);
+    Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options);
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;

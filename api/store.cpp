@@ -25,7 +25,7 @@ template <class T, class Value>
 std::shared_ptr<const T> ask(RememberingCache<Value>& cache, const std::string& key,
                              const std::function<std::shared_ptr<const T>()>& make,
                              const std::stop_token& stop, Asked& asked) {
-    const Value value = cache.remember(
+    Value value = cache.remember(
         key, [&] { return Value(make()); }, stop, asked.hit);
     asked.stored = cache.cache().fits(cache.cache().weight(key, value));
     if constexpr (std::is_same_v<Value, Painted>)
@@ -100,10 +100,9 @@ Loan::Loan(Store& store, std::stop_token stop, const Observer& observer, const P
         };
         Images set = ask<ImageSet>(store_.images, key, counted, workshop_.stop, asked);
         count(store_.counters.image_hits, store_.counters.image_misses, asked.hit);
-        if (images_.empty()) images_ = cache_member("sporeprint-images", asked.hit, asked.stored);
+        note(images_, cache_member("sporeprint-images", asked.hit, asked.stored));
         return set;
     };
-    // Perhaps asked on several threads at once: it touches nothing of this Loan.
     workshop_.memo.paintings = [this](const std::string& key,
                                       const std::function<Painting()>& make) {
         Asked asked;
@@ -115,12 +114,18 @@ Loan::Loan(Store& store, std::stop_token stop, const Observer& observer, const P
         Asked asked;
         Morph morph = ask<MorphSet>(store_.morphs, key, make, workshop_.stop, asked);
         count(store_.counters.morph_hits, store_.counters.morph_misses, asked.hit);
-        if (morphs_.empty()) morphs_ = cache_member("sporeprint-morph", asked.hit, asked.stored);
+        note(morphs_, cache_member("sporeprint-morph", asked.hit, asked.stored));
         return morph;
     };
 }
 
+void Loan::note(std::string& said, std::string member) {
+    const std::lock_guard lock(mutex_);
+    if (said.empty()) said = std::move(member);
+}
+
 std::string Loan::cache_status() const {
+    const std::lock_guard lock(mutex_);
     return morphs_ + (morphs_.empty() || images_.empty() ? "" : ", ") + images_;
 }
 

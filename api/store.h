@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <stop_token>
 #include <string>
@@ -51,7 +52,7 @@ struct NotKept {};
 /// What a cache said, as a member of Cache-Status: "sporeprint-images; fwd=miss; stored".
 [[nodiscard]] std::string cache_member(std::string_view cache, bool hit, bool stored);
 
-/// What one job borrows: a Workshop whose Memo asks the caches, and what they said.
+/// What one job borrows: a Workshop whose Memo asks the caches, and what they said. The Memo may be asked on several threads.
 class Loan {
   public:
     Loan(Store& store, std::stop_token stop, const Observer& observer, const Parallel& parallel);
@@ -65,9 +66,12 @@ class Loan {
     [[nodiscard]] std::string cache_status() const;
 
   private:
+    void note(std::string& said, std::string member);
+
     Store& store_;
     Workshop workshop_;
-    std::string morphs_, images_;
+    mutable std::mutex mutex_;
+    std::string morphs_, images_;  ///< guarded by mutex_
 };
 
 }  // namespace sporeprint::api
