@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <string>
 
 #include "core/build/detail.h"
@@ -15,10 +16,12 @@ namespace sporeprint {
 namespace {
 
 constexpr std::array<std::size_t, 3> node_counts = {45, 41, 49};
-constexpr int measure_steps = 128;
+constexpr int measure_steps = 128, need_smoothings = 4;
 constexpr double mature_age = 0.6;
-constexpr double half_detour = 0.5;
-constexpr int snap_steps = 16, deepest_piece = 9;
+constexpr double least_foot = 1e-3;  // of the stem's length; less is no base to speak of
+constexpr std::array<double, 2> detour_ladder = {0.75, 1.0};
+constexpr std::size_t way_degree = 9;  // of the weights of a mix along a way with detours
+constexpr int sampled_moments = 40, snap_steps = 16, deepest_piece = 9;
 
 using Curves = std::array<SubCurve, 3>;
 
@@ -122,6 +125,36 @@ void check_arcs(std::span<const Arc> arcs, std::size_t kins, const std::array<bo
         }
     }
     if (!problems.empty()) throw Impossible(std::move(problems));
+}
+
+/// Share of a stem's length at which it has turned from its base half way up: where it comes out of the ground.
+std::optional<double> foot(const SubCurve& stem) {
+    const auto up = [&](double share) {
+        const OutlineSample s = stem.at(share);
+        return s.tangent_y >= s.tangent_r;
+    };
+    for (int i = 1; i < measure_steps; ++i) {
+        if (!up(static_cast<double>(i) / measure_steps)) continue;
+        double below = static_cast<double>(i - 1) / measure_steps, above = below;
+        above += 1.0 / measure_steps;
+        for (int halving = 0; halving < 20; ++halving) {
+            const double middle = 0.5 * (below + above);
+            (up(middle) ? above : below) = middle;
+        }
+        return above;
+    }
+    return std::nullopt;
+}
+
+/// The feet of two stems belong together, however wide or thin these are, unless the designer's arcs say otherwise.
+std::vector<Landmark> with_feet(std::vector<Landmark> landmarks, const SubCurve& a,
+                                const SubCurve& b) {
+    const auto foot_a = foot(a), foot_b = foot(b);
+    if (!foot_a || !foot_b || *foot_a < least_foot || *foot_b < least_foot) return landmarks;
+    for (const Landmark& landmark : landmarks)
+        if (landmark.a <= *foot_a || landmark.b <= *foot_b) return landmarks;
+    landmarks.insert(landmarks.begin(), {*foot_a, *foot_b});
+    return landmarks;
 }
 
 /// Makes both sides of every smooth join run in one direction in every mix: the ratio of their speeds becomes the same in all shapes.
@@ -260,22 +293,49 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
         std::vector<ShareMap> from_hub(kins_.size());
         for (std::size_t k = 0; k < kins_.size(); ++k)
             if (&kins_[k] != &*hub && !at(kins_[k].mature).empty())
-                from_hub[k] = correspondence(at(hub->mature), at(kins_[k].mature), landmarks);
+                from_hub[k] =
+                    correspondence(at(hub->mature), at(kins_[k].mature),
+                                   curve == CurveName::stem
+                                       ? with_feet(landmarks, at(hub->mature), at(kins_[k].mature))
+                                       : landmarks);
 
-        // The common parameter u: the mean of what every shape spends on length and turning.
-        std::vector<double> hub_shares, measures(measure_steps + 1, 0.0);
-        for (int i = 0; i <= measure_steps; ++i)
-            hub_shares.push_back(static_cast<double>(i) / measure_steps);
-        double whole = 0.0;
+        // The common parameter u runs evenly through what the shapes need: by length and turning, so that thin margins stay round, and
+        // by the root of their product, which a chord's error goes with. Fourth powers let the neediest shape speak.
+        std::vector<double> needs(measure_steps, 0.0), lengths(measure_steps), turns(measure_steps);
         for (std::size_t s = 0; s < shapes.size(); ++s) {
             if (at(s).empty()) continue;
-            whole += 1.0;
-            for (std::size_t i = 0; i < hub_shares.size(); ++i)
-                measures[i] +=
-                    at(s).measure(from_mature[s](from_hub[shapes[s].kin](hub_shares[i]).at).at);
+            double share = 0.0, turning = 0.0, roots = 0.0;
+            for (std::size_t i = 0; i < needs.size(); ++i) {
+                const double place = static_cast<double>(i + 1) / measure_steps;
+                const double next = from_mature[s](from_hub[shapes[s].kin](place).at).at;
+                const double next_turning = at(s).turning(next);
+                lengths[i] = next - share;
+                turns[i] = next_turning - turning;
+                roots += std::sqrt(lengths[i] * turns[i]);
+                share = next;
+                turning = next_turning;
+            }
+            turning = std::max(turning, 1e-9);
+            roots = std::max(roots, 1e-9);
+            for (std::size_t i = 0; i < needs.size(); ++i) {
+                const double need = lengths[i] + turns[i] / turning +
+                                    2.0 * std::sqrt(lengths[i] * turns[i]) / roots;
+                needs[i] += need * need * need * need;
+            }
         }
+        for (double& need : needs) need = std::sqrt(std::sqrt(need));
+        // Smoothed, so that u runs evenly: between two nodes the speed hardly changes.
+        for (int pass = 0; pass < need_smoothings; ++pass) {
+            double before = needs.front();
+            for (std::size_t i = 0; i + 1 < needs.size(); ++i) {
+                const double here = needs[i];
+                needs[i] = 0.25 * before + 0.5 * here + 0.25 * needs[i + 1];
+                before = here;
+            }
+        }
+        std::vector<double> measures{0.0};
+        for (const double need : needs) measures.push_back(measures.back() + need);
         for (double& measure : measures) measure /= measures.back();
-        measures.front() = 0.0;
         measures.back() = 1.0;
         const std::size_t count = node_counts[c];
         std::vector<double> u, node_shares;
@@ -341,7 +401,8 @@ std::vector<double> MorphSet::kin_weights(std::span<const double> weights) const
     return sums;
 }
 
-/// The weights after the detours of all pairs of stages: what stage s gives goes over to the mature stage of its kin.
+/// The weights after the detours: of what stage s gives, x^2 (2 - x^2) goes over to the mature stage of its kin, where x is 4 times
+/// its kin's weight times that of the stages it must not meet, so that nothing happens near a corner.
 std::vector<double> MorphSet::detoured(std::span<const double> weights) const {
     std::vector<double> moved(weights.begin(), weights.end());
     if (detours_.empty()) return moved;
@@ -349,9 +410,10 @@ std::vector<double> MorphSet::detoured(std::span<const double> weights) const {
     for (std::size_t k = 0; k < kins_.size(); ++k)
         for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s) {
             if (weights[s] == 0.0) continue;
-            double share = 0.0;
+            double x = 0.0;
             for (std::size_t other = 0; other < weights.size(); ++other)
-                share += 4.0 * sums[k] * weights[other] * detours_[s * weights.size() + other];
+                x += 4.0 * sums[k] * weights[other] * detours_[s * weights.size() + other];
+            const double share = x * x * (2.0 - x * x);
             moved[s] -= share * weights[s];
             moved[kins_[k].mature] += share * weights[s];
         }
@@ -441,19 +503,27 @@ void MorphSet::choose_detours(std::size_t i, std::size_t j) {
                 lines[s] = polyline(nodes_[s], lod);
         for (std::size_t a = 0; a < count; ++a)
             for (std::size_t b = 0; b < count; ++b)
-                if (kin_of(a) == i && kin_of(b) == j && first_contact(lines[a], lines[b]))
+                if (kin_of(a) == i && kin_of(b) == j && contact_on_the_way(lines[a], lines[b]))
                     folding.push_back({a, b});
     }
     std::sort(folding.begin(), folding.end());
     folding.erase(std::unique(folding.begin(), folding.end()), folding.end());
-    for (const auto& [a, b] : folding) {
-        if (detours_.empty()) detours_.assign(count * count, 0.0);
-        for (const double amount : {half_detour, 1.0}) {
-            detours_[a * count + b] = detours_[b * count + a] = amount;
-            std::vector<double> from(count, 0.0), to(count, 0.0);
-            from[a] = to[b] = 1.0;
-            if (curved_way_is_simple(from, to)) break;
+    if (folding.empty()) return;
+    if (detours_.empty()) detours_.assign(count * count, 0.0);
+    const auto folds = [&](const std::array<std::size_t, 2>& way) {
+        std::vector<double> weights(count, 0.0);
+        for (int k = 1; k < sampled_moments; ++k) {
+            weights[way[1]] = static_cast<double>(k) / sampled_moments;
+            weights[way[0]] = 1.0 - weights[way[1]];
+            if (touches(unchecked(weights))) return true;
         }
+        return false;
+    };
+    for (const double amount : detour_ladder) {
+        for (const auto& [a, b] : folding)
+            detours_[a * count + b] = detours_[b * count + a] = amount;
+        if (amount == detour_ladder.back() || std::none_of(folding.begin(), folding.end(), folds))
+            return;
     }
 }
 
@@ -527,30 +597,76 @@ Certificate MorphSet::certificate(std::span<const double> from, std::span<const 
     return known;
 }
 
-/// Detours make the way from one mix to another a cubic in t. Each piece of it lies among the means of the piece's four Bezier polygons.
+/// The detoured weights of the mixes from one to another, each as a polynomial by its Bernstein coefficients.
+std::vector<std::vector<double>> MorphSet::detoured_way(std::span<const double> from,
+                                                        std::span<const double> to) const {
+    using Polynomial = std::vector<double>;
+    const auto product = [](const Polynomial& a, const Polynomial& b) {
+        const auto choose = [](std::size_t n, std::size_t k) {
+            double ways = 1.0;
+            for (std::size_t i = 0; i < k; ++i)
+                ways = ways * static_cast<double>(n - i) / static_cast<double>(i + 1);
+            return ways;
+        };
+        const std::size_t m = a.size() - 1, n = b.size() - 1;
+        Polynomial out(m + n + 1, 0.0);
+        for (std::size_t i = 0; i <= m; ++i)
+            for (std::size_t j = 0; j <= n; ++j)
+                out[i + j] += choose(m, i) * choose(n, j) / choose(m + n, i + j) * a[i] * b[j];
+        return out;
+    };
+    const auto raised = [&](const Polynomial& p, std::size_t degree) {
+        return product(p, Polynomial(degree - p.size() + 2, 1.0));
+    };
+    const std::vector<double> sums_from = kin_weights(from), sums_to = kin_weights(to);
+    std::vector<Polynomial> moved(from.size());
+    for (std::size_t s = 0; s < from.size(); ++s) moved[s] = raised({from[s], to[s]}, way_degree);
+    for (std::size_t k = 0; k < kins_.size(); ++k)
+        for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s) {
+            if (from[s] == 0.0 && to[s] == 0.0) continue;
+            Polynomial met{0.0, 0.0};
+            for (std::size_t other = 0; other < from.size(); ++other) {
+                met[0] += 4.0 * from[other] * detours_[s * from.size() + other];
+                met[1] += 4.0 * to[other] * detours_[s * from.size() + other];
+            }
+            const Polynomial x = product({sums_from[k], sums_to[k]}, met), xx = product(x, x);
+            const Polynomial x4 = product(xx, xx), twice = raised(xx, x4.size() - 1);
+            Polynomial share(x4.size());
+            for (std::size_t i = 0; i < share.size(); ++i) share[i] = 2.0 * twice[i] - x4[i];
+            const Polynomial over = product(share, {from[s], to[s]});
+            for (std::size_t i = 0; i < over.size(); ++i) {
+                moved[s][i] -= over[i];
+                moved[kins_[k].mature][i] += over[i];
+            }
+        }
+    return moved;
+}
+
+/// Detours make the way from one mix to another a curve; each piece of it lies among the means of the piece's Bezier polygons.
 bool MorphSet::curved_way_is_simple(std::span<const double> from,
                                     std::span<const double> to) const {
-    const auto at = [&](double t, int lod) {
-        return polyline(unchecked(between(from, to, t)), lod);
-    };
-    const auto is_simple = [&](const auto& self, const Polyline& start, const Polyline& end,
-                               double t0, double t1, int lod, int depth) -> bool {
-        std::array<Polyline, 4> bezier = {start, at(t0 + (t1 - t0) / 3.0, lod),
-                                          at(t0 + 2.0 * (t1 - t0) / 3.0, lod), end};
-        for (std::size_t i = 0; i < start.size(); ++i) {
-            const glm::dvec2 b = bezier[1][i], c = bezier[2][i];
-            bezier[1][i] = (-5.0 * start[i] + 18.0 * b - 9.0 * c + 2.0 * end[i]) / 6.0;
-            bezier[2][i] = (2.0 * start[i] - 9.0 * b + 18.0 * c - 5.0 * end[i]) / 6.0;
+    std::vector<Polyline> shapes(nodes_.size());
+    std::vector<Polyline> bezier(way_degree + 1);
+    const auto is_simple = [&](const auto& self, double t0, double t1, int depth) -> bool {
+        const auto way = detoured_way(between(from, to, t0), between(from, to, t1));
+        for (std::size_t i = 0; i < bezier.size(); ++i) {
+            bezier[i].assign(shapes.front().size(), glm::dvec2(0.0));
+            for (std::size_t s = 0; s < shapes.size(); ++s)
+                if (way[s][i] != 0.0)
+                    for (std::size_t p = 0; p < bezier[i].size(); ++p)
+                        bezier[i][p] += way[s][i] * shapes[s][p];
         }
         if (!first_doubt(bezier)) return true;
+        if (depth == deepest_piece || contact_at_rest(bezier.front()) ||
+            contact_at_rest(bezier.back()))
+            return false;
         const double middle = 0.5 * (t0 + t1);
-        const Polyline there = at(middle, lod);
-        if (depth == deepest_piece || contact_at_rest(there)) return false;
-        return self(self, start, there, t0, middle, lod, depth + 1) &&
-               self(self, there, end, middle, t1, lod, depth + 1);
+        return self(self, t0, middle, depth + 1) && self(self, middle, t1, depth + 1);
     };
-    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
-        if (!is_simple(is_simple, at(0.0, lod), at(1.0, lod), 0.0, 1.0, lod, 0)) return false;
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+        for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s] = polyline(nodes_[s], lod);
+        if (!is_simple(is_simple, 0.0, 1.0, 0)) return false;
+    }
     return true;
 }
 

@@ -12,7 +12,7 @@ namespace sporeprint {
 namespace {
 
 constexpr int knots_between_controls = 24;  // a few long cubics between an author's control points
-constexpr int knots_between_nodes = 3;      // many short ones between the nodes of a set
+constexpr int knots_between_nodes = 4;      // many short ones between the nodes of a set
 
 std::string number(double value) {
     std::string text = std::to_string(value);
@@ -184,14 +184,13 @@ std::vector<double> SubCurve::segment_shares() const {
     return shares;
 }
 
-double SubCurve::measure(double share) const {
+double SubCurve::turning(double share) const {
     const double arc = std::clamp(share, 0.0, 1.0) * length_;
     const auto above = std::upper_bound(knots_.begin() + 1, knots_.end() - 1, arc,
                                         [](double x, const Knot& k) { return x < k.arc; });
     const Knot &a = *(above - 1), &b = *above;
     const double t = b.arc > a.arc ? (arc - a.arc) / (b.arc - a.arc) : 0.0;
-    const double turn = a.turn + t * (b.turn - a.turn);
-    return 0.5 * share + 0.5 * turn / std::max(knots_.back().turn, 1e-9);
+    return a.turn + t * (b.turn - a.turn);
 }
 
 std::vector<OutlineSample> SubCurve::sampled(int count) const {

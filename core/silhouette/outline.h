@@ -87,8 +87,8 @@ class SubCurve {
     /// Shares of arc length at which the segments begin and end; one more than there are segments.
     [[nodiscard]] std::vector<double> segment_shares() const;
 
-    /// Half share of the length, half share of the turning up to a share of the arc length: 0..1.
-    [[nodiscard]] double measure(double share) const;
+    /// How far the tangent has turned up to a share of the arc length, to and fro added up, radians.
+    [[nodiscard]] double turning(double share) const;
 
     /// `count` >= 2 points from start to end, spaced half by length and half by turning, so that thin margins stay round.
     [[nodiscard]] std::vector<OutlineSample> sampled(int count) const;

@@ -180,6 +180,16 @@ std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline) {
 std::optional<Contact> first_contact(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
     assert(a.size() == b.size() && a.size() >= 2);
     if (auto at_0 = contact_at_rest(a)) return at_0;
+    if (auto moving = contact_on_the_way(a, b)) return moving;
+    if (auto at_1 = contact_at_rest(b)) {
+        at_1->t = 1.0;
+        return at_1;
+    }
+    return std::nullopt;
+}
+
+std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
+                                          std::span<const glm::dvec2> b) {
     const std::size_t n = a.size();
     std::vector<Moving> points(n);
     for (std::size_t i = 0; i < n; ++i) points[i] = {a[i], b[i] - a[i]};
@@ -208,29 +218,43 @@ std::optional<Contact> first_contact(std::span<const glm::dvec2> a, std::span<co
     for (std::size_t i = 0; i + 1 < n; ++i)
         for (std::size_t j = i + 2; j + 1 < n; ++j) {
             if (boxes[i].apart(boxes[j])) continue;
+            HalfPlane
+                differences;  // a direction that keeps them apart at both ends does so all the way
+            bool apart = true;
+            for (const auto& line : {a, b})
+                apart = apart && differences.add(line[j] - line[i]) &&
+                        differences.add(line[j] - line[i + 1]) &&
+                        differences.add(line[j + 1] - line[i]) &&
+                        differences.add(line[j + 1] - line[i + 1]);
+            if (apart) continue;
             const Moving &p = points[i], &q = points[i + 1], &r = points[j], &s = points[j + 1];
             consider(first_touch(p, r, s), i, j);
             consider(first_touch(q, r, s), i, j);
             consider(first_touch(r, p, q), i, j);
             consider(first_touch(s, p, q), i, j);
         }
-    if (first) return first;
-    if (auto at_1 = contact_at_rest(b)) {
-        at_1->t = 1.0;
-        return at_1;
-    }
-    return std::nullopt;
+    return first;
 }
 
 std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
     assert(!shapes.empty());
     const std::size_t n = shapes.front().size(), count = shapes.size();
-    for (const Polyline& shape : shapes)
-        if (const auto contact = contact_at_rest(shape)) return Doubt{contact->i, contact->j};
+    // Vertices that are one because all edges between them have no length: a sub-curve that is a point. Others must not meet.
+    std::vector<std::size_t> runs(n * count);
+    for (std::size_t s = 0; s < count; ++s)
+        for (std::size_t i = 0; i < n; ++i) {
+            const Polyline& p = shapes[s];
+            if (i > 0 && i + 1 < n ? p[i].x <= 0.0 : p[i].x < 0.0) return Doubt{i, i};
+            runs[s * n + i] = i > 0 && p[i] == p[i - 1] ? runs[s * n + i - 1] : i;
+        }
     // Twice the area of X, Y, Z, the bilinear form of two shapes: its sign over all pairs of shapes, 0 if it has none.
     const auto side = [&](std::size_t x, std::size_t y, std::size_t z) {
         int sign = 0;
         for (std::size_t s = 0; s < count; ++s) {
+            const auto meets = [&](std::size_t v) {
+                return shapes[s][v] == shapes[s][x] && runs[s * n + v] != runs[s * n + x];
+            };
+            if (meets(y) || meets(z)) return 0;
             const glm::dvec2 a = shapes[s][y] - shapes[s][x], b = shapes[s][z] - shapes[s][x];
             for (std::size_t t = s; t < count; ++t) {
                 const glm::dvec2 c = shapes[t][y] - shapes[t][x], d = shapes[t][z] - shapes[t][x];
@@ -278,9 +302,12 @@ std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
             HalfPlane differences;
             bool apart = true;
             for (std::size_t s = 0; s < count && apart; ++s) {
-                const Polyline& p = shapes[s];
-                apart = differences.add(p[j] - p[i]) && differences.add(p[j] - p[i + 1]) &&
-                        differences.add(p[j + 1] - p[i]) && differences.add(p[j + 1] - p[i + 1]);
+                const auto add = [&](std::size_t x, std::size_t y) {
+                    const glm::dvec2 v = shapes[s][y] - shapes[s][x];
+                    return (v != glm::dvec2(0.0) || runs[s * n + x] == runs[s * n + y]) &&
+                           differences.add(v);
+                };
+                apart = add(i, j) && add(i + 1, j) && add(i, j + 1) && add(i + 1, j + 1);
             }
             if (!apart && !line_between(i, j)) return Doubt{i, j};
         }

@@ -53,6 +53,10 @@ struct Contact {
 [[nodiscard]] std::optional<Contact> first_contact(std::span<const glm::dvec2> a,
                                                    std::span<const glm::dvec2> b);
 
+/// The same where a and b are known to be simple: what happens strictly between them.
+[[nodiscard]] std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
+                                                        std::span<const glm::dvec2> b);
+
 /// Why a set of polylines is not certified: segments i and j have no common line between them.
 struct Doubt {
     std::size_t i = 0, j = 0;

@@ -3,10 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <string>
 
 #include "core/build/detail.h"
+#include "core/math/random.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint {
@@ -45,6 +49,82 @@ std::vector<double> only(const MorphSet& set, std::size_t shape) {
     std::vector<double> weights(set.size(), 0.0);
     weights[shape] = 1.0;
     return weights;
+}
+
+MorphSet set_of_all() {
+    std::vector<ControlShape> shapes;
+    for (std::size_t s = 0; s < atlas().entries().size(); ++s) {
+        const auto own = shapes_of(atlas().entries()[s], s);
+        shapes.insert(shapes.end(), own.begin(), own.end());
+    }
+    return MorphSet(std::move(shapes));
+}
+
+/// Growth weights at an age times a share of each species.
+std::vector<double> mix_of(const MorphSet& set, const std::vector<std::size_t>& kins,
+                           const std::vector<double>& shares, double age) {
+    std::vector<double> weights = set.growth_weights(age);
+    for (std::size_t s = 0; s < weights.size(); ++s) weights[s] *= shares[kins[s]];
+    return weights;
+}
+
+std::vector<std::size_t> kins_of(std::initializer_list<std::size_t> species) {
+    std::vector<std::size_t> kins;
+    std::size_t kin = 0;
+    for (const std::size_t s : species)
+        kins.insert(kins.end(), atlas().entries()[s].species.stages.size(), kin++);
+    return kins;
+}
+
+double distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
+    const glm::dvec2 along = b - a;
+    const double square = glm::dot(along, along);
+    const double t = square > 0.0 ? std::clamp(glm::dot(p - a, along) / square, 0.0, 1.0) : 0.0;
+    return glm::distance(p, a + t * along);
+}
+
+/// Greatest distance of a point of one polyline from the other.
+double deviation(const Polyline& from, const Polyline& to) {
+    double worst = 0.0;
+    for (std::size_t i = 0; i + 1 < from.size(); ++i)
+        for (const double t : {0.0, 0.25, 0.5, 0.75}) {
+            const glm::dvec2 p = from[i] + t * (from[i + 1] - from[i]);
+            double nearest = 1e9;
+            for (std::size_t j = 0; j + 1 < to.size(); ++j)
+                nearest = std::min(nearest, distance(p, to[j], to[j + 1]));
+            worst = std::max(worst, nearest);
+        }
+    return worst;
+}
+
+double hausdorff(const Polyline& a, const Polyline& b) {
+    return std::max(deviation(a, b), deviation(b, a));
+}
+
+double diagonal(const Polyline& line) {
+    glm::dvec2 low = line.front(), high = line.front();
+    for (const glm::dvec2& p : line) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
+    }
+    return std::hypot(2.0 * high.x, high.y - low.y);
+}
+
+::testing::AssertionResult is_simple(const Outline& outline) {
+    for (int lod = 0; lod < 4; ++lod) {
+        const Polyline line = polyline(outline, lod);
+        for (std::size_t i = 1; i + 1 < line.size(); ++i)
+            if (!(line[i].x > 0.0))
+                return ::testing::AssertionFailure() << "r = " << line[i].x << ", LOD " << lod;
+        if (line.front().x != 0.0 || line.back().x != 0.0)
+            return ::testing::AssertionFailure() << "off the axis";
+        Polyline distinct = line;  // a missing hymenium is a point, and no crossing
+        distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
+        if (const auto pair = first_crossing(distinct))
+            return ::testing::AssertionFailure()
+                   << "segments " << (*pair)[0] << " and " << (*pair)[1] << ", LOD " << lod;
+    }
+    return ::testing::AssertionSuccess();
 }
 
 TEST(MorphSet, EndpointsAreTheControlShapes) {
@@ -174,6 +254,226 @@ TEST(MorphSet, CrossingArcsAreRefusedAndNamed) {
     EXPECT_TRUE(refused({{CurveName::cap, 0.5, 0.6}, {CurveName::cap, 0.5, 0.6}}).empty());
     EXPECT_TRUE(
         names(refusal([] { (void)set_of({0}, std::vector<Arc>{{}}); }), "/arcs/0", "exactly two"));
+}
+
+TEST(MorphSet, RingsSpendTheirChordsWell) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const auto shapes = shapes_of(entry, 0);
+        const MorphSet set(shapes);
+        for (std::size_t s = 0; s < shapes.size(); ++s) {
+            const Outline own(shapes[s].silhouette);
+            Polyline truth;
+            for (const CurveName curve : curve_names)
+                if (!own.of(curve).empty())
+                    for (const OutlineSample& p : own.of(curve).sampled(1500))
+                        truth.push_back(glm::dvec2(p.r, p.y) / shapes[s].size);
+            const Polyline rings = polyline(Outline(set.nodes(only(set, s)), set.places()), 0);
+            // One row of 72 rings serves all stages; 72 chords round a circle would be 0.05 % off.
+            EXPECT_LT(deviation(rings, truth), 1.2e-3 * diagonal(truth))
+                << entry.species.id.string() << " stage " << s;
+        }
+    }
+}
+
+// "Done when" 1: a and b at any two ages, for every moment between them, on the polylines of every level of detail.
+TEST(MorphSet, EveryPairAtEveryPairOfAgesIsSimpleAtEveryMoment) {
+    constexpr std::array<double, 5> ages = {0.0, 0.25, 0.5, 0.75, 1.0};
+    const std::size_t count = atlas().entries().size();
+    int exact = 0, certified = 0;
+    for (std::size_t a = 0; a < count; ++a)
+        for (std::size_t b = a; b < count; ++b) {
+            const MorphSet set = a == b ? set_of({a}) : set_of({a, b});
+            const auto kins = a == b ? kins_of({a}) : kins_of({a, b});
+            for (const double age_a : ages)
+                for (const double age_b : ages) {
+                    const auto from = mix_of(set, kins, {1.0, 0.0}, age_a);
+                    const auto to =
+                        a == b ? set.growth_weights(age_b) : mix_of(set, kins, {0.0, 1.0}, age_b);
+                    const Certificate known = set.certificate(from, to);
+                    EXPECT_TRUE(known.simple)
+                        << a << " at " << age_a << ", " << b << " at " << age_b;
+                    EXPECT_NE(known.method, ProofMethod::checked);
+                    (known.method == ProofMethod::exact ? exact : certified)++;
+                    EXPECT_EQ(known.method == ProofMethod::exact, known.detour == 0.0);
+                }
+        }
+    EXPECT_GT(exact, 8 * certified) << "detours are for closed cups and the like";
+}
+
+// 100,000 in a release build; sanitizers make each some twenty times slower, so there it is every fiftieth.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr int mixes = 2000;
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+constexpr int mixes = 2000;
+#else
+constexpr int mixes = 100000;
+#endif
+#else
+constexpr int mixes = 100000;
+#endif
+
+TEST(MorphSet, RandomMixesOfAnyNumberNeverCross) {
+    const MorphSet set = set_of_all();
+    std::vector<std::size_t> kins;
+    for (std::size_t k = 0; k < atlas().entries().size(); ++k)
+        kins.insert(kins.end(), atlas().entries()[k].species.stages.size(), k);
+    Random random(43, 0);
+    for (int i = 0; i < mixes; ++i) {
+        // Two to eight species at one age; every tenth any stages at all.
+        std::vector<double> weights(set.size());
+        const std::uint32_t least = random.bits() % 7;
+        if (i % 10 == 0) {
+            for (double& w : weights)
+                w = random.bits() % 8 >= least ? -std::log(1.0 - random.uniform()) : 0.0;
+        } else {
+            std::vector<double> shares;
+            for (std::size_t k = 0; k < atlas().entries().size(); ++k)
+                shares.push_back(random.bits() % 8 >= least ? -std::log(1.0 - random.uniform())
+                                                            : 0.0);
+            weights = mix_of(set, kins, shares, random.uniform());
+        }
+        double sum = 0.0;
+        for (const double w : weights) sum += w;
+        if (sum == 0.0) continue;
+        for (double& w : weights) w /= sum;
+        ASSERT_TRUE(is_simple(Outline(set.nodes(weights), set.places()))) << "mix " << i;
+    }
+}
+
+TEST(MorphSet, OutlinesConvergeTowardsACorner) {
+    const std::size_t count = atlas().entries().size();
+    for (std::size_t a = 0; a < count; ++a) {
+        const MorphSet alone = set_of({a});
+        for (std::size_t b = 0; b < count; ++b) {
+            if (a == b) continue;
+            const MorphSet set = set_of({a, b});
+            const auto kins = kins_of({a, b});
+            for (const double age : {0.0, 0.3, 0.6, 1.0}) {
+                const Polyline corner =
+                    polyline(Outline(alone.nodes(alone.growth_weights(age)), alone.places()), 0);
+                const Polyline near = polyline(
+                    Outline(set.nodes(mix_of(set, kins, {0.999, 0.001}, age)), set.places()), 0);
+                EXPECT_LT(hausdorff(corner, near), 3e-3 * diagonal(corner))
+                    << a << " with " << b << " at " << age;
+            }
+        }
+    }
+}
+
+TEST(MorphSet, TheOrderOfTwoKinMovesNothingVisible) {
+    for (const auto& [a, b] : {std::array<std::size_t, 2>{0, 1}, {0, 4}, {2, 3}, {5, 7}}) {
+        const MorphSet one = set_of({a, b}), two = set_of({b, a});
+        for (const double age : {0.0, 0.6, 1.0})
+            for (const double t : {0.25, 0.5, 0.75}) {
+                const Polyline p =
+                    polyline(Outline(one.nodes(mix_of(one, kins_of({a, b}), {1.0 - t, t}, age)),
+                                     one.places()),
+                             0);
+                const Polyline q =
+                    polyline(Outline(two.nodes(mix_of(two, kins_of({b, a}), {t, 1.0 - t}, age)),
+                                     two.places()),
+                             0);
+                EXPECT_LT(hausdorff(p, q), 0.01 * diagonal(p)) << a << ' ' << b << " at " << age;
+            }
+    }
+}
+
+// "Done when" 3, for the outline: steps of 1/256 in t.
+TEST(MorphSet, NothingJumpsAlongAMorph) {
+    const std::size_t count = atlas().entries().size();
+    for (std::size_t a = 0; a < count; ++a)
+        for (std::size_t b = a + 1; b < count; ++b) {
+            const MorphSet set = set_of({a, b});
+            const auto kins = kins_of({a, b});
+            for (const double age : {0.0, 0.3, 0.6, 1.0}) {
+                Polyline last;
+                for (int i = 0; i <= 256; ++i) {
+                    const double t = i / 256.0;
+                    const Polyline here = polyline(
+                        Outline(set.nodes(mix_of(set, kins, {1.0 - t, t}, age)), set.places()), 1);
+                    double worst = 0.0;
+                    for (std::size_t p = 0; p < last.size(); ++p)
+                        worst = std::max(worst, glm::distance(last[p], here[p]));
+                    EXPECT_LT(worst, 0.02 * diagonal(here))
+                        << a << " and " << b << " at " << age << ", t = " << t;
+                    last = here;
+                }
+            }
+        }
+}
+
+TEST(MorphSet, ADetourLeavesEveryShapeItself) {
+    std::size_t cup = 0;
+    while (atlas().entries()[cup].species.facts.form != GrowthForm::cup) ++cup;
+    const MorphSet set = set_of({0, cup}), alone = set_of({0});
+    EXPECT_GT(set.certificate().detour, 0.0) << "a closed cup turns its margin over";
+    EXPECT_EQ(set_of({0, 1}).certificate(), (Certificate{true, ProofMethod::certificate, 0.0}));
+    for (const double age : {0.0, 0.1, 0.6}) {
+        const auto weights = mix_of(set, kins_of({0, cup}), {1.0, 0.0}, age);
+        const Polyline in_set = polyline(Outline(set.nodes(weights), set.places()), 0);
+        const Polyline by_itself =
+            polyline(Outline(alone.nodes(alone.growth_weights(age)), alone.places()), 0);
+        EXPECT_LT(hausdorff(in_set, by_itself), 2e-3 * diagonal(in_set));
+    }
+}
+
+TEST(MorphSet, FeetOfStemsBelongTogether) {
+    const MorphSet set = set_of({5, 6});  // a broad low cup and a thread of a stem
+    std::vector<int> flat;
+    for (std::size_t kin = 0; kin < 2; ++kin) {
+        std::vector<double> shares(2, 0.0);
+        shares[kin] = 1.0;
+        const Outline mature(set.nodes(mix_of(set, kins_of({5, 6}), shares, 0.6)), set.places());
+        flat.push_back(0);
+        for (const OutlineSample& ring : mature.rings(CurveName::stem, 0))
+            flat.back() += ring.tangent_y < ring.tangent_r ? 1 : 0;
+    }
+    EXPECT_NEAR(flat[0], flat[1], 1) << "rings under ground";
+    EXPECT_GE(flat[0], 2);
+}
+
+TEST(MorphSet, ShapesOfStrangersAreRefusedOrNeverCross) {
+    Random random(47, 0);
+    int made = 0, refused = 0;
+    for (int trial = 0; trial < 150; ++trial) {
+        std::vector<ControlShape> shapes;
+        for (std::size_t kin = 0; kin < 3; ++kin) {
+            const auto& entries = atlas().entries();
+            ControlShape shape =
+                shapes_of(entries[random.bits() % entries.size()], 0)[random.bits() % 4];
+            Silhouette& s = shape.silhouette;
+            for (auto* part : {&s.stem, &s.hymenium, &s.cap})
+                for (OutlinePoint& p : *part)
+                    if (p.r > 0.0) {
+                        p.r *= random.uniform(0.8, 1.25);
+                        p.y += shape.size * random.uniform(-0.025, 0.025);
+                    }
+            if (!s.hymenium.empty()) s.hymenium.front() = s.stem.back();
+            s.cap.front() = s.hymenium.empty() ? s.stem.back() : s.hymenium.back();
+            shape.kin = kin;
+            shapes.push_back(shape);
+        }
+        try {
+            const MorphSet set(shapes);
+            ++made;
+            for (int draw = 0; draw < 40; ++draw) {
+                std::vector<double> weights;
+                double sum = 0.0;
+                for (std::size_t s = 0; s < 3; ++s) {
+                    weights.push_back(random.uniform());
+                    sum += weights.back();
+                }
+                for (double& w : weights) w /= sum;
+                ASSERT_TRUE(is_simple(Outline(set.nodes(weights), set.places())))
+                    << "trial " << trial;
+            }
+        } catch (const Impossible&) {
+            ++refused;
+        }
+    }
+    EXPECT_GT(made, 30);
+    EXPECT_GT(refused, 2);
 }
 
 }  // namespace
