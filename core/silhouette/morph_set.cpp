@@ -21,7 +21,7 @@ constexpr double mature_age = 0.6;
 constexpr double least_foot = 1e-3;  // of the stem's length; less is no base to speak of
 constexpr std::array<double, 2> detour_ladder = {0.75, 1.0};
 constexpr std::size_t way_degree = 9;  // of the weights of a mix along a way with detours
-constexpr int sampled_moments = 40, snap_steps = 16, deepest_piece = 9;
+constexpr int sampled_moments = 20, snap_steps = 16, deepest_piece = 9;
 
 using Curves = std::array<SubCurve, 3>;
 

@@ -237,9 +237,9 @@ TEST(Proof, CertificatesHoldOnRandomConvexCombinations) {
     int certified = 0, doubted = 0;
     for (int trial = 0; trial < 400; ++trial) {
         const std::size_t count = 5 + static_cast<std::size_t>(trial) % 6;
-        std::vector<Polyline> shapes;
-        for (int s = 0; s < 2 + trial % 4; ++s)
-            shapes.push_back(random_outline(random, count, 0.1 + 0.15 * (trial % 5)));
+        std::vector<Polyline> shapes(2 + static_cast<std::size_t>(trial) % 4);
+        for (Polyline& shape : shapes)
+            shape = random_outline(random, count, 0.1 + 0.15 * (trial % 5));
         if (first_doubt(shapes)) {
             ++doubted;
             continue;
