@@ -188,7 +188,7 @@ test("both outlines stand side by side with their arcs, and own arcs are added, 
     assert.equal(dragged.split(":")[1], first.split(":")[1], "the other end stays");
     assert.deepEqual(await arcs(page), ["accepted"]);
 
-    const undo = page.locator("#graph-tools button", { hasText: "Undo" });
+    const undo = page.getByRole("button", { name: "Undo" });
     await undo.click();
     await ready(page);
     assert.equal(parameters(page).get("arcs"), first);
@@ -196,7 +196,7 @@ test("both outlines stand side by side with their arcs, and own arcs are added, 
     await ready(page);
     assert.equal(parameters(page).get("arcs"), null);
     assert.ok(await undo.isDisabled());
-    for (let step = 0; step < 2; ++step) await page.locator("#graph-tools button", { hasText: "Redo" }).click();
+    for (let step = 0; step < 2; ++step) await page.getByRole("button", { name: "Redo" }).click();
     await ready(page);
     assert.equal(parameters(page).get("arcs"), dragged);
 
@@ -247,7 +247,7 @@ test("an arc that crosses is red and crossed out, with the service's own sentenc
     assert.ok(await page.locator("#problem").isHidden(), "it is said once, beside the arcs");
     assert.ok((await page.evaluate(() => window.sporeprint.counts)).triangles > 100);
     await page.screenshot({ path: path.join(folder, "bench-refused.png") });
-    await page.locator("#graph-tools button", { hasText: "Undo" }).click();
+    await page.getByRole("button", { name: "Undo" }).click();
     await ready(page);
     assert.deepEqual(await arcs(page), ["accepted", "accepted"]);
     assert.ok(await page.locator("#graph-problem").isHidden());
@@ -314,6 +314,25 @@ test("the bench can be walked and worked by keyboard alone", async (t) => {
     await press("Home");
     await ready(page);
     for (const weight of Object.values(shares(page))) assert.ok(Math.abs(weight - 1 / 3) < 0.002);
+    quiet(heard);
+});
+
+test("the growth of a mix is asked for once, with its clip, and the age poses it", async (t) => {
+    const { page, heard } = await open(t, `?morph=${a}:0.5,${c}:0.5&texture_size=128`);
+    await galleryComplete(page);
+    const schema = await (await fetch(`${base}/v1/mushrooms/schema`)).json();
+    if (!schema.properties.animation?.enum?.includes("growth")) return t.skip("this server makes no clips");
+    await page.locator("#play").click();
+    await page.locator("#status", { hasText: /Growth is loaded/ }).waitFor({ timeout: 60_000 });
+    const clip = new URL(models(heard).at(-1));
+    assert.equal(clip.pathname, `/v1/mushrooms/${a}:0.5,${c}:0.5.glb`);
+    assert.deepEqual([clip.searchParams.get("animation"), clip.searchParams.get("lod")], ["growth", "1"]);
+    const asked = models(heard).length;
+    await page.locator('input[type=range][name="age"]').focus();
+    await page.keyboard.press("ArrowLeft");
+    await page.waitForFunction(() => window.sporeprint.growth.age < 0.6);
+    assert.deepEqual(models(heard).slice(asked).filter((url) => /lod=1/.test(url)), [], "no frame is asked for");
+    await ready(page);
     quiet(heard);
 });
 

@@ -89,7 +89,8 @@ async function downloaded(page, address, button) {
 }
 
 async function pageSheets() {
-    const page = await browser.newPage({ viewport: { width: 1280, height: 800 } });
+    // A sheet is as large as its cells; the stage behind it need not be.
+    const page = await browser.newPage({ viewport: { width: 640, height: 400 } });
     const heard = listen(page);
     await mkdir(path.dirname(options.out), { recursive: true });
     const rest = options.set.map((one) => `&${one}`).join("");

@@ -61,16 +61,16 @@ export class Bench {
                 this.showGraph();
             },
         });
-        const button = (label: string, title: string, act: () => void): HTMLButtonElement => {
-            const made = make("button", { type: "button", title }, label);
+        const button = (label: string, title: string, act: () => void, name?: string): HTMLButtonElement => {
+            const made = make("button", { type: "button", title, "aria-label": name }, label);
             made.addEventListener("click", act);
             return made;
         };
         this.buttons = {
             add: button("Add arc", "Or double-click an outline", () => this.addArc()),
             remove: button("Remove", "Takes the picked arc away (Delete)", () => this.removeArc()),
-            undo: button("Undo", "Ctrl+Z", () => this.travel(this.history.undo())),
-            redo: button("Redo", "Ctrl+Shift+Z", () => this.travel(this.history.redo())),
+            undo: button("↶", "Undo: Ctrl+Z", () => this.travel(this.history.undo()), "Undo"),
+            redo: button("↷", "Redo: Ctrl+Shift+Z", () => this.travel(this.history.redo()), "Redo"),
             reset: button("Reset", "Takes all own arcs away", () => this.commit([])),
         };
         // On a narrow page the graph follows the weights, so that the mushroom stays in sight.

@@ -45,7 +45,7 @@ const cells: Record<SheetKind, { width: number; height: number }> = {
 };
 const captionHeight = 38;
 /** Round things leave the corners of their box free; above stands the arrow of a control shape. */
-const margins = { variety: { x: 0, y: 0.19 }, growth: { x: 0, y: 0.08 } };
+const margins = { variety: { x: 0, y: 0.22 }, growth: { x: -0.2, y: 0.08 } };
 const edge = 30;
 const head = 92;
 const growthAges = [0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1];
@@ -257,8 +257,9 @@ export class Sheet {
     private trim(frame: Box3): void {
         const size = frame.getSize(new Vector3());
         const { width, height } = cells.growth;
-        const needed = width * (0.4 + (1.25 * size.y) / Math.max(size.x, size.z));
-        this.cell = { width, height: Math.round(Math.min(Math.max(needed, width * 0.75), height)) };
+        // Seen over a corner the box is 1.38 times as wide as a side; the ground takes a third of that.
+        const needed = (width * 1.2 * (0.33 + size.y / Math.max(size.x, size.z) / 1.38)) / 0.92;
+        this.cell = { width, height: Math.round(Math.min(Math.max(needed, width * 0.6), height)) };
         if (this.cell.height < height) this.begin();
     }
 
@@ -322,7 +323,7 @@ export class Sheet {
             : { view, margin, grounded: true });
         context.imageSmoothingQuality = "high";
         context.drawImage(picture, x, y, cell.width, cell.height);
-        if (plan.control) this.arrow(x + cell.width * 0.5, y + 4);
+        if (plan.control) this.arrow(x + cell.width * 0.5, y);
         context.textAlign = "center";
         context.fillStyle = plan.control ? ink.text : ink.soft;
         context.font = plan.control ? `600 15px ${serif}` : `13px ${sans}`;
@@ -350,7 +351,7 @@ export class Sheet {
         const context = this.context;
         context.fillStyle = ink.arrow;
         context.beginPath();
-        for (const [dx, dy] of [[-4, 0], [4, 0], [4, 11], [10, 11], [0, 24], [-10, 11], [-4, 11]] as const) context.lineTo(x + dx, y + dy);
+        for (const [dx, dy] of [[-4, 0], [4, 0], [4, 9], [10, 9], [0, 21], [-10, 9], [-4, 9]] as const) context.lineTo(x + dx, y + dy);
         context.closePath();
         context.fill();
     }
