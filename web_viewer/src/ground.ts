@@ -49,6 +49,7 @@ export class Ground extends Group {
     });
     private readonly shade = new ShadowMaterial({ opacity: 0.26, transparent: true, depthWrite: false });
     private readonly ruled: Mesh;
+    private readonly shadowed: Mesh;
 
     constructor() {
         super();
@@ -66,6 +67,7 @@ export class Ground extends Group {
             polygonOffsetUnits: 8,
         }));
         earth.renderOrder = -3;
+        this.shadowed = shadow;
         this.add(earth, this.ruled, shadow);
     }
 
@@ -79,6 +81,12 @@ export class Ground extends Group {
     colours(ink: ColorRepresentation, shadow: ColorRepresentation): void {
         (this.ruling.uniforms["ink"]!.value as Color).set(ink);
         this.shade.color.set(shadow);
+    }
+
+    /** Nothing to be seen but that what is buried is hidden. */
+    bare(): void {
+        this.ruled.visible = false;
+        this.shadowed.visible = false;
     }
 
     set ruledLines(shown: boolean) {

@@ -45,7 +45,7 @@ const cells: Record<SheetKind, { width: number; height: number }> = {
 };
 const captionHeight = 38;
 /** Round things leave the corners of their box free; above stands the arrow of a control shape. */
-const margins = { variety: { x: 0, y: 0.22 }, growth: { x: -0.2, y: 0.08 } };
+const margins = { variety: { x: -0.12, y: 0.2 }, growth: { x: -0.2, y: 0.08 } };
 const edge = 30;
 const head = 92;
 const growthAges = [0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1];

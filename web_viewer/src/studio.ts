@@ -2,6 +2,7 @@
 import { Box3, PerspectiveCamera, Sphere, Vector3, type DirectionalLight, type Object3D, type Scene, type WebGLRenderer } from "three";
 import { fittingDistance, viewDirections, type Margin, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
+import { Ground } from "./ground";
 import { boundsOf } from "./model";
 import { aimSun, litScene } from "./stage";
 
@@ -10,7 +11,7 @@ export interface Pose {
     /** What has to fit into the picture, metres; the model's own bounds when absent. */
     frame?: Box3;
     margin: Margin;
-    /** With the soft shadow of what stands on the ground. */
+    /** On a ground: what is buried is hidden, what stands throws a soft shadow. */
     grounded?: boolean;
 }
 
@@ -20,6 +21,7 @@ export class Studio {
     private readonly scene: Scene;
     private readonly sun: DirectionalLight;
     private readonly camera: PerspectiveCamera;
+    private readonly ground = new Ground();
     private readonly contact = new ContactShadow();
 
     /** Pictures are `width` times `height` pixels. */
@@ -31,7 +33,8 @@ export class Studio {
         renderer.setSize(width, height, false);
         sun.shadow.mapSize.set(512, 512);
         this.camera = new PerspectiveCamera(24, width / height, 0.001, 100);
-        this.scene.add(this.contact);
+        this.ground.bare();
+        this.scene.add(this.ground, this.contact);
     }
 
     /** Draws a model on the canvas, on nothing; the picture has to be taken off before the next task. */
@@ -49,8 +52,9 @@ export class Studio {
         this.camera.updateProjectionMatrix();
         aimSun(this.sun, ball);
         this.scene.add(model);
-        this.contact.visible = grounded;
+        this.ground.visible = this.contact.visible = grounded;
         if (grounded) {
+            this.ground.fit(ball.radius, 1);
             const { min, max } = bounds;
             const half = Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
             this.contact.position.y = ball.radius * 0.0015;
