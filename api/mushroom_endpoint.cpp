@@ -21,10 +21,14 @@ Estimate weighed(const Context& context, const MushroomOrder& order, const Memo&
             "or none");
     const Estimate cost = estimate(order, *context.atlas, memo);
     std::vector<Problem> problems;
-    if (cost.vertices > options.most_vertices)
-        report(problems, "/lod",
-               std::to_string(cost.vertices) + " vertices would be made; at most " +
-                   std::to_string(options.most_vertices) + " are. Raise lod");
+    if (cost.vertices > options.most_vertices) {
+        const std::string count = std::to_string(cost.vertices) +
+                                  " vertices would be made; at most " +
+                                  std::to_string(options.most_vertices) + " are. ";
+        report(problems, "/lod", count + "Raise lod");
+        if (order.params.animation != Animation::none)
+            report(problems, "/frames", count + "Lower frames");
+    }
     if (cost.texels > options.most_texels)
         report(problems, "/texture_size",
                std::to_string(cost.texels) + " texels would be painted; at most " +

@@ -3,6 +3,7 @@
 #include "core/build/ornaments.h"
 #include "core/build/sweep.h"
 #include "core/gltf/glb.h"
+#include "core/grow/growth.h"
 #include "core/grow/painting.h"
 #include "core/params/reader.h"
 
@@ -78,11 +79,18 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     e.bytes = 2500 + e.vertices * (textured(order) ? 44 : 24) +
               e.triangles * 3 * (e.vertices > 65535 ? 4 : 2) +
               (order.params.textures == Textures::embedded ? e.texels / 3 : 0);
+    if (order.params.animation != Animation::none) {
+        const auto frames = static_cast<std::uint64_t>(order.params.frames);
+        e.bytes += e.vertices * 24 * frames + 600 * frames;
+        e.vertices += e.vertices * frames;
+    }
     return e;
 }
 
 Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
-    return swept_mesh(individual, order.params.lod, {.textured = textured(order)});
+    return swept_mesh(
+        individual, order.params.lod,
+        {.textured = textured(order), .keep_absent = order.params.animation != Animation::none});
 }
 
 Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras,
@@ -96,6 +104,12 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
                    .images = nullptr,
                    .image_addresses = {},
                    .extras_json = extras_json(extras, individual, mesh)};
+    GrowthClip growth;
+    if (order.params.animation == Animation::growth) {
+        growth = growth_clip(order, atlas, mesh, workshop);
+        parts.targets = growth.targets;
+        parts.clip = &growth.clip;
+    }
     std::shared_ptr<const ImageSet> images;
     if (order.params.textures == Textures::embedded) {
         workshop.observer(Step::paint);

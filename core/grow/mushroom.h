@@ -13,7 +13,7 @@ namespace sporeprint {
 
 /// What an order will come to, before any work.
 struct Estimate {
-    std::uint64_t vertices = 0;
+    std::uint64_t vertices = 0;  ///< those of every frame of a clip too: each is built
     std::uint64_t triangles = 0;
     std::uint64_t texels = 0;
     std::uint64_t bytes = 0;

@@ -20,6 +20,19 @@ constexpr const char* name(Textures textures) {
     return nullptr;
 }
 
+/// What moves in the file.
+enum class Animation { none, growth };
+
+constexpr const char* name(Animation animation) {
+    switch (animation) {
+        case Animation::none:
+            return "none";
+        case Animation::growth:
+            return "growth";
+    }
+    return nullptr;
+}
+
 /// Side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
@@ -36,6 +49,8 @@ struct MushroomParams {
     OrnamentsOf<Maybe> ornaments;
     HymeniumOf<Maybe> hymenium;
     WeatheringOf<Maybe> weathering;
+    Animation animation = Animation::none;
+    int frames = 9;
 
     static constexpr void fields(auto visit) {
         using P = MushroomParams;
@@ -70,6 +85,22 @@ struct MushroomParams {
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "What is left of the veils."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
         visit(&P::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
+        visit(
+            &P::animation,
+            Info{.name = "animation",
+                 .doc = "A clip in the file: growth from button to decay as morph targets, images "
+                        "of the age asked for."});
+        visit(&P::frames, Info{.name = "frames",
+                               .min = 2,
+                               .max = 16,
+                               .doc = "Growth stages in the clip, evenly spaced in age; only with "
+                                      "animation=growth."});
+    }
+    /// Without a clip the number of its frames would make a second address of the same bytes.
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (animation == Animation::none && frames != MushroomParams{}.frames)
+            report(problems, path + "/frames",
+                   std::to_string(frames) + " frames need a clip; ask for animation=growth too");
     }
     bool operator==(const MushroomParams&) const = default;
 };

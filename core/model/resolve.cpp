@@ -417,6 +417,8 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     check(asked, Info{.name = ""}, "", problems);
     if (order.model) check(*order.model, Info{.name = ""}, "/model", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
+    if (order.model && asked.animation == Animation::growth)
+        throw Impossible("/animation", "a model of your own has no stages to grow through");
 
     std::vector<Source> sources = sources_of(order, atlas);
     if (!order.arcs.empty() && sources.size() != 2)

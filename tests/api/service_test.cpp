@@ -68,6 +68,9 @@ TEST_F(ServiceTest, faults_of_an_address_are_named) {
         {"seed=1.5", 400, "seed", "whole number"},
         {"lod=4", 400, "lod", "4 is outside 0..3"},
         {"texture_size=300", 400, "texture_size", "128, 256"},
+        {"animation=dance", 400, "animation", "none, growth"},
+        {"frames=5", 400, "frames", "animation=growth"},
+        {"frames=17&animation=growth", 400, "frames", "2..16"},
         {"textures=fast", 400, "textures", "embedded, linked, none"},
         {"weathering.fade=2", 400, "weathering.fade", "outside"},
         {"weathering=1", 400, "weathering", "unknown"},
@@ -242,6 +245,11 @@ TEST(ServiceBudget, what_costs_too_much_is_422_before_any_work) {
     EXPECT_TRUE(names(answer, "texture_size"));
     const Answer posted = handle(service, post("{\"mix\":{\"" + first_species() + "\":1}}"));
     EXPECT_TRUE(names(posted, "/lod"));
+    EXPECT_FALSE(names(answer, "frames"));
+    const Answer clip = handle(service, get(address + "?animation=growth&texture_size=128"));
+    expect_problem(clip, 422);
+    EXPECT_TRUE(names(clip, "lod"));
+    EXPECT_TRUE(names(clip, "frames"));
     const Answer image =
         handle(service, get("/v1/surfaces/mushrooms/" + first_species() + "/normal.jpg"));
     expect_problem(image, 422);

@@ -45,6 +45,13 @@ inline MushroomOrder textured(MushroomOrder order) {
     return order;
 }
 
+/// The same order with a clip of its growth.
+inline MushroomOrder growing(MushroomOrder order, int frames = 9) {
+    order.params.animation = Animation::growth;
+    order.params.frames = frames;
+    return order;
+}
+
 /// The same order, painted small.
 inline MushroomOrder painted(MushroomOrder order, int side = 128) {
     order.params.textures = Textures::embedded;
@@ -118,10 +125,11 @@ inline ::testing::AssertionResult names(const std::vector<Problem>& problems,
     return result;
 }
 
-/// Random parameters inside their ranges, for RapidCheck. The cross-field rule of zones is kept.
+/// Random parameters inside their ranges, for RapidCheck. Cross-field rules are kept.
 inline MushroomParams arbitrary_params() {
     MushroomParams params;
     arbitrary(params, Info{.name = ""});
+    if (params.animation == Animation::none) params.frames = MushroomParams{}.frames;
     auto& deformation = params.deformation;
     if (deformation.zone_from && deformation.zone_to &&
         *deformation.zone_to < *deformation.zone_from + 0.1)

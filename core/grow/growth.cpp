@@ -1,0 +1,99 @@
+#include "core/grow/growth.h"
+
+#include <exception>
+#include <functional>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "core/grow/mushroom.h"
+#include "core/params/messages.h"
+#include "core/params/problems.h"
+
+namespace sporeprint {
+
+namespace {
+
+void stop_if_asked(const Workshop& workshop) {
+    if (workshop.stop.stop_requested()) throw Cancelled();
+}
+
+/// Runs the work on one frame; a refusal says which frame it is about.
+template <class Work>
+auto at_age(double age, const Work& work) {
+    try {
+        return work();
+    } catch (const Impossible& refused) {
+        std::vector<Problem> problems = refused.problems();
+        for (Problem& problem : problems)
+            problem.message += " (in the clip, at age " + number_text(age) + ")";
+        throw Impossible(std::move(problems));
+    }
+}
+
+MorphTarget difference(const Mesh& from, const Mesh& to, double age) {
+    // Equal topology is what the clip is about: places of features are drawn once, ages only move vertices.
+    if (to.positions.size() != from.positions.size() || to.indices != from.indices)
+        throw GenerationError("the mesh at age " + number_text(age) + " has other triangles");
+    MorphTarget target{"age " + number_text(age), {}, {}};
+    target.positions.reserve(to.positions.size());
+    target.normals.reserve(to.normals.size());
+    for (std::size_t i = 0; i < to.positions.size(); ++i) {
+        target.positions.push_back(to.positions[i] - from.positions[i]);
+        target.normals.push_back(to.normals[i] - from.normals[i]);
+    }
+    return target;
+}
+
+}  // namespace
+
+std::vector<double> frame_ages(int frames) {
+    std::vector<double> ages;
+    for (int k = 0; k < frames; ++k) ages.push_back(static_cast<double>(k) / (frames - 1));
+    return ages;
+}
+
+GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas, const Mesh& mesh,
+                       const Workshop& workshop) {
+    const std::vector<double> ages = frame_ages(order.params.frames);
+    GrowthClip growth;
+    growth.targets.resize(ages.size());
+    std::vector<std::exception_ptr> faults(ages.size());
+    std::vector<std::function<void()>> pieces;
+    // All ages are weights of one set.
+    std::map<std::string, std::shared_ptr<const MorphSet>> sets;
+    const Remember<MorphSet> morphs = [&](const std::string& key, const auto& make) {
+        std::shared_ptr<const MorphSet>& set = sets[key];
+        if (!set) set = workshop.memo.morphs(key, make);
+        return set;
+    };
+    for (std::size_t k = 0; k < ages.size(); ++k) {
+        const double age = ages[k];
+        MushroomOrder frame = order;
+        frame.params.age = age;
+        frame.params.textures = Textures::none;  // its texture coordinates are the base's
+        Individual individual = at_age(age, [&] { return resolve(frame, atlas, morphs); });
+        pieces.emplace_back([&, k, age, frame, individual = std::move(individual)] {
+            try {
+                stop_if_asked(workshop);
+                growth.targets[k] = difference(
+                    mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }), age);
+            } catch (...) {
+                faults[k] = std::current_exception();
+            }
+        });
+    }
+    workshop.parallel(pieces);
+    // Of several faults the youngest frame's, however many hands were lent.
+    for (const std::exception_ptr& fault : faults)
+        if (fault) std::rethrow_exception(fault);
+    growth.clip.name = name(Animation::growth);
+    growth.clip.weights.assign(ages.size() * ages.size(), 0.0F);
+    for (std::size_t k = 0; k < ages.size(); ++k) {
+        growth.clip.times.push_back(static_cast<float>(ages[k] * growth_seconds));
+        growth.clip.weights[k * ages.size() + k] = 1.0F;
+    }
+    return growth;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,37 @@
+// Growth as a clip: the same mushroom at several ages, as morph targets of the one at the age asked for.
+#pragma once
+
+#include <vector>
+
+#include "core/atlas/atlas.h"
+#include "core/gltf/glb.h"
+#include "core/grow/workshop.h"
+#include "core/mesh/mesh.h"
+#include "core/model/request.h"
+
+namespace sporeprint {
+
+/// How long a life takes in a clip, seconds.
+inline constexpr double growth_seconds = 8.0;
+
+struct GrowthClip {
+    std::vector<MorphTarget> targets;  ///< one per frame, youngest first
+    WeightClip clip;                   ///< one key per frame: that frame alone, in whole
+};
+
+/// Ages of a clip's frames: evenly spaced, 0 and 1 included.
+///
+/// frames   at least 2
+[[nodiscard]] std::vector<double> frame_ages(int frames);
+
+/// The frames of an order's clip as differences from its mesh. Between two frames a viewer shows their weighted mean; who
+/// plays nothing sees the mesh itself. Key k is at k / (frames - 1) * growth_seconds.
+///
+/// order    with animation growth
+/// mesh     mushroom_mesh() of the order
+/// throws   Impossible if the order cannot be grown at one of the ages, which is told; Cancelled
+/// cost     that of one mesh per frame
+[[nodiscard]] GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas,
+                                     const Mesh& mesh, const Workshop& workshop);
+
+}  // namespace sporeprint

@@ -1,0 +1,164 @@
+// Growth on the page, in headless Chromium against a running server (SPOREPRINT_URL): play, stay, scrub.
+import assert from "node:assert/strict";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+
+const base = serverUrl();
+const species = "boletus_edulis";
+let browser;
+let folder;
+
+before(async () => {
+    folder = await screenshotFolder();
+    browser = await launchBrowser();
+});
+
+after(() => browser?.close());
+
+async function open(t, query = "", reducedMotion = "no-preference") {
+    const context = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion });
+    t.after(() => context.close());
+    const page = await context.newPage();
+    const heard = listen(page);
+    await page.goto(`${base}/?species=${species}${query}`);
+    await ready(page);
+    return { page, heard };
+}
+
+const growth = (page) => page.evaluate(() => window.sporeprint.growth);
+const clips = (heard) => heard.requests.filter((url) => /\.glb\?.*animation=growth/.test(url)).map((url) => new URL(url).searchParams);
+/** The last model asked for that is no picture of the gallery. */
+const lastModel = (heard) => new URL(heard.requests.findLast((url) => /\.glb/.test(url) && !/texture_size=256/.test(url))).searchParams;
+const parameters = (page) => new URL(page.url()).searchParams;
+const picture = (page) => page.locator("#stage").screenshot();
+
+function quiet(heard) {
+    assert.deepEqual(heard.console, []);
+    assert.deepEqual(heard.failed, []);
+}
+
+test("play asks for the clip at LOD 1, grows from the button on, and staying asks for the mushroom of that age", async (t) => {
+    const { page, heard } = await open(t, "&seed=7");
+    assert.deepEqual(clips(heard), []);
+    await page.locator("#play").focus();
+    await page.keyboard.press("Enter");
+    await page.waitForFunction(() => window.sporeprint.growth.playing);
+    assert.deepEqual(clips(heard).map((query) => [...query]), [[["seed", "7"], ["lod", "1"], ["animation", "growth"]]]);
+    assert.equal(await page.locator("#play").getAttribute("aria-label"), "Stay at this age");
+    // In one turn of the page: the clip runs on while a test looks.
+    const seen = await page.evaluate(() => new Promise((resolve) => {
+        const ages = [];
+        const look = () => {
+            const { age, playing } = window.sporeprint.growth;
+            ages.push(age);
+            if (playing && ages.length < 5) return requestAnimationFrame(look);
+            const sliderAge = Number(document.querySelector('input[type=range][name="age"]').value);
+            const { search } = location;
+            document.querySelector("#play").click();
+            resolve({ ages, sliderAge, search, after: window.sporeprint.growth });
+        };
+        look();
+    }));
+    assert.ok(seen.ages.every((age, i) => i === 0 || age >= seen.ages[i - 1]) && seen.ages.at(-1) > seen.ages[0], `${seen.ages}`);
+    assert.ok(Math.abs(seen.sliderAge - seen.ages.at(-1)) < 0.01, "the slider follows");
+    assert.ok(!seen.search.includes("age="), "playing changes no setting");
+    assert.equal(seen.after.playing, false);
+    await ready(page);
+    const age = Number(parameters(page).get("age"));
+    assert.ok(Math.abs(age - seen.ages.at(-1)) < 0.01, `stayed at ${age}`);
+    assert.equal((await growth(page)).age, undefined, "the still mushroom stands there again");
+    assert.deepEqual([...lastModel(heard)], [["seed", "7"], ["age", String(age)]]);
+    quiet(heard);
+});
+
+test("a clip runs to its end in eight seconds and leaves the mushroom that was asked for", async (t) => {
+    const { page, heard } = await open(t, "&lod=3");
+    const before_ = await page.evaluate(() => window.sporeprint.counts.vertices);
+    await page.locator("#play").click();
+    await page.waitForFunction(() => window.sporeprint.growth.playing);
+    assert.equal(clips(heard)[0].get("lod"), "3", "no finer than what was chosen");
+    // Its pace, on the page's own clock: frames may be few.
+    const pace = await page.evaluate(() => new Promise((resolve) => {
+        let first;
+        const look = (now) => {
+            const { age } = window.sporeprint.growth;
+            first ??= { now, age };
+            if (now - first.now < 2000) return requestAnimationFrame(look);
+            resolve((age - first.age) / ((now - first.now) / 1000));
+        };
+        requestAnimationFrame(look);
+    }));
+    assert.ok(Math.abs(pace - 1 / 8) < 0.03, `${pace} lives a second`);
+    await page.waitForFunction(() => window.sporeprint.growth.age === 1, undefined, { timeout: 30_000 });
+    await ready(page);
+    assert.equal((await growth(page)).age, undefined);
+    assert.equal(await page.evaluate(() => window.sporeprint.counts.vertices), before_);
+    assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), "0.6");
+    assert.equal(parameters(page).get("age"), null);
+    quiet(heard);
+});
+
+test("with a clip on the stage the age moves it without asking the server, until the hand rests", async (t) => {
+    const { page, heard } = await open(t, "&animation=growth&frames=5&lod=2");
+    assert.deepEqual(clips(heard).map((query) => [...query]), [[["lod", "2"], ["animation", "growth"], ["frames", "5"]]]);
+    assert.equal((await growth(page)).playing, false, "nobody pressed play");
+    assert.notEqual(await page.locator('.control[data-name="frames"]').getAttribute("hidden"), "");
+    await galleryComplete(page);
+    const still = await picture(page);
+    const asked = () => heard.requests.filter((url) => url.includes("/v1/")).length;
+    const before_ = asked();
+    const slider = page.locator('input[type=range][name="age"]');
+    await slider.focus();
+    for (let press = 0; press < 8; ++press) await page.keyboard.press("ArrowLeft");
+    const { age } = await growth(page);
+    assert.ok(Math.abs(age - Number(await slider.inputValue())) < 1e-9);
+    assert.equal(asked(), before_);
+    assert.notDeepEqual(await picture(page), still, "it has another shape");
+    await ready(page);
+    assert.equal(lastModel(heard).get("age"), String(age));
+    quiet(heard);
+});
+
+test("the number of frames is neither offered nor sent without a clip", async (t) => {
+    const { page, heard } = await open(t, "&animation=growth&frames=5&lod=3");
+    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+    await page.locator('select[name="animation"]').selectOption("none");
+    await ready(page);
+    assert.equal(await page.locator('.control[data-name="frames"]').isVisible(), false);
+    assert.equal(parameters(page).get("frames"), null);
+    assert.equal(lastModel(heard).get("frames"), null);
+    quiet(heard);
+});
+
+test("who wants no motion gets the clip to move by hand", async (t) => {
+    const { page, heard } = await open(t, "&lod=2", "reduce");
+    await page.locator("#play").click();
+    await page.waitForFunction(() => document.activeElement?.name === "age");
+    assert.match(await page.locator("#status").textContent(), /move the age/);
+    await page.waitForTimeout(300);
+    const { age, playing } = await growth(page);
+    assert.deepEqual([age, playing], [undefined, false], "nothing moves by itself");
+    await page.keyboard.press("Home");
+    assert.equal((await growth(page)).age, 0);
+    await page.screenshot({ path: path.join(folder, "growth-by-hand.png") });
+    await ready(page);
+    assert.equal(parameters(page).get("age"), "0");
+    quiet(heard);
+});
+
+test("growing again and again leaves nothing behind on the graphics card", async (t) => {
+    const { page } = await open(t, "&lod=3");
+    const round = async () => {
+        await page.locator("#play").click();
+        await page.waitForFunction(() => window.sporeprint.growth.age > 0.02);
+        await page.locator("#play").click();
+        await ready(page);
+        return page.evaluate(() => window.sporeprint.renderer);
+    };
+    const first = await round();
+    await round();
+    const last = await round();
+    assert.equal(last.geometries, first.geometries);
+    assert.equal(last.textures, first.textures);
+});
