@@ -111,7 +111,8 @@ class Page {
             },
             moved: (name) => this.changed(name),
             chosen: () => {
-                this.writeAddress("morph");
+                // Each species that joins or leaves is a step of its own.
+                this.writeAddress(`morph ${this.settings.morph?.shares.map(({ id }) => id).join() ?? ""}`);
                 this.begin(true);
             },
             say,
