@@ -49,6 +49,7 @@ MorphTarget difference(const Mesh& from, const Mesh& to, double age) {
 
 std::vector<double> frame_ages(int frames) {
     std::vector<double> ages;
+    ages.reserve(static_cast<std::size_t>(frames));
     for (int k = 0; k < frames; ++k) ages.push_back(static_cast<double>(k) / (frames - 1));
     return ages;
 }
