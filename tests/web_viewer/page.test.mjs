@@ -416,3 +416,18 @@ test("the API page shows every route of the description", async (t) => {
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
     quiet(heard);
 });
+
+test("the search above the gallery narrows it, and gives it back", async (t) => {
+    const { page, heard } = await open(t);
+    const shown = () => page.locator("#gallery li:not([hidden]) button").evaluateAll((all) => all.map((one) => one.dataset.species));
+    const [first] = species;
+    await page.locator("#find").fill(first.scientific_name.toUpperCase());
+    assert.deepEqual(await shown(), [first.id]);
+    assert.equal(await page.locator("#found").textContent(), `1 of ${species.length}`);
+    await page.locator("#find").fill("no such fungus");
+    assert.deepEqual(await shown(), []);
+    await page.locator("#find").press("Escape");
+    assert.equal((await shown()).length, species.length);
+    assert.equal(await page.locator("#found").textContent(), "");
+    quiet(heard);
+});

@@ -343,3 +343,12 @@ test("the page's TypeScript has no type errors", () => {
     });
     assert.equal(status, 0, stdout);
 });
+
+test("species are found by parts of their names, form, substrate and month, all words at once", () => {
+    const hoof = { id: "fomes", scientific_name: "Fomes fomentarius", common_name: "hoof fungus", form: "bracket", substrate: "birch and beech", season: [9, 10] };
+    for (const words of ["", "  ", "HOOF", "fomes birch", "bracket oct", "beech september", "hoof fung"]) {
+        assert.ok(page.answersTo(hoof, words), words);
+    }
+    for (const words of ["fly", "hoof may", "birch oak", "august"]) assert.ok(!page.answersTo(hoof, words), words);
+    assert.ok(page.answersTo({ id: "x", scientific_name: "X y", common_name: "z" }, "x"), "facts may be missing");
+});

@@ -44,6 +44,14 @@ export function factLine(species: Species): string {
         .join(" · ");
 }
 
+/** Whether a species answers to every word: parts of its names, form or substrate, or a month in which it fruits. */
+export function answersTo(species: Species, words: string): boolean {
+    const text = [species.common_name, species.scientific_name, species.form, species.substrate].join(" ").toLowerCase();
+    const fruiting = (species.season ?? []).map((month) => (months[month - 1] ?? "").toLowerCase());
+    return words.toLowerCase().split(/\s+/).filter(Boolean)
+        .every((word) => text.includes(word) || fruiting.some((month) => word.startsWith(month)));
+}
+
 export class Gallery {
     private readonly buttons = new Map<string, HTMLButtonElement>();
 
@@ -63,13 +71,25 @@ export class Gallery {
             host.append(make("li", {}, button));
         }
         host.addEventListener("keydown", (event) => {
-            const all = [...this.buttons.values()];
+            const all = [...this.buttons.values()].filter((button) => !button.closest("li")?.hidden);
             const at = all.indexOf(document.activeElement as HTMLButtonElement);
             const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
             if (at < 0 || step === undefined) return;
             event.preventDefault();
             all[(at + step + all.length) % all.length]?.focus();
         });
+    }
+
+    /** Shows the species that answer to all words; tells how many. */
+    show(words: string): number {
+        let shown = 0;
+        for (const one of this.species) {
+            const item = this.buttons.get(one.id)?.closest("li");
+            const fits = answersTo(one, words);
+            if (item) item.hidden = !fits;
+            shown += fits ? 1 : 0;
+        }
+        return shown;
     }
 
     find(id: string): Species | undefined {

@@ -138,6 +138,7 @@ class Page {
         });
         stage.onFrame = () => this.showScale();
         this.makeTools();
+        this.makeFind();
         this.makePlay();
         this.makeActions();
         this.makeModes();
@@ -636,6 +637,23 @@ class Page {
             showProblem(failed, this.place);
             say(failed.message);
         }
+    }
+
+    /** The search field above the gallery: every word narrows the list, Escape gives it back whole. */
+    private makeFind(): void {
+        const find = byId<HTMLInputElement>("find");
+        const show = (): void => {
+            const shown = this.gallery.show(find.value);
+            const all = this.gallery.species.length;
+            byId("found").textContent = find.value.trim() ? `${shown} of ${all}` : "";
+        };
+        find.addEventListener("input", show);
+        find.addEventListener("keydown", (event) => {
+            if (event.key !== "Escape" || find.value === "") return;
+            event.preventDefault();
+            find.value = "";
+            show();
+        });
     }
 
     /** Pictures for the gallery, once the person has what they came for. */
