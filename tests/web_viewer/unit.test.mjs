@@ -3,6 +3,7 @@ import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import path from "node:path";
 import test from "node:test";
+import { confusionTable, points, scored } from "./naming_trial.mjs";
 import { packages, root } from "./support.mjs";
 
 const { outputFiles } = packages("esbuild").buildSync({
@@ -351,4 +352,19 @@ test("species are found by parts of their names, form, substrate and month, all 
     }
     for (const words of ["fly", "hoof may", "birch oak", "august"]) assert.ok(!page.answersTo(hoof, words), words);
     assert.ok(page.answersTo({ id: "x", scientific_name: "X y", common_name: "z" }, "x"), "facts may be missing");
+});
+
+test("a naming trial counts a genus half, whatever the letters' case, and lists what was missed", () => {
+    assert.equal(points("Boletus edulis", "Boletus edulis"), 1);
+    assert.equal(points(" mycena  GALERICULATA ", "Mycena haematopus"), 0.5);
+    assert.equal(points("Mycenastrum corium", "Mycena haematopus"), 0);
+    assert.equal(points(undefined, "Boletus edulis"), 0);
+    const key = { 1: "Boletus edulis", 2: "Mycena haematopus" };
+    const result = scored(key, [{ 1: "Boletus edulis", 2: "Mycena galericulata" }, { 1: "Boletus edulis" }]);
+    assert.deepEqual(result.shares, [0.75, 0.5]);
+    assert.equal(result.mean, 0.625);
+    assert.deepEqual(result.missed, [{ number: 2, is: "Mycena haematopus", said: ["Mycena galericulata", "(nothing)"] }]);
+    const table = confusionTable({ key, files: ["answers_first.json", "answers_second.json"] }, result);
+    assert.match(table, /Mean 62\.5 %; first 75\.0 %, second 50\.0 %/);
+    assert.match(table, /\| 2 \| \*Mycena haematopus\* \| Mycena galericulata \| \(nothing\) \|/);
 });
