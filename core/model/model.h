@@ -434,7 +434,7 @@ struct StemSurface {
     bool operator==(const StemSurface&) const = default;
 };
 
-/// Veil and torn flesh: ring, warts, scales.
+/// Veil: ring, warts, scales.
 struct VeilSurface {
     Colour colour = {248, 244, 230};
     Colour tip = {240, 226, 190};
@@ -452,18 +452,34 @@ struct VeilSurface {
     bool operator==(const VeilSurface&) const = default;
 };
 
+/// What a tear, a bite or a crack lays open.
+struct FleshSurface {
+    Colour colour = {244, 238, 222};
+    double roughness = 0.9;
+
+    static constexpr void fields(auto visit) {
+        visit(&FleshSurface::colour,
+              Info{.name = "colour", .doc = "Colour of the flesh under the skin."});
+        visit(&FleshSurface::roughness,
+              Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+    }
+    bool operator==(const FleshSurface&) const = default;
+};
+
 /// The paper's images I, as what to paint.
 struct Surface {
     CapSurface cap;
     HymeniumSurface hymenium;
     StemSurface stem;
     VeilSurface veil;
+    FleshSurface flesh;
 
     static constexpr void fields(auto visit) {
         visit(&Surface::cap, Info{.name = "cap", .doc = "Upper face."});
         visit(&Surface::hymenium, Info{.name = "hymenium", .doc = "Lower face."});
         visit(&Surface::stem, Info{.name = "stem", .doc = "Stem."});
         visit(&Surface::veil, Info{.name = "veil", .doc = "Ring, warts and scales."});
+        visit(&Surface::flesh, Info{.name = "flesh", .doc = "What tears lay open."});
     }
     bool operator==(const Surface&) const = default;
 };

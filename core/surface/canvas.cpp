@@ -80,9 +80,9 @@ RawImages raw(const Canvas& canvas) {
     return out;
 }
 
-std::array<Frame, 4> chart_frames(int side) {
-    std::array<Frame, 4> frames;
-    for (std::size_t i = 0; i < 4; ++i) {
+std::array<Frame, part_count> chart_frames(int side) {
+    std::array<Frame, part_count> frames;
+    for (std::size_t i = 0; i < part_count; ++i) {
         const Chart& chart = swept_charts[i];
         Frame& frame = frames[i];
         frame.x = static_cast<int>(chart.u * side);

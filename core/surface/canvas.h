@@ -44,7 +44,7 @@ class Canvas {
 [[nodiscard]] RawImages raw(const Canvas& canvas);
 
 /// The charts' rectangles on an atlas of `side` texels.
-[[nodiscard]] std::array<Frame, 4> chart_frames(int side);
+[[nodiscard]] std::array<Frame, part_count> chart_frames(int side);
 
 /// Linear light of each sRGB byte.
 [[nodiscard]] const std::array<float, 256>& linear_table();

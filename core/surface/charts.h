@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace sporeprint {
 
@@ -17,19 +18,24 @@ struct Chart {
     double inset = 0.03;
 };
 
-enum class Part { cap, hymenium, stem, veil };
+enum class Part { cap, hymenium, stem, veil, blade, flesh };
+inline constexpr std::size_t part_count = 6;
 
 /// Layout of the Swept family. cap: disc, pole = apex, rim = margin, radius = meridian arc / whole
 /// arc.
 /// hymenium: disc, radius = (inner + (1 - inner) * arc share) with inner = hymenium_inner_share;
 /// rim = margin.
 /// stem: strip, u = arc from the ground / whole arc, v = theta / 2 pi. veil: strip, u = theta / 2
-/// pi, v = 0 at the attachment, 1 at the edge or tip.
-inline constexpr std::array<Chart, 4> swept_charts = {{
+/// pi, v = 0 at the attachment, 1 at the edge or tip. blade: strip, the face of a gill, ridge or
+/// spine: u = 0 at the stem, 1 at the margin, v = 0 at the root, 1 at the edge. flesh: strip, what
+/// a tear lays open: u along the tear, v = 0 under the skin, 1 where it is deepest.
+inline constexpr std::array<Chart, part_count> swept_charts = {{
     {ChartMap::disc, 0.0, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::disc, 0.5, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::strip, 0.0, 0.5, 1.0, 0.375, 0.03},
-    {ChartMap::strip, 0.0, 0.875, 1.0, 0.125, 0.12},
+    {ChartMap::strip, 0.0, 0.875, 0.5, 0.125, 0.12},
+    {ChartMap::strip, 0.5, 0.875, 0.25, 0.125, 0.12},
+    {ChartMap::strip, 0.75, 0.875, 0.25, 0.125, 0.12},
 }};
 
 /// Radius of the stem's edge in the hymenium's disc.

@@ -186,11 +186,11 @@ void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
         return;
     }
     std::vector<std::function<void()>> pieces;
-    for (std::size_t part = 0; part < 4; ++part)
+    for (std::size_t part = 0; part < part_count; ++part)
         pieces.emplace_back([&plan, part] { plan.charts[part] = measured(plan, part); });
     parallel(pieces);
     pieces.clear();
-    for (int part = 0; part < 4; ++part) {
+    for (int part = 0; part < static_cast<int>(part_count); ++part) {
         const int height = plan.frames[static_cast<std::size_t>(part)].height;
         for (int from = 0; from < height; from += rows_per_piece) {
             const int to = std::min(from + rows_per_piece, height);

@@ -38,6 +38,8 @@ constexpr std::uint32_t stem_purpose = 103;
 constexpr std::uint32_t veil_purpose = 104;
 constexpr std::uint32_t coarse_purpose = 105;
 constexpr std::uint32_t outline_purpose = 106;
+constexpr std::uint32_t blade_purpose = 108;  // scales have the one between
+constexpr std::uint32_t flesh_purpose = 109;
 
 constexpr float single(double value) { return static_cast<float>(value); }
 
@@ -267,6 +269,39 @@ VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
+// A texel's share of the wall between two neighbouring blades that sees the sky: 1 - d / sqrt(d^2 + w^2) at depth d in a slot of
+// width w; light that the walls themselves give back brightens what is pale.
+BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
+    const HymeniumSurface& face = params.surface.hymenium;
+    BladePlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, blade_purpose);
+    plan.texel_along = single(1.0 / (share * frame.width));
+    plan.texel_across = single(blade_depth / (share * frame.height));
+    plan.colour = light_of(face.colour);
+    plan.edge = light_of(face.edge);
+    plan.depth = light_of(face.depth);
+    plan.mottle = single(face.mottle);
+    plan.roughness = single(face.roughness);
+    plan.steep = single(3.0 * params.hymenium.relief);
+    plan.grain = shown_of(share * frame.width / static_cast<double>(blade_grain));
+    return plan;
+}
+
+FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
+    FleshPlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, flesh_purpose);
+    plan.texel_along = single(1.0 / (share * frame.width));
+    plan.texel_across = single(flesh_width / (share * frame.height));
+    plan.colour = light_of(params.surface.flesh.colour);
+    plan.roughness = single(params.surface.flesh.roughness);
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.bumps[i] =
+            shown_of(share * frame.width / static_cast<double>(flesh_bump_frequency[i]));
+    return plan;
+}
+
 // Radius from the axis over disc radius, at share rho of the meridian.
 double roundness(const DiscPlan& disc, double rho) {
     if (rho < 1e-4) return 1.0;
@@ -354,6 +389,8 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
     plan.hymenium = hymenium_plan(params, plan.frames[1]);
     plan.stem = stem_plan(params, plan.frames[2]);
     plan.veil = veil_plan(params, plan.frames[3]);
+    plan.blade = blade_plan(params, plan.frames[4]);
+    plan.flesh = flesh_plan(params, plan.frames[5]);
     plan.fade = single(params.fade);
     plan.wetness = single(params.wetness);
     for (std::size_t i = 0; i < 3; ++i) {
@@ -392,7 +429,7 @@ void paint_canvas(const PaintParams& params, const GivenTurns& turns, const Para
     const PaintPlan plan = paint_plan(params, turns);
     const PaintTarget target = canvas.target();
     std::vector<std::function<void()>> pieces;
-    for (int part = 0; part < 4; ++part) {
+    for (int part = 0; part < static_cast<int>(part_count); ++part) {
         const int height = plan.frames[static_cast<std::size_t>(part)].height;
         for (int from = 0; from < height; from += rows_per_piece) {
             const int to = std::min(from + rows_per_piece, height);

@@ -7,6 +7,8 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/surface/charts.h"
+
 namespace sporeprint {
 
 /// Fields of slowly varying noise that are sampled sparsely and stretched over the texels between.
@@ -23,6 +25,8 @@ enum CapField {
 enum HymeniumField { hymenium_uneven, hymenium_middle, hymenium_bump };
 enum StemField { stem_broad, stem_middle, stem_bump, stem_fibre, stem_furrow };
 enum VeilField { veil_thread, veil_cloud };
+enum BladeField { blade_cloud, blade_uneven };
+enum FleshField { flesh_fibre, flesh_cloud };
 inline constexpr int most_fields = 8;
 
 /// A colour in linear light.
@@ -157,6 +161,32 @@ struct VeilPlan {
     float roughness = 0.85F;
 };
 
+/// The face of a blade, root to edge; lengths in those of the blade.
+struct BladePlan {
+    std::array<std::uint32_t, 4> seed{};
+    float texel_along = 0.0F, texel_across = 0.0F;
+    Light colour, edge, depth;
+    float mottle = 0.0F;
+    float steep = 1.0F;  ///< depth of the slot between two blades over its width
+    float grain = 0.0F;  ///< 0..1: whether the finest lines across it show
+    float roughness = 0.8F;
+};
+
+/// Torn flesh; lengths in those of its strip.
+struct FleshPlan {
+    std::array<std::uint32_t, 4> seed{};
+    float texel_along = 0.0F, texel_across = 0.0F;
+    Light colour;
+    std::array<float, 3> bumps{};
+    float roughness = 0.85F;
+};
+
+/// Depth of a blade and width of a tear as their charts stand for them, over their lengths.
+inline constexpr double blade_depth = 0.2;
+inline constexpr double flesh_width = 0.4;
+inline constexpr float blade_grain = 72.0F;  ///< lines across a blade
+inline constexpr std::array<float, 3> flesh_bump_frequency = {11.0F, 26.0F, 58.0F};
+
 /// A painted wart or scale on the cap's disc.
 struct PatchPlan {
     float x = 0.0F, y = 0.0F;              ///< centre, in disc radii
@@ -176,11 +206,13 @@ inline constexpr float patch_window = 1.45F;
 
 struct PaintPlan {
     int side = 0;
-    std::array<Frame, 4> frames{};
+    std::array<Frame, part_count> frames{};
     CapPlan cap;
     HymeniumPlan hymenium;
     StemPlan stem;
     VeilPlan veil;
+    BladePlan blade;
+    FleshPlan flesh;
     float fade = 0.0F;
     float wetness = 0.0F;
     int disc_step = 1;   ///< texels between the samples of a disc's fields: 1 or 2
@@ -216,11 +248,11 @@ struct ChartDissolve {
 
 struct DissolvePlan {
     int side = 0;
-    std::array<Frame, 4> frames{};
+    std::array<Frame, part_count> frames{};
     std::size_t paintings = 0;
     std::array<std::array<const std::uint8_t*, 3>, most_paintings> images{};
     std::array<float, most_paintings> weights{};
-    std::array<ChartDissolve, 4> charts{};
+    std::array<ChartDissolve, part_count> charts{};
     const float* linear = nullptr;  ///< light of each sRGB byte
 };
 

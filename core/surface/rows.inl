@@ -13,6 +13,7 @@
 #include "core/surface/cap.inl"
 #include "core/surface/hymenium.inl"
 #include "core/surface/stem.inl"
+#include "core/surface/tissue.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
@@ -282,8 +283,12 @@ void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) 
             (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
         if (part == 2)
             stem_fields(plan.stem, unit(along), across, fields);
-        else
+        else if (part == 3)
             veil_fields(plan.veil, along, across, fields);
+        else if (part == 4)
+            blade_fields(plan.blade, along, across, fields);
+        else
+            flesh_fields(plan.flesh, along, across, fields);
         for (std::size_t k = 0; k < most_fields; ++k)
             if ((used >> k & 1U) != 0) hn::Store(fields[k], f, bench.field[k] + i);
     }
@@ -401,7 +406,9 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
                 texel = stem_texel(plan.stem, unit(along), across, fields);
                 if (!given.empty()) texel.colour = sampled(given, along, given_across);
             } else {
-                texel = veil_texel(plan.veil, along, across, fields);
+                texel = part == 3   ? veil_texel(plan.veil, along, across, fields)
+                        : part == 4 ? blade_texel(plan.blade, along, across, fields)
+                                    : flesh_texel(plan.flesh, along, across, fields);
             }
             store_texel(texel, row, x);
             hn::Store(fields[1], f, row.uneven + x);
@@ -466,12 +473,24 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
     const std::size_t width = static_cast<std::size_t>(frame.width);
     const VF one = set(1.0F);
     const VF half = set(0.5F);
-    const float exposure[4] = {1.0F, 0.35F, 0.45F, 0.6F};
+    const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F};
     const float film = 1.0F - 0.25F * plan.wetness;  // water levels the relief
     const bool is_disc = part < 2;
     const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
-    const float step_x = part == 2 ? plan.stem.texel_along : plan.veil.texel;
-    const float step_y = part == 2 ? plan.stem.texel_round : plan.veil.texel;
+    const float steps_x[part_count] = {0.0F,
+                                       0.0F,
+                                       plan.stem.texel_along,
+                                       plan.veil.texel,
+                                       plan.blade.texel_along,
+                                       plan.flesh.texel_along};
+    const float steps_y[part_count] = {0.0F,
+                                       0.0F,
+                                       plan.stem.texel_round,
+                                       plan.veil.texel,
+                                       plan.blade.texel_across,
+                                       plan.flesh.texel_across};
+    const float step_x = steps_x[part];
+    const float step_y = steps_y[part];
     // A disc's lengths are those of its meridian, which begins at `inner`.
     const VF per_x =
         set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));

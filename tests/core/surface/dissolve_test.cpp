@@ -143,7 +143,7 @@ TEST_F(Dissolve, KeepsTheContrastOfEveryChart) {
     const std::vector<RawImages> p = unlike(256);
     for (std::size_t other = 1; other < 3; ++other) {
         const RawImages half = dissolved({p[0], p[other]}, {0.5, 0.5});
-        for (std::size_t part = 0; part < 4; ++part)
+        for (std::size_t part = 0; part < part_count; ++part)
             for (const ImageKind kind : {ImageKind::base_color, ImageKind::normal})
                 for (std::size_t channel = 0; channel < 2; ++channel) {
                     const double a = deviation_of(numbers(p[0], part, kind, channel));
@@ -160,7 +160,7 @@ TEST_F(Dissolve, MeanColoursAreLinearInTheWeights) {
     for (const std::vector<double>& w : std::vector<std::vector<double>>{
              {0.5, 0.5, 0.0}, {0.25, 0.25, 0.5}, {0.125, 0.75, 0.125}, {0.015625, 0.0, 0.984375}}) {
         const RawImages mixed = dissolved(p, w);
-        for (std::size_t part = 0; part < 4; ++part)
+        for (std::size_t part = 0; part < part_count; ++part)
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 double expected = 0.0;
                 for (std::size_t i = 0; i < 3; ++i)

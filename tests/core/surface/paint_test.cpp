@@ -218,7 +218,7 @@ TEST_F(Paint, EveryColourChangesThePicture) {
     PaintParams walked = motley(HymeniumPattern::smooth);
     std::vector<std::string> names;
     for_each_colour(walked, "", [&](const std::string& name, Colour&) { names.push_back(name); });
-    EXPECT_EQ(names.size(), 11U);
+    EXPECT_EQ(names.size(), 12U);
     for (const std::string& wanted : names) {
         bool changed = false;
         for (std::size_t p = 0; p < 4 && !changed; ++p) {
@@ -268,6 +268,34 @@ TEST_F(Paint, TheAgesOfTheRampGoFromApexToMargin) {
     EXPECT_LT(apex.b, 40);
     EXPECT_GT(margin.b, 230);
     EXPECT_LT(margin.r, 40);
+}
+
+TEST_F(Paint, ABladeWearsItsFaceAndItsEdgeAndFleshItsOwnColour) {
+    PaintParams params;
+    params.side = 256;
+    params.surface.hymenium.colour = {0, 180, 0};
+    params.surface.hymenium.edge = {255, 0, 0};
+    params.surface.hymenium.depth = {0, 0, 255};
+    params.surface.hymenium.mottle = 0.0;
+    params.surface.flesh.colour = {250, 200, 90};
+    const RawImages images = paint_raw(params);
+    const auto look = [&](Part part, ImageKind kind, double along, double across) {
+        const TexturePoint at =
+            strip_point(swept_charts[static_cast<std::size_t>(part)], along, across);
+        return texel(images, kind, static_cast<int>(at.u * 256.0), static_cast<int>(at.v * 256.0));
+    };
+    for (const double along : {0.1, 0.5, 0.9}) {
+        EXPECT_GT(look(Part::blade, ImageKind::base_color, along, 0.7).g, 120);
+        EXPECT_GT(look(Part::blade, ImageKind::base_color, along, 0.99).r, 200);
+        EXPECT_GT(look(Part::blade, ImageKind::base_color, along, 0.0).b,
+                  look(Part::blade, ImageKind::base_color, along, 0.7).b);
+        EXPECT_LT(look(Part::blade, ImageKind::orm, along, 0.05).r,
+                  look(Part::blade, ImageKind::orm, along, 0.8).r);
+        const Texel flesh = look(Part::flesh, ImageKind::base_color, along, 0.5);
+        EXPECT_NEAR(flesh.r, 250, 30);
+        EXPECT_NEAR(flesh.g, 200, 30);
+        EXPECT_NEAR(flesh.b, 90, 30);
+    }
 }
 
 TEST_F(Paint, TheStemClosesWithoutASeam) {
