@@ -25,6 +25,7 @@ bool passes(const Species& species, const SpeciesFilter& filter) {
     if (filter.form && facts.form != *filter.form) return false;
     if (filter.family && family_of(species) != *filter.family) return false;
     if (filter.substrate && !contains(facts.substrate, *filter.substrate)) return false;
+    if (filter.habit && !contains(facts.habit, *filter.habit)) return false;
     if (filter.month &&
         std::find(facts.season.begin(), facts.season.end(), *filter.month) == facts.season.end())
         return false;
@@ -50,6 +51,7 @@ Value species_list(const Atlas& atlas, const SpeciesFilter& filter) {
         row.set("cap_diameter_m", facts.cap_diameter_m ? write(*facts.cap_diameter_m) : Value());
         row.set("height_m", write(facts.height_m));
         row.set("substrate", facts.substrate.view());
+        row.set("habit", facts.habit.view());
         row.set("season", write(facts.season));
         Value links = Value::object();
         links.set("self", "/v1/species/" + id);

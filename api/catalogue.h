@@ -28,7 +28,7 @@ constexpr const char* name(Family family) {
 struct SpeciesFilter {
     std::optional<GrowthForm> form;
     std::optional<Family> family;
-    std::optional<Text<64>> substrate;
+    std::optional<Text<64>> substrate, habit;
     std::optional<int> month;
     std::optional<Text<32>> colour;
     std::optional<double> min_diameter_m, max_diameter_m;
@@ -41,6 +41,11 @@ struct SpeciesFilter {
               Info{.name = "substrate",
                    .most = 64,
                    .doc = "Only species whose substrate contains this text, in any case."});
+        visit(&F::habit,
+              Info{.name = "habit",
+                   .most = 64,
+                   .doc = "Only species whose habit (tufts, rings, …) contains this text, in any "
+                          "case."});
         visit(&F::month,
               Info{.name = "month",
                    .min = 1,

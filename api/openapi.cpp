@@ -228,6 +228,7 @@ Value schemas() {
                                                                {"cap_diameter_m", pair_or_null},
                                                                {"height_m", pair},
                                                                {"substrate", text},
+                                                               {"habit", text},
                                                                {"season", list_of(whole)},
                                                                {"links", links}}))}})},
         {"about",

@@ -6,7 +6,21 @@
 namespace sporeprint {
 
 /// Growth form, as field guides name it.
-enum class GrowthForm { agaric, bolete, chanterelle, club, cup };
+enum class GrowthForm {
+    agaric,
+    bolete,
+    chanterelle,
+    club,
+    cup,
+    bracket,
+    shelving_agaric,
+    morel,
+    puffball,
+    earthstar,
+    tooth,
+    jelly,
+    stinkhorn
+};
 
 constexpr const char* name(GrowthForm form) {
     switch (form) {
@@ -20,6 +34,22 @@ constexpr const char* name(GrowthForm form) {
             return "club";
         case GrowthForm::cup:
             return "cup";
+        case GrowthForm::bracket:
+            return "bracket";
+        case GrowthForm::shelving_agaric:
+            return "shelving_agaric";
+        case GrowthForm::morel:
+            return "morel";
+        case GrowthForm::puffball:
+            return "puffball";
+        case GrowthForm::earthstar:
+            return "earthstar";
+        case GrowthForm::tooth:
+            return "tooth";
+        case GrowthForm::jelly:
+            return "jelly";
+        case GrowthForm::stinkhorn:
+            return "stinkhorn";
     }
     return nullptr;
 }
@@ -33,6 +63,8 @@ struct Facts {
     Range height_m{0.05, 0.1};
     Text<64> substrate;
     Text<96> habitat;
+    Text<64> habit;
+    Text<96> hymenium;
     Text<32> colour;
     std::vector<int> season;
     std::vector<Text<160>> sources;
@@ -55,6 +87,13 @@ struct Facts {
                                  .doc = "Recorded height of the fruit body."});
         visit(&F::substrate, Info{.name = "substrate", .most = 64, .doc = "What it grows on."});
         visit(&F::habitat, Info{.name = "habitat", .most = 96, .doc = "Where it grows."});
+        visit(&F::habit,
+              Info{.name = "habit",
+                   .most = 64,
+                   .doc = "How it stands: alone, scattered, in tufts, troops or rings."});
+        visit(&F::hymenium, Info{.name = "hymenium",
+                                 .most = 96,
+                                 .doc = "What carries the spores, in the field's words."});
         visit(&F::colour,
               Info{.name = "colour", .most = 32, .doc = "Main colour of the cap, in a word."});
         visit(&F::season, Info{.name = "season",

@@ -87,7 +87,7 @@ TEST(OpenApi, names_every_query_parameter) {
     EXPECT_EQ(query_names(get("/v1/surfaces/mushrooms/{mix}/{image}.jpg")), surface);
     EXPECT_EQ(query_names(get("/v1/morphs/{a}/{b}")), (std::set<std::string>{"age", "v"}));
     EXPECT_EQ(query_names(get("/v1/species")),
-              (std::set<std::string>{"form", "family", "substrate", "month", "colour",
+              (std::set<std::string>{"form", "family", "substrate", "habit", "month", "colour",
                                      "min_diameter_m", "max_diameter_m"}));
 }
 

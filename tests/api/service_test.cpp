@@ -272,8 +272,9 @@ TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
     const auto& list = body.find("species")->items();
     ASSERT_EQ(list.size(), built_in_atlas()->entries().size());
     for (const Value& row : list) {
-        for (const char* member : {"id", "scientific_name", "common_name", "family", "form",
-                                   "cap_diameter_m", "height_m", "substrate", "season", "links"})
+        for (const char* member :
+             {"id", "scientific_name", "common_name", "family", "form", "cap_diameter_m",
+              "height_m", "substrate", "habit", "season", "links"})
             EXPECT_NE(row.find(member), nullptr) << member;
         const Answer self = ask(row.find("links")->find("self")->as_string());
         EXPECT_EQ(self.status, 200);
@@ -318,6 +319,9 @@ TEST_F(ServiceTest, species_are_filtered) {
     const std::string colour = atlas->entries()[0].species.facts.colour.string();
     EXPECT_FALSE(ids("colour=" + colour).empty());
     EXPECT_TRUE(ids("substrate=marble").empty());
+    EXPECT_EQ(ids("habit=Rings"), matching([](const Facts& facts) {
+                  return facts.habit.string().find("rings") != std::string::npos;
+              }));
     for (const char* query :
          {"form=tree", "month=13", "month=1.5", "min_diameter_m=x", "colour=red&colour=red",
           "colr=red", "min_diameter_m=0.2&max_diameter_m=0.1"})
