@@ -131,17 +131,18 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     for (const Patch& patch : patches(style, ground.seed, layer.purpose)) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
         const OutlineSample at = curve.at(on_stem ? patch.sigma : 1.0 - patch.sigma);
-        const auto [s, c] = sine_cosine(patch.theta);
-        const glm::dvec3 meridian(at.tangent_r * c, at.tangent_y, at.tangent_r * s),
-            azimuth(-s, 0.0, c);
-        const glm::dvec3 normal = glm::cross(meridian, azimuth),
-                         outward = on_stem ? meridian : -meridian;
+        const SurfacePoint place =
+            ground.skin.at(on_stem ? Part::stem : Part::cap, at, ground.skin.column(patch.theta));
+        glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
+        if (!ground.skin.plain()) {
+            normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));
+            meridian = square_to(normal, meridian);
+        }
+        const glm::dvec3 outward = on_stem ? meridian : -meridian;
         // (round, outward, normal) is right-handed, so that corners run counter-clockwise seen from outside.
         const glm::dvec3 round = glm::cross(outward, normal);
         const double radius = patch.radius * scale * length, height = patch.height * radius;
-        glm::dvec3 centre(at.r * c, at.y, at.r * s);
-        if (!on_stem && !ground.waves.flat())
-            centre.y += ground.waves.at(patch.sigma, patch.theta).height;
+        const glm::dvec3 centre = place.position;
         const AxisStation station = ground.deformer.frozen_station(
             on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
         solid.rows = between + 2;
@@ -250,7 +251,8 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
         for (const Column& column : columns) {
             const double off = half + ruffled * column.ruffle;
             const double rr = at.r + off * at.normal_r, yy = at.y + off * at.normal_y;
-            solid.corners.emplace_back(rr * column.turn.cosine, yy, rr * column.turn.sine);
+            solid.corners.push_back(
+                ground.skin.azimuth().moved({rr * column.turn.cosine, yy, rr * column.turn.sine}));
         }
     }
     ground.deformer.apply(solid.corners, station);

@@ -10,7 +10,7 @@ namespace sporeprint {
 struct Ground {
     const Outline& outline;
     const Deformer& deformer;
-    const Waves& waves;
+    const Skin& skin;
     const Detail& detail;
     std::uint32_t seed;
     bool textured;

@@ -15,7 +15,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t angle_purpose = 1, dent_purpose = 2, wave_purpose = 3;
+constexpr std::uint32_t angle_purpose = 1, dent_purpose = 2;
 constexpr int cap_dents = 7, stem_dents = 4;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
@@ -32,32 +32,22 @@ std::string text(double value) {
     return digits.substr(0, digits.find('.') + 2);
 }
 
-/// What all rings of one sub-curve share.
-struct Face {
-    const SubCurve* curve;
-    Part part;
-    bool on_cap;
-};
-
 class Sweeper {
   public:
-    Sweeper(Mesh& mesh, const Deformer& deformer, const Waves& waves, int columns, bool textured)
+    Sweeper(Mesh& mesh, const Deformer& deformer, const Skin& skin, int columns, bool textured)
         : mesh_(mesh),
           deformer_(deformer),
-          waves_(waves),
+          skin_(skin),
           columns_(columns),
           textured_(textured),
           row_(static_cast<std::size_t>(columns + 1)) {
-        for (int j = 0; j <= columns; ++j) {
-            const double angle = 2.0 * pi * (j % columns) / columns;
-            turns_.push_back(sine_cosine(angle));
-            if (!waves.flat()) phases_.push_back(waves.phases(angle));
-        }
+        for (int j = 0; j <= columns; ++j)
+            turns_.push_back(skin.column(2.0 * pi * (j % columns) / columns));
     }
 
-    void face(const Face& face, const std::vector<OutlineSample>& samples) {
+    void face(Part part, const std::vector<OutlineSample>& samples) {
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
-        for (const OutlineSample& sample : samples) ring(face, sample);
+        for (const OutlineSample& sample : samples) ring(part, sample);
         const auto row = static_cast<std::uint32_t>(columns_ + 1);
         for (std::uint32_t i = 0; i + 1 < samples.size(); ++i) {
             const bool below = samples[i].r > 0.0, above = samples[i + 1].r > 0.0;
@@ -70,42 +60,26 @@ class Sweeper {
     }
 
   private:
-    void ring(const Face& face, const OutlineSample& sample) {
-        // What rises above the stem's end (a bulging top) moves with the cap: there the frame is frozen.
-        const AxisStation station =
-            face.on_cap ? deformer_.frozen_station(deformer_.top())
-                        : deformer_.station(sample.share == 1.0 ? deformer_.top() : sample.y);
-        const Chart& chart = swept_charts[static_cast<std::size_t>(face.part)];
-        const double length = face.curve->length();
-        for (int j = 0; j <= columns_; ++j) {
-            const auto [s, c] = turns_[static_cast<std::size_t>(j)];
-            SurfacePoint& point = row_[static_cast<std::size_t>(j)];
-            point = {{sample.r * c, sample.y, sample.r * s},
-                     {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
-                     {-s, 0.0, c}};
-            if (face.on_cap && !waves_.flat()) {
-                const double share = face.part == Part::cap ? 1.0 - sample.share : sample.share;
-                const auto wave = waves_.at(share, phases_[static_cast<std::size_t>(j)]);
-                point.position.y += wave.height;
-                if (length > 0.0)
-                    point.meridian.y +=
-                        (face.part == Part::cap ? -wave.by_share : wave.by_share) / length;
-                if (sample.r > 0.0) point.azimuth.y += wave.by_angle / sample.r;
-            }
-        }
+    void ring(Part part, const OutlineSample& sample) {
+        const AxisStation station = deformer_.station(part, sample);
+        const Chart& chart = swept_charts[static_cast<std::size_t>(part)];
+        const double length = skin_.curve(part).length();
+        for (int j = 0; j <= columns_; ++j)
+            row_[static_cast<std::size_t>(j)] =
+                skin_.at(part, sample, turns_[static_cast<std::size_t>(j)]);
         deformer_.apply(row_, station);
         for (int j = 0; j <= columns_; ++j) {
             const SurfacePoint& point = row_[static_cast<std::size_t>(j)];
             const glm::dvec3 normal = unit(glm::cross(point.meridian, point.azimuth));
             mesh_.positions.emplace_back(point.position);
             mesh_.normals.emplace_back(normal);
-            if (textured_) texture(face.part, chart, sample, length, j, point, normal);
+            if (textured_) texture(part, chart, sample, length, j, point, normal);
         }
     }
 
     void texture(Part part, const Chart& chart, const OutlineSample& sample, double length, int j,
                  const SurfacePoint& point, const glm::dvec3& normal) {
-        const auto [s, c] = turns_[static_cast<std::size_t>(j)];
+        const auto [s, c] = turns_[static_cast<std::size_t>(j)].azimuth.from;
         glm::dvec3 along;
         TexturePoint at{};
         double handedness = -1.0;
@@ -139,11 +113,10 @@ class Sweeper {
 
     Mesh& mesh_;
     const Deformer& deformer_;
-    const Waves& waves_;
+    const Skin& skin_;
     int columns_;
     bool textured_;
-    std::vector<SineCosine> turns_;
-    std::vector<Waves::Phases> phases_;
+    std::vector<Skin::Column> turns_;
     std::vector<SurfacePoint> row_;
 };
 
@@ -171,6 +144,7 @@ Deformer::Deformer(const Individual& individual)
               text(model.deformation.bend_deg) + " folds this stem; about " +
                   text(0.95 * model.deformation.bend_deg / fold) + " is the most over this zone"}});
     if (model.deformation.imperfection <= 0.0) return;
+    const AzimuthMap azimuth(individual, details[0].columns);
     const auto push_at = [&](std::uint32_t index, const SubCurve& curve, double share, double size,
                              double reach) {
         Random random(seed, dent_purpose, index);
@@ -180,10 +154,17 @@ Deformer::Deformer(const Individual& individual)
         const double width = random.uniform(0.75, 1.25);
         const OutlineSample at = curve.at(share * along);
         const auto [s, c] = sine_cosine(angle);
-        const glm::dvec3 normal(at.tangent_y * c, -at.tangent_r, at.tangent_y * s);
+        SurfacePoint place{{at.r * c, at.y, at.r * s},
+                           {at.tangent_r * c, at.tangent_y, at.tangent_r * s},
+                           {-s, 0.0, c}};
+        glm::dvec3 normal(at.tangent_y * c, -at.tangent_r, at.tangent_y * s);
+        if (!azimuth.identity()) {
+            azimuth.apply(place, azimuth.column(angle));
+            normal = unit(glm::cross(place.meridian, place.azimuth));
+        }
         const double push = model.deformation.imperfection *
                             (strength < 0.0 ? strength - 0.3 : strength + 0.3) * reach;
-        dents_.push_back(dent({at.r * c, at.y, at.r * s}, glm::dvec3(size * width), push * normal));
+        dents_.push_back(dent(place.position, glm::dvec3(size * width), push * normal));
     };
     const double cap_radius = greatest_radius(outline.cap);
     for (std::uint32_t i = 0; i < cap_dents; ++i)
@@ -192,6 +173,12 @@ Deformer::Deformer(const Individual& individual)
     const double stem_size = std::max(2.5 * stem_radius, 0.3 * (top_ - base_));
     for (std::uint32_t i = 0; i < stem_dents; ++i)
         push_at(100 + i, outline.stem, 1.0, stem_size, 0.14 * stem_radius);
+}
+
+AxisStation Deformer::station(Part part, const OutlineSample& sample) const {
+    // What rises above the stem's end (a bulging top) moves with the cap: there the frame is frozen.
+    if (part != Part::stem) return frozen_station(top_);
+    return station(sample.share == 1.0 ? top_ : sample.y);
 }
 
 void Deformer::apply(std::span<SurfacePoint> points, const AxisStation& station) const {
@@ -208,46 +195,12 @@ void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) c
     for (glm::dvec3& place : places) place = station.point(place);
 }
 
-Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed)
-    : amplitude_(amount * 0.16 * cap_radius) {
-    Random random(seed, wave_purpose);
-    const int coarse = 3 + static_cast<int>(random.bits() % 3);
-    const double phase = random.uniform(0.0, 2.0 * pi);
-    const double other = random.uniform(0.0, 2.0 * pi);
-    const double fine = random.uniform(0.0, 2.0 * pi);
-    // Finer waves live nearer the edge, as in any sheet whose edge has outgrown it.
-    modes_ = {{coarse, 0.6, phase, 0.35},
-              {coarse + 2, 0.3, other, 0.5},
-              {2 * coarse + 3, 0.14, fine, 0.68}};
-    std::erase_if(modes_, [&](const Mode& m) { return m.count * 3 > columns; });
-}
-
-Waves::Phases Waves::phases(double angle) const {
-    Phases out{};
-    for (std::size_t i = 0; i < modes_.size(); ++i)
-        out[i] = sine_cosine(modes_[i].count * angle + modes_[i].phase);
-    return out;
-}
-
-Waves::Value Waves::at(double share, const Phases& phases) const {
-    Value value;
-    for (std::size_t i = 0; i < modes_.size(); ++i) {
-        const Mode& mode = modes_[i];
-        const double t = std::clamp((share - mode.from) / (1.0 - mode.from), 0.0, 1.0);
-        const double size = amplitude_ * mode.size, weight = t * t * (3.0 - 2.0 * t);
-        value.height += size * weight * phases[i].sine;
-        value.by_share += size * (6.0 * t * (1.0 - t) / (1.0 - mode.from)) * phases[i].sine;
-        value.by_angle += size * weight * mode.count * phases[i].cosine;
-    }
-    return value;
-}
-
 Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& options) {
     const Outline& outline = individual.outline;
     const Detail& detail = details[static_cast<std::size_t>(lod)];
     const std::uint32_t seed = individual.effective.seed;
     const Deformer deformer(individual);
-    const Waves waves(individual.waves, greatest_radius(outline.cap), detail.columns, seed);
+    const Skin skin(individual, detail.columns);
     Mesh mesh;
     const int rings =
         detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
@@ -264,12 +217,11 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
         mesh.texture_coordinates.reserve(vertices);
         mesh.tangents.reserve(vertices);
     }
-    Sweeper sweeper(mesh, deformer, waves, detail.columns, options.textured);
-    sweeper.face({&outline.stem, Part::stem, false}, outline.rings(CurveName::stem, lod));
-    sweeper.face({&outline.hymenium, Part::hymenium, true},
-                 outline.rings(CurveName::hymenium, lod));
-    sweeper.face({&outline.cap, Part::cap, true}, outline.rings(CurveName::cap, lod));
-    const Ground ground{outline,          deformer,           waves, detail, seed,
+    Sweeper sweeper(mesh, deformer, skin, detail.columns, options.textured);
+    sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
+    sweeper.face(Part::hymenium, outline.rings(CurveName::hymenium, lod));
+    sweeper.face(Part::cap, outline.rings(CurveName::cap, lod));
+    const Ground ground{outline,          deformer,           skin, detail, seed,
                         options.textured, options.keep_absent};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);

@@ -4,7 +4,7 @@
 #include "core/build/axis.h"
 #include "core/build/detail.h"
 #include "core/build/free_form.h"
-#include "core/math/elementary.h"
+#include "core/build/skin.h"
 #include "core/mesh/mesh.h"
 #include "core/model/individual.h"
 
@@ -21,6 +21,9 @@ class Deformer {
     void apply(std::span<SurfacePoint> points, const AxisStation& station) const;
     void apply(std::span<glm::dvec3> places, const AxisStation& station) const;
 
+    /// The station of a place on the skin: that of its height on the stem, the top for all that the stem carries.
+    [[nodiscard]] AxisStation station(Part part, const OutlineSample& sample) const;
+
     [[nodiscard]] AxisStation station(double height) const { return axis_.at(height); }
     [[nodiscard]] AxisStation frozen_station(double height) const {
         return axis_.frozen_at(height);
@@ -32,31 +35,6 @@ class Deformer {
     double base_, top_;
     Axis axis_;
     std::vector<FreeForm> dents_;
-};
-
-/// The margin's waves: height added at a share of a face (0 centre, 1 margin), with derivatives.
-class Waves {
-  public:
-    Waves(double amount, double cap_radius, int columns, std::uint32_t seed);
-
-    struct Value {
-        double height = 0.0, by_share = 0.0, by_angle = 0.0;
-    };
-    [[nodiscard]] bool flat() const { return amplitude_ == 0.0; }
-    [[nodiscard]] Value at(double share, double angle) const { return at(share, phases(angle)); }
-
-    /// The waves' own angles at an azimuth; worked out once for a whole column.
-    using Phases = std::array<SineCosine, 3>;
-    [[nodiscard]] Phases phases(double angle) const;
-    [[nodiscard]] Value at(double share, const Phases& phases) const;
-
-  private:
-    struct Mode {
-        int count;
-        double size, phase, from;
-    };
-    double amplitude_;
-    std::vector<Mode> modes_;
 };
 
 /// What a mesh is for.

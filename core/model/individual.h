@@ -52,6 +52,7 @@ struct Individual {
     double stem_base = 0.0;  ///< height of the first point of the stem, metres
     double stem_top = 0.0;   ///< of its last
     AxisCurve axis;
+    Azimuth azimuth;
     std::vector<PatchLayer>
         layers;  ///< warts, scales and volvas of all species, also those of which nothing is left
     RingStyle ring;         ///< its width holds amounts and weights; metres

@@ -98,11 +98,83 @@ struct AxisPoint {
     bool operator==(const AxisPoint&) const = default;
 };
 
+/// How the radius depends on the angle; all amounts 0 is a figure of revolution. The front is +z. "Widest radius" is that of the outline.
+struct Azimuth {
+    double lateral = 0.0;
+    double fan_deg = 90.0;
+    double width = 1.0;
+    double core = 0.1;
+    int lobes = 0;
+    double lobe_depth = 0.0;
+    double lobe_sharpness = 0.0;
+    double lobe_uneven = 0.3;
+    double lobe_from = 0.3;
+    double lobe_pull = 0.0;
+    double lobe_root = 0.5;
+
+    static constexpr void fields(auto visit) {
+        using A = Azimuth;
+        visit(&A::lateral, Info{.name = "lateral",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "0 round, 1 a fan that grows forwards from a wall behind it "
+                                       "(brackets, oysters); the axis then stands at the wall."});
+        visit(&A::fan_deg, Info{.name = "fan_deg",
+                                .unit = "deg",
+                                .min = 20,
+                                .max = 130,
+                                .doc = "How far a fan opens to each side of its front: 40 is a "
+                                       "wedge, 90 half a disc, 120 a kidney."});
+        visit(&A::width, Info{.name = "width",
+                              .min = 0.3,
+                              .max = 2.5,
+                              .doc = "Reach of a fan to each side, over that to its front: below 1 "
+                                     "a tongue, above 1 a shelf."});
+        visit(&A::core, Info{.name = "core",
+                             .min = 0.02,
+                             .max = 0.6,
+                             .doc = "Share of the widest radius that a fan leaves round: its stem, "
+                                    "or how far it reaches into the wall."});
+        visit(&A::lobes,
+              Info{.name = "lobes", .min = 0, .max = 24, .doc = "Lobes or rays round the margin."});
+        visit(&A::lobe_depth, Info{.name = "lobe_depth",
+                                   .min = 0,
+                                   .max = 0.9,
+                                   .doc = "How far the notches between lobes go in; 0 is none."});
+        visit(&A::lobe_sharpness, Info{.name = "lobe_sharpness",
+                                       .min = -1,
+                                       .max = 1,
+                                       .doc = "1 pointed rays, 0 waves, -1 scallops: round lobes "
+                                              "with sharp notches."});
+        visit(&A::lobe_uneven, Info{.name = "lobe_uneven",
+                                    .min = 0,
+                                    .max = 1,
+                                    .doc = "How unlike the lobes are in width and reach."});
+        visit(&A::lobe_from,
+              Info{.name = "lobe_from",
+                   .min = 0.05,
+                   .max = 0.9,
+                   .doc = "Share of the widest radius that has no lobes; they begin there."});
+        visit(&A::lobe_pull, Info{.name = "lobe_pull",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "How far notches draw back in height too, as between rays "
+                                         "that stand up or bend down."});
+        visit(&A::lobe_root, Info{.name = "lobe_root",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "Height that notches draw back to; 0 is the lowest point "
+                                         "of the outline, 1 the highest."});
+    }
+    bool operator==(const Azimuth&) const = default;
+};
+
 /// Shape family "swept": an outline turned round an axis.
 struct Swept {
     static constexpr const char* form = "swept";
     Silhouette silhouette;
     std::vector<AxisPoint> axis;
+    Azimuth azimuth{};
 
     static constexpr void fields(auto visit) {
         visit(&Swept::silhouette, Info{.name = "silhouette", .doc = "The outline."});
@@ -110,6 +182,8 @@ struct Swept {
                                  .most = 16,
                                  .doc = "Spline control points of the axis, ground to stem top; "
                                         "empty for a straight stem."});
+        visit(&Swept::azimuth,
+              Info{.name = "azimuth", .doc = "How the radius depends on the angle."});
     }
     bool operator==(const Swept&) const = default;
 };

@@ -229,6 +229,33 @@ AxisCurve axis_of(const std::vector<Source>& sources) {
     return axis;
 }
 
+const Azimuth& azimuth_of(const Source& source) {
+    return std::get<Swept>(source.now.shape).azimuth;
+}
+
+/// Amounts by weight; the form of fan and lobes by how much of them each species brings.
+Azimuth azimuth_of(const std::vector<Source>& sources) {
+    const auto by = [&](double Azimuth::*amount) {
+        double sum = 0.0;
+        for (const Source& source : sources) sum += source.weight * azimuth_of(source).*amount;
+        Shares<Azimuth> shares;
+        for (const Source& source : sources) {
+            const Azimuth& one = azimuth_of(source);
+            shares.add(one, sum > 0.0 ? source.weight * (one.*amount) / sum : source.weight);
+        }
+        Azimuth form = blend(shares);
+        form.*amount = sum;
+        return form;
+    };
+    Azimuth azimuth = by(&Azimuth::lobe_depth);
+    const Azimuth fan = by(&Azimuth::lateral);
+    azimuth.lateral = fan.lateral;
+    azimuth.fan_deg = fan.fan_deg;
+    azimuth.width = fan.width;
+    azimuth.core = fan.core;
+    return azimuth;
+}
+
 /// One layer for each kind of piece of each species; species whose pieces have equal places share theirs.
 std::vector<PatchLayer> layers_of(const std::vector<Source>& sources) {
     std::vector<PatchLayer> layers;
@@ -471,6 +498,7 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
                            greatest_radius(individual.outline.stem);
     individual.axis = axis_of(sources);
+    individual.azimuth = azimuth_of(sources);
     DeformationOf<Plain>& deformation = model.deformation;
     if (!order.model) {
         const double fold = individual.axis.greatest_turn() / slender;

@@ -204,27 +204,15 @@ TEST(Sweep, DeformationOfAmountZeroChangesNoByte) {
         EXPECT_TRUE(same_bits(swept(model, lod, 1, true), swept(zero, lod, 2, true)));
 }
 
-/// The position of the surface at a share of a sub-curve and an angle, by what moves points only.
+/// The surface at a share of a sub-curve and an angle.
 struct Surface3 {
-    const SubCurve& curve;
+    const Skin& skin;
     const Deformer& deformer;
-    const Waves& waves;
-    bool on_cap, upper;
+    Part part;
 
     [[nodiscard]] SurfacePoint at(double share, double angle) const {
-        const OutlineSample sample = curve.at(share);
-        const auto [s, c] = sine_cosine(angle);
-        SurfacePoint point{{sample.r * c, sample.y, sample.r * s},
-                           {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
-                           {-s, 0.0, c}};
-        if (on_cap && !waves.flat()) {
-            const auto wave = waves.at(upper ? 1.0 - share : share, angle);
-            point.position.y += wave.height;
-            point.meridian.y += (upper ? -wave.by_share : wave.by_share) / curve.length();
-            point.azimuth.y += wave.by_angle / sample.r;
-        }
-        deformer.apply({&point, 1}, on_cap ? deformer.frozen_station(deformer.top())
-                                           : deformer.station(sample.y));
+        SurfacePoint point = skin.at(part, share, angle);
+        deformer.apply({&point, 1}, deformer.station(part, skin.curve(part).at(share)));
         return point;
     }
 
@@ -242,18 +230,14 @@ struct Surface3 {
 
 /// Largest and mean normal error over the three faces of an individual.
 std::pair<double, double> normal_errors(const Individual& individual, std::uint32_t seed) {
-    const Outline& outline = individual.outline;
     const Deformer deformer(individual);
-    const Waves waves(individual.waves, greatest_radius(outline.cap), 72, seed);
+    const Skin skin(individual, 72);
     double worst = 0.0, sum = 0.0;
     int count = 0;
     Random random(seed, 99);
-    for (int face = 0; face < 3; ++face) {
-        const SubCurve& curve = face == 0   ? outline.stem
-                                : face == 1 ? outline.hymenium
-                                            : outline.cap;
-        if (curve.empty()) continue;
-        const Surface3 surface{curve, deformer, waves, face > 0, face == 2};
+    for (const Part part : {Part::stem, Part::hymenium, Part::cap}) {
+        if (skin.curve(part).empty()) continue;
+        const Surface3 surface{skin, deformer, part};
         for (int i = 0; i < 40; ++i) {
             const double share = random.uniform(0.02, 0.98);
             const double angle = random.uniform(0.0, 2.0 * pi);
