@@ -41,6 +41,8 @@ Plan plan_inspection(Context& context, const Request& request, Faults& faults) {
             .set("meshes", found.meshes);
         counts.set("materials", found.materials)
             .set("images", found.images)
+            .set("morph_targets", found.morph_targets)
+            .set("animations", found.animations)
             .set("bytes", found.bytes);
         Value body = Value::object();
         body.set("generator", found.generator);

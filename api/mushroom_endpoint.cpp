@@ -31,7 +31,8 @@ Estimate weighed(const Context& context, const MushroomOrder& order, const Memo&
     }
     if (cost.texels > options.most_texels)
         report(problems, "/texture_size",
-               std::to_string(cost.texels) + " texels would be painted; at most " +
+               std::to_string(cost.texels) + " texels would be held" +
+                   (order.mix.size() > 1 ? ", those of every species" : "") + "; at most " +
                    std::to_string(options.most_texels) + " are. Lower texture_size or raise lod");
     if (!problems.empty()) throw Impossible(std::move(problems));
     return cost;
@@ -44,12 +45,14 @@ Cost cost_of(const Estimate& estimated, Product product) {
 }
 
 /// About what an order comes to, before its individual is known.
-Estimate guessed(const MushroomParams& params) {
+Estimate guessed(const MushroomOrder& order) {
+    const MushroomParams& params = order.params;
     const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
     Estimate guess;
     guess.vertices = std::uint64_t{12'000} >> (2 * params.lod);
-    guess.texels = params.textures == Textures::none ? 0 : 3 * side * side;
-    guess.bytes = 60 * guess.vertices + guess.texels / 3;
+    const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
+    guess.texels = images * static_cast<std::uint64_t>(atlases_held(order));
+    guess.bytes = 60 * guess.vertices + images / 3;
     return guess;
 }
 
@@ -62,8 +65,7 @@ Body grown(const Context& context, const MushroomOrder& order, const std::string
     if (order.params.textures == Textures::linked) {
         const Memo& memo = loan.workshop().memo;
         const MushroomOrder surface = surface_order(order, atlas, memo);
-        const SurfaceAddress image =
-            surface_address(surface, surface_metrics(resolve(order, atlas, memo.morphs)));
+        const SurfaceAddress image = surface_address(surface);
         for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
             extras.image_addresses[i] =
                 with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
@@ -135,7 +137,7 @@ Plan plan_mushroom(Context& context, const Request& request, MushroomRequest ask
     resource.weigh = [&context, order, product](const Memo& memo) {
         return cost_of(weighed(context, *order, memo), product);
     };
-    resource.guess = cost_of(guessed(order->params), product);
+    resource.guess = cost_of(guessed(*order), product);
     resource.make = [&context, order, product, address = resource.address,
                      version = resource.version](Loan& loan) {
         return product == Product::glb ? grown(context, *order, address, loan)

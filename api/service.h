@@ -19,8 +19,8 @@ struct ServiceOptions {
     std::size_t morph_cache_bytes = 16u << 20;
     std::filesystem::path assets;  ///< folder of the built page; empty for none
     std::string allow_origin = "*";
-    std::uint64_t most_vertices = 2'000'000;  ///< budget of one request
-    std::uint64_t most_texels = 3u * 2048u * 2048u;
+    std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
+    std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB
 };
 
 /// Counted since start; read at any time.

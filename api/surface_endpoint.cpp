@@ -28,15 +28,23 @@ Answer surface_head(const SurfaceRequest& asked, std::string_view digest,
     return head;
 }
 
+std::uint64_t texels_held(const PaintRecipe& recipe) {
+    const auto side = static_cast<std::uint64_t>(side_of(recipe));
+    return 3 * side * side * static_cast<std::uint64_t>(atlases_held(recipe));
+}
+
 /// What is painted at an address; adds to `faults` what of it is impossible.
 PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& faults) {
-    const auto side = static_cast<std::uint64_t>(asked.address.texture_size.value);
-    if (3 * side * side > context.options.most_texels)
-        faults.add(422, "texture_size",
-                   std::to_string(3 * side * side) + " texels would be painted; at most " +
-                       std::to_string(context.options.most_texels) + " are");
     try {
-        return painted_at(asked.address, asked.mix, *context.atlas, made_at_once(context.store));
+        PaintRecipe recipe =
+            painted_at(asked.address, asked.mix, *context.atlas, made_at_once(context.store));
+        if (const std::uint64_t texels = texels_held(recipe); texels > context.options.most_texels)
+            faults.add(422, "texture_size",
+                       std::to_string(texels) + " texels would be held" +
+                           (recipe.size() > 1 ? ", those of every species" : "") + "; at most " +
+                           std::to_string(context.options.most_texels) +
+                           " are. Lower texture_size");
+        return recipe;
     } catch (const Impossible& impossible) {
         faults.add(422, named(impossible, false));
     } catch (const InvalidInput& invalid) {
@@ -89,8 +97,7 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
         return head;
     }
     // One flight for the three images of an atlas: its answer holds them all, delivered_surface() hands out the one asked for.
-    const auto side = static_cast<std::uint64_t>(side_of(recipe));
-    const std::uint64_t texels = 3 * side * side * recipe.size();
+    const std::uint64_t texels = texels_held(recipe);
     const auto shared = std::make_shared<const PaintRecipe>(std::move(recipe));
     auto run = [&store, shared, digest](std::stop_token stop, const Observer& observer,
                                         const Parallel& parallel) {

@@ -13,17 +13,17 @@ static_assert(well_described<SurfaceAddress>());
 
 double quantised_age(double age) { return std::floor(age * 64.0 + 0.5) / 64.0; }
 
-SurfaceAddress surface_address(const MushroomOrder& order, const SurfaceMetrics& metrics) {
+SurfaceAddress surface_address(const MushroomOrder& order) {
     const MushroomParams& params = order.params;
     SurfaceAddress address;
     address.seed = params.seed;
     address.age = params.age;
+    address.size = quantised_length(params.size);
     address.variation = params.variation;
     address.texture_size = {params.texture_size >> params.lod};
     address.ornaments = params.ornaments;
     address.hymenium = params.hymenium;
     address.weathering = {params.weathering.fade, params.weathering.wetness};
-    address.metrics = metrics;
     return address;
 }
 
@@ -33,12 +33,13 @@ PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     order.mix = mix;
     order.params.seed = address.seed;
     order.params.age = address.age;
+    order.params.size = length_of_step(address.size);
     order.params.variation = address.variation;
     order.params.ornaments = address.ornaments;
     order.params.hymenium = address.hymenium;
     order.params.weathering.fade = address.weathering.fade;
     order.params.weathering.wetness = address.weathering.wetness;
-    PaintRecipe recipe = paint_recipe(order, atlas, address.metrics, memo);
+    PaintRecipe recipe = paint_recipe(order, atlas, memo);
     for (PaintShare& share : recipe) share.painting.side = address.texture_size;
     return recipe;
 }

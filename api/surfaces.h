@@ -36,16 +36,16 @@ struct PaintedWeathering {
     bool operator==(const PaintedWeathering&) const = default;
 };
 
-/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom that paint reads, and the lengths of the shape.
+/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom that paint reads.
 struct SurfaceAddress {
     std::uint32_t seed = 1;
     double age = 38.0 / 64.0;
+    int size = 0;
     double variation = 0.5;
     Choice<16, 32, 64, 128, 256, 512, 1024, 2048> texture_size{1024};
     OrnamentsOf<Maybe> ornaments;
     HymeniumOf<Maybe> hymenium;
     PaintedWeathering weathering;
-    SurfaceMetrics metrics;
 
     static constexpr void fields(auto visit) {
         using S = SurfaceAddress;
@@ -57,15 +57,16 @@ struct SurfaceAddress {
                  .min = 0,
                  .max = 1,
                  .doc = "From button (0) through maturity (0.6) to decay (1), in steps of 1/64."});
+        visit(&S::size, Info{.name = "size",
+                             .min = -70,
+                             .max = 70,
+                             .doc = "Scale of the whole in steps of 2 %: step n is 1.02^n times."});
         visit(&S::variation, info_of<P>("variation"));
         visit(&S::texture_size,
               Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
         visit(&S::ornaments, info_of<P>("ornaments"));
         visit(&S::hymenium, info_of<P>("hymenium"));
         visit(&S::weathering, info_of<P>("weathering"));
-        visit(&S::metrics,
-              Info{.name = "metrics",
-                   .doc = "Lengths of the shape in steps of 2 %: step n is 1.02^n metres."});
     }
     bool operator==(const SurfaceAddress&) const = default;
 };
@@ -74,10 +75,7 @@ struct SurfaceAddress {
 [[nodiscard]] double quantised_age(double age);
 
 /// The address, beside the mix, of the images of `order`, which is a surface_order.
-///
-/// metrics  surface_metrics of the individual
-[[nodiscard]] SurfaceAddress surface_address(const MushroomOrder& order,
-                                             const SurfaceMetrics& metrics);
+[[nodiscard]] SurfaceAddress surface_address(const MushroomOrder& order);
 
 /// What an address paints: equal to the paint_recipe of the order that it was made from.
 ///

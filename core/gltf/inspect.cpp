@@ -90,6 +90,7 @@ Inspection inspect_glb(std::span<const std::uint8_t> file) {
     found.meshes = model.meshes.size();
     found.materials = count_of(document, "materials");
     found.images = count_of(document, "images");
+    found.animations = count_of(document, "animations");
     const auto items = [&](int accessor) -> std::uint64_t {
         return accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size()
                    ? model.accessors[static_cast<std::size_t>(accessor)].count
@@ -101,6 +102,7 @@ Inspection inspect_glb(std::span<const std::uint8_t> file) {
                 position != primitive.attributes.end())
                 found.vertices += items(position->second);
             found.triangles += items(primitive.indices) / 3;
+            found.morph_targets += primitive.targets.size();
         }
     return found;
 }

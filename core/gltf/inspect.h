@@ -12,6 +12,7 @@ struct Inspection {
     std::string canonical;       ///< canonical address in asset.extras
     std::string effective_json;  ///< the effective parameters in asset.extras, as JSON
     std::uint64_t vertices = 0, triangles = 0, meshes = 0, materials = 0, images = 0, bytes = 0;
+    std::uint64_t morph_targets = 0, animations = 0;
 };
 
 /// Reads the JSON chunk with tinygltf; buffers and images are not decoded.

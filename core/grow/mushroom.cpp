@@ -74,11 +74,12 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
         e.triangles += pieces * (2 * (rows - 1) * sides - sides + sides - 2);
     }
     const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
-    e.texels = textured(order) ? 3 * side * side : 0;
+    const std::uint64_t images = textured(order) ? 3 * side * side : 0;
+    e.texels = images * static_cast<std::uint64_t>(atlases_held(order));
     // Twenty years of JPEG: noisy paint takes about a third of a byte a texel.
     e.bytes = 2500 + e.vertices * (textured(order) ? 44 : 24) +
               e.triangles * 3 * (e.vertices > 65535 ? 4 : 2) +
-              (order.params.textures == Textures::embedded ? e.texels / 3 : 0);
+              (order.params.textures == Textures::embedded ? images / 3 : 0);
     if (order.params.animation != Animation::none) {
         const auto frames = static_cast<std::uint64_t>(order.params.frames);
         e.bytes += e.vertices * 24 * frames + 600 * frames;
@@ -113,8 +114,7 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     std::shared_ptr<const ImageSet> images;
     if (order.params.textures == Textures::embedded) {
         workshop.observer(Step::paint);
-        images = painted_images(
-            paint_recipe(order, atlas, surface_metrics(individual), workshop.memo), workshop);
+        images = painted_images(paint_recipe(order, atlas, workshop.memo), workshop);
         parts.images = images.get();
         stop_if_asked(workshop);
     } else if (order.params.textures == Textures::linked) {

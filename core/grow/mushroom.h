@@ -15,7 +15,8 @@ namespace sporeprint {
 struct Estimate {
     std::uint64_t vertices = 0;  ///< those of every frame of a clip too: each is built
     std::uint64_t triangles = 0;
-    std::uint64_t texels = 0;
+    std::uint64_t texels =
+        0;  ///< held at once, at most: of the images and of what they are dissolved from
     std::uint64_t bytes = 0;
 };
 

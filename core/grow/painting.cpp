@@ -43,6 +43,41 @@ bool has_blades(const Model& model) {
     return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
 }
 
+// Of a species' sixty-fourths in a mix, how many are painted with its blades where they stand when it is alone: none up to three
+// quarters, all when it is alone, without a step between.
+int with_own_comb(int part) {
+    constexpr int from = 48, span = whole - from;
+    const int over = std::max(0, part - from);
+    // part * smooth_step in whole numbers, rounded.
+    const int share = over * over * (3 * span - 2 * over);
+    return (part * share + span * span * span / 2) / (span * span * span);
+}
+
+// The lengths and the lightness of one species at the age and variation of an order, alone.
+struct Lone {
+    SurfaceMetrics metrics;
+    double lightness = 1.0;
+};
+
+Lone lone(const MushroomOrder& stepped, const std::string& id, const Atlas& atlas,
+          const Memo& memo) {
+    MushroomOrder order;
+    order.model = stepped.model;
+    if (!order.model) order.mix = {{id, 1000}};
+    order.params.seed = stepped.params.seed;
+    order.params.age = stepped.params.age;
+    order.params.variation = stepped.params.variation;
+    const Individual individual = resolve(order, atlas, memo.morphs);
+    Lone found{surface_metrics(individual), individual.lightness};
+    // Steps of lengths are steps of size.
+    const int larger = quantised_length(stepped.params.size);
+    SurfaceMetrics::fields([&](auto length, const Info& info) {
+        found.metrics.*length = std::clamp(found.metrics.*length + larger,
+                                           static_cast<int>(info.min), static_cast<int>(info.max));
+    });
+    return found;
+}
+
 // Clears each override of `asked` that is not set in `effective`: what the species cannot have.
 template <class T>
 void keep_possible(T& asked, const T& effective) {
@@ -93,9 +128,9 @@ MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, cons
     MushroomOrder stepped = order;
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;
+    params.size = length_of_step(quantised_length(params.size));
     stepped.arcs.clear();
     if (order.model) return stepped;
-    params.size = 1.0;
     params.deformation = {};
     params.weathering.waves.reset();
     stepped.mix = surface_mix(order.mix);
@@ -109,8 +144,7 @@ MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, cons
     return stepped;
 }
 
-PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
-                         const SurfaceMetrics& metrics, const Memo& memo) {
+PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
     const MushroomOrder stepped = surface_order(order, atlas, memo);
     const Individual individual = resolve(stepped, atlas, memo.morphs);
     std::vector<int> parts = {whole};
@@ -119,25 +153,36 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
     std::vector<std::pair<std::string, PaintShare>> shares;
     for (std::size_t i = 0; i < individual.parts.size(); ++i) {
         const Model& model = individual.parts[i].model;
+        const Lone alone = lone(stepped, individual.parts[i].id, atlas, memo);
         PaintShare share;
         // Parts stand by id, whatever the order of the mix.
         for (std::size_t k = 0; k < stepped.mix.size(); ++k)
             if (stepped.mix[k].id == individual.parts[i].id) share.sixty_fourths = parts[k];
         PaintParams& painting = share.painting;
         painting.seed = order.params.seed;
-        painting.lightness = individual.lightness;
+        painting.lightness = alone.lightness;
         painting.side = order.params.texture_size >> order.params.lod;
-        painting.metrics = metrics;
+        painting.metrics = alone.metrics;
         painting.surface = model.surface;
         painting.hymenium = model.hymenium;
-        // A species on whose comb all stand is painted as if it were alone.
-        painting.comb = has_blades(model) && model.hymenium.blades != comb ? comb : 0;
         painting.warts = model.warts;
         painting.scales = model.scales;
         painting.ornaments = model.ornaments;
         painting.fade = model.weathering.fade;
         painting.wetness = model.weathering.wetness;
-        shares.emplace_back(canonical_text(painting), std::move(share));
+        // A species on whose comb all stand is painted as if it were alone.
+        const bool elsewhere = has_blades(model) && model.hymenium.blades != comb;
+        const int own = elsewhere ? with_own_comb(share.sixty_fourths) : share.sixty_fourths;
+        const int common = share.sixty_fourths - own;
+        if (own > 0) {
+            share.sixty_fourths = own;
+            shares.emplace_back(canonical_text(painting), share);
+        }
+        if (common > 0) {
+            share.sixty_fourths = common;
+            painting.comb = comb;
+            shares.emplace_back(canonical_text(painting), std::move(share));
+        }
     }
     std::sort(shares.begin(), shares.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
@@ -148,6 +193,18 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
         else
             recipe.push_back(std::move(shares[i].second));
     return recipe;
+}
+
+int atlases_held(const MushroomOrder& order) {
+    const Mix mix = surface_mix(order.mix);
+    if (mix.size() < 2) return 1;
+    const std::vector<int> parts = apportioned(weights_of(mix), whole);
+    const bool twice = with_own_comb(*std::max_element(parts.begin(), parts.end())) > 0;
+    return static_cast<int>(mix.size()) + (twice ? 2 : 1);
+}
+
+int atlases_held(const PaintRecipe& recipe) {
+    return recipe.size() < 2 ? 1 : static_cast<int>(recipe.size()) + 1;
 }
 
 int side_of(const PaintRecipe& recipe) { return recipe.front().painting.side; }

@@ -11,7 +11,7 @@
 
 namespace sporeprint {
 
-/// The quantised lengths of an individual that its images depend on.
+/// The quantised lengths of an individual that its painting depends on.
 [[nodiscard]] SurfaceMetrics surface_metrics(const Individual& individual);
 
 /// One species' painting in a recipe, and its weight in sixty-fourths.
@@ -21,8 +21,8 @@ struct PaintShare {
     bool operator==(const PaintShare&) const = default;
 };
 
-/// Everything that the images of a mushroom depend on: weights sum to 64, none is 0, no two paintings are equal. They stand in
-/// an order of their own, so that of the species does not matter.
+/// Everything that the images of a mushroom depend on: weights sum to 64, none is 0, no two paintings are equal, at most
+/// most_paintings. They stand in an order of their own, so that of the species does not matter.
 using PaintRecipe = std::vector<PaintShare>;
 
 /// The mix as images know it: weights in sixty-fourths by largest remainder (ties by place), written as the nearest thousandths
@@ -31,18 +31,23 @@ using PaintRecipe = std::vector<PaintShare>;
 /// mix  positive weights that sum to 1000, or nothing
 [[nodiscard]] Mix surface_mix(const Mix& mix);
 
-/// The order as images know it: age in steps of 1/64, surface_mix, nothing that shapes; overrides that no species of that mix can
-/// have are dropped. Its images are those of the order. A model of one's own stays as it is.
+/// The order as images know it: age in steps of 1/64, size in steps of 2 %, surface_mix, nothing that shapes; overrides that no
+/// species of that mix can have are dropped. Its images are those of the order. A model of one's own stays as it is.
 [[nodiscard]] MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas,
                                           const Memo& memo = {});
 
-/// What painting an order depends on. Each species is painted as itself at this age, with the person's overrides, the lengths of
-/// the mixed individual, and blades on one comb: that of the species with the most at the margin.
+/// What painting an order depends on. Each species is painted as it would be alone: at this age and size, with the person's
+/// overrides, its own lengths and lightness, so that its painting is found again at every weight. Only its blades stand on one
+/// comb with those of the others, that of the species with the most at the margin; towards its corner they go over to where they
+/// stand when it is alone, as a second painting.
 ///
-/// metrics  surface_metrics of the individual
-/// throws   InvalidInput, Impossible as resolve()
+/// throws  InvalidInput, Impossible as resolve()
 [[nodiscard]] PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
-                                       const SurfaceMetrics& metrics, const Memo& memo = {});
+                                       const Memo& memo = {});
+
+/// Atlases that are in memory at once while the images of an order are made, at most: the result, and what a mix is dissolved from.
+[[nodiscard]] int atlases_held(const MushroomOrder& order);
+[[nodiscard]] int atlases_held(const PaintRecipe& recipe);
 
 /// Side of the atlas that a recipe paints.
 [[nodiscard]] int side_of(const PaintRecipe& recipe);

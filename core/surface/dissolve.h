@@ -14,7 +14,7 @@ namespace sporeprint {
 /// 1 / sqrt(sum w^2), which is right for paintings that have nothing in common. Paintings of one individual share their noise and
 /// need less; equal ones need none. No texel passes what one of the paintings has at its place: it is bent back smoothly.
 ///
-/// paintings  1..8, equal sides, each 3 * side * side bytes an image
+/// paintings  1..9, equal sides, each 3 * side * side bytes an image
 /// weights    one each, >= 0, sum 1 (within 1e-6); a weight of 1 gives that painting, byte for byte
 /// returns    the atlas; the same bytes however the work is shared and with every instruction set
 /// throws     InvalidInput if counts, sides or weights are not as stated; Cancelled

@@ -232,8 +232,8 @@ struct PaintTarget {
     std::uint8_t* orm = nullptr;
 };
 
-/// Most paintings that dissolve into one.
-inline constexpr std::size_t most_paintings = 8;
+/// Most paintings that dissolve into one: those of eight species, one of them twice.
+inline constexpr std::size_t most_paintings = 9;
 
 /// What is dissolved of a texel: colour in linear light, slopes of the normal, occlusion, roughness.
 inline constexpr std::size_t dissolved_channels = 7;

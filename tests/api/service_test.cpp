@@ -851,7 +851,7 @@ TEST_F(ServiceTest, faults_of_image_addresses_are_named) {
     expect_problem(ask(path + "colour.jpg"), 404);
     expect_problem(ask("/v1/surfaces/mushrooms/xyzzy/normal.jpg"), 404);
     for (const char* query : {"age=2", "texture_size=100", "textures=none", "weathering.waves=0.5",
-                              "metrics.cap_arc=1000", "metrics.cap=1", "seed=1&seed=1"})
+                              "size=1.5", "size=71", "metrics.cap=1", "seed=1&seed=1"})
         expect_problem(ask(path + "normal.jpg?" + query), 400);
     const Answer old = ask(path + "normal.jpg?age=0.6&v=x");
     expect_problem(old, 410);

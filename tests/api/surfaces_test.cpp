@@ -53,10 +53,9 @@ MushroomOrder random_order(const Atlas& atlas) {
 RC_GTEST_PROP(SurfaceAddressProperty, an_address_paints_what_its_order_paints, ()) {
     const auto atlas = built_in_atlas();
     const MushroomOrder order = random_order(*atlas);
-    const SurfaceMetrics metrics = surface_metrics(resolve(order, *atlas));
-    const PaintRecipe painted = paint_recipe(order, *atlas, metrics);
+    const PaintRecipe painted = paint_recipe(order, *atlas);
     const MushroomOrder surface = surface_order(order, *atlas);
-    const SurfaceAddress address = surface_address(surface, metrics);
+    const SurfaceAddress address = surface_address(surface);
 
     // Through its text and back, as another server reads it.
     const std::string text = canonical_address(surface.mix, ImageKind::normal, address);
@@ -83,16 +82,16 @@ TEST(SurfaceAddress, shape_alone_does_not_change_it) {
     const auto atlas = built_in_atlas();
     MushroomOrder order;
     order.mix = {{test::first_species(), 1000}};
-    const auto address_of = [&] {
-        return surface_address(surface_order(order, *atlas),
-                               surface_metrics(resolve(order, *atlas)));
-    };
+    const auto address_of = [&] { return surface_address(surface_order(order, *atlas)); };
     const SurfaceAddress before = address_of();
     order.params.deformation.bend_deg = 30;
     order.params.deformation.lean_deg = 10;
     order.params.weathering.waves = 0.5;
     order.params.age += 0.0001;
+    order.params.size = 1.009;
     EXPECT_EQ(address_of(), before);
+    order.params.size = 0.5;
+    EXPECT_EQ(address_of().size, -35);
 }
 
 TEST(SurfaceAddress, weights_come_in_steps_of_a_sixty_fourth) {

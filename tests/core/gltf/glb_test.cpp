@@ -61,8 +61,7 @@ TEST(Glb, EmbeddedImagesDecodeToTheirSizeAndAreNeverCopied) {
     const MushroomOrder order = painted(order_of("boletus_edulis", 0.6, 2, 1), 256);
     const Individual individual = resolve(order, atlas());
     const Mesh mesh = mushroom_mesh(order, individual);
-    const ImageSet images =
-        *painted_images(paint_recipe(order, atlas(), surface_metrics(individual)), {});
+    const ImageSet images = *painted_images(paint_recipe(order, atlas()), {});
     GlbParts parts = parts_of("b");
     parts.images = &images;
     const Body body = glb(mesh, parts);
@@ -157,8 +156,7 @@ TEST(Glb, ImagesFollowTheClip) {
     const MushroomOrder order = painted(order_of("boletus_edulis", 0.6, 3, 2));
     const Individual individual = resolve(order, atlas());
     const Mesh mesh = mushroom_mesh(order, individual);
-    const ImageSet images =
-        *painted_images(paint_recipe(order, atlas(), surface_metrics(individual)), {});
+    const ImageSet images = *painted_images(paint_recipe(order, atlas()), {});
     const std::vector<MorphTarget> targets = lift_and_turn(mesh);
     const WeightClip clip{"c", {0.0f, 1.0f}, {1, 0, 0, 1}};
     GlbParts parts = parts_of("b");

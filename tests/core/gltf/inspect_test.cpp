@@ -76,6 +76,16 @@ TEST(Inspect, GivesTheRequestBackThatMadeTheFile) {
     EXPECT_EQ(effective, resolve(order, atlas()).effective);
 }
 
+TEST(Inspect, CountsTheTargetsAndClipsOfAGrowingMushroom) {
+    EXPECT_EQ(inspect_glb(grown()).morph_targets, 0u);
+    EXPECT_EQ(inspect_glb(grown()).animations, 0u);
+    const Inspection found = inspect_glb(joined(
+        grow_mushroom(growing(order_of("boletus_edulis", 0.6, 1, 3), 5), atlas(), {address, {}})
+            .glb));
+    EXPECT_EQ(found.morph_targets, 5u);
+    EXPECT_EQ(found.animations, 1u);
+}
+
 TEST(Inspect, TheParametersItGivesGrowTheSameShapeAgain) {
     std::vector<Problem> problems;
     MushroomOrder order = order_of("amanita_muscaria");

@@ -47,17 +47,13 @@ struct Keeper {
     }
 };
 
-PaintRecipe recipe_of(const MushroomOrder& order) {
-    return paint_recipe(order, atlas(), surface_metrics(resolve(order, atlas())));
-}
+PaintRecipe recipe_of(const MushroomOrder& order) { return paint_recipe(order, atlas()); }
 
-/// Two species' own paintings, painted small with the lengths of the first.
+/// Two species' own paintings, painted small.
 PaintRecipe pair(int first) {
     const MushroomOrder a = painted(order_of("amanita_muscaria"));
     const MushroomOrder b = painted(order_of("boletus_edulis"));
-    const SurfaceMetrics metrics = surface_metrics(resolve(a, atlas()));
-    return {{paint_recipe(a, atlas(), metrics).at(0).painting, first},
-            {paint_recipe(b, atlas(), metrics).at(0).painting, 64 - first}};
+    return {{recipe_of(a).at(0).painting, first}, {recipe_of(b).at(0).painting, 64 - first}};
 }
 
 RC_GTEST_PROP(SurfaceMix, is_the_nearest_in_sixty_fourths_and_stays_it, ()) {
@@ -130,21 +126,67 @@ MushroomOrder mixed(Mix mix) {
     return order;
 }
 
-TEST(Painting, EachSpeciesOfAMixIsPaintedAsItself) {
-    const PaintRecipe recipe =
-        recipe_of(mixed({{"amanita_muscaria", 703}, {"boletus_edulis", 297}}));
+TEST(Painting, EachSpeciesOfAMixIsPaintedAsItWouldBeAlone) {
+    MushroomOrder order = mixed({{"amanita_muscaria", 703}, {"boletus_edulis", 297}});
+    order.params.age = 0.71;
+    order.params.size = 1.7;
+    order.params.variation = 1.0;
+    const PaintRecipe recipe = recipe_of(order);
     ASSERT_EQ(recipe.size(), 2U);
-    EXPECT_EQ(recipe[0].sixty_fourths + recipe[1].sixty_fourths, 64);
-    EXPECT_EQ(recipe[0].painting.metrics, recipe[1].painting.metrics);
-    EXPECT_EQ(recipe[0].painting.lightness, recipe[1].painting.lightness);
     for (const PaintShare& share : recipe) {
         const bool agaric = share.painting.surface.hymenium.pattern == HymeniumPattern::gills;
-        const std::string id = agaric ? "amanita_muscaria" : "boletus_edulis";
         EXPECT_EQ(share.sixty_fourths, agaric ? 45 : 19);
-        const PaintParams alone = recipe_of(painted(order_of(id, 0.6, 3))).at(0).painting;
-        EXPECT_EQ(share.painting.surface, alone.surface);
-        EXPECT_EQ(share.painting.warts, alone.warts);
-        EXPECT_EQ(share.painting.ornaments, alone.ornaments);
+        MushroomOrder alone = order;
+        alone.mix = {{agaric ? "amanita_muscaria" : "boletus_edulis", 1000}};
+        EXPECT_EQ(share.painting, recipe_of(alone).at(0).painting);
+    }
+}
+
+TEST(Painting, ADragOfTheWeightPaintsEachSpeciesOnce) {
+    // Whatever is asked of the pair: 64 steps dissolve, and paint what is painted of the first.
+    for (const auto& [a, b] : {std::pair{"amanita_muscaria", "boletus_edulis"},
+                               {"coprinus_comatus", "disciotis_venosa"}}) {
+        std::set<std::string> keys;
+        Keeper keeper;
+        for (int step = 1; step < 64; ++step) {
+            MushroomOrder order = mixed({{a, 1000 - step * 1000 / 64}, {b, step * 1000 / 64}});
+            order.params.variation = 1.0;
+            order.params.size = 0.6;
+            order.params.lod = 3;
+            (void)painted_images(recipe_of(order), keeper.workshop);
+        }
+        EXPECT_EQ(keeper.painted, 2) << a << ' ' << b;
+        EXPECT_EQ(keeper.dissolved, 63);
+    }
+}
+
+TEST(Painting, SizesAreStepsOfTwoPerCent) {
+    MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 3));
+    const PaintParams own = recipe_of(order).at(0).painting;
+    order.params.size = 1.008;
+    EXPECT_EQ(recipe_of(order).at(0).painting, own);
+    order.params.size = 1.02;
+    PaintParams larger = recipe_of(order).at(0).painting;
+    EXPECT_EQ(larger.metrics.cap_arc, own.metrics.cap_arc + 1);
+    EXPECT_EQ(larger.metrics.stem_radius, own.metrics.stem_radius + 1);
+    larger.metrics = own.metrics;
+    EXPECT_EQ(larger, own);
+    for (const double size : {0.25, 0.31, 1.0, 2.7, 4.0}) {
+        order.params.size = size;
+        const MushroomOrder surface = surface_order(order, atlas());
+        EXPECT_NEAR(surface.params.size / size, 1.0, 0.0101);
+        EXPECT_EQ(surface_order(surface, atlas()).params.size, surface.params.size);
+        const int step = recipe_of(order).at(0).painting.metrics.cap_arc;
+        EXPECT_NEAR(length_of_step(step) / length_of_step(own.metrics.cap_arc) / size, 1.0, 0.0101);
+    }
+}
+
+TEST(Painting, LengthsAreThoseOfTheShapeAlone) {
+    // At a 64th of age a lone species' painting has the lengths that its outline has.
+    for (const std::string& id : species_ids()) {
+        MushroomOrder order = painted(order_of(id, 0.59375, 3));
+        EXPECT_EQ(recipe_of(order).at(0).painting.metrics, surface_metrics(resolve(order, atlas())))
+            << id;
     }
 }
 
@@ -204,6 +246,49 @@ TEST(Painting, GillsOfAMixStandOnTheCombOfTheMost) {
     }
 }
 
+TEST(Painting, GillsGoOverToTheirOwnPlacesTowardsTheCorner) {
+    const auto own_share = [](int step) {
+        int own = 0, common = 0;
+        const PaintRecipe recipe =
+            recipe_of(mixed({{"mycena_sanguinolenta", 1000 - step * 1000 / 64},
+                             {"coprinus_comatus", step * 1000 / 64}}));
+        EXPECT_EQ(atlases_held(recipe), static_cast<int>(recipe.size()) + 1);
+        for (const PaintShare& share : recipe)
+            if (share.painting.hymenium.blades < 50)
+                (share.painting.comb == 0 ? own : common) += share.sixty_fourths;
+        EXPECT_EQ(own + common, 64 - step);
+        return own;
+    };
+    EXPECT_EQ(own_share(1), 62);
+    EXPECT_EQ(own_share(16), 0);
+    EXPECT_EQ(own_share(40), 0);
+    int last = 64;
+    for (int step = 1; step < 24; ++step) {
+        const int own = own_share(step);
+        EXPECT_LE(own, last);
+        EXPECT_LE(last - own, 7) << step;
+        last = own;
+    }
+}
+
+TEST(Painting, AtlasesThatAreHeldAreCounted) {
+    EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 1000}})), 1);
+    EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 997}, {"boletus_edulis", 3}})), 1);
+    EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 500}, {"boletus_edulis", 500}})), 3);
+    Mix mix;
+    for (const std::string& id : species_ids())
+        if (mix.size() < 8) mix.push_back({id, 125});
+    EXPECT_EQ(atlases_held(mixed(mix)), 9);
+    for (MixPart& part : mix) part.weight = 17;
+    mix.front().weight = 1000 - 7 * 17;
+    EXPECT_EQ(atlases_held(mixed(mix)), 10);
+    EXPECT_GE(atlases_held(mixed(mix)), atlases_held(recipe_of(mixed(mix))));
+    const MushroomOrder order = mixed(mix);
+    EXPECT_EQ(estimate(order, atlas()).texels, 10U * 3 * 128 * 128);
+    EXPECT_EQ(estimate(order, atlas()).bytes, estimate(textured(order), atlas()).bytes + 128U * 128)
+        << "one atlas is in the file";
+}
+
 TEST(Painting, WhatAPersonAsksForActsOnEverySpecies) {
     MushroomOrder order = mixed({{"amanita_muscaria", 500}, {"coprinus_comatus", 500}});
     order.params.weathering.fade = 0.7;
@@ -229,11 +314,11 @@ TEST(Painting, AMixedMushroomCarriesTheImagesOfItsRecipe) {
     for (const Slice& file : images->files)
         EXPECT_TRUE(std::any_of(mushroom.glb.begin(), mushroom.glb.end(),
                                 [&](const Slice& s) { return s.owner == file.owner; }));
-    // A thousandth is less than an image knows, but for the lengths.
+    // A thousandth is less than an image knows.
     MushroomOrder near = order;
     near.mix[0].weight = 401;
     near.mix[1].weight = 599;
-    EXPECT_EQ(surface_order(near, atlas()).mix, surface_order(order, atlas()).mix);
+    EXPECT_EQ(recipe_of(near), recipe_of(order));
 }
 
 TEST(Painting, AMixIsDissolvedFromPaintingsThatAreKept) {

@@ -118,7 +118,7 @@ TEST_F(Dissolve, AWholeWeightIsThatPaintingByteForByte) {
 
 TEST_F(Dissolve, EqualPaintingsDissolveIntoThemselves) {
     const RawImages painting = unlike(256)[0];
-    for (const std::size_t count : {std::size_t{2}, std::size_t{8}}) {
+    for (const std::size_t count : {std::size_t{2}, std::size_t{9}}) {
         const std::vector<double> weights(count, 1.0 / static_cast<double>(count));
         const RawImages same = dissolved(std::vector<RawImages>(count, painting), weights);
         EXPECT_EQ(same.rgb[0], painting.rgb[0]);
@@ -283,7 +283,7 @@ TEST_F(Dissolve, RefusesWhatCannotBeDissolved) {
     refuses({&p[0], &p[1]}, {std::numeric_limits<double>::infinity(), 0.0});
     refuses({&p[0], nullptr}, {0.5, 0.5});
     refuses({&p[0], &small}, {0.5, 0.5});
-    refuses(std::vector<const RawImages*>(9, &p[0]), std::vector<double>(9, 1.0 / 9.0));
+    refuses(std::vector<const RawImages*>(10, &p[0]), std::vector<double>(10, 0.1));
     RawImages cut = p[0];
     cut.rgb[2].pop_back();
     refuses({&p[0], &cut}, {0.5, 0.5});
