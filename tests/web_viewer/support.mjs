@@ -10,9 +10,12 @@ export const root = path.resolve(here, "../..");
 /** The page's room holds the packages; tests have none of their own. */
 export const packages = createRequire(path.join(root, "web_viewer/package.json"));
 
-/** Address of the running server, without a slash at its end. */
-export function serverUrl() {
-    const url = process.env.SPOREPRINT_URL;
+/**
+ * Address of the running server, without a slash at its end. For `everySpecies` that of a server with the whole atlas
+ * (SPOREPRINT_ALL_URL), where there are two.
+ */
+export function serverUrl({ everySpecies = false } = {}) {
+    const url = (everySpecies && process.env.SPOREPRINT_ALL_URL) || process.env.SPOREPRINT_URL;
     if (!url) throw new Error("SPOREPRINT_URL is not set: start a server and name it, e.g. http://127.0.0.1:8080");
     return url.replace(/\/+$/, "");
 }

@@ -2,29 +2,18 @@
 //
 //   node tests/web_viewer/validate_glbs.mjs http://127.0.0.1:8080/v1/mushrooms/boletus_edulis.glb?lod=1 ...
 //   node tests/web_viewer/validate_glbs.mjs FOLDER|FILE ...
+//     -              takes more of them from standard input, one a line
 //     --allow CODE   lets an issue pass (opt-in extensions: UNSUPPORTED_EXTENSION, UNUSED_OBJECT)
+//     --workers N    threads (1 to 8; as many as processors)
 import { readFile, readdir, stat } from "node:fs/promises";
+import { availableParallelism } from "node:os";
 import path from "node:path";
+import { text } from "node:stream/consumers";
+import { Worker, isMainThread, parentPort, workerData } from "node:worker_threads";
+import { fileURLToPath } from "node:url";
 import { packages } from "./support.mjs";
 
-const { validateBytes } = packages("gltf-validator");
 const severities = ["error", "warning", "info", "hint"];
-
-const allowed = new Set();
-const sources = [];
-const argv = process.argv.slice(2);
-for (let i = 0; i < argv.length; ++i) {
-    if (argv[i] === "--allow" && argv[i + 1]) allowed.add(argv[++i]);
-    else if (/^https?:/.test(argv[i])) sources.push(argv[i]);
-    else if ((await stat(argv[i])).isDirectory()) {
-        const names = (await readdir(argv[i])).filter((name) => name.endsWith(".glb")).sort();
-        sources.push(...names.map((name) => path.join(argv[i], name)));
-    } else sources.push(argv[i]);
-}
-if (sources.length === 0) {
-    console.error("nothing to validate: give URLs, .glb files or a folder of them");
-    process.exit(2);
-}
 
 async function bytesOf(source) {
     if (!/^https?:/.test(source)) return new Uint8Array(await readFile(source));
@@ -33,28 +22,64 @@ async function bytesOf(source) {
     return new Uint8Array(await response.arrayBuffer());
 }
 
-let failed = 0;
-for (const source of sources) {
+/** What is wrong with a GLB, in lines; none when all is well. */
+async function faultsOf(source, allowed) {
     try {
-        const bytes = await bytesOf(source);
-        const { issues } = await validateBytes(bytes, {
+        const { issues } = await packages("gltf-validator").validateBytes(await bytesOf(source), {
             uri: source,
             maxIssues: 50,
             writeTimestamp: false,
             externalResourceFunction: (uri) => bytesOf(new URL(uri, source).href),
         });
-        const left = issues.messages.filter(({ code }) => !allowed.has(code));
-        if (left.length === 0 && !issues.truncated) continue;
-        failed += 1;
-        console.error(`${source}: ${issues.numErrors}/${issues.numWarnings}/${issues.numInfos}/${issues.numHints}`);
-        for (const { severity, code, message, pointer } of left.slice(0, 12)) {
-            console.error(`  ${severities[severity]} ${code} ${pointer ?? ""}: ${message}`);
-        }
-        if (left.length > 12 || issues.truncated) console.error("  and more");
+        const left = issues.messages.filter(({ code }) => !allowed.includes(code));
+        if (left.length === 0 && !issues.truncated) return [];
+        return [
+            `${source}: ${issues.numErrors}/${issues.numWarnings}/${issues.numInfos}/${issues.numHints}`,
+            ...left.slice(0, 12).map(({ severity, code, message, pointer }) => `  ${severities[severity]} ${code} ${pointer ?? ""}: ${message}`),
+            ...(left.length > 12 || issues.truncated ? ["  and more"] : []),
+        ];
     } catch (error) {
-        failed += 1;
-        console.error(`${source}: ${error instanceof Error ? error.message : error}`);
+        return [`${source}: ${error instanceof Error ? error.message : error}`];
     }
 }
-console.log(`${sources.length - failed} of ${sources.length} GLBs at 0/0/0/0`);
-process.exitCode = failed ? 1 : 0;
+
+async function main() {
+    const allowed = [];
+    const sources = [];
+    let workers = Math.min(8, availableParallelism());
+    const argv = process.argv.slice(2);
+    for (let i = 0; i < argv.length; ++i) {
+        if (argv[i] === "--allow" && argv[i + 1]) allowed.push(argv[++i]);
+        else if (argv[i] === "--workers" && argv[i + 1]) workers = Math.max(1, Math.min(8, Number(argv[++i]) || 1));
+        else if (argv[i] === "-") sources.push(...(await text(process.stdin)).split("\n").filter(Boolean));
+        else if (/^https?:/.test(argv[i])) sources.push(argv[i]);
+        else if ((await stat(argv[i])).isDirectory()) {
+            const names = (await readdir(argv[i])).filter((name) => name.endsWith(".glb")).sort();
+            sources.push(...names.map((name) => path.join(argv[i], name)));
+        } else sources.push(argv[i]);
+    }
+    if (sources.length === 0) {
+        console.error("nothing to validate: give URLs, .glb files or a folder of them");
+        process.exit(2);
+    }
+
+    // Each thread asks for the next one when it is done: some take a hundred times as long as others.
+    let next = 0;
+    let failed = 0;
+    await Promise.all(Array.from({ length: Math.min(workers, sources.length) }, () => new Promise((resolve, reject) => {
+        const worker = new Worker(fileURLToPath(import.meta.url), { workerData: { allowed } });
+        const give = () => (next < sources.length ? worker.postMessage(sources[next++]) : worker.terminate().then(resolve));
+        worker.on("message", (faults) => {
+            if (faults.length > 0) failed += 1;
+            for (const line of faults) console.error(line);
+            give();
+        });
+        worker.on("error", reject);
+        give();
+    })));
+    console.log(`${sources.length - failed} of ${sources.length} GLBs at 0/0/0/0`);
+    process.exitCode = failed ? 1 : 0;
+}
+
+if (isMainThread) await main();
+else parentPort.on("message", async (source) => parentPort.postMessage(await faultsOf(source, workerData.allowed)));
