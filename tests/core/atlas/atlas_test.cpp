@@ -158,23 +158,6 @@ TEST(Atlas, IndividualsThatDifferMostAreSoundAtEveryStageAndBetween) {
     }
 }
 
-TEST(Atlas, MatureMushroomsHaveTheSizeThatIsRecorded) {
-    for (const AtlasEntry& entry : atlas().entries()) {
-        const Facts& facts = entry.species.facts;
-        MushroomOrder order = order_of(entry.species.id.string(), 0.6);
-        order.params.variation = 0.0;
-        order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
-        const Bounds box = bounds(mesh_of(order));
-        const double height = box.max.y;
-        EXPECT_GE(height, facts.height_m.from) << entry.species.id.string();
-        EXPECT_LE(height, facts.height_m.to) << entry.species.id.string();
-        if (!facts.cap_diameter_m) continue;
-        const double diameter = box.max.x - box.min.x;
-        EXPECT_GE(diameter, facts.cap_diameter_m->from) << entry.species.id.string();
-        EXPECT_LE(diameter, facts.cap_diameter_m->to) << entry.species.id.string();
-    }
-}
-
 TEST(Atlas, TheServedTemplateReadsBackAsTheSameSpecies) {
     for (const AtlasEntry& entry : atlas().entries()) {
         std::vector<Problem> problems;

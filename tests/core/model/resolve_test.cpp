@@ -136,7 +136,9 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
             };
             const double width =
                 greatest_radius(individual.outline.stem) / greatest_radius(plain.outline.stem);
-            EXPECT_TRUE(within(width, spread.size + spread.stem_width)) << seed;
+            // The widest place of a bulb lies between the places where it is looked for.
+            EXPECT_TRUE(within(width, spread.size + spread.stem_width + 0.005))
+                << species.id.view() << ' ' << seed;
             if (stem_length(plain) > 0.0) {
                 const double length = stem_length(individual) / stem_length(plain);
                 EXPECT_TRUE(within(length, spread.size + spread.stem_length)) << seed;

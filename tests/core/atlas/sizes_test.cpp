@@ -1,0 +1,169 @@
+// Sizes that are recorded of each species, kept here a second time with where they come from, against what the generator makes.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/surface/charts.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+struct Sizes {
+    double from, to;
+};
+
+/// Centimetres. Where only the stem is recorded, the height ends above it by the depth of a large cap.
+struct Recorded {
+    std::string_view id;
+    Sizes cap;     ///< diameter, to the greatest that is reported; 0 where there is no cap
+    Sizes height;  ///< of the whole fruit body
+    const char* source;
+};
+
+constexpr const char* wagner = "Wagner, Heider, Hattab 2021, primary_data_edited.csv";
+constexpr const char* phillips = "Phillips, Mushrooms 2006";
+
+constexpr std::array recorded = {
+    Recorded{"amanita_muscaria", {8, 39}, {6, 28}, wagner},
+    Recorded{"amanita_phalloides", {4, 20}, {5, 17}, wagner},
+    Recorded{"armillaria_mellea", {3, 15}, {5, 21.5}, wagner},
+    Recorded{"boletus_edulis", {5, 30}, {3, 31}, wagner},
+    Recorded{"cantharellus_cibarius", {2, 11}, {2, 10}, wagner},
+    Recorded{"clavariadelphus_pistillaris", {0, 0}, {7, 30}, wagner},
+    Recorded{"coprinellus_disseminatus", {0.5, 2}, {1.5, 4.8}, wagner},
+    Recorded{"coprinopsis_atramentaria", {3, 12}, {5, 19}, wagner},
+    Recorded{"coprinus_comatus", {2.5, 7}, {8, 35}, wagner},
+    Recorded{"disciotis_venosa", {3, 21}, {0.5, 6}, "bib.ge/soko"},
+    Recorded{"fomes_fomentarius", {5, 50}, {2, 25}, wagner},
+    Recorded{"geastrum_triplex", {5, 15}, {2, 8}, phillips},
+    Recorded{"hydnum_repandum", {3, 25}, {2, 11.5}, wagner},
+    Recorded{"hygrocybe_coccinea", {2, 5}, {3, 7}, wagner},
+    Recorded{"hygrocybe_conica", {1.5, 10}, {3, 12}, wagner},
+    Recorded{"hypholoma_fasciculare", {2, 9}, {4, 14}, wagner},
+    Recorded{"infundibulicybe_geotropa", {4, 20}, {5, 17}, phillips},
+    Recorded{"infundibulicybe_gibba", {3, 9}, {2.5, 10.5}, wagner},
+    Recorded{"laccaria_amethystina", {1, 7}, {3, 10.8}, wagner},
+    Recorded{"lactarius_deliciosus", {3, 20}, {3, 11.5}, wagner},
+    Recorded{"lepista_nuda", {4, 20}, {3, 12}, wagner},
+    Recorded{"lycoperdon_perlatum", {1.5, 6}, {2, 10}, phillips},
+    Recorded{"macrolepiota_procera", {10, 30}, {15, 38}, wagner},
+    Recorded{"marasmius_oreades", {1, 8}, {2, 10.5}, wagner},
+    Recorded{"morchella_esculenta", {2, 7}, {4, 19}, wagner},
+    Recorded{"mycena_galericulata", {1, 6}, {3, 15}, wagner},
+    Recorded{"mycena_haematopus", {1, 4}, {2.5, 11}, "bib.ge/soko 792, englishfungi.org"},
+    Recorded{"mycena_sanguinolenta", {0.5, 1.5}, {4, 8}, wagner},
+    Recorded{"phallus_impudicus", {2.5, 5}, {10, 30}, phillips},
+    Recorded{"pleurotus_ostreatus", {5, 25}, {1, 14}, wagner},
+    Recorded{"psilocybe_semilanceata", {0.5, 2.5}, {2.5, 11}, wagner},
+    Recorded{"russula_emetica", {3, 10}, {4, 10.5}, wagner},
+    Recorded{"russula_vinosa", {5, 12}, {4, 9}, "cs.wikipedia, Holubinka tečkovaná"},
+    Recorded{"trametes_versicolor", {2, 10}, {0.1, 6}, wagner},
+    Recorded{"tremella_mesenterica", {2, 10}, {1, 4}, phillips},
+};
+
+/// The atlas with straight axes.
+const Atlas& straight_atlas() {
+    static const Atlas straight = [] {
+        std::vector<std::string> texts;
+        for (const AtlasEntry& entry : atlas().entries()) {
+            std::string json = entry.json;
+            for (std::size_t at = 0; (at = json.find("\"axis\":[", at)) != std::string::npos;
+                 at += 9) {
+                const std::size_t from = at + 8;
+                json.erase(from, json.find(']', from) - from);
+            }
+            texts.push_back(std::move(json));
+        }
+        return Atlas(texts);
+    }();
+    return straight;
+}
+
+struct Measured {
+    double width = 0.0, height = 0.0;  ///< centimetres
+};
+
+/// The cap's width and the height of its top, from the vertices that wear the cap's chart: no ring, volva, bulb, wart or bend.
+Measured measure(MushroomOrder order) {
+    order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
+    order = textured(order);
+    const Mesh mesh = mushroom_mesh(order, resolve(order, straight_atlas()));
+    const Chart& chart = swept_charts[static_cast<std::size_t>(Part::cap)];
+    glm::vec3 low(1e9F), high(-1e9F);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec2 uv = mesh.texture_coordinates[i];
+        if (uv.x < chart.u || uv.x > chart.u + chart.width || uv.y < chart.v ||
+            uv.y > chart.v + chart.height)
+            continue;
+        low = glm::min(low, mesh.positions[i]);
+        high = glm::max(high, mesh.positions[i]);
+    }
+    return {100.0 * std::max(high.x - low.x, high.z - low.z), 100.0 * high.y};
+}
+
+constexpr double rounding = 1e-6;
+
+TEST(Sizes, EverySpeciesIsRecordedWithAsMuchAsItsFactsSay) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const Facts& facts = entry.species.facts;
+        const std::string id = entry.species.id.string();
+        const auto* const row = std::find_if(recorded.begin(), recorded.end(),
+                                             [&](const Recorded& one) { return one.id == id; });
+        ASSERT_NE(row, recorded.end()) << id << " has no recorded sizes";
+        EXPECT_GE(100.0 * facts.height_m.from, row->height.from - rounding) << id;
+        EXPECT_LE(100.0 * facts.height_m.to, row->height.to + rounding) << id;
+        EXPECT_EQ(facts.cap_diameter_m.has_value(), row->cap.to > 0.0) << id;
+        if (!facts.cap_diameter_m) continue;
+        EXPECT_GE(100.0 * facts.cap_diameter_m->from, row->cap.from - rounding) << id;
+        EXPECT_LE(100.0 * facts.cap_diameter_m->to, row->cap.to + rounding) << id;
+    }
+}
+
+TEST(Sizes, MatureMushroomsLieWithinWhatIsRecorded) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const Facts& facts = entry.species.facts;
+        const std::string id = entry.species.id.string();
+        MushroomOrder order = order_of(id);
+        order.params.variation = 0.0;
+        const Measured size = measure(order);
+        EXPECT_GE(size.height, 100.0 * facts.height_m.from) << id;
+        EXPECT_LE(size.height, 100.0 * facts.height_m.to) << id;
+        if (!facts.cap_diameter_m) continue;
+        EXPECT_GE(size.width, 100.0 * facts.cap_diameter_m->from) << id;
+        EXPECT_LE(size.width, 100.0 * facts.cap_diameter_m->to) << id;
+    }
+}
+
+TEST(Sizes, IndividualsSpanMostOfWhatIsRecordedAndNoMore) {
+    for (const AtlasEntry& entry : atlas().entries()) {
+        const Facts& facts = entry.species.facts;
+        const std::string id = entry.species.id.string();
+        Sizes width{1e9, 0.0}, height{1e9, 0.0};
+        for (std::uint32_t seed = 1; seed <= 96; ++seed) {
+            MushroomOrder order = order_of(id, 0.6, seed, 2);
+            order.params.variation = 1.0;
+            const Measured size = measure(order);
+            width = {std::min(width.from, size.width), std::max(width.to, size.width)};
+            height = {std::min(height.from, size.height), std::max(height.to, size.height)};
+        }
+        // Shares of logarithms: sizes vary by factors.
+        const auto expect_span = [&](const char* what, Sizes made, Range fact) {
+            EXPECT_GE(made.from, 100.0 * fact.from) << id << ": " << what;
+            EXPECT_LE(made.to, 100.0 * fact.to) << id << ": " << what;
+            EXPECT_GE(std::log(made.to / made.from), 0.54 * std::log(fact.to / fact.from))
+                << id << ": " << what << " from " << made.from << " to " << made.to;
+        };
+        expect_span("height", height, facts.height_m);
+        if (facts.cap_diameter_m) expect_span("cap", width, *facts.cap_diameter_m);
+    }
+}
+
+}  // namespace
+}  // namespace sporeprint
