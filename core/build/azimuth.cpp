@@ -76,16 +76,20 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
     third_ = random.uniform(0.0, 2.0 * pi);
     if (!has_lobes_ || carried_) return;
     constexpr int samples = 64;
-    for (int i = 0; i < samples; ++i)
-        mean_notch_ += notch_at(cosine(2.0 * pi * i / samples), azimuth_.lobe_sharpness).value;
-    mean_notch_ /= samples;
+    const double less = 0.3 * azimuth_.lobe_uneven;
+    double square = 0.0;
+    for (int i = 0; i < samples; ++i) {
+        const double notch =
+            notch_at(cosine(2.0 * pi * i / samples), azimuth_.lobe_sharpness).value;
+        const double reach = 1.0 - azimuth_.lobe_depth * (notch + less * (1.0 - notch));
+        square += reach * reach / samples;
+    }
+    mean_reach_ = std::sqrt(square);
 }
 
 AzimuthMap::Reach AzimuthMap::lobe_at(double angle) const {
     if (!has_lobes_) return {};
-    const double mean = 0.3 * azimuth_.lobe_uneven;
-    if (!carried_)
-        return {1.0 - azimuth_.lobe_depth * (mean_notch_ + mean * (1.0 - mean_notch_)), 0.0};
+    if (!carried_) return {mean_reach_, 0.0};
     const double n = azimuth_.lobes, uneven = n * azimuth_.lobe_uneven;
     const auto one = sine_cosine(angle + first_), two = sine_cosine(2.0 * angle + second_),
                low = sine_cosine(2.0 * angle + third_);
@@ -95,6 +99,7 @@ AzimuthMap::Reach AzimuthMap::lobe_at(double angle) const {
     const auto turn = sine_cosine(phase);
     const Notch notch = notch_at(turn.cosine, azimuth_.lobe_sharpness);
     const double notch_by = -notch.by_cosine * turn.sine * phase_by;
+    const double mean = 0.3 * azimuth_.lobe_uneven;
     const double less = mean * (1.0 + low.sine), less_by = 2.0 * mean * low.cosine;
     return {1.0 - azimuth_.lobe_depth * (notch.value + less * (1.0 - notch.value)),
             -azimuth_.lobe_depth * (notch_by * (1.0 - less) + less_by * (1.0 - notch.value))};

@@ -18,7 +18,7 @@ namespace sporeprint {
 /// Then the fan does the same to r with its own core and reach; it also turns the half-planes towards the front, where most is seen.
 class AzimuthMap {
   public:
-    /// columns  of the mesh: lobes that they cannot carry become a circle of the mean reach
+    /// columns  of the mesh: lobes that they cannot carry become a circle of the same area
     AzimuthMap(const Individual& individual, int columns);
 
     /// Whether nothing moves at all.
@@ -58,7 +58,7 @@ class AzimuthMap {
     double radius_, root_;
     bool has_lobes_, has_fan_, carried_;
     double phase_, first_, second_, third_;
-    double mean_notch_ = 0.0;
+    double mean_reach_ = 1.0;
 };
 
 }  // namespace sporeprint

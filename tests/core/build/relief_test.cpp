@@ -13,6 +13,7 @@
 #include "core/build/sweep.h"
 #include "core/math/noise.h"
 #include "core/math/random.h"
+#include "core/params/reader.h"
 #include "core/surface/paint.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -161,6 +162,31 @@ TEST(Relief, MeshesAreValidAtEveryDetailAndTheFinestIsFiner) {
             }
     EXPECT_GT(carried_relief(kinds()[1], 128, 55).pits, 0.99);
     EXPECT_EQ(carried_relief(kinds()[1], 16, 7).pits, 0.0);
+}
+
+TEST(Relief, EachSpeciesBringsItsOwnAsDeepAsItWeighs) {
+    const auto carved = [](const char* name, double pits, int columns) {
+        Species species = atlas().find("clavariadelphus_pistillaris")->species;
+        species.id = Text<48>(name);
+        for (Stage& stage : species.stages) {
+            ReliefStyle& relief = std::get<Swept>(stage.model.shape).relief;
+            relief.pits = stage.age < 0.1 ? 0.0 : pits;
+            relief.pit_columns = columns;
+        }
+        return dump(write(species));
+    };
+    const Atlas forms({atlas().find("amanita_muscaria")->json, carved("fine", 0.04, 20),
+                       carved("same", 0.08, 20), carved("wide", 0.06, 10)});
+    const Individual individual = resolve(
+        mix_of({{"amanita_muscaria", 400}, {"fine", 100}, {"same", 200}, {"wide", 300}}), forms);
+    ASSERT_EQ(individual.reliefs.size(), 2U) << "equal forms share one";
+    EXPECT_NEAR(individual.reliefs[0].pits, 0.1 * 0.04 + 0.2 * 0.08, 1e-12);
+    EXPECT_NEAR(individual.reliefs[1].pits, 0.3 * 0.06, 1e-12);
+    expect_valid(swept_mesh(individual, 0));
+    // The number of vertices is that of the set at every age, also before the first pit.
+    const Mesh young = swept_mesh(resolve(order_of("fine", 0.0), forms), 0);
+    EXPECT_TRUE(resolve(order_of("fine", 0.0), forms).reliefs.empty());
+    EXPECT_EQ(young.indices, swept_mesh(resolve(order_of("fine", 0.6), forms), 0).indices);
 }
 
 TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
