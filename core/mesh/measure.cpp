@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <compare>
 #include <glm/geometric.hpp>
-#include <map>
 #include <numeric>
 #include <tuple>
 
@@ -87,7 +87,13 @@ std::vector<std::string> defects(const Mesh& mesh) {
         }
     }
     const auto weld = welded(mesh);
-    std::map<std::pair<std::uint32_t, std::uint32_t>, int> edges;
+    struct Edge {
+        std::uint32_t from, to;
+        int times;  // 1 as it stands in a triangle, -1 as its neighbour needs it
+        auto operator<=>(const Edge&) const = default;
+    };
+    std::vector<Edge> edges;
+    edges.reserve(2 * mesh.indices.size());
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
         std::array<std::uint32_t, 3> t{};
         for (std::size_t k = 0; k < 3; ++k) {
@@ -102,13 +108,19 @@ std::vector<std::string> defects(const Mesh& mesh) {
         for (std::size_t k = 0; k < 3; ++k) {
             const auto a = weld[t[k]], b = weld[t[(k + 1) % 3]];
             if (a == b) continue;
-            ++edges[{a, b}];
-            --edges[{b, a}];
+            edges.push_back({a, b, 1});
+            edges.push_back({b, a, -1});
         }
     }
-    for (const auto& [edge, count] : edges)
+    std::sort(edges.begin(), edges.end());
+    for (std::size_t i = 0; i < edges.size();) {
+        const Edge edge = edges[i];
+        int count = 0;
+        for (; i < edges.size() && edges[i].from == edge.from && edges[i].to == edge.to; ++i)
+            count += edges[i].times;
         if (count > 0)
-            say("open edge " + std::to_string(edge.first) + "-" + std::to_string(edge.second));
+            say("open edge " + std::to_string(edge.from) + "-" + std::to_string(edge.to));
+    }
     return found;
 }
 

@@ -180,12 +180,14 @@ TEST_F(MorphsTest, methods_of_both_addresses_are_told) {
     expect_problem(ask("/v1/morphs/" + std::string(first)), 404);
 }
 
-TEST_F(MorphsTest, every_pair_has_a_simple_correspondence) {
+TEST_F(MorphsTest, pairs_have_a_simple_correspondence_either_way) {
     const auto atlas = built_in_atlas();
-    for (const AtlasEntry& a : atlas->entries())
-        for (const AtlasEntry& b : atlas->entries()) {
-            if (&a == &b) continue;
-            const std::string one = a.species.id.string(), two = b.species.id.string();
+    const auto& species = atlas->entries();
+    // Each species with two others; core's tests look at every pair.
+    for (std::size_t i = 0; i < species.size(); ++i)
+        for (const std::size_t steps : {species.size() - 1, species.size() / 3}) {
+            const std::string one = species[i].species.id.string(),
+                              two = species[(i + steps) % species.size()].species.id.string();
             const Answer answer = ask(morph(one, two));
             ASSERT_EQ(answer.status, 200) << one << ' ' << two << text_of(answer);
             EXPECT_TRUE(json_of(answer).at_pointer("/certificate/simple")->as_bool())

@@ -31,7 +31,7 @@ api::Answer text_answer(const std::string& text, int status = 200) {
 /// A transport on a free port whose answers the test decides.
 struct Fixture {
     explicit Fixture(std::function<api::Answer(const api::Request&, const Gone&)> answer,
-                     TransportOptions options = quick()) {
+                     TransportOptions options = patient()) {
         options.port = 0;
         Handlers handlers;
         handlers.answer = std::move(answer);
@@ -53,6 +53,14 @@ struct Fixture {
     }
     ~Fixture() { transport.reset(); }
 
+    /// For tests of everything but time: however busy the machine, nobody loses a turn for so long.
+    static TransportOptions patient() {
+        TransportOptions options;
+        options.idle = options.silence = options.head = options.body = options.blocked_write = 60s;
+        return options;
+    }
+
+    /// For tests of deadlines.
     static TransportOptions quick() {
         TransportOptions options;
         options.idle = 400ms;
@@ -128,9 +136,8 @@ TEST(Transport, SendsSlicesOneAfterAnother) {
         return answer;
     });
     RawClient client(server.port());
-    for (int i = 0; i < 3; ++i)
-        EXPECT_TRUE(client.ask("GET / HTTP/1.1\r\n\r\n").body ==
-                    "head," + large + large.substr(1000, 5));
+    const std::string expected = "head," + large + large.substr(1000, 5);
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(client.ask("GET / HTTP/1.1\r\n\r\n").body == expected);
 }
 
 TEST(Transport, GivesHeadTheLengthButNoBody) {
@@ -282,14 +289,16 @@ TEST(Transport, TakesBodies) {
 }
 
 TEST(Transport, BoundsTheMemoryOfLargeBodies) {
-    TransportOptions options = Fixture::quick();
+    TransportOptions options = Fixture::patient();
     options.most_body_memory = 1 << 20;
-    options.silence = 5s;
-    options.body = 5s;
     Fixture server(echo, options);
     RawClient first(server.port()), second(server.port());
-    first.send("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n");
-    std::this_thread::sleep_for(100ms);
+    // Whoever is told to go on has its memory.
+    EXPECT_EQ(first
+                  .ask("POST /large HTTP/1.1\r\nExpect: 100-continue\r\n"
+                       "Content-Length: 1000000\r\n\r\n")
+                  .status,
+              100);
     EXPECT_EQ(second.ask("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n").status, 503);
     first.send(std::string(1000000, 'x'));
     EXPECT_EQ(first.receive().status, 200);
@@ -306,27 +315,27 @@ TEST(Transport, BoundsTheMemoryOfLargeBodies) {
 }
 
 TEST(Transport, EndsConnectionsThatAreSilentOrDrip) {
-    Fixture server(echo);
+    Fixture server(echo, Fixture::quick());
     RawClient silent(server.port()), half(server.port()), bodiless(server.port());
     half.send("GET / HT");
     bodiless.send("POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
-    const auto begun = Clock::now();
     EXPECT_TRUE(silent.ends()) << "without a word: there was no request";
     EXPECT_EQ(half.receive().status, 408);
     EXPECT_EQ(bodiless.receive().status, 408);
     RawClient dripping(server.port());
     for (int i = 0; i < 60 && dripping.send("G"); ++i) std::this_thread::sleep_for(50ms);
     EXPECT_EQ(dripping.receive().status, 408) << "each byte was in time, all together were not";
-    EXPECT_LT(Clock::now() - begun, 10s);
 }
 
 TEST(Transport, EndsConnectionsWhoseClientDoesNotRead) {
     const Slice large = slice_of(std::string(64 << 20, 'z'));
-    Fixture server([&](const api::Request&, const Gone&) {
-        api::Answer answer = text_answer("");
-        answer.body = {large};
-        return answer;
-    });
+    Fixture server(
+        [&](const api::Request&, const Gone&) {
+            api::Answer answer = text_answer("");
+            answer.body = {large};
+            return answer;
+        },
+        Fixture::quick());
     RawClient client(server.port(), 4096);
     client.send("GET / HTTP/1.1\r\n\r\n");
     const Served served = server.wait_for_served();
@@ -335,7 +344,7 @@ TEST(Transport, EndsConnectionsWhoseClientDoesNotRead) {
 }
 
 TEST(Transport, SurvivesHandlersThatThrow) {
-    TransportOptions options = Fixture::quick();
+    TransportOptions options = Fixture::patient();
     options.port = 0;
     Handlers handlers;
     handlers.answer = [](const api::Request& request, const Gone&) -> api::Answer {
@@ -395,7 +404,7 @@ TEST(Transport, TakesRequestIdsThatAreSafe) {
 }
 
 TEST(Transport, ClosesAfterTheLastRequestOfAConnection) {
-    TransportOptions options = Fixture::quick();
+    TransportOptions options = Fixture::patient();
     options.most_requests = 2;
     Fixture server(echo, options);
     RawClient client(server.port());
@@ -428,9 +437,8 @@ TEST(Transport, RefusesAPortThatIsTaken) {
 }
 
 TEST(Transport, MakesRoomWhenConnectionsIdle) {
-    TransportOptions options = Fixture::quick();
+    TransportOptions options = Fixture::patient();
     options.threads = 4;
-    options.idle = 5s;
     Fixture server(echo, options);
     std::vector<std::unique_ptr<RawClient>> kept;
     for (int i = 0; i < 4; ++i) {
@@ -440,11 +448,11 @@ TEST(Transport, MakesRoomWhenConnectionsIdle) {
     const auto begun = Clock::now();
     RawClient late(server.port());
     EXPECT_EQ(late.ask("GET / HTTP/1.1\r\n\r\n").status, 200);
-    EXPECT_LT(Clock::now() - begun, 3s) << "an idle connection gives its thread up";
+    EXPECT_LT(Clock::now() - begun, 30s) << "an idle connection gives its thread up";
 }
 
 TEST(Transport, TurnsAwayWhatItCannotHold) {
-    TransportOptions options = Fixture::quick();
+    TransportOptions options = Fixture::patient();
     options.threads = 2;
     options.waiting = 2;
     std::counting_semaphore<> gate(0);

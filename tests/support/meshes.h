@@ -8,9 +8,8 @@
 #include <cstdint>
 #include <cstring>
 #include <glm/geometric.hpp>
-#include <map>
-#include <numeric>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "core/mesh/measure.h"
@@ -36,33 +35,48 @@ bool same_bits(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// The mesh cut into its connected pieces, by shared vertices or shared places, in order of first use.
+/// The mesh cut into its connected pieces, by shared vertices or shared places, in order of first use; each has its own vertices alone.
+/// cost O(n)
 inline std::vector<Mesh> pieces(const Mesh& mesh) {
-    std::map<std::array<float, 3>, std::uint32_t> places;
-    std::vector<std::uint32_t> parent(mesh.positions.size());
-    std::iota(parent.begin(), parent.end(), 0u);
+    constexpr auto unused = static_cast<std::uint32_t>(-1);
+    const auto same_place = [](const glm::vec3& a, const glm::vec3& b) { return a == b; };
+    const auto hash = [](const glm::vec3& p) {
+        std::size_t sum = 0;
+        for (const float x : {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}) {  // -0 lies where 0 does
+            std::uint32_t bits = 0;
+            std::memcpy(&bits, &x, sizeof bits);
+            sum = (sum ^ bits) * 0x9e3779b97f4a7c15u;
+            sum ^= sum >> 29;
+        }
+        return sum;
+    };
+    std::unordered_map<glm::vec3, std::uint32_t, decltype(hash), decltype(same_place)> places(
+        mesh.positions.size(), hash, same_place);
+    std::vector<std::uint32_t> parent(mesh.positions.size(), unused);
+    for (const std::uint32_t i : mesh.indices)
+        if (parent[i] == unused) parent[i] = places.try_emplace(mesh.positions[i], i).first->second;
     const auto root = [&](std::uint32_t i) {
         while (parent[i] != i) i = parent[i] = parent[parent[i]];
         return i;
     };
-    for (std::uint32_t i = 0; i < parent.size(); ++i) {
-        const glm::vec3& p = mesh.positions[i];
-        const auto [place, fresh] = places.try_emplace({p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}, i);
-        if (!fresh) parent[root(i)] = root(place->second);
-    }
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         for (std::size_t k = 1; k < 3; ++k)
             parent[root(mesh.indices[i + k])] = root(mesh.indices[i]);
     std::vector<Mesh> found;
-    std::map<std::uint32_t, std::size_t> number;
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        const auto [place, fresh] = number.try_emplace(root(mesh.indices[i]), found.size());
-        if (fresh) {
+    std::vector<std::uint32_t> number(mesh.positions.size(), unused),
+        vertex(mesh.positions.size(), unused);
+    for (std::size_t i = 0; i < mesh.indices.size(); ++i) {
+        const std::uint32_t from = mesh.indices[i], group = root(from);
+        if (number[group] == unused) {
+            number[group] = static_cast<std::uint32_t>(found.size());
             found.emplace_back();
-            found.back().positions = mesh.positions;
         }
-        for (std::size_t k = 0; k < 3; ++k)
-            found[place->second].indices.push_back(mesh.indices[i + k]);
+        Mesh& piece = found[number[group]];
+        if (vertex[from] == unused) {
+            vertex[from] = static_cast<std::uint32_t>(piece.positions.size());
+            piece.positions.push_back(mesh.positions[from]);
+        }
+        piece.indices.push_back(vertex[from]);
     }
     return found;
 }

@@ -1,39 +1,17 @@
-// Mixes of species as whole mushrooms, with the correspondence of each set found once.
+// Mixes of species, drawn at random or picked evenly.
 #pragma once
 
 #include <algorithm>
-#include <map>
-#include <memory>
-#include <mutex>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "core/math/random.h"
+#include "tests/support/effort.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint {
-
-/// Keeps every correspondence for the rest of the program.
-inline Remember<MorphSet> kept_morphs() {
-    struct Shelf {
-        std::mutex mutex;
-        std::map<std::string, std::shared_ptr<const MorphSet>> sets;
-    };
-    static const auto shelf = std::make_shared<Shelf>();
-    return
-        [](const std::string& key, const std::function<std::shared_ptr<const MorphSet>()>& make) {
-            const std::lock_guard lock(shelf->mutex);
-            auto& set = shelf->sets[key];
-            if (!set) set = make();
-            return set;
-        };
-}
-
-/// The mesh of an order, its correspondence from kept_morphs().
-inline Mesh morphed(const MushroomOrder& order) {
-    return mushroom_mesh(order, resolve(order, atlas(), kept_morphs()));
-}
 
 /// The species of a mix that have a weight.
 inline Mix present(Mix mix) {
@@ -41,17 +19,32 @@ inline Mix present(Mix mix) {
     return mix;
 }
 
+using SpeciesPair = std::pair<std::string, std::string>;
+
 /// Every pair of species of the atlas, by id.
-inline std::vector<std::pair<std::string, std::string>> species_pairs() {
+inline std::vector<SpeciesPair> species_pairs() {
     const auto ids = species_ids();
-    std::vector<std::pair<std::string, std::string>> pairs;
+    std::vector<SpeciesPair> pairs;
     for (std::size_t i = 0; i < ids.size(); ++i)
         for (std::size_t j = i + 1; j < ids.size(); ++j) pairs.emplace_back(ids[i], ids[j]);
     return pairs;
 }
 
-/// Two to eight different species with random weights that sum to 1000; every other draw stays near a corner or an edge.
-inline Mix random_mix(Random& random) {
+/// At least `most` pairs in which every species comes equally often, or all there are. The ids stand in a ring, and each is paired with
+/// those some steps on: next to it are its kin by name, and half the ring away are strangers.
+inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
+    const auto ids = species_ids();
+    const std::size_t n = ids.size(), all = n / 2, rounds = std::min((most + n - 1) / n, all);
+    std::set<SpeciesPair> pairs;
+    for (std::size_t round = 0; round < rounds; ++round) {
+        const std::size_t steps = rounds == 1 ? all / 2 + 1 : 1 + round * (all - 1) / (rounds - 1);
+        for (std::size_t i = 0; i < n; ++i) pairs.insert(std::minmax(ids[i], ids[(i + steps) % n]));
+    }
+    return {pairs.begin(), pairs.end()};
+}
+
+/// Two to eight different species, by id.
+inline std::vector<std::string> random_species(Random& random) {
     auto ids = species_ids();
     const std::size_t count =
         2 + random.bits() % static_cast<std::uint32_t>(std::min<std::size_t>(ids.size(), 8) - 1);
@@ -59,6 +52,12 @@ inline Mix random_mix(Random& random) {
         std::swap(ids[i], ids[i + random.bits() % static_cast<std::uint32_t>(ids.size() - i)]);
     ids.resize(count);
     std::sort(ids.begin(), ids.end());
+    return ids;
+}
+
+/// Random weights of these species that sum to 1000; every other draw stays near a corner or an edge.
+inline Mix random_mix(const std::vector<std::string>& ids, Random& random) {
+    const std::size_t count = ids.size();
     const bool extreme = random.bits() % 2 == 0;
     std::vector<double> shares;
     double sum = 0.0;
@@ -78,6 +77,12 @@ inline Mix random_mix(Random& random) {
         left -= weight;
     }
     return mix;
+}
+
+/// Two to eight different species with random weights.
+inline Mix random_mix(Random& random) {
+    const auto ids = random_species(random);
+    return random_mix(ids, random);
 }
 
 inline std::string text_of(const Mix& mix) {

@@ -6,6 +6,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -59,9 +63,28 @@ inline MushroomOrder painted(MushroomOrder order, int side = 128) {
     return order;
 }
 
-inline Mesh mesh_of(const MushroomOrder& order) {
-    return mushroom_mesh(order, resolve(order, atlas()));
+/// Keeps every correspondence for the rest of the program.
+inline Remember<MorphSet> kept_morphs() {
+    struct Shelf {
+        std::mutex mutex;
+        std::map<std::string, std::shared_ptr<const MorphSet>> sets;
+    };
+    static const auto shelf = std::make_shared<Shelf>();
+    return
+        [](const std::string& key, const std::function<std::shared_ptr<const MorphSet>()>& make) {
+            const std::lock_guard lock(shelf->mutex);
+            auto& set = shelf->sets[key];
+            if (!set) set = make();
+            return set;
+        };
 }
+
+/// The individual of an order, its correspondence from kept_morphs().
+inline Individual resolved(const MushroomOrder& order) {
+    return resolve(order, atlas(), kept_morphs());
+}
+
+inline Mesh mesh_of(const MushroomOrder& order) { return mushroom_mesh(order, resolved(order)); }
 
 inline const Silhouette& silhouette_of(const Model& model) {
     return std::get<Swept>(model.shape).silhouette;

@@ -6,7 +6,6 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <limits>
-#include <set>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -241,13 +240,16 @@ Mesh only_in(const Mesh& mesh, const Mesh& other) {
     const auto triangle = [](const Mesh& of, std::size_t i) {
         return Triangle{of.indices[i], of.indices[i + 1], of.indices[i + 2]};
     };
-    std::set<Triangle> known;
-    for (std::size_t i = 0; i + 2 < other.indices.size(); i += 3) known.insert(triangle(other, i));
+    std::vector<Triangle> known;
+    for (std::size_t i = 0; i + 2 < other.indices.size(); i += 3)
+        known.push_back(triangle(other, i));
+    std::sort(known.begin(), known.end());
     Mesh found;
     found.positions = mesh.positions;
     for (std::size_t i = 0; i + 2 < mesh.indices.size(); i += 3) {
         const Triangle one = triangle(mesh, i);
-        if (!known.contains(one)) found.indices.insert(found.indices.end(), one.begin(), one.end());
+        if (!std::binary_search(known.begin(), known.end(), one))
+            found.indices.insert(found.indices.end(), one.begin(), one.end());
     }
     return found;
 }

@@ -11,6 +11,7 @@
 #include "core/params/reader.h"
 #include "core/silhouette/morph_set.h"
 #include "core/silhouette/proof.h"
+#include "tests/support/effort.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
@@ -144,7 +145,7 @@ TEST(Atlas, IndividualsThatDifferMostAreSoundAtEveryStageAndBetween) {
             for (const double onwards : {0.0, 0.5}) {
                 if (i + 1 == stages.size() && onwards > 0.0) continue;
                 const double next = onwards > 0.0 ? stages[i + 1].age : stages[i].age;
-                for (std::uint32_t seed = 1; seed <= 12; ++seed) {
+                for (std::uint32_t seed = 1; seed <= effort(12); ++seed) {
                     MushroomOrder order =
                         order_of(entry.species.id.string(),
                                  stages[i].age + onwards * (next - stages[i].age), seed, 2);

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <string>
 
+#include "tests/support/effort.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 #include "tests/support/surfaces.h"
@@ -46,7 +47,9 @@ TEST_P(Growth, NoVertexMovesByTwoHundredthsOfTheMatureSizeInA256thOfALife) {
     for (const One& one : {One{0, 2, 0.5}, One{1, 7, 1.0}}) {
         MushroomOrder order = order_of(GetParam(), 0.0, one.seed, one.lod);
         order.params.variation = one.variation;
-        const Worst worst = worst_jump(order, 0.0, 1.0, 256);
+        // Under sanitizers a twentieth of a life, in steps as small.
+        const int frames = static_cast<int>(effort(256, 1, 256));
+        const Worst worst = worst_jump(order, 0.0, frames / 256.0, frames);
         EXPECT_LT(worst.share, 0.02) << "lod " << one.lod << ", age " << worst.age;
     }
 }
@@ -54,9 +57,10 @@ TEST_P(Growth, NoVertexMovesByTwoHundredthsOfTheMatureSizeInA256thOfALife) {
 TEST_P(Growth, HasNoJumpHoweverCloseOneLooks) {
     // Whatever moves by a jump, and not fast, moves as far in a step sixteen times as short.
     MushroomOrder order = order_of(GetParam(), 0.0, 7, 1);
+    const int frames = static_cast<int>(effort(64, 2, 128));
     for (const double age : {0.0, 0.1, 0.28, 0.45, 0.59, 0.72, 0.84, 0.95}) {
-        const double to = std::min(age + 1.0 / 32.0, 1.0);
-        const Worst worst = worst_jump(order, age, to, 128);
+        const double to = std::min(age + frames / 4096.0, 1.0);
+        const Worst worst = worst_jump(order, age, to, frames);
         EXPECT_LT(worst.share, 0.02 / 16.0) << "age " << worst.age;
     }
 }

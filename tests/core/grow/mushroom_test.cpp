@@ -4,10 +4,12 @@
 #include <rapidcheck.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <map>
 #include <set>
+#include <span>
 #include <stop_token>
 #include <string>
 #include <thread>
@@ -15,9 +17,10 @@
 
 #include "core/params/corners.h"
 #include "core/params/value.h"
+#include "tests/support/effort.h"
 #include "tests/support/glb_reader.h"
 #include "tests/support/meshes.h"
-#include "tests/support/orders.h"
+#include "tests/support/mixes.h"
 
 namespace sporeprint {
 namespace {
@@ -28,9 +31,10 @@ INSTANTIATE_TEST_SUITE_P(Atlas, EverySpecies, ::testing::ValuesIn(species_ids())
                          [](const auto& one) { return one.param; });
 
 TEST_P(EverySpecies, GrowsToValidMeshesAtEveryAgeLevelOfDetailAndSeed) {
+    constexpr std::array<std::uint32_t, 3> seeds = {4294967295, 1, 2};
     for (const double age : {0.0, 0.15, 0.3, 0.45, 0.6, 0.8, 1.0})
         for (int lod = 0; lod < 4; ++lod)
-            for (const std::uint32_t seed : {1u, 2u, 4294967295u}) {
+            for (const std::uint32_t seed : std::span(seeds).first(effort(3, 1, 3))) {
                 SCOPED_TRACE("age " + std::to_string(age) + ", lod " + std::to_string(lod) +
                              ", seed " + std::to_string(seed));
                 MushroomOrder order = textured(order_of(GetParam(), age, seed, lod));
@@ -99,8 +103,9 @@ TEST_P(EverySpecies, AsAModelOfOnesOwnIsValidOrRefusedByNameWithEachFieldAtEachE
 }
 
 TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
-    int grown = 0;
+    int drawn = 0, grown = 0;
     EXPECT_TRUE(rc::check("random parameters", [&] {
+        ++drawn;
         MushroomOrder order = order_of(GetParam());
         order.params = arbitrary_params();
         // What a species cannot have is refused anyway; leave it out half of the time.
@@ -126,7 +131,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
                           problem.path.starts_with("/deformation/"));
         }
     }));
-    EXPECT_GT(grown, 15);
+    EXPECT_GT(7 * grown, drawn);
 }
 
 TEST_P(EverySpecies, ReadsBackFromItsFile) {
@@ -242,6 +247,33 @@ TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
     EXPECT_EQ(made_by([](MushroomParams& p) { p.ornaments.warts = 0.2; }), 1);
     EXPECT_EQ(made_by([](MushroomParams& p) { p.texture_size.value = 256; }), 1);
     EXPECT_EQ(made_by([](MushroomParams& p) { p.lod = 2; }), 1);
+}
+
+// What a request may cost is decided by the estimate: it must not be too low for any of them, and not so high that it refuses what is cheap.
+TEST(Mushroom, IsEstimatedBeforeAnyWorkWhateverIsAskedFor) {
+    Workshop workshop;
+    workshop.memo.morphs = kept_morphs();
+    for (std::uint32_t i = 0; i < effort(240, 24); ++i) {
+        Random random(i, 0x65737469);
+        MushroomOrder order = mix_of(
+            i % 3 == 0 ? Mix{{species_ids()[i % species_ids().size()], 1000}} : random_mix(random),
+            random.uniform(), random.bits(), static_cast<int>(i % 4));
+        order.params.variation = random.uniform();
+        if (i % 2 == 0) order = painted(std::move(order), 128 << (i / 2 % 2));
+        if (i % 5 == 0) order = growing(std::move(order), static_cast<int>(2 + random.bits() % 15));
+        SCOPED_TRACE(text_of(order.mix) + ", draw " + std::to_string(i));
+        const Estimate e = estimate(order, atlas(), workshop.memo);
+        const Mushroom made = grow_mushroom(order, atlas(), {}, workshop);
+        const bool clip = order.params.animation != Animation::none;
+        const auto frames = static_cast<std::uint64_t>(clip ? order.params.frames : 0);
+        EXPECT_EQ(e.vertices, made.vertices * (frames + 1));
+        EXPECT_GE(e.triangles, made.triangles);
+        EXPECT_LE(e.triangles, 3 * made.triangles);
+        const auto bytes = static_cast<double>(size_of(made.glb));
+        EXPECT_GT(static_cast<double>(e.bytes), 0.7 * bytes);
+        EXPECT_LT(static_cast<double>(e.bytes), 2.5 * bytes);
+        if (HasFailure()) return;
+    }
 }
 
 TEST(Mushroom, StepsAreToldInTheirOrder) {

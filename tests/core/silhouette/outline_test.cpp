@@ -7,6 +7,7 @@
 #include <functional>
 #include <string>
 
+#include "tests/support/effort.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint {
@@ -241,10 +242,10 @@ TEST(Outline, RandomOutlinesAreDrawnOrRefusedNeverBroken) {
 TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
     for (const std::string& id : species_ids())
         for (int step = 0; step < 64; ++step)
-            for (std::uint32_t seed = 0; seed < 6; ++seed) {
+            for (std::uint32_t seed = 0; seed < effort(6); ++seed) {
                 MushroomOrder order = order_of(id, step / 63.0, 1000 * seed + 7);
                 order.params.variation = 1.0;
-                const auto problems = refusal([&] { (void)resolve(order, atlas()); });
+                const auto problems = refusal([&] { (void)resolved(order); });
                 EXPECT_TRUE(problems.empty())
                     << id << " at age " << order.params.age << ", seed " << order.params.seed
                     << ": " << problems[0].path << ' ' << problems[0].message;
