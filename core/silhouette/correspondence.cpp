@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/math/elementary.h"
-
 namespace sporeprint {
 
 namespace {
@@ -15,8 +13,7 @@ namespace {
 constexpr double steepest_map = 8.0;
 constexpr int edges_per_curve = 48, fewest_edges = 4;
 constexpr int smoothings = 3;
-
-double raised(double x, double exponent) { return exponent == 2.0 ? x * x : power(x, exponent); }
+constexpr std::size_t steepest_step = 4;
 
 double apart(const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a - b, a - b); }
 
@@ -29,6 +26,50 @@ bool comes_before(const Edges& a, const Edges& b) {
     }
     return true;
 }
+
+/// What part of a step bends an edge of one curve into an edge of the other, counted from where the step begins.
+struct Piece {
+    std::size_t a = 0, b = 0;
+    double share = 0.0;
+};
+
+/// The pieces of a step: both curves are cut where either has a vertex.
+class Pieces {
+  public:
+    constexpr Pieces() = default;
+    constexpr explicit Pieces(const Link& over) {
+        const auto over_a = static_cast<std::size_t>(over.a);
+        const auto over_b = static_cast<std::size_t>(over.b);
+        for (std::size_t cut = 0; cut < over_a * over_b;) {
+            const std::size_t i = cut / over_b, j = cut / over_a;
+            const std::size_t next = std::min((i + 1) * over_b, (j + 1) * over_a);
+            pieces_[count_++] = {
+                i, j, static_cast<double>(next - cut) / static_cast<double>(over_a * over_b)};
+            cut = next;
+        }
+    }
+    [[nodiscard]] constexpr const Piece* begin() const { return pieces_.data(); }
+    [[nodiscard]] constexpr const Piece* end() const { return pieces_.data() + count_; }
+
+  private:
+    std::array<Piece, 2 * steepest_step> pieces_{};
+    std::size_t count_ = 0;
+};
+
+/// The work of a kind of step: how much for stretching, and for a bend of its whole length by 1.
+struct StepWork {
+    double stretched = 0.0, bend = 0.0;
+
+    StepWork() = default;
+    StepWork(const BlendWork& work, const Edges& a, const Edges& b, const Link& over) {
+        const double length_a = a.length * over.a / static_cast<double>(a.directions.size());
+        const double length_b = b.length * over.b / static_cast<double>(b.directions.size());
+        const double shorter = std::min(length_a, length_b), longer = std::max(length_a, length_b);
+        stretched = work.stretch * (longer - shorter) * (longer - shorter) /
+                    ((1.0 - work.share_of_long) * shorter + work.share_of_long * longer);
+        bend = work.bend * 0.5 * (length_a + length_b);
+    }
+};
 
 /// The straight edges of a curve between two shares of its length.
 Edges edges_of(const SubCurve& curve, double from, double to, int count) {
@@ -54,9 +95,16 @@ std::vector<double> even_offsets(const std::vector<Link>& links, int n) {
     std::size_t k = 0;
     for (int i = 0; i <= n; ++i) {
         while (links[k].a + links[k].b < 2 * i) ++k;
-        const int past = links[k].a + links[k].b - 2 * i;  // a step in both may jump over the place
+        const int past = links[k].a + links[k].b - 2 * i;  // a step may jump over the place
         const double here = links[k].b - links[k].a;
-        offsets.push_back(past == 0 ? here : 0.5 * (here + links[k - 1].b - links[k - 1].a));
+        if (past == 0) {
+            offsets.push_back(here);
+            continue;
+        }
+        const Link& last = links[k - 1];
+        const double share =
+            static_cast<double>(past) / (links[k].a + links[k].b - last.a - last.b);
+        offsets.push_back((1.0 - share) * here + share * (last.b - last.a));
     }
     for (int pass = 0; pass < smoothings; ++pass) {
         double before = 0.0;
@@ -115,24 +163,12 @@ ShareMap::Value ShareMap::operator()(double share) const {
 }
 
 double BlendWork::step(const Edges& a, const Edges& b, std::size_t at_a, std::size_t at_b,
-                       bool moves_a, bool moves_b) const {
-    const std::size_t n = a.directions.size(), m = b.directions.size();
-    const double length_a = moves_a ? a.length / static_cast<double>(n) : 0.0;
-    const double length_b = moves_b ? b.length / static_cast<double>(m) : 0.0;
-    const double shorter = std::min(length_a, length_b), longer = std::max(length_a, length_b);
-    const double stretched = stretch * raised(longer - shorter, exponent) /
-                             ((1.0 - share_of_long) * shorter + share_of_long * longer);
-    // An edge that shrinks to a vertex lies between the two edges that meet there.
-    const auto at_vertex = [](const glm::dvec2& edge, const Edges& other, std::size_t vertex) {
-        const std::size_t last = other.directions.size() - 1;
-        return 0.5 * (apart(edge, other.directions[vertex == 0 ? 0 : vertex - 1]) +
-                      apart(edge, other.directions[std::min(vertex, last)]));
-    };
-    const double angle = moves_a && moves_b ? apart(a.directions[at_a], b.directions[at_b])
-                         : moves_a          ? at_vertex(a.directions[at_a], b, at_b)
-                                            : at_vertex(b.directions[at_b], a, at_a);
-    return stretched + bend * 0.5 * (length_a + length_b) * angle +
-           (moves_a && moves_b ? 0.0 : collapse);
+                       const Link& over) const {
+    double bent = 0.0;
+    for (const Piece& piece : Pieces(over))
+        bent += piece.share * apart(a.directions[at_a + piece.a], b.directions[at_b + piece.b]);
+    const StepWork work(*this, a, b, over);
+    return work.stretched + work.bend * bent;
 }
 
 std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWork& work) {
@@ -143,52 +179,55 @@ std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWo
         return links;
     }
     const std::size_t n = a.directions.size(), row = n + 1;
-    // States of a cell: 0 after a step in both, r after r steps in a alone, run + r after r steps in b alone.
-    const auto run = static_cast<std::size_t>(work.longest_run), states = 2 * run + 1;
+    std::vector<double> aparts(n * n);
+    for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t j = 0; j < n; ++j)
+            aparts[i * n + j] = apart(a.directions[i], b.directions[j]);
+    static constexpr auto pieces = [] {
+        std::array<Pieces, link_steps.size()> all;
+        for (std::size_t s = 0; s < all.size(); ++s) all[s] = Pieces(link_steps[s]);
+        return all;
+    }();
+    std::array<StepWork, link_steps.size()> works;
+    for (std::size_t s = 0; s < works.size(); ++s) works[s] = {work, a, b, link_steps[s]};
     constexpr double never = std::numeric_limits<double>::infinity();
-    std::vector<double> least(row * row * states, never);
-    std::vector<std::uint8_t> came_from(row * row * states, 0);
-    const auto cell = [&](std::size_t i, std::size_t j) { return (i * row + j) * states; };
+    std::vector<double> least(row * row, never);
+    std::vector<std::uint8_t> came_by(row * row, 0);
     least[0] = 0.0;
-    for (std::size_t i = 0; i <= n; ++i)
-        for (std::size_t j = 0; j <= n; ++j) {
-            const auto enter = [&](std::size_t from, std::size_t source, std::size_t target,
-                                   double step) {
-                const double total = least[from + source] + step;
-                double& best = least[cell(i, j) + target];
+    for (std::size_t i = 1; i <= n; ++i) {
+        // Only what can be reached from the first vertices, and the last from it.
+        const auto near = [&](std::size_t x) { return (x + steepest_step - 1) / steepest_step; };
+        const std::size_t least_j = std::max(near(i), n - std::min(n, steepest_step * (n - i)));
+        const std::size_t most_j = std::min(n - near(n - i), steepest_step * i);
+        for (std::size_t j = least_j; j <= most_j; ++j) {
+            double best = never;
+            std::size_t best_step = 0;
+            for (std::size_t s = 0; s < link_steps.size(); ++s) {
+                const auto over_a = static_cast<std::size_t>(link_steps[s].a);
+                const auto over_b = static_cast<std::size_t>(link_steps[s].b);
+                if (over_a > i || over_b > j) continue;
+                double total = least[(i - over_a) * row + j - over_b] + works[s].stretched;
+                if (total >= best) continue;
+                const double* corner = &aparts[(i - over_a) * n + j - over_b];
+                double bent = 0.0;
+                for (const Piece& piece : pieces[s])
+                    bent += piece.share * corner[piece.a * n + piece.b];
+                total += works[s].bend * bent;
                 if (total < best) {
                     best = total;
-                    came_from[cell(i, j) + target] = static_cast<std::uint8_t>(source);
+                    best_step = s;
                 }
-            };
-            if (i > 0 && j > 0) {
-                const double step = work.step(a, b, i - 1, j - 1, true, true);
-                for (std::size_t s = 0; s < states; ++s) enter(cell(i - 1, j - 1), s, 0, step);
             }
-            if (i > 0 && run > 0) {
-                const std::size_t from = cell(i - 1, j);
-                const double step = work.step(a, b, i - 1, j, true, false);
-                enter(from, 0, 1, step);
-                for (std::size_t s = run + 1; s < states; ++s) enter(from, s, 1, step);
-                for (std::size_t s = 1; s < run; ++s) enter(from, s, s + 1, step);
-            }
-            if (j > 0 && run > 0) {
-                const std::size_t from = cell(i, j - 1);
-                const double step = work.step(a, b, i, j - 1, false, true);
-                for (std::size_t s = 0; s <= run; ++s) enter(from, s, run + 1, step);
-                for (std::size_t s = run + 1; s + 1 < states; ++s) enter(from, s, s + 1, step);
-            }
+            least[i * row + j] = best;
+            came_by[i * row + j] = static_cast<std::uint8_t>(best_step);
         }
-    std::size_t state = 0;
-    for (std::size_t s = 1; s < states; ++s)
-        if (least[cell(n, n) + s] < least[cell(n, n) + state]) state = s;
+    }
     std::vector<Link> links{{static_cast<int>(n), static_cast<int>(n)}};
-    for (std::size_t i = n, j = n; i > 0 || j > 0;) {
-        const std::size_t before = came_from[cell(i, j) + state];
-        if (state <= run) --i;
-        if (state == 0 || state > run) --j;
-        state = before;
-        links.push_back({static_cast<int>(i), static_cast<int>(j)});
+    while (links.back().a > 0) {
+        const Link end = links.back();
+        const auto cell = static_cast<std::size_t>(end.a) * row + static_cast<std::size_t>(end.b);
+        const Link step = link_steps[came_by[cell]];
+        links.push_back({end.a - step.a, end.b - step.b});
     }
     std::reverse(links.begin(), links.end());
     return links;

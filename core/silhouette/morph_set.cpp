@@ -18,10 +18,9 @@ namespace {
 constexpr std::array<std::size_t, 3> node_counts = {45, 41, 49};
 constexpr int measure_steps = 128, need_smoothings = 4;
 constexpr double mature_age = 0.6;
-constexpr double least_foot = 1e-3;  // of the stem's length; less is no base to speak of
-constexpr std::array<double, 2> detour_ladder = {0.75, 1.0};
+constexpr double least_foot = 1e-3;    // of the stem's length; less is no base to speak of
 constexpr std::size_t way_degree = 9;  // of the weights of a mix along a way with detours
-constexpr int sampled_moments = 20, snap_steps = 16, deepest_piece = 9;
+constexpr int deepest_piece = 9;
 
 using Curves = std::array<SubCurve, 3>;
 
@@ -157,6 +156,42 @@ std::vector<Landmark> with_feet(std::vector<Landmark> landmarks, const SubCurve&
     return landmarks;
 }
 
+/// measure_steps + 1 shares of the hub, 0 to 1, at even steps of the mean of what they are mapped to: no curve is stepped over.
+std::vector<double> even_for_all(const std::vector<const ShareMap*>& from_hub) {
+    std::vector<double> knots;
+    for (const ShareMap* map : from_hub)
+        knots.insert(knots.end(), map->from().begin(), map->from().end());
+    std::sort(knots.begin(), knots.end());
+    knots.erase(std::unique(knots.begin(), knots.end()), knots.end());
+    std::vector<double> means;
+    for (const double knot : knots) {
+        double sum = 0.0;
+        for (const ShareMap* map : from_hub) sum += (*map)(knot).at;
+        means.push_back(sum / static_cast<double>(from_hub.size()));
+    }
+    std::vector<double> places{0.0};
+    std::size_t k = 1;
+    for (int i = 1; i < measure_steps; ++i) {
+        const double mean = static_cast<double>(i) / measure_steps;
+        while (means[k] < mean) ++k;
+        const double t = (mean - means[k - 1]) / (means[k] - means[k - 1]);
+        places.push_back(knots[k - 1] + t * (knots[k] - knots[k - 1]));
+    }
+    places.push_back(1.0);
+    return places;
+}
+
+/// From the lowest control point to the highest.
+double height(const Silhouette& silhouette) {
+    double low = silhouette.stem.front().y, high = low;
+    for (const auto* part : {&silhouette.stem, &silhouette.hymenium, &silhouette.cap})
+        for (const OutlinePoint& p : *part) {
+            low = std::min(low, p.y);
+            high = std::max(high, p.y);
+        }
+    return std::max(high - low, 1e-9);
+}
+
 /// Makes both sides of every smooth join run in one direction in every mix: the ratio of their speeds becomes the same in all shapes.
 void align_joins(std::vector<OutlineNodes>& all, const std::vector<ControlShape>& shapes) {
     const auto align = [&](CurveName before, CurveName after, auto joined) {
@@ -247,6 +282,9 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
         check_arcs(arcs, kins_.size(), in_both);
     }
 
+    std::vector<double> heights;
+    for (const ControlShape& shape : shapes) heights.push_back(height(shape.silhouette));
+
     nodes_.resize(shapes.size());
     bool hymenium = false;
     for (const CurveName curve : curve_names) {
@@ -300,29 +338,38 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
                                        : landmarks);
 
         // The common parameter u runs evenly through what the shapes need: by length and turning, so that thin margins stay round, and
-        // by the root of their product, which a chord's error goes with. Fourth powers let the neediest shape speak.
-        std::vector<double> needs(measure_steps, 0.0), lengths(measure_steps), turns(measure_steps);
+        // by the root of their product, which a chord's error goes with; that one measured by each shape's own height, so that wide
+        // flat ones get more. Fourth powers let the neediest shape speak.
+        std::vector<const ShareMap*> present;
+        for (std::size_t k = 0; k < kins_.size(); ++k)
+            if (!at(kins_[k].mature).empty()) present.push_back(&from_hub[k]);
+        const std::vector<double> places = even_for_all(present);
+        std::vector<std::vector<double>> roots(shapes.size()), plain(shapes.size());
+        std::vector<double> needs(measure_steps, 0.0);
+        double most_roots = 1e-9;
         for (std::size_t s = 0; s < shapes.size(); ++s) {
             if (at(s).empty()) continue;
-            double share = 0.0, turning = 0.0, roots = 0.0;
-            for (std::size_t i = 0; i < needs.size(); ++i) {
-                const double place = static_cast<double>(i + 1) / measure_steps;
+            double share = 0.0, turning = 0.0, sum = 0.0;
+            const double whole = std::max(at(s).turning(1.0), 1e-9);
+            const double scale = std::sqrt(at(s).length() / heights[s]);
+            for (int i = 1; i <= measure_steps; ++i) {
+                const double place = places[static_cast<std::size_t>(i)];
                 const double next = from_mature[s](from_hub[shapes[s].kin](place).at).at;
                 const double next_turning = at(s).turning(next);
-                lengths[i] = next - share;
-                turns[i] = next_turning - turning;
-                roots += std::sqrt(lengths[i] * turns[i]);
+                const double length = next - share, turn = next_turning - turning;
+                plain[s].push_back(length + turn / whole);
+                roots[s].push_back(scale * std::sqrt(length * turn));
+                sum += roots[s].back();
                 share = next;
                 turning = next_turning;
             }
-            turning = std::max(turning, 1e-9);
-            roots = std::max(roots, 1e-9);
-            for (std::size_t i = 0; i < needs.size(); ++i) {
-                const double need = lengths[i] + turns[i] / turning +
-                                    2.0 * std::sqrt(lengths[i] * turns[i]) / roots;
+            most_roots = std::max(most_roots, sum);
+        }
+        for (std::size_t s = 0; s < shapes.size(); ++s)
+            for (std::size_t i = 0; i < roots[s].size(); ++i) {
+                const double need = plain[s][i] + 4.0 * roots[s][i] / most_roots;
                 needs[i] += need * need * need * need;
             }
-        }
         for (double& need : needs) need = std::sqrt(std::sqrt(need));
         // Smoothed, so that u runs evenly: between two nodes the speed hardly changes.
         for (int pass = 0; pass < need_smoothings; ++pass) {
@@ -344,7 +391,7 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
             u.push_back(static_cast<double>(i) / static_cast<double>(count - 1));
             while (k + 1 < measures.size() && measures[k] < u.back()) ++k;
             const double t = (u.back() - measures[k - 1]) / (measures[k] - measures[k - 1]);
-            node_shares.push_back((static_cast<double>(k - 1) + t) / measure_steps);
+            node_shares.push_back(places[k - 1] + t * (places[k] - places[k - 1]));
         }
         node_shares.front() = 0.0;
         node_shares.back() = 1.0;
@@ -383,40 +430,33 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
     places_ = even_places(hymenium);
     for (std::size_t s = 0; s < shapes.size(); ++s)
         for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
-            if (contact_at_rest(polyline(nodes_[s], lod))) {
+            if (const auto contact = contact_at_rest(polyline(nodes_[s], lod))) {
                 (void)Outline(shapes[s].silhouette);  // names the control points if it can
-                throw Impossible("/model/silhouette", "too fine for the rings of level of detail " +
-                                                          std::to_string(lod) +
-                                                          ": there it touches itself or the axis");
+                const std::string curve = name(curve_of(*contact, lod));
+                throw Impossible("/model/silhouette/" + curve,
+                                 "too fine for the rings of level of detail " +
+                                     std::to_string(lod) + ": there the " + curve +
+                                     " touches itself, its neighbour or the axis");
             }
     certify();
 }
 
-std::vector<double> MorphSet::kin_weights(std::span<const double> weights) const {
-    std::vector<double> sums;
-    for (const Kin& kin : kins_) {
-        sums.push_back(0.0);
-        for (std::size_t s = kin.first; s < kin.first + kin.count; ++s) sums.back() += weights[s];
-    }
-    return sums;
-}
-
-/// The weights after the detours: of what stage s gives, x^2 (2 - x^2) goes over to the mature stage of its kin, where x is 4 times
-/// its kin's weight times that of the stages it must not meet, so that nothing happens near a corner.
+/// The weights after the detours: of what stage s gives, 1 - (1 - w)^7 (1 + 7 w) goes over to the mature stage of its kin, where w is
+/// the weight of what it folds with. That is 28 w^2 at first, so that nothing happens near its own corner, and nearly all from a half
+/// on: a stage of little weight folds no mix of others, whoever they are.
 std::vector<double> MorphSet::detoured(std::span<const double> weights) const {
     std::vector<double> moved(weights.begin(), weights.end());
     if (detours_.empty()) return moved;
-    const std::vector<double> sums = kin_weights(weights);
-    for (std::size_t k = 0; k < kins_.size(); ++k)
-        for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s) {
-            if (weights[s] == 0.0) continue;
-            double x = 0.0;
-            for (std::size_t other = 0; other < weights.size(); ++other)
-                x += 4.0 * sums[k] * weights[other] * detours_[s * weights.size() + other];
-            const double share = x * x * (2.0 - x * x);
-            moved[s] -= share * weights[s];
-            moved[kins_[k].mature] += share * weights[s];
-        }
+    for (std::size_t s = 0; s < weights.size(); ++s) {
+        if (weights[s] == 0.0) continue;
+        double met = 0.0;
+        for (std::size_t other = 0; other < weights.size(); ++other)
+            met += weights[other] * detours_[s * weights.size() + other];
+        const double apart = 1.0 - met, cube = apart * apart * apart;
+        const double share = 1.0 - cube * cube * apart * (1.0 + 7.0 * met);
+        moved[s] -= share * weights[s];
+        moved[kins_[kin_of(s)].mature] += share * weights[s];
+    }
     return moved;
 }
 
@@ -462,15 +502,9 @@ Polyline MorphSet::polyline(const OutlineNodes& nodes, int lod) const {
     return line;
 }
 
-bool MorphSet::touches(const OutlineNodes& nodes) const {
-    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
-        if (contact_at_rest(polyline(nodes, lod))) return true;
-    return false;
-}
-
 /// Whether a certificate covers all mixes of some shapes, at every level of detail.
 bool MorphSet::certified(std::span<const std::size_t> shapes) const {
-    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+    for (int lod = static_cast<int>(details.size()) - 1; lod >= 0; --lod) {  // the cheap ones first
         std::vector<Polyline> lines;
         for (const std::size_t s : shapes) lines.push_back(polyline(nodes_[s], lod));
         if (first_doubt(lines)) return false;
@@ -492,69 +526,46 @@ void MorphSet::certify() {
         for (std::size_t j = i + 1; j < kins_.size(); ++j) choose_detours(i, j);
 }
 
-/// Finds the straight ways between stages of two kin that fold, and the detour that mends them.
+/// Finds the straight ways between stages of two kin that fold, and gives them a detour. Coarse levels of detail are cheap and come
+/// first: what folds there needs no second look.
 void MorphSet::choose_detours(std::size_t i, std::size_t j) {
     const std::size_t count = nodes_.size();
-    std::vector<std::array<std::size_t, 2>> folding;
-    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+    for (int lod = static_cast<int>(details.size()) - 1; lod >= 0; --lod) {
         std::vector<Polyline> lines(count);
         for (const std::size_t k : {i, j})
             for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s)
                 lines[s] = polyline(nodes_[s], lod);
-        for (std::size_t a = 0; a < count; ++a)
-            for (std::size_t b = 0; b < count; ++b)
-                if (kin_of(a) == i && kin_of(b) == j && contact_on_the_way(lines[a], lines[b]))
-                    folding.push_back({a, b});
-    }
-    std::sort(folding.begin(), folding.end());
-    folding.erase(std::unique(folding.begin(), folding.end()), folding.end());
-    if (folding.empty()) return;
-    if (detours_.empty()) detours_.assign(count * count, 0.0);
-    const auto folds = [&](const std::array<std::size_t, 2>& way) {
-        std::vector<double> weights(count, 0.0);
-        for (int k = 1; k < sampled_moments; ++k) {
-            weights[way[1]] = static_cast<double>(k) / sampled_moments;
-            weights[way[0]] = 1.0 - weights[way[1]];
-            if (touches(unchecked(weights))) return true;
-        }
-        return false;
-    };
-    for (const double amount : detour_ladder) {
-        for (const auto& [a, b] : folding)
-            detours_[a * count + b] = detours_[b * count + a] = amount;
-        if (amount == detour_ladder.back() || std::none_of(folding.begin(), folding.end(), folds))
-            return;
+        for (std::size_t a = kins_[i].first; a < kins_[i].first + kins_[i].count; ++a)
+            for (std::size_t b = kins_[j].first; b < kins_[j].first + kins_[j].count; ++b) {
+                if (!detours_.empty() && detours_[a * count + b] > 0.0) continue;
+                if (!contact_on_the_way(lines[a], lines[b])) continue;
+                if (detours_.empty()) detours_.assign(count * count, 0.0);
+                detours_[a * count + b] = detours_[b * count + a] = 1.0;
+            }
     }
 }
 
 OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
     OutlineNodes mix = unchecked(weights);
-    if (for_any_weights_ || !touches(mix)) return mix;
-    // Towards the heaviest kin, then towards its nearest stage, which is simple.
-    std::vector<double> here(weights.begin(), weights.end()), goal(weights.size(), 0.0);
-    const std::vector<double> sums = kin_weights(weights);
-    const auto k =
-        static_cast<std::size_t>(std::max_element(sums.begin(), sums.end()) - sums.begin());
-    const Kin& heaviest = kins_[k];
-    const auto first = static_cast<std::ptrdiff_t>(heaviest.first);
-    const auto last = first + static_cast<std::ptrdiff_t>(heaviest.count);
-    for (std::size_t s = heaviest.first; s < heaviest.first + heaviest.count; ++s)
-        goal[s] = weights[s] / sums[k];
-    const auto walk = [&] {
-        for (int step = 1; step <= snap_steps; ++step) {
-            const double t = static_cast<double>(step) / snap_steps;
-            mix = unchecked(between(here, goal, t));
-            if (!touches(mix)) return true;
-        }
-        return false;
-    };
-    if (walk()) return mix;
-    here = goal;
-    const auto nearest = std::max_element(weights.begin() + first, weights.begin() + last);
-    std::fill(goal.begin(), goal.end(), 0.0);
-    goal[static_cast<std::size_t>(nearest - weights.begin())] = 1.0;
-    walk();
+    if (for_any_weights_) return mix;
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+        if (const auto contact = contact_at_rest(polyline(mix, lod)))
+            throw Impossible("mix", std::string("at these weights the outlines have no mean that "
+                                                "does not touch itself, near the ") +
+                                        name(curve_of(*contact, lod)));
     return mix;
+}
+
+/// The sub-curve of the vertex where the later of two touching segments ends, or of the vertex on the wrong side of the axis.
+CurveName MorphSet::curve_of(const Contact& contact, int lod) const {
+    std::size_t vertex = contact.j == contact.i ? contact.i : contact.j + 1;
+    for (const CurveName curve : {CurveName::stem, CurveName::hymenium}) {
+        const std::size_t rings = places_->of(curve, lod).size();
+        if (rings == 0) continue;
+        if (vertex < rings) return curve;
+        vertex -= rings - 1;  // joins count once
+    }
+    return CurveName::cap;
 }
 
 Certificate MorphSet::certificate() const {
@@ -618,27 +629,24 @@ std::vector<std::vector<double>> MorphSet::detoured_way(std::span<const double> 
     const auto raised = [&](const Polynomial& p, std::size_t degree) {
         return product(p, Polynomial(degree - p.size() + 2, 1.0));
     };
-    const std::vector<double> sums_from = kin_weights(from), sums_to = kin_weights(to);
     std::vector<Polynomial> moved(from.size());
     for (std::size_t s = 0; s < from.size(); ++s) moved[s] = raised({from[s], to[s]}, way_degree);
-    for (std::size_t k = 0; k < kins_.size(); ++k)
-        for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s) {
-            if (from[s] == 0.0 && to[s] == 0.0) continue;
-            Polynomial met{0.0, 0.0};
-            for (std::size_t other = 0; other < from.size(); ++other) {
-                met[0] += 4.0 * from[other] * detours_[s * from.size() + other];
-                met[1] += 4.0 * to[other] * detours_[s * from.size() + other];
-            }
-            const Polynomial x = product({sums_from[k], sums_to[k]}, met), xx = product(x, x);
-            const Polynomial x4 = product(xx, xx), twice = raised(xx, x4.size() - 1);
-            Polynomial share(x4.size());
-            for (std::size_t i = 0; i < share.size(); ++i) share[i] = 2.0 * twice[i] - x4[i];
-            const Polynomial over = product(share, {from[s], to[s]});
-            for (std::size_t i = 0; i < over.size(); ++i) {
-                moved[s][i] -= over[i];
-                moved[kins_[k].mature][i] += over[i];
-            }
+    for (std::size_t s = 0; s < from.size(); ++s) {
+        if (from[s] == 0.0 && to[s] == 0.0) continue;
+        Polynomial met{0.0, 0.0};
+        for (std::size_t other = 0; other < from.size(); ++other) {
+            met[0] += from[other] * detours_[s * from.size() + other];
+            met[1] += to[other] * detours_[s * from.size() + other];
         }
+        Polynomial share{1.0 + 7.0 * met[0], 1.0 + 7.0 * met[1]};
+        for (int i = 0; i < 7; ++i) share = product(share, {1.0 - met[0], 1.0 - met[1]});
+        for (double& coefficient : share) coefficient = 1.0 - coefficient;
+        const Polynomial over = product(share, {from[s], to[s]});
+        for (std::size_t i = 0; i < over.size(); ++i) {
+            moved[s][i] -= over[i];
+            moved[kins_[kin_of(s)].mature][i] += over[i];
+        }
+    }
     return moved;
 }
 

@@ -57,8 +57,8 @@ struct Certificate {
               Info{.name = "method",
                    .doc = "exact: by the roots of the moving polylines, for every moment; "
                           "certificate: what keeps segments apart holds for all weights; checked: "
-                          "mixes are checked when they are made, and moved towards the nearest "
-                          "shape if they touch themselves."});
+                          "mixes are checked when they are made, and refused if they touch "
+                          "themselves."});
         visit(&C::detour,
               Info{.name = "detour",
                    .max = 1,
@@ -79,7 +79,7 @@ class MorphSet {
     ///           The first kin that has a sub-curve is the hub of that sub-curve: all others are put in correspondence with it,
     ///           so another order of three or more kin may move rings along the outlines a little. Callers sort by id.
     /// arcs      only for two kin, a for kin 0 and b for kin 1; `arcs_age` is the age at which the shares are counted
-    /// throws    Impossible for a shape that crosses itself (path "/model/silhouette"), for arcs that cross one another or
+    /// throws    Impossible for a shape that crosses itself or its rings (path below "/model/silhouette"), for arcs that cross one another or
     ///           leave their curve (path "/arcs/<i>")
     /// cost      about 1 ms for two kin of four shapes
     /// source    [Desbenoit2004] sec. 4; [SederbergGreenwood1992]
@@ -90,10 +90,10 @@ class MorphSet {
     ///
     /// Blends are straight, unless the straight way between stages of two kin folds: then mixes of these two stages make a detour by
     /// the mature ones, by an amount decided once for the set, so that nothing jumps and every kin alone is itself.
-    /// A mix that touches itself all the same is moved towards its heaviest kin (and that towards its nearest stage)
-    /// until it does not; only there may a small change of weights make a large one of shape.
     ///
     /// weights  one per control shape, >= 0, sum 1
+    /// throws   Impossible (path "mix", names the sub-curve) for a mix that touches itself all the same: none is bent into another
+    ///          one in silence, which would jump. Tests find no such mix among the species of the atlas.
     /// cost     about 5 us, and 10 us of checks where no certificate covers all mixes
     [[nodiscard]] OutlineNodes nodes(std::span<const double> weights) const;
 
@@ -126,12 +126,11 @@ class MorphSet {
         std::size_t first = 0, count = 0, mature = 0;
     };
 
-    [[nodiscard]] std::vector<double> kin_weights(std::span<const double> weights) const;
     [[nodiscard]] std::vector<double> detoured(std::span<const double> weights) const;
     [[nodiscard]] OutlineNodes unchecked(std::span<const double> weights) const;
     [[nodiscard]] Polyline polyline(const OutlineNodes& nodes, int lod) const;
     [[nodiscard]] std::size_t kin_of(std::size_t shape) const;
-    [[nodiscard]] bool touches(const OutlineNodes& nodes) const;
+    [[nodiscard]] CurveName curve_of(const Contact& contact, int lod) const;
     [[nodiscard]] bool certified(std::span<const std::size_t> shapes) const;
     [[nodiscard]] std::vector<std::vector<double>> detoured_way(std::span<const double> from,
                                                                 std::span<const double> to) const;
@@ -141,8 +140,7 @@ class MorphSet {
     void choose_detours(std::size_t i, std::size_t j);
 
     std::vector<Kin> kins_;
-    std::vector<double>
-        detours_;  ///< of kin i in its mixes with kin j at [i * kins + j]; empty: none
+    std::vector<double> detours_;  ///< of shape i where it meets j at [i * shapes + j]; empty: none
     bool for_any_weights_ = false;
     std::vector<double> ages_;
     std::vector<OutlineNodes> nodes_;
