@@ -291,21 +291,26 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources) {
     return layers;
 }
 
-/// One ring from those of all species: its width is the sum of theirs, as shares of each one's size; the rest goes by the width
-/// that each contributes.
+/// A ring this wide, as a share of its species' size, has half a say in where the ring of a mix sits and how it flares.
+constexpr double half_a_say = 0.01;
+
+/// One ring from those of all species: its width is the sum of theirs, as shares of each one's size; the rest goes by weight, and a
+/// ring that is hardly there has hardly a say. By width alone a thousandth of a wide ring would pull a narrow one up the stem.
 RingStyle ring_of(const std::vector<Source>& sources) {
     std::vector<RingStyle> styles;
-    std::vector<double> widths;
-    double width = 0.0;
+    std::vector<double> says;
+    double width = 0.0, said = 0.0;
     for (const Source& source : sources) {
         RingStyle style = source.now.ring;
         style.thickness /= source.size;
-        widths.push_back(source.weight * source.now.ornaments.ring * style.width / source.size);
-        width += widths.back();
+        const double wide = source.now.ornaments.ring * style.width / source.size;
+        width += source.weight * wide;
+        says.push_back(source.weight * wide / (wide + half_a_say));
+        said += says.back();
         styles.push_back(style);
     }
     const auto weight_of = [&](std::size_t i) {
-        return width > 0.0 ? widths[i] / width : sources[i].weight;
+        return said > 0.0 ? says[i] / said : sources[i].weight;
     };
     Shares<RingStyle> shares;
     for (std::size_t i = 0; i < styles.size(); ++i) shares.add(styles[i], weight_of(i));

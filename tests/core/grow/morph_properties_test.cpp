@@ -45,8 +45,7 @@ TEST_P(SomePairs, ConvergesToEitherSpecies) {
             if (age != 0.6 && (age < 0.6) == (corner == 0)) continue;  // one corner will do
             // The finest level: rings of others stand elsewhere along a meridian, and their chords with them.
             const Mesh pure = mesh_of(at(corner, age, 3, 0)), mixed = mesh_of(at(near, age, 3, 0));
-            // 0.3 % for all but the button of the shaggy ink cap beside the honey fungus, which comes to 0.34 %.
-            EXPECT_LT(hausdorff(pure, mixed), 0.0035 * size(pure, age))
+            EXPECT_LT(hausdorff(pure, mixed), 0.003 * size(pure, age))
                 << "t " << near << ", age " << age;
             // Layers of no thickness that lie on the surface would be seen by nothing but their area.
             EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << "t " << near << ", age " << age;
