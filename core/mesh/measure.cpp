@@ -90,6 +90,7 @@ std::vector<std::string> defects(const Mesh& mesh) {
     struct Edge {
         std::uint32_t from, to;
         int times;  // 1 as it stands in a triangle, -1 as its neighbour needs it
+        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a null in a defaulted comparison
         auto operator<=>(const Edge&) const = default;
     };
     std::vector<Edge> edges;

@@ -283,6 +283,7 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
     }
 
     std::vector<double> heights;
+    heights.reserve(shapes.size());
     for (const ControlShape& shape : shapes) heights.push_back(height(shape.silhouette));
 
     nodes_.resize(shapes.size());

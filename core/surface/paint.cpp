@@ -154,7 +154,8 @@ void stand_on_comb(const PaintParams& params, HymeniumPlan& plan) {
         if (comb << tiers == own) return;
         plan.slots = static_cast<float>(comb << tiers);
         plan.stands = static_cast<float>(all);
-        plan.stride = static_cast<float>(all / own);
+        const int stride = all / own;  // each so many slots one that reaches the stem
+        plan.stride = static_cast<float>(stride);
         return;
     }
     plan.blades = comb;
