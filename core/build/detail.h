@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 
 namespace sporeprint {
 
@@ -19,5 +20,17 @@ inline constexpr std::array<Detail, 4> details = {{
     {7, 5, 7, 16, 0, 0, 1},
     {4, 3, 4, 8, 0, 0, 0},
 }};
+
+/// By LOD, of a set of species that has relief: twice the rings of the cap, less one (see Outline::rings), and more columns.
+inline constexpr std::array<Detail, 4> fine_details = {{
+    {26, 18, 55, 128, 7, 1, 6},
+    {13, 9, 27, 56, 4, 0, 3},
+    {7, 5, 7, 16, 0, 0, 1},
+    {4, 3, 4, 8, 0, 0, 0},
+}};
+
+[[nodiscard]] constexpr const Detail& detail_of(bool has_relief, int lod) {
+    return (has_relief ? fine_details : details)[static_cast<std::size_t>(lod)];
+}
 
 }  // namespace sporeprint

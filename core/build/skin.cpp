@@ -4,14 +4,15 @@
 
 namespace sporeprint {
 
-Skin::Skin(const Individual& individual, int columns)
+Skin::Skin(const Individual& individual, const Detail& detail)
     : outline_(individual.outline),
-      waves_(individual.waves, greatest_radius(individual.outline.cap), columns,
+      relief_(individual, detail),
+      waves_(individual.waves, greatest_radius(individual.outline.cap), detail.columns,
              individual.effective.seed),
-      azimuth_(individual, columns) {}
+      azimuth_(individual, detail.columns) {}
 
 Skin::Column Skin::column(double angle) const {
-    Column column{azimuth_.column(angle)};
+    Column column{angle, azimuth_.column(angle), {}};
     if (!waves_.flat()) column.waves = waves_.phases(angle);
     return column;
 }
@@ -27,6 +28,23 @@ SurfacePoint Skin::at(Part part, const OutlineSample& sample, const Column& colu
     SurfacePoint point{{sample.r * c, sample.y, sample.r * s},
                        {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
                        {-s, 0.0, c}};
+    if (!relief_.flat(part)) {
+        // Along the normal of the outline, which turns with it: n' is the curvature times the tangent.
+        const Relief::Height height =
+            relief_.at(part, sample.share, column.angle, column.azimuth.from);
+        const double length = curve(part).length();
+        const double rise = length > 0.0 ? height.by_share / length : 0.0;
+        const double stretch = 1.0 + height.value * sample.curvature;
+        const double out = sample.tangent_y, up = -sample.tangent_r;
+        const double r = sample.r + height.value * out;
+        const double along_r = stretch * sample.tangent_r + rise * out;
+        point.position = {r * c, sample.y + height.value * up, r * s};
+        point.meridian = {along_r * c, stretch * sample.tangent_y + rise * up, along_r * s};
+        if (sample.r > 0.0) {
+            const double round = r / sample.r, slope = height.by_angle / sample.r;
+            point.azimuth = {slope * out * c - round * s, slope * up, slope * out * s + round * c};
+        }
+    }
     if (part != Part::stem && !waves_.flat()) {
         const bool cap = part == Part::cap;
         const double length = curve(part).length();

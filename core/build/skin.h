@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/build/azimuth.h"
+#include "core/build/relief.h"
 #include "core/build/waves.h"
 #include "core/surface/charts.h"
 
@@ -11,18 +12,21 @@ namespace sporeprint {
 /// margin and 1 at the apex. Angles are those of the columns, before a fan turns them to its front.
 class Skin {
   public:
-    /// columns  of the mesh: what they cannot carry is left out
-    Skin(const Individual& individual, int columns);
+    /// detail  of the mesh: what its columns and rings cannot carry is left out
+    Skin(const Individual& individual, const Detail& detail);
 
     /// All that depends on the angle alone.
     struct Column {
+        double angle = 0.0;
         AzimuthMap::Column azimuth;
         Waves::Phases waves{};
     };
     [[nodiscard]] Column column(double angle) const;
 
     /// Whether it is the outline turned about the axis and nothing more.
-    [[nodiscard]] bool plain() const { return waves_.flat() && azimuth_.identity(); }
+    [[nodiscard]] bool plain() const {
+        return waves_.flat() && azimuth_.identity() && relief_.flat(Part::cap);
+    }
 
     /// The place of a sample of the part's sub-curve. The directions are the derivatives by arc length of the outline at rest, base
     /// to apex, and by angle over the radius at rest; their cross product points outwards and is not unit. part: stem, hymenium or cap
@@ -35,6 +39,7 @@ class Skin {
 
   private:
     const Outline& outline_;
+    Relief relief_;
     Waves waves_;
     AzimuthMap azimuth_;
 };

@@ -197,10 +197,10 @@ void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) c
 
 Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& options) {
     const Outline& outline = individual.outline;
-    const Detail& detail = details[static_cast<std::size_t>(lod)];
+    const Detail& detail = detail_of(individual.has_relief, lod);
     const std::uint32_t seed = individual.effective.seed;
     const Deformer deformer(individual);
-    const Skin skin(individual, detail.columns);
+    const Skin skin(individual, detail);
     Mesh mesh;
     const int rings =
         detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
@@ -220,7 +220,10 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     Sweeper sweeper(mesh, deformer, skin, detail.columns, options.textured);
     sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
     sweeper.face(Part::hymenium, outline.rings(CurveName::hymenium, lod));
-    sweeper.face(Part::cap, outline.rings(CurveName::cap, lod));
+    // A finer cap has rings between those of the set.
+    const bool denser = detail.cap_rings > details[static_cast<std::size_t>(lod)].cap_rings;
+    sweeper.face(Part::cap, denser ? outline.denser_rings(CurveName::cap, lod)
+                                   : outline.rings(CurveName::cap, lod));
     const Ground ground{outline,          deformer,           skin, detail, seed,
                         options.textured, options.keep_absent};
     add_patches(mesh, individual, ground);

@@ -52,7 +52,7 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& me
 }
 
 Estimate estimate(const MushroomOrder& order, const Individual& individual) {
-    const Detail& detail = details[static_cast<std::size_t>(order.params.lod)];
+    const Detail& detail = detail_of(individual.has_relief, order.params.lod);
     const auto columns = static_cast<std::uint64_t>(detail.columns) + 1;
     const bool lower_face = !individual.outline.hymenium.empty();
     const auto rings = static_cast<std::uint64_t>(

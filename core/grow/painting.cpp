@@ -5,6 +5,7 @@
 #include <numeric>
 #include <utility>
 
+#include "core/build/detail.h"
 #include "core/grow/mushroom.h"
 #include "core/params/canonical.h"
 #include "core/surface/dissolve.h"
@@ -167,6 +168,9 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.hymenium = model.hymenium;
         painting.warts = model.warts;
         painting.scales = model.scales;
+        painting.relief = std::get<Swept>(model.shape).relief;
+        const Detail& detail = detail_of(true, order.params.lod);  // of any set with relief
+        painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
         painting.ornaments = model.ornaments;
         painting.fade = model.weathering.fade;
         painting.wetness = model.weathering.wetness;

@@ -53,6 +53,10 @@ struct Individual {
     double stem_top = 0.0;   ///< of its last
     AxisCurve axis;
     Azimuth azimuth;
+    std::vector<ReliefStyle>
+        reliefs;  ///< of the upper face, that of each species as deep as it weighs
+    bool has_relief =
+        false;  ///< whether a species of the mix has any at some age: then the mesh is finer
     std::vector<PatchLayer>
         layers;  ///< warts, scales and volvas of all species, also those of which nothing is left
     RingStyle ring;         ///< its width holds amounts and weights; metres

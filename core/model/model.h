@@ -169,12 +169,69 @@ struct Azimuth {
     bool operator==(const Azimuth&) const = default;
 };
 
+/// Relief of the upper face, added to the outline along its normal: crests lie on the outline, the rest below. Depths are shares of
+/// the face's meridian. Places are drawn once per individual; depths only scale them.
+struct ReliefStyle {
+    double folds = 0.0;
+    int fold_count = 5;
+    double pits = 0.0;
+    int pit_columns = 14;
+    int pit_rows = 8;
+    double rib = 0.3;
+    double tiers = 0.0;
+    int tier_count = 5;
+
+    static constexpr void fields(auto visit) {
+        using R = ReliefStyle;
+        visit(&R::folds, Info{.name = "folds",
+                              .min = 0,
+                              .max = 0.3,
+                              .doc = "Depth of winding creases between folds, as of a brain "
+                                     "(jellies), in lengths of the meridian."});
+        visit(&R::fold_count, Info{.name = "fold_count",
+                                   .min = 2,
+                                   .max = 16,
+                                   .doc = "About how many folds lie across the face."});
+        visit(&R::pits, Info{.name = "pits",
+                             .min = 0,
+                             .max = 0.2,
+                             .doc = "Depth of the pits of a honeycomb (morels, stinkhorns), in "
+                                    "lengths of the meridian."});
+        visit(&R::pit_columns, Info{.name = "pit_columns",
+                                    .min = 3,
+                                    .max = 40,
+                                    .doc = "Pits round the face where it is widest."});
+        visit(&R::pit_rows, Info{.name = "pit_rows",
+                                 .min = 2,
+                                 .max = 30,
+                                 .doc = "Rows of pits from the apex to the margin."});
+        visit(&R::rib, Info{.name = "rib",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "Width of the ribs between pits: 0 sharp, 1 as wide as the "
+                                   "pits."});
+        visit(&R::tiers, Info{.name = "tiers",
+                              .min = 0,
+                              .max = 0.1,
+                              .doc = "Depth of the grooves between concentric tiers (perennial "
+                                     "brackets), in lengths of the meridian."});
+        visit(&R::tier_count, Info{.name = "tier_count",
+                                   .min = 1,
+                                   .max = 20,
+                                   .doc = "Tiers from the apex to the margin."});
+    }
+    /// Whether any of it is there.
+    [[nodiscard]] constexpr bool any() const { return folds > 0.0 || pits > 0.0 || tiers > 0.0; }
+    bool operator==(const ReliefStyle&) const = default;
+};
+
 /// Shape family "swept": an outline turned round an axis.
 struct Swept {
     static constexpr const char* form = "swept";
     Silhouette silhouette;
     std::vector<AxisPoint> axis;
     Azimuth azimuth{};
+    ReliefStyle relief{};
 
     static constexpr void fields(auto visit) {
         visit(&Swept::silhouette, Info{.name = "silhouette", .doc = "The outline."});
@@ -184,6 +241,7 @@ struct Swept {
                                         "empty for a straight stem."});
         visit(&Swept::azimuth,
               Info{.name = "azimuth", .doc = "How the radius depends on the angle."});
+        visit(&Swept::relief, Info{.name = "relief", .doc = "Relief of the upper face."});
     }
     bool operator==(const Swept&) const = default;
 };
@@ -366,6 +424,8 @@ struct CapSurface {
     double striae = 0.0;
     double bumps = 0.2;
     double roughness = 0.6;
+    Colour hollow = {120, 90, 60};
+    double hollow_tint = 0.0;
     Upload image;
 
     static constexpr void fields(auto visit) {
@@ -416,6 +476,13 @@ struct CapSurface {
               Info{.name = "bumps", .min = 0, .max = 1, .doc = "Fine unevenness of the skin."});
         visit(&C::roughness,
               Info{.name = "roughness", .min = 0.05, .max = 1, .doc = "0 is polished, 1 is matt."});
+        visit(&C::hollow, Info{.name = "hollow",
+                               .doc = "Colour in the hollows of the relief: pits, creases, "
+                                      "grooves."});
+        visit(&C::hollow_tint, Info{.name = "hollow_tint",
+                                    .min = 0,
+                                    .max = 1,
+                                    .doc = "How much of that colour the hollows show."});
         visit(&C::image,
               Info{.name = "image",
                    .most = 3000000,

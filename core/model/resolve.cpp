@@ -256,6 +256,39 @@ Azimuth azimuth_of(const std::vector<Source>& sources) {
     return azimuth;
 }
 
+/// The relief of each species that has any, as deep as it weighs; equal forms share one, so that a set grows no slower than it must.
+std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
+    std::vector<ReliefStyle> reliefs;
+    for (const Source& source : sources) {
+        ReliefStyle relief = std::get<Swept>(source.now.shape).relief;
+        if (!relief.any()) continue;
+        relief.folds *= source.weight;
+        relief.pits *= source.weight;
+        relief.tiers *= source.weight;
+        const auto alike =
+            std::find_if(reliefs.begin(), reliefs.end(), [&](const ReliefStyle& other) {
+                return other.fold_count == relief.fold_count &&
+                       other.pit_columns == relief.pit_columns &&
+                       other.pit_rows == relief.pit_rows && other.rib == relief.rib &&
+                       other.tier_count == relief.tier_count;
+            });
+        if (alike == reliefs.end()) {
+            reliefs.push_back(relief);
+            continue;
+        }
+        alike->folds += relief.folds;
+        alike->pits += relief.pits;
+        alike->tiers += relief.tiers;
+    }
+    return reliefs;
+}
+
+bool has_relief(const Source& source) {
+    return std::any_of(source.stages.begin(), source.stages.end(), [](const Model* stage) {
+        return std::get<Swept>(stage->shape).relief.any();
+    });
+}
+
 /// One layer for each kind of piece of each species; species whose pieces have equal places share theirs.
 std::vector<PatchLayer> layers_of(const std::vector<Source>& sources) {
     std::vector<PatchLayer> layers;
@@ -504,6 +537,8 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
                            greatest_radius(individual.outline.stem);
     individual.axis = axis_of(sources);
     individual.azimuth = azimuth_of(sources);
+    individual.reliefs = reliefs_of(sources);
+    individual.has_relief = std::any_of(sources.begin(), sources.end(), has_relief);
     DeformationOf<Plain>& deformation = model.deformation;
     if (!order.model) {
         const double fold = individual.axis.greatest_turn() / slender;

@@ -135,8 +135,13 @@ OutlineSample SubCurve::sample(double parameter, double arc) const {
             speed = 1.0;
         }
     }
-    return {s.position.x, s.position.y, tangent.x / speed, tangent.y / speed,
-            length_ > 0.0 ? arc / length_ : 0.0};
+    const glm::dvec2& bend = s.second_derivative;
+    return {s.position.x,
+            s.position.y,
+            tangent.x / speed,
+            tangent.y / speed,
+            length_ > 0.0 ? arc / length_ : 0.0,
+            (tangent.x * bend.y - tangent.y * bend.x) / (speed * speed * speed)};
 }
 
 OutlineSample SubCurve::at(double share) const {
@@ -234,6 +239,16 @@ Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> pl
 
 std::vector<OutlineSample> Outline::rings(CurveName curve, int lod) const {
     return of(curve).placed(places_->of(curve, lod));
+}
+
+std::vector<OutlineSample> Outline::denser_rings(CurveName curve, int lod) const {
+    const std::vector<double>& places = places_->of(curve, lod);
+    std::vector<double> denser;
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        if (i > 0) denser.push_back(0.5 * (places[i - 1] + places[i]));
+        denser.push_back(places[i]);
+    }
+    return of(curve).placed(denser);
 }
 
 Outline Outline::unproven(const Silhouette& silhouette, const std::string& path) {

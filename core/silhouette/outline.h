@@ -16,7 +16,8 @@ namespace sporeprint {
 struct OutlineSample {
     double r = 0.0, y = 0.0;
     double tangent_r = 0.0, tangent_y = 0.0;
-    double share = 0.0;  ///< arc length from the sub-curve's start over its whole length, 0..1
+    double share = 0.0;      ///< arc length from the sub-curve's start over its whole length, 0..1
+    double curvature = 0.0;  ///< 1/m; positive where the curve turns to its left, as round a cap
 };
 
 /// The three sub-curves, base to apex.
@@ -134,6 +135,9 @@ struct Outline {
     /// The rings of a sub-curve at a level of detail, first to last: the very polyline that is swept and that the proofs are about.
     /// Empty where the set has no such sub-curve. pre: made of nodes and places
     [[nodiscard]] std::vector<OutlineSample> rings(CurveName curve, int lod) const;
+
+    /// The same with one more ring between each two.
+    [[nodiscard]] std::vector<OutlineSample> denser_rings(CurveName curve, int lod) const;
 
   private:
     std::shared_ptr<const RingPlaces> places_;

@@ -7,6 +7,7 @@
 #define SPOREPRINT_CORE_SURFACE_CAP_INL
 #endif
 
+#include "core/surface/relief.inl"
 #include "core/surface/texel.inl"
 
 HWY_BEFORE_NAMESPACE();
@@ -166,6 +167,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     out.height = height;
     out.roughness = rough;
     out.occlusion = occlusion;
+    if (plan.relief.any()) lay_relief(plan.relief, p, out);
     return out;
 }
 

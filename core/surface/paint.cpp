@@ -86,11 +86,34 @@ DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
     return disc;
 }
 
+ReliefPlan relief_plan(const PaintParams& params) {
+    const ReliefStyle& style = params.relief;
+    ReliefPlan plan;
+    plan.seed = relief_seeds(params.seed);
+    // The normals of the mesh hold what it carries; a little more is kept, because its triangles round what is sharp.
+    const auto left = [](double carried) { return 1.0 - 0.75 * carried; };
+    plan.folds = single(style.folds);
+    plan.fold_slope = single(style.folds * left(params.carried.folds));
+    plan.fold_size = 0.5F * static_cast<float>(style.fold_count);
+    plan.pits = single(style.pits);
+    plan.pit_slope = single(style.pits * left(params.carried.pits));
+    plan.pit_columns = static_cast<float>(style.pit_columns);
+    plan.pit_rows = static_cast<float>(style.pit_rows);
+    plan.rib = single(pit_rib * style.rib);
+    plan.tiers = single(style.tiers);
+    plan.tier_slope = single(style.tiers * left(params.carried.tiers));
+    plan.tier_count = static_cast<float>(style.tier_count);
+    plan.hollow = light_of(params.surface.cap.hollow);
+    plan.tint = single(params.surface.cap.hollow_tint);
+    return plan;
+}
+
 CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     const CapSurface& cap = params.surface.cap;
     CapPlan plan;
     const double arc = length_of_step(params.metrics.cap_arc);
     plan.disc = cap_disc(arc, length_of_step(params.metrics.cap_radius), frame);
+    plan.relief = relief_plan(params);
     plan.seed = seeds<12>(params.seed, cap_purpose);
     plan.lightness = single(params.lightness);
     plan.roughness = single(cap.roughness);

@@ -7,6 +7,7 @@
 
 #include "core/bytes.h"
 #include "core/model/patches.h"
+#include "core/model/relief.h"
 #include "core/model/request.h"
 #include "core/surface/metrics.h"
 
@@ -24,6 +25,8 @@ struct PaintParams {
     int comb = 0;
     PatchStyle warts;
     PatchStyle scales;
+    ReliefStyle relief;
+    CarriedRelief carried;
     OrnamentsOf<Plain> ornaments;
     double fade = 0.0;
     double wetness = 0.0;
@@ -53,6 +56,9 @@ struct PaintParams {
                           "blades of each of them stand. 0: where its own stand."});
         visit(&P::warts, Info{.name = "warts", .doc = "Remnants of the universal veil."});
         visit(&P::scales, Info{.name = "scales", .doc = "Scales of the torn skin."});
+        visit(&P::relief, Info{.name = "relief", .doc = "Relief of the upper face."});
+        visit(&P::carried,
+              Info{.name = "carried", .doc = "How much of the relief the mesh carries."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "How much of them is left."});
         visit(&P::fade, Info{.name = "fade", .min = 0, .max = 1, .doc = "Bleaching."});
         visit(&P::wetness, Info{.name = "wetness", .min = 0, .max = 1, .doc = "Film of water."});

@@ -73,7 +73,23 @@ inline constexpr int most_ramp_steps = 5;
 inline constexpr std::array<float, 7> srgb_curve = {
     -0.58427069F, 2.24849906F, -3.55274765F, 3.03261645F, -1.64561153F, 1.54233637F, -0.04086402F};
 
+/// Relief of a cap. Depths tell how dark hollows are, slopes what painting adds to the mesh: both in arcs.
+struct ReliefPlan {
+    std::array<std::uint32_t, 3> seed{};
+    float folds = 0.0F, fold_slope = 0.0F;
+    float fold_size = 1.0F;  ///< cells of noise in the radius of the young hemisphere
+    float pits = 0.0F, pit_slope = 0.0F;
+    float pit_columns = 3.0F, pit_rows = 2.0F;
+    float rib = 0.0F;  ///< half width, in cells
+    float tiers = 0.0F, tier_slope = 0.0F;
+    float tier_count = 1.0F;
+    Light hollow;
+    float tint = 0.0F;
+    [[nodiscard]] bool any() const { return folds > 0.0F || pits > 0.0F || tiers > 0.0F; }
+};
+
 struct CapPlan {
+    ReliefPlan relief;
     DiscPlan disc;
     std::array<std::uint32_t, 12> seed{};
     Light first;

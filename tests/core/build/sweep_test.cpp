@@ -233,7 +233,7 @@ struct Surface3 {
 /// Largest and mean normal error over the three faces of an individual.
 std::pair<double, double> normal_errors(const Individual& individual, std::uint32_t seed) {
     const Deformer deformer(individual);
-    const Skin skin(individual, 72);
+    const Skin skin(individual, details[0]);
     double worst = 0.0, sum = 0.0;
     int count = 0;
     Random random(seed, 99);

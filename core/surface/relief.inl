@@ -1,0 +1,107 @@
+// Relief of the upper face on vectors of texels: the same folds, pits and tiers that core/build/relief.cpp raises in the mesh.
+#if defined(SPOREPRINT_CORE_SURFACE_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_RELIEF_INL
+#undef SPOREPRINT_CORE_SURFACE_RELIEF_INL
+#else
+#define SPOREPRINT_CORE_SURFACE_RELIEF_INL
+#endif
+
+#include "core/model/relief.h"
+#include "core/surface/texel.inl"
+
+HWY_BEFORE_NAMESPACE();
+namespace sporeprint {
+namespace HWY_NAMESPACE {
+
+/// Cells of a honeycomb, in rows across y.
+HWY_INLINE Cells pit_cells(const ReliefPlan& plan, VF turn, VF y) {
+    const VF row = hn::Floor(y);
+    Neighbours<9> all;
+    all.begin();
+    for (int j = 0; j < 3; ++j) {
+        const VF this_row = row + set(static_cast<float>(j - 1));
+        const VF rise = set(static_cast<float>(pit_first)) +
+                        (this_row + set(0.5F)) * set(static_cast<float>(pit_rise) / plan.pit_rows);
+        const VF columns =
+            hn::Max(hn::Floor(set(plan.pit_columns) * unit(rise) + set(0.5F)), set(3.0F));
+        const VF half_row = this_row * set(0.5F);
+        const VF x = turn * columns - (half_row - hn::Floor(half_row));
+        const VF column = hn::Floor(x);
+        const VU row_bits = whole_bits(this_row) * word(prime_y) + word(plan.seed[2]);
+        for (int i = 0; i < 3; ++i) {
+            const VF this_column = column + set(static_cast<float>(i - 1));
+            VF wrapped = this_column;
+            wrapped = wrapped + hn::IfThenElseZero(wrapped < set(0.0F), columns);
+            wrapped = wrapped - hn::IfThenElseZero(wrapped >= columns, columns);
+            const VU h = hash(hn::Xor(whole_bits(wrapped) * word(prime_x), row_bits));
+            const float jitter = static_cast<float>(pit_jitter);
+            all.add(this_column + set(0.5F) + upper_part(h) * set(jitter) - x,
+                    this_row + set(0.5F) + lower_part(h) * set(jitter) - y, h);
+        }
+    }
+    return all.found();
+}
+
+/// How deep a crease is at a value of noise, 0..1.
+HWY_INLINE VF crease_of(VF noise) {
+    const VF square = set(static_cast<float>(crease * crease));
+    return square / (noise * noise + square);
+}
+
+/// Adds the relief to a texel of the cap: height, colour of the hollows, their shade.
+HWY_INLINE void lay_relief(const ReliefPlan& plan, const DiscPoint& p, Texel& texel) {
+    const VF one = set(1.0F);
+    VF height = set(0.0F);
+    VF hollow = set(0.0F);
+    VF dark = set(0.0F);
+    if (plan.folds > 0.0F) {
+        const VF angle = p.rho * set(1.5707963F);
+        const VF q = angle * angle;
+        const VF sine =
+            angle * (one + q * (set(-1.0F / 6.0F) +
+                                q * (set(1.0F / 120.0F) +
+                                     q * (set(-1.0F / 5040.0F) + q * set(1.0F / 362880.0F)))));
+        const VF fall =
+            q * (set(0.5F) +
+                 q * (set(-1.0F / 24.0F) + q * (set(1.0F / 720.0F) + q * set(-1.0F / 40320.0F))));
+        VF depth = set(0.0F);
+        for (std::size_t octave = 0; octave < 2; ++octave) {
+            const VF f = set(plan.fold_size * (octave == 0 ? 1.0F : 2.03F));
+            const float weight =
+                static_cast<float>(octave == 0 ? 1.0 - fine_creases : fine_creases);
+            depth = depth + crease_of(noise3(f * sine * p.cosine, f * fall, f * sine * p.sine,
+                                             plan.seed[octave])) *
+                                set(weight);
+        }
+        height = height - depth * set(plan.fold_slope);
+        hollow = hn::Max(hollow, depth);
+        dark = dark + depth * set(plan.folds * 12.0F);
+    }
+    if (plan.pits > 0.0F) {
+        const Cells cells = pit_cells(plan, turn_of(p.cosine, p.sine), p.rho * set(plan.pit_rows));
+        const VF floor = smooth(cells.border, plan.rib, 1.0F / static_cast<float>(pit_slope)) *
+                         (set(0.85F) + set(0.15F) * upper_part(hash(cells.id)));
+        height = height - floor * set(plan.pit_slope);
+        hollow = hn::Max(hollow, floor);
+        dark = dark + floor * set(plan.pits * 16.0F);
+    }
+    if (plan.tiers > 0.0F) {
+        const VF groove = set(0.5F) + set(0.5F) * wave(p.rho * set(plan.tier_count));
+        height = height - groove * groove * set(plan.tier_slope);
+        hollow = hn::Max(hollow, groove * groove);
+        dark = dark + groove * groove * set(plan.tiers * 16.0F);
+    }
+    const VF window = smooth(p.rho, static_cast<float>(relief_apex),
+                             static_cast<float>(1.0 / (relief_apex_end - relief_apex))) *
+                      (one - smooth(p.rho, static_cast<float>(relief_margin),
+                                    static_cast<float>(1.0 / (1.0 - relief_margin))));
+    texel.height = texel.height + height * window;
+    texel.colour = mix(texel.colour, rgb(plan.hollow), hollow * window * set(plan.tint));
+    texel.occlusion = texel.occlusion * (one - set(0.62F) * unit(dark) * window);
+}
+
+}  // namespace HWY_NAMESPACE
+}  // namespace sporeprint
+HWY_AFTER_NAMESPACE();
+
+#endif
