@@ -364,9 +364,10 @@ TEST(Sweep, TheSeamColumnRepeatsColumnZeroBitForBit) {
         for (int lod = 0; lod < 4; ++lod) {
             MushroomOrder order = order_of(id, 0.9, 4, lod);
             order.params.variation = 1.0;
-            const Mesh mesh = swept(body_of(order), lod, true);
-            const std::size_t row = row_of(lod);
-            const Detail& detail = details[static_cast<std::size_t>(lod)];
+            const Individual individual = body_of(order);
+            const Mesh mesh = swept(individual, lod, true);
+            const Detail& detail = detail_of(individual.has_relief, lod);
+            const auto row = static_cast<std::size_t>(detail.columns) + 1;
             for (std::size_t i = 0; i + row <= mesh.positions.size(); i += row) {
                 const std::size_t last = i + row - 1;
                 EXPECT_TRUE(same_bits(mesh.positions[i], mesh.positions[last]));
@@ -389,10 +390,11 @@ TEST(Sweep, StemHymeniumAndCapAreWeldedBitForBit) {
                 MushroomOrder order = order_of(id, 0.2 * seed, seed, lod);
                 order.params.variation = 1.0;
                 order.params.weathering.waves = 1.0;
-                const Mesh mesh = swept(body_of(order), lod);
-                const Detail& detail = details[static_cast<std::size_t>(lod)];
-                const std::size_t row = row_of(lod);
-                const bool has_hymenium = !body_of(order).outline.hymenium.empty();
+                const Individual individual = body_of(order);
+                const Mesh mesh = swept(individual, lod);
+                const Detail& detail = detail_of(individual.has_relief, lod);
+                const auto row = static_cast<std::size_t>(detail.columns) + 1;
+                const bool has_hymenium = !individual.outline.hymenium.empty();
                 std::vector<int> joints = {detail.stem_rings};
                 if (has_hymenium) joints.push_back(detail.stem_rings + detail.hymenium_rings);
                 for (const int joint : joints)
