@@ -21,6 +21,7 @@ SurfaceAddress surface_address(const MushroomOrder& order) {
     address.size = quantised_length(params.size);
     address.variation = params.variation;
     address.texture_size = {params.texture_size >> params.lod};
+    address.lod = params.lod;
     address.ornaments = params.ornaments;
     address.hymenium = params.hymenium;
     address.weathering = {params.weathering.fade, params.weathering.wetness};
@@ -35,6 +36,7 @@ PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     order.params.age = address.age;
     order.params.size = length_of_step(address.size);
     order.params.variation = address.variation;
+    order.params.lod = address.lod;
     order.params.ornaments = address.ornaments;
     order.params.hymenium = address.hymenium;
     order.params.weathering.fade = address.weathering.fade;

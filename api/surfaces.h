@@ -43,6 +43,7 @@ struct SurfaceAddress {
     int size = 0;
     double variation = 0.5;
     Choice<16, 32, 64, 128, 256, 512, 1024, 2048> texture_size{1024};
+    int lod = 0;
     OrnamentsOf<Maybe> ornaments;
     HymeniumOf<Maybe> hymenium;
     PaintedWeathering weathering;
@@ -64,6 +65,12 @@ struct SurfaceAddress {
         visit(&S::variation, info_of<P>("variation"));
         visit(&S::texture_size,
               Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+        visit(&S::lod,
+              Info{.name = "lod",
+                   .min = 0,
+                   .max = 3,
+                   .doc = "Level of detail of the mesh that wears it: what relief the mesh "
+                          "cannot carry is painted."});
         visit(&S::ornaments, info_of<P>("ornaments"));
         visit(&S::hymenium, info_of<P>("hymenium"));
         visit(&S::weathering, info_of<P>("weathering"));
