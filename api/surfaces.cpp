@@ -9,6 +9,7 @@
 namespace sporeprint::api {
 
 static_assert(well_described<PaintedWeathering>());
+static_assert(well_described<PaintedAmounts>());
 static_assert(well_described<SurfaceAddress>());
 
 double quantised_age(double age) { return std::floor(age * 64.0 + 0.5) / 64.0; }
@@ -22,7 +23,7 @@ SurfaceAddress surface_address(const MushroomOrder& order) {
     address.variation = params.variation;
     address.texture_size = {params.texture_size >> params.lod};
     address.lod = params.lod;
-    address.ornaments = params.ornaments;
+    address.ornaments = {params.ornaments.warts, params.ornaments.scales};
     address.hymenium = params.hymenium;
     address.weathering = {params.weathering.fade, params.weathering.wetness};
     return address;
@@ -37,7 +38,8 @@ PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     order.params.size = length_of_step(address.size);
     order.params.variation = address.variation;
     order.params.lod = address.lod;
-    order.params.ornaments = address.ornaments;
+    order.params.ornaments.warts = address.ornaments.warts;
+    order.params.ornaments.scales = address.ornaments.scales;
     order.params.hymenium = address.hymenium;
     order.params.weathering.fade = address.weathering.fade;
     order.params.weathering.wetness = address.weathering.wetness;

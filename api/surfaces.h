@@ -36,6 +36,18 @@ struct PaintedWeathering {
     bool operator==(const PaintedWeathering&) const = default;
 };
 
+/// How much of what is painted is left.
+struct PaintedAmounts {
+    std::optional<double> warts, scales;
+
+    static constexpr void fields(auto visit) {
+        using P = PaintedAmounts;
+        visit(&P::warts, info_of<OrnamentsOf<Maybe>>("warts"));
+        visit(&P::scales, info_of<OrnamentsOf<Maybe>>("scales"));
+    }
+    bool operator==(const PaintedAmounts&) const = default;
+};
+
 /// Query parameters of /v1/surfaces/mushrooms: those of a mushroom that paint reads.
 struct SurfaceAddress {
     std::uint32_t seed = 1;
@@ -44,7 +56,7 @@ struct SurfaceAddress {
     double variation = 0.5;
     Choice<16, 32, 64, 128, 256, 512, 1024, 2048> texture_size{1024};
     int lod = 0;
-    OrnamentsOf<Maybe> ornaments;
+    PaintedAmounts ornaments;
     HymeniumOf<Maybe> hymenium;
     PaintedWeathering weathering;
 

@@ -11,22 +11,23 @@ struct Detail {
     int patch_sides;  ///< corners of a wart or scale; 0: warts and scales are painted only
     int patch_rings;  ///< rings between its base and its tip
     int veil_rings;   ///< rings from a ring's attachment to its edge; 0: none
+    int sac_rings;    ///< rings from a sac's foot to its edge; 0: none
 };
 
 /// By LOD. The same individual in each: counts change, draws do not.
 inline constexpr std::array<Detail, 4> details = {{
-    {26, 18, 28, 64, 7, 1, 6},
-    {13, 9, 14, 32, 4, 0, 3},
-    {7, 5, 7, 16, 0, 0, 1},
-    {4, 3, 4, 8, 0, 0, 0},
+    {26, 18, 28, 64, 7, 1, 6, 8},
+    {13, 9, 14, 32, 4, 0, 3, 4},
+    {7, 5, 7, 16, 0, 0, 1, 2},
+    {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
 /// By LOD, of a set of species that has relief: twice the rings of the cap, less one (see Outline::rings), and more columns.
 inline constexpr std::array<Detail, 4> fine_details = {{
-    {26, 18, 55, 128, 7, 1, 6},
-    {13, 9, 27, 56, 4, 0, 3},
-    {7, 5, 7, 16, 0, 0, 1},
-    {4, 3, 4, 8, 0, 0, 0},
+    {26, 18, 55, 128, 7, 1, 6, 8},
+    {13, 9, 27, 56, 4, 0, 3, 4},
+    {7, 5, 7, 16, 0, 0, 1, 2},
+    {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
 [[nodiscard]] constexpr const Detail& detail_of(bool has_relief, int lod) {

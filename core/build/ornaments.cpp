@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
@@ -13,7 +14,8 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t corner_purpose = 21, ruffle_purpose = 22;
+constexpr std::uint32_t corner_purpose = 21, ruffle_purpose = 22, groove_purpose = 23,
+                        ring_tear_purpose = 24, sac_purpose = 25;
 constexpr const Chart& veil = swept_charts[static_cast<std::size_t>(Part::veil)];
 
 glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
@@ -118,6 +120,18 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured,
                                                  base + static_cast<std::uint32_t>(j)});
 }
 
+/// Share of the stem's arc length at which a place of the mature stem lies now: on its segment, at its share of it. The same place
+/// when the stem is the mature one.
+double grown_share(const std::vector<double>& mature, const std::vector<double>& now,
+                   double share) {
+    if (mature.size() != now.size()) return share;  // nothing known of another age
+    std::size_t k = 0;
+    while (k + 2 < mature.size() && mature[k + 1] <= share) ++k;
+    const double length = mature[k + 1] - mature[k];
+    const double within = length > 0.0 ? std::clamp((share - mature[k]) / length, 0.0, 1.0) : 0.0;
+    return now[k] + within * (now[k + 1] - now[k]);
+}
+
 /// Adds the pieces of one layer.
 void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     if (ground.detail.patch_sides == 0) return;
@@ -125,12 +139,17 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     // Positions run up the stem, or from the apex down.
     const bool on_stem = layer.purpose == volva_purpose;
     const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
+    const std::vector<double> segments = on_stem ? curve.segment_shares() : std::vector<double>{};
     const double length = ground.outline.cap.length();
     const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
+    // An outline with fewer corners stands wider, so that it covers as much.
+    const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
+    const double wider = std::sqrt(covered(details[0].patch_sides) / covered(sides));
     Solid solid;
     for (const Patch& patch : patches(style, ground.seed, layer.purpose)) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
-        const OutlineSample at = curve.at(on_stem ? patch.sigma : 1.0 - patch.sigma);
+        const OutlineSample at = curve.at(
+            on_stem ? grown_share(layer.segments, segments, patch.sigma) : 1.0 - patch.sigma);
         const SurfacePoint place =
             ground.skin.at(on_stem ? Part::stem : Part::cap, at, ground.skin.column(patch.theta));
         glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
@@ -149,7 +168,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         solid.columns = sides;
         solid.corners.clear();
         Random random(ground.seed, corner_purpose + layer.purpose, patch.id);
-        // Seven draws whatever the detail; a coarser outline takes some of them, so that its corners lie on the finer one.
+        // Seven draws whatever the detail; a coarser outline takes some of them.
         std::array<double, 7> reach{};
         for (double& r : reach) r = random.uniform(0.78, 1.12);
         const double tip_round = 0.25 * random.symmetric();
@@ -158,7 +177,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         for (int j = 0; j < sides; ++j) {
             const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
             rim[static_cast<std::size_t>(j)] =
-                radius * reach[static_cast<std::size_t>(j * 7 / sides)] *
+                wider * radius * reach[static_cast<std::size_t>(j * 7 / sides)] *
                 (turn.cosine * round + turn.sine * style.elongation * outward);
         }
         const glm::dvec3 tip =
@@ -190,7 +209,33 @@ OutlineSample stem_at(const SubCurve& stem, double height) {
     return stem.at(0.5 * (low + high));
 }
 
+/// How far an edge is torn at an angle, 0..1: rents between `count` lobes, and a finer raggedness.
+class Rents {
+  public:
+    Rents(Random& random, int least, int most)
+        : count_(least +
+                 static_cast<int>(random.bits() % static_cast<std::uint32_t>(most - least + 1))) {
+        for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
+    }
+    [[nodiscard]] double at(double angle) const {
+        const double rent = 0.5 + 0.5 * sine(count_ * angle + phases_[0]);
+        const double uneven = 0.5 + 0.5 * sine(angle + phases_[1]);
+        const double fine = 0.5 + 0.5 * sine((2 * count_ + 3) * angle + phases_[2]);
+        return 0.62 * rent * rent * rent + 0.23 * uneven + 0.15 * fine;
+    }
+
+  private:
+    int count_;
+    std::array<double, 3> phases_{};
+};
+
 }  // namespace
+
+int shell_rings(const Individual& individual, const Detail& detail) {
+    const bool ring = individual.has_ring && detail.veil_rings > 0;
+    const bool sac = individual.has_sac && detail.sac_rings > 0;
+    return (ring ? 2 * (detail.veil_rings + 1) : 0) + (sac ? 2 * (detail.sac_rings + 1) : 0);
+}
 
 int piece_count(const PatchLayer& layer) {
     return std::abs(layer.style.to - layer.style.from) < least_window ? 0 : layer.style.count;
@@ -209,6 +254,9 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     const OutlineSample attachment = stem_at(ground.outline.stem, height);
     const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);
+    Random groove_stream(ground.seed, groove_purpose), tear_stream(ground.seed, ring_tear_purpose);
+    const int groove_count = 15 + static_cast<int>(groove_stream.bits() % 5);
+    const Rents rents(tear_stream, 9, 13);
     Random random(ground.seed, ruffle_purpose);
     const int waves = 5 + static_cast<int>(random.bits() % 4);
     const double phase = random.uniform(0.0, 2.0 * pi);
@@ -222,34 +270,54 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     std::vector<Station> line;
     // A little inside the stem; a ring that comes or goes no deeper than it is wide.
     const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
-    double r = std::max(attachment.r - 0.5 * thickness - sunk, thickness), y = height;
+    const double clear = style.gap * std::min(attachment.r, width);
+    double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = height;
     for (int i = 0; i <= rings; ++i) {
         const double share = static_cast<double>(i) / rings;
-        const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - 0.45 * share));
+        const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - style.hang * share));
         line.push_back({r, y, turn.cosine, turn.sine, share});
         r += width / rings * turn.sine;
         y -= width / rings * turn.cosine;
     }
     struct Column {
         SineCosine turn;
-        double ruffle;
+        double ruffle, groove, reach;
     };
     std::vector<Column> columns;
     for (int j = 0; j <= ground.detail.columns; ++j) {
         const double angle = -2.0 * pi * (j % ground.detail.columns) /
                              ground.detail.columns;  // counter-clockwise seen from above
-        columns.push_back({sine_cosine(angle), sine(waves * angle + phase) +
-                                                   0.6 * sine((2 * waves + 1) * angle + other)});
+        // Grooves too fine for these columns would beat with them.
+        columns.push_back(
+            {sine_cosine(angle),
+             sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
+             3 * groove_count > ground.detail.columns ? 0.0 : sine(groove_count * angle + other),
+             1.0 - 0.8 * style.tear * rents.at(angle)});
     }
     // The veil tears off level with its edge, which is thicker.
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool lower = i <= rings;
-        const Station& at = line[static_cast<std::size_t>(lower ? i : solid.rows - 1 - i)];
-        const double half = (lower ? -0.5 : 0.5) * thickness * (0.6 + 0.8 * at.share);
-        const double ruffled = style.ruffle * 0.16 * width * at.share * at.share;
+        const int row = lower ? i : solid.rows - 1 - i;
+        const double whole_share = static_cast<double>(row) / rings;
+        // A double edge: two lips that stand off from each other.
+        const double half =
+            (lower ? -0.5 : 0.5) * thickness *
+            (0.6 + 0.8 * whole_share + 5.0 * style.edge * smooth_step(0.45, 1.0, whole_share));
         for (const Column& column : columns) {
-            const double off = half + ruffled * column.ruffle;
+            // Where the edge is torn the line ends sooner.
+            const double place = row * column.reach;
+            const auto before =
+                static_cast<std::size_t>(std::min<int>(static_cast<int>(place), rings - 1));
+            const double beyond = place - static_cast<double>(before);
+            const Station &from = line[before], &to = line[before + 1];
+            const Station at{from.r + beyond * (to.r - from.r), from.y + beyond * (to.y - from.y),
+                             from.normal_r + beyond * (to.normal_r - from.normal_r),
+                             from.normal_y + beyond * (to.normal_y - from.normal_y),
+                             from.share + beyond * (to.share - from.share)};
+            const double off = half +
+                               style.ruffle * 0.16 * width * at.share * at.share * column.ruffle +
+                               style.grooves * 0.04 * width * at.share * column.groove;
             const double rr = at.r + off * at.normal_r, yy = at.y + off * at.normal_y;
             solid.corners.push_back(
                 ground.skin.azimuth().moved({rr * column.turn.cosine, yy, rr * column.turn.sine}));
@@ -258,6 +326,68 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     ground.deformer.apply(solid.corners, station);
     append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured,
            width > 0.0 || ground.keep_absent);
+}
+
+void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
+    const SacStyle& style = individual.sac;
+    const int rings = ground.detail.sac_rings;
+    if (rings == 0 || !individual.has_sac) return;
+    const double height = style.height;
+    const double thickness = std::min(style.thickness, 0.2 * height);
+    const double foot = std::max(ground.deformer.base(), 0.0);
+    Random random(ground.seed, sac_purpose);
+    const Rents rents(random, 3, 5);
+
+    // The stem inside, up to the height of the highest lobe, and its greatest radius so far.
+    constexpr int samples = 24;
+    struct Girth {
+        double r, widest;
+    };
+    std::array<Girth, samples + 1> girths{};
+    double widest = 0.0;
+    for (int i = 0; i <= samples; ++i) {
+        const double r = stem_at(ground.outline.stem, foot + height * i / samples).r;
+        widest = std::max(widest, r);
+        girths[static_cast<std::size_t>(i)] = {r, widest};
+    }
+    const auto girth_at = [&](double share) {
+        const double place = share * samples;
+        const auto k =
+            static_cast<std::size_t>(std::min<int>(static_cast<int>(place), samples - 1));
+        const double beyond = place - static_cast<double>(k);
+        const Girth &a = girths[k], &b = girths[k + 1];
+        return Girth{a.r + beyond * (b.r - a.r), a.widest + beyond * (b.widest - a.widest)};
+    };
+    // Inside the stem at its foot, outside of it before long, standing off at its edge.
+    const double sunk = std::min(0.06 * girths[0].r, 0.25 * height);
+    const auto radius_at = [&](double share) {
+        const Girth girth = girth_at(share);
+        const double off = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.22, share) - sunk;
+        return std::max(girth.r + style.hold * (girth.widest - girth.r) + off +
+                            style.gap * height * share * share,
+                        thickness);
+    };
+    Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
+    for (int i = 0; i < solid.rows; ++i) {
+        const bool outside = i <= rings;
+        const double share = static_cast<double>(outside ? i : solid.rows - 1 - i) / rings;
+        for (int j = 0; j <= ground.detail.columns; ++j) {
+            const double angle =
+                -2.0 * pi * (j % ground.detail.columns) / ground.detail.columns;  // as the ring
+            const double up = share * (1.0 - 0.8 * style.tear * rents.at(angle));
+            // The skin thins towards its edge.
+            const double half = (outside ? 0.5 : -0.5) * thickness * (1.2 - 0.6 * share);
+            const double r = radius_at(up) + half;
+            const auto turn = sine_cosine(angle);
+            glm::dvec3 place =
+                ground.skin.azimuth().moved({r * turn.cosine, foot + height * up, r * turn.sine});
+            ground.deformer.apply(std::span(&place, 1), ground.deformer.station(std::min(
+                                                            place.y, ground.deformer.top())));
+            solid.corners.push_back(place);
+        }
+    }
+    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured,
+           height > 0.0 || ground.keep_absent);
 }
 
 }  // namespace sporeprint

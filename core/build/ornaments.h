@@ -1,4 +1,4 @@
-// What stands on the surface as solids of its own: warts, scales, bulb scales and the ring.
+// What stands on the surface as solids of its own: warts, scales, bulb scales, the ring and the sac.
 #pragma once
 
 #include "core/build/sweep.h"
@@ -24,7 +24,14 @@ struct Ground {
 /// is a point on the surface, with unit normals.
 void add_patches(Mesh& mesh, const Individual& individual, const Ground& ground);
 
+/// Vertices of the ring and the sac, which are there for a set of species or are not, whatever the amounts.
+[[nodiscard]] int shell_rings(const Individual& individual, const Detail& detail);
+
 /// Appends the ring: a closed thin shell attached to the stem; a line round it when nothing is left.
 void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground);
+
+/// Appends the sac-like volva: a closed thin shell round the base of the stem, torn at its edge; a line round it when nothing is
+/// left.
+void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground);
 
 }  // namespace sporeprint

@@ -202,8 +202,8 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const Deformer deformer(individual);
     const Skin skin(individual, detail);
     Mesh mesh;
-    const int rings =
-        detail.stem_rings + detail.hymenium_rings + detail.cap_rings + 2 * (detail.veil_rings + 1);
+    const int rings = detail.stem_rings + detail.hymenium_rings + detail.cap_rings +
+                      2 * (detail.veil_rings + 1) + 2 * (detail.sac_rings + 1);
     int pieces = 0;
     for (const PatchLayer& layer : individual.layers)
         pieces += detail.patch_sides > 0 ? piece_count(layer) : 0;
@@ -228,6 +228,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
                         options.textured, options.keep_absent};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);
+    add_sac(mesh, individual, ground);
     return mesh;
 }
 

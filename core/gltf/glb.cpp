@@ -210,6 +210,46 @@ Motion motion(const GlbParts& parts, std::size_t vertices, Tables& tables) {
     return out;
 }
 
+/// The members of a material, and the list of what it uses, each from a comma on.
+struct Shine {
+    std::string material, used;
+};
+
+Shine shine_of(const MaterialLook& look, bool textured) {
+    const auto shines = [](const glm::dvec3& light) {
+        return light.x > 0.0 || light.y > 0.0 || light.z > 0.0;
+    };
+    std::string extensions, names, emission;
+    const auto extension = [&](const std::string& name, const std::string& members) {
+        extensions += (extensions.empty() ? "\"" : ",\"") + name + "\":{" + members + "}";
+        names += (names.empty() ? "\"" : ",\"") + name + "\"";
+    };
+    if (look.coat > 0.0) {
+        std::string coat = "\"clearcoatFactor\":";
+        append(coat, static_cast<float>(look.coat));
+        // Sharp where the skin is smooth, unseen where it is matt: so one material coats the cap alone, without an image of its own.
+        coat += textured
+                    ? ",\"clearcoatRoughnessFactor\":1,\"clearcoatRoughnessTexture\":{\"index\":2}"
+                    : ",\"clearcoatRoughnessFactor\":0.25";
+        extension("KHR_materials_clearcoat", coat);
+    }
+    if (shines(look.glow)) {
+        append_corner(emission += ",\"emissiveFactor\":", glm::vec3(look.glow));
+        if (textured) emission += ",\"emissiveTexture\":{\"index\":0}";
+        extension("KHR_materials_emissive_strength", "\"emissiveStrength\":4");
+    }
+    if (shines(look.sheen)) {
+        std::string sheen = "\"sheenColorFactor\":";
+        append_corner(sheen, glm::vec3(look.sheen));
+        extension("KHR_materials_sheen", sheen + ",\"sheenRoughnessFactor\":0.45");
+    }
+    Shine shine;
+    if (extensions.empty()) return shine;
+    shine.material = emission + ",\"extensions\":{" + extensions + "}";
+    shine.used = ",\"extensionsUsed\":[" + names + "]";
+    return shine;
+}
+
 const std::shared_ptr<const Bytes>& zeros() {
     static const auto bytes = std::make_shared<const Bytes>(4, std::uint8_t{0});
     return bytes;
@@ -224,6 +264,7 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     const bool textured = parts.images != nullptr || linked;
     Tables tables;
     Geometry shape = geometry(mesh, textured, tables);
+    const Shine shine = shine_of(parts.look, textured);
     Motion moves = motion(parts, mesh.positions.size(), tables);
 
     std::string images;
@@ -244,7 +285,7 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
                        std::to_string(generator_version) + "\"";
     if (!parts.extras_json.empty()) (json += ",\"extras\":") += parts.extras_json;
-    json += "},\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":";
+    json += "}" + shine.used + ",\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":";
     append_quoted(json, parts.name);
     json += ",\"mesh\":0}],\"meshes\":[{\"name\":";
     append_quoted(json, parts.name);
@@ -256,14 +297,16 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
         json +=
             ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"metallicFactor\":0,"
             "\"metallicRoughnessTexture\":{\"index\":2}},"
-            "\"normalTexture\":{\"index\":1},\"occlusionTexture\":{\"index\":2}}],"
+            "\"normalTexture\":{\"index\":1},\"occlusionTexture\":{\"index\":2}" +
+            shine.material +
+            "}],"
             "\"textures\":[{\"sampler\":0,\"source\":0},{\"sampler\":0,\"source\":1},{\"sampler\":"
             "0,\"source\":2}],"
             "\"samplers\":[{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":33071,\"wrapT\":33071}]"
             ",\"images\":[" +
             images + "]";
     else
-        json += ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}}]";
+        json += ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" + shine.material + "}]";
     json += ",\"buffers\":[{\"byteLength\":";
     append(json, tables.binary);
     json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +

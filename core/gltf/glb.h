@@ -24,16 +24,24 @@ struct WeightClip {
     std::vector<float> weights;  ///< [key][target]
 };
 
+/// What optional material extensions say; those of which nothing is said are left out, and loaders may ignore each.
+struct MaterialLook {
+    double coat = 0.0;      ///< KHR_materials_clearcoat, 0..1; as rough as the image says
+    glm::dvec3 sheen{0.0};  ///< KHR_materials_sheen, linear
+    glm::dvec3 glow{0.0};   ///< emission, linear, 0..1; stronger by KHR_materials_emissive_strength
+};
+
 struct GlbParts {
     std::string name;                            ///< of node, mesh and material
     const ImageSet* images = nullptr;            ///< embedded when given
     std::array<std::string, 3> image_addresses;  ///< linked when not empty
     std::string extras_json;                     ///< a JSON object for asset.extras; empty for none
+    MaterialLook look = {};
     std::span<const MorphTarget> targets = {};  ///< weigh nothing until a viewer plays or sets them
     const WeightClip* clip = nullptr;           ///< of the targets
 };
 
-/// Core glTF 2.0, one mesh, one primitive, one material; positions and normals as floats, texture coordinates as normalised u16,
+/// Core glTF 2.0 with optional extensions of the material, one mesh, one primitive, one material; positions and normals as floats, texture coordinates as normalised u16,
 /// u16 indices while they fit. Texture coordinates and tangents are written exactly when there are images.
 /// Targets are dense: positions and normals move nearly everywhere, so a sparse accessor would be the larger one.
 ///

@@ -43,6 +43,24 @@ std::string name_of(const Individual& individual) {
     return most == individual.parts.end() || most->id.empty() ? "mushroom" : most->id;
 }
 
+// What the file says of light beyond its images. Slime and water are a clear coat; hairs shine in the cap's own colours.
+MaterialLook look_of(const Model& model) {
+    const Material& material = model.material;
+    const auto light = [](Colour colour) {
+        return glm::dvec3(srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
+                          srgb_to_linear(colour.b / 255.0));
+    };
+    glm::dvec3 skin(0.0);
+    for (const Colour& colour : model.surface.cap.ramp)
+        skin += light(colour) / static_cast<double>(model.surface.cap.ramp.size());
+    MaterialLook look;
+    // Not a whole one: viewers lose light at the rim of a coat that is rough, as it is on a matt stem.
+    look.coat = 0.7 * (1.0 - (1.0 - material.slime) * (1.0 - 0.8 * model.weathering.wetness));
+    look.sheen = material.velvet * (0.25 + 0.75 * skin);
+    look.glow = model.ornaments.glow * light(material.glow_colour);
+    return look;
+}
+
 bool textured(const MushroomOrder& order) { return order.params.textures != Textures::none; }
 
 }  // namespace
@@ -63,9 +81,7 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     std::uint64_t pieces = 0;
     for (const PatchLayer& layer : individual.layers)
         pieces += static_cast<std::uint64_t>(piece_count(layer));
-    const std::uint64_t loop = individual.has_ring && detail.veil_rings > 0
-                                   ? 2 * (static_cast<std::uint64_t>(detail.veil_rings) + 1)
-                                   : 0;
+    const auto loop = static_cast<std::uint64_t>(shell_rings(individual, detail));
     Estimate e;
     e.vertices = rings * columns + loop * columns;
     e.triangles = 2 * (rings - faces) * (columns - 1) + 2 * loop * (columns - 1);
@@ -104,7 +120,8 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     GlbParts parts{.name = name_of(individual),
                    .images = nullptr,
                    .image_addresses = {},
-                   .extras_json = extras_json(extras, individual, mesh)};
+                   .extras_json = extras_json(extras, individual, mesh),
+                   .look = look_of(individual.model)};
     GrowthClip growth;
     if (order.params.animation == Animation::growth) {
         growth = growth_clip(order, atlas, mesh, workshop);

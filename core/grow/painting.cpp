@@ -134,6 +134,9 @@ MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, cons
     if (order.model) return stepped;
     params.deformation = {};
     params.weathering.waves.reset();
+    params.ornaments.ring.reset();
+    params.ornaments.volva.reset();
+    params.ornaments.glow.reset();
     stepped.mix = surface_mix(order.mix);
     if (stepped.mix.size() == order.mix.size()) return stepped;
     MushroomOrder bare = stepped;
@@ -171,7 +174,11 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.relief = std::get<Swept>(model.shape).relief;
         const Detail& detail = detail_of(true, order.params.lod);  // of any set with relief
         painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
-        painting.ornaments = model.ornaments;
+        painting.ornaments = {model.ornaments.warts, model.ornaments.scales};
+        painting.slime = model.material.slime;
+        // Hairs do not shine by themselves.
+        double& roughness = painting.surface.cap.roughness;
+        roughness += model.material.velvet * (0.95 - roughness);
         painting.fade = model.weathering.fade;
         painting.wetness = model.weathering.wetness;
         // A species on whose comb all stand is painted as if it were alone.
@@ -235,16 +242,17 @@ std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
         std::vector<const RawImages*> raw;
         for (std::size_t i = 0; i < recipe.size(); ++i) {
             if (workshop.stop.stop_requested()) throw Cancelled();
-            std::string key = "raw " + painting_key(*params[i]);
+            const PaintParams bare = unlaid(*params[i]);
+            std::string key = "raw " + painting_key(bare);
             for (const double turn : {turns[i].cap, turns[i].hymenium, turns[i].stem})
                 (key += ' ') += number_text(turn);
             paintings.push_back(workshop.memo.paintings(key, [&] {
                 return std::make_shared<const RawImages>(
-                    paint_raw(*params[i], workshop.parallel, turns[i]));
+                    paint_raw(bare, workshop.parallel, turns[i]));
             }));
             raw.push_back(paintings.back().get());
         }
-        return std::make_shared<const ImageSet>(dissolve(raw, weights, workshop.parallel));
+        return std::make_shared<const ImageSet>(dissolve(raw, weights, workshop.parallel, params));
     };
     return workshop.memo.images(image_key(recipe), [&]() -> std::shared_ptr<const ImageSet> {
         if (recipe.size() > 1) return dissolved();

@@ -25,6 +25,9 @@ struct PatchLayer {
     PatchStyle style;     ///< places are drawn from it, whatever the weight
     double amount = 0.0;  ///< of the veil or skin: 0..1
     double weight = 1.0;  ///< of the species in the mix: factor on the size of every piece
+    /// Of pieces on the stem: shares of arc length at which the segments of the mature stem begin, and 1. A piece stays on its
+    /// segment, at its share of it.
+    std::vector<double> segments{};
     bool operator==(const PatchLayer&) const = default;
 };
 
@@ -58,7 +61,9 @@ struct Individual {
     bool has_relief =
         false;  ///< whether a species of the mix has any at some age: then the mesh is finer
     std::vector<PatchLayer>
-        layers;  ///< warts, scales and volvas of all species, also those of which nothing is left
+        layers;    ///< warts, scales and volvas of all species, also those of which nothing is left
+    SacStyle sac;  ///< its height holds amounts and weights; metres
+    bool has_sac = false;   ///< whether a species of the mix can have one at some age
     RingStyle ring;         ///< its width holds amounts and weights; metres
     bool has_ring = false;  ///< whether a species of the mix can have one at some age
     double waves = 0.0;     ///< of the margin: what no species with a margin has, none can show

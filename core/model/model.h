@@ -309,6 +309,8 @@ struct OrnamentsOf {
     M<double> warts{};
     M<double> scales{};
     M<double> ring{};
+    M<double> volva = preset<M>(1.0);
+    M<double> glow{};
 
     static constexpr void fields(auto visit) {
         using O = OrnamentsOf;
@@ -325,6 +327,16 @@ struct OrnamentsOf {
                              .min = 0,
                              .max = 1,
                              .doc = "How much of the partial veil is left as a ring on the stem."});
+        visit(&O::volva,
+              Info{.name = "volva",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How much of the universal veil is left at the base of the stem: a sac "
+                          "round it, or scales on the bulb."});
+        visit(&O::glow, Info{.name = "glow",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "Light of its own, as some species give at night."});
     }
     bool operator==(const OrnamentsOf&) const = default;
 };
@@ -677,6 +689,11 @@ struct RingStyle {
     double flare_deg = 60.0;
     double thickness = 0.0006;
     double ruffle = 0.3;
+    double hang = 0.45;
+    double edge = 0.0;
+    double gap = 0.0;
+    double grooves = 0.0;
+    double tear = 0.0;
 
     static constexpr void fields(auto visit) {
         using R = RingStyle;
@@ -694,14 +711,94 @@ struct RingStyle {
                                   .min = 0,
                                   .max = 120,
                                   .doc = "0 hangs down along the stem, 90 stands out flat."});
+        visit(&R::hang, Info{.name = "hang",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "How far it bends down towards its edge; 1 is a skirt whose "
+                                    "edge hangs along the stem."});
         visit(&R::thickness, Info{.name = "thickness",
                                   .unit = "m",
                                   .min = 0.0001,
                                   .max = 0.01,
                                   .doc = "Thickness of the veil."});
+        visit(&R::edge, Info{.name = "edge",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "How far its edge swells into a double one."});
+        visit(&R::gap, Info{.name = "gap",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "Clearance from the stem, in its radii but at most the ring's "
+                                   "own width: a ring that has come loose and can be moved."});
         visit(&R::ruffle, Info{.name = "ruffle", .min = 0, .max = 1, .doc = "Waves of its edge."});
+        visit(&R::grooves, Info{.name = "grooves",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "Grooves that the gills pressed into it."});
+        visit(&R::tear, Info{.name = "tear",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "How far its edge is torn into fibrils; 1 with a low flare is "
+                                    "what is left of a cobweb (cortina)."});
     }
     bool operator==(const RingStyle&) const = default;
+};
+
+/// A sac-like volva: the universal veil as a cup of skin round the base of the stem.
+struct SacStyle {
+    double height = 0.0;
+    double gap = 0.1;
+    double hold = 0.7;
+    double tear = 0.5;
+    double thickness = 0.0012;
+
+    static constexpr void fields(auto visit) {
+        using S = SacStyle;
+        visit(&S::height, Info{.name = "height",
+                               .unit = "m",
+                               .min = 0,
+                               .max = 0.15,
+                               .doc = "From the ground to its highest lobe; 0 is no sac."});
+        visit(&S::gap, Info{.name = "gap",
+                            .min = 0,
+                            .max = 0.6,
+                            .doc = "How far its edge stands off, in its own heights."});
+        visit(&S::hold, Info{.name = "hold",
+                             .min = 0,
+                             .max = 1,
+                             .doc = "0 follows the stem as it narrows above the bulb, 1 keeps the "
+                                    "bulb's width."});
+        visit(&S::tear,
+              Info{.name = "tear", .min = 0, .max = 1, .doc = "Depth of the rents between lobes."});
+        visit(&S::thickness, Info{.name = "thickness",
+                                  .unit = "m",
+                                  .min = 0.0001,
+                                  .max = 0.01,
+                                  .doc = "Thickness of the skin."});
+    }
+    bool operator==(const SacStyle&) const = default;
+};
+
+/// What light does beyond colour and roughness: optional material extensions of the file.
+struct Material {
+    double slime = 0.0;
+    double velvet = 0.0;
+    Colour glow_colour = {150, 255, 190};
+
+    static constexpr void fields(auto visit) {
+        using S = Material;
+        visit(
+            &S::slime,
+            Info{.name = "slime", .min = 0, .max = 1, .doc = "A clear coat of slime on the cap."});
+        visit(&S::velvet, Info{.name = "velvet",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "Sheen of fine hairs against the light."});
+        visit(&S::glow_colour,
+              Info{.name = "glow_colour",
+                   .doc = "Light from inside, where it glows; the skin's own colour filters it."});
+    }
+    bool operator==(const Material&) const = default;
 };
 
 /// Everything that makes one mushroom. Plain data, no behaviour.
@@ -712,10 +809,12 @@ struct Model {
     PatchStyle warts;
     PatchStyle scales;
     PatchStyle volva;
+    SacStyle sac;
     RingStyle ring;
     OrnamentsOf<Plain> ornaments;
     WeatheringOf<Plain> weathering;
     Surface surface;
+    Material material;
 
     static constexpr void fields(auto visit) {
         visit(&Model::shape, Info{.name = "", .doc = "Shape family."});
@@ -729,12 +828,15 @@ struct Model {
             &Model::volva,
             Info{.name = "volva",
                  .doc =
-                     "Scales on the bulb; positions run from the ground (0) to the stem top (1)."});
+                     "Scales on the bulb; positions run from the ground (0) to the stem top (1) of "
+                     "the mature stem, and stay on the skin where it grows."});
+        visit(&Model::sac, Info{.name = "sac", .doc = "A sac round the base of the stem."});
         visit(&Model::ring, Info{.name = "ring", .doc = "Ring on the stem."});
         visit(&Model::ornaments,
-              Info{.name = "ornaments", .doc = "How much of warts, scales and ring is left."});
+              Info{.name = "ornaments", .doc = "How much is left of the veils; glow."});
         visit(&Model::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
         visit(&Model::surface, Info{.name = "surface", .doc = "What is painted."});
+        visit(&Model::material, Info{.name = "material", .doc = "Slime, velvet and glow."});
     }
     bool operator==(const Model&) const = default;
 };

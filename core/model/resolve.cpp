@@ -47,6 +47,7 @@ struct Source {
     std::vector<const Model*> stages;
     std::vector<double> ages;    ///< of the stages
     std::vector<double> growth;  ///< of each stage at this age; at most two are not 0
+    std::vector<double> mature;  ///< of each stage at maturity
     double size = 1.0;           ///< of its mature shape, metres
     Model now;                   ///< at this age
 
@@ -59,6 +60,11 @@ struct Source {
         return std::any_of(stages.begin(), stages.end(),
                            [](const Model* stage) { return stage->ring.width > 0.0; });
     }
+    [[nodiscard]] bool has_sac() const {
+        return std::any_of(stages.begin(), stages.end(),
+                           [](const Model* stage) { return stage->sac.height > 0.0; });
+    }
+    [[nodiscard]] bool has_volva() const { return has_sac() || first().volva.count > 0; }
     [[nodiscard]] bool has_margin() const {
         return !std::get<Swept>(first().shape).silhouette.hymenium.empty();
     }
@@ -105,7 +111,7 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     source.hash = entry.hash;
     source.spread = species.spread;
     source.growth = growth_weights(species.stages, age);
-    const std::vector<double> mature = growth_weights(species.stages, mature_age);
+    source.mature = growth_weights(species.stages, mature_age);
     Shares<Model> stages;
     double size = 0.0;
     for (std::size_t i = 0; i < species.stages.size(); ++i) {
@@ -113,7 +119,7 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
         source.stages.push_back(&model);
         source.ages.push_back(species.stages[i].age);
         stages.add(model, source.growth[i]);
-        size += mature[i] * size_of(silhouette_of(model));
+        size += source.mature[i] * size_of(silhouette_of(model));
     }
     source.size = size;
     source.now = blend(stages);
@@ -136,6 +142,7 @@ std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
         own.stages = {&*order.model};
         own.ages = {mature_age};
         own.growth = {1.0};
+        own.mature = {1.0};
         own.size = size_of(silhouette_of(*order.model));
         own.now = *order.model;
         sources.push_back(std::move(own));
@@ -290,8 +297,15 @@ bool has_relief(const Source& source) {
 }
 
 /// One layer for each kind of piece of each species; species whose pieces have equal places share theirs.
-std::vector<PatchLayer> layers_of(const std::vector<Source>& sources) {
+std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const MorphSet& set) {
     std::vector<PatchLayer> layers;
+    const auto segments_of = [&](std::size_t species) {
+        std::vector<double> weights;
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            for (const double mature : sources[i].mature)
+                weights.push_back(i == species ? mature : 0.0);
+        return Outline(set.nodes(weights), set.places()).stem.segment_shares();
+    };
     const auto lay = [&](std::uint32_t purpose, PatchStyle Model::*style, auto amount) {
         std::vector<bool> merged(sources.size(), false);
         for (std::size_t i = 0; i < sources.size(); ++i) {
@@ -312,44 +326,47 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources) {
                 {purpose,
                  among(sources, alike,
                        [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
-                 among(sources, alike, amount), weight});
+                 among(sources, alike, amount), weight,
+                 purpose == volva_purpose ? segments_of(i) : std::vector<double>{}});
         }
     };
-    static constexpr double whole = 1.0;
     lay(wart_purpose, &Model::warts,
         [](const Source& s) -> const double& { return s.now.ornaments.warts; });
     lay(scale_purpose, &Model::scales,
         [](const Source& s) -> const double& { return s.now.ornaments.scales; });
-    lay(volva_purpose, &Model::volva, [](const Source&) -> const double& { return whole; });
+    lay(volva_purpose, &Model::volva,
+        [](const Source& s) -> const double& { return s.now.ornaments.volva; });
     return layers;
 }
 
-/// A ring this wide, as a share of its species' size, has half a say in where the ring of a mix sits and how it flares.
+/// A ring or sac this wide, as a share of its species' size, has half a say in the shape of that of a mix.
 constexpr double half_a_say = 0.01;
 
-/// One ring from those of all species: its width is the sum of theirs, as shares of each one's size; the rest goes by weight, and a
-/// ring that is hardly there has hardly a say. By width alone a thousandth of a wide ring would pull a narrow one up the stem.
-RingStyle ring_of(const std::vector<Source>& sources) {
-    std::vector<RingStyle> styles;
+/// One ring or sac from those of all species: its extent is the sum of theirs, as shares of each one's size; the rest goes by weight,
+/// and what is hardly there has hardly a say. By extent alone a thousandth of a wide ring would pull a narrow one up the stem.
+/// In metres for an individual of this size.
+template <class Style>
+Style shell_of(const std::vector<Source>& sources, Style Model::*shell, double Style::*extent,
+               double OrnamentsOf<Plain>::*amount, double size) {
+    std::vector<Style> styles;
     std::vector<double> says;
-    double width = 0.0, said = 0.0;
+    double whole = 0.0, said = 0.0;
     for (const Source& source : sources) {
-        RingStyle style = source.now.ring;
+        Style style = source.now.*shell;
         style.thickness /= source.size;
-        const double wide = source.now.ornaments.ring * style.width / source.size;
-        width += source.weight * wide;
+        const double wide = source.now.ornaments.*amount * style.*extent / source.size;
+        whole += source.weight * wide;
         says.push_back(source.weight * wide / (wide + half_a_say));
         said += says.back();
         styles.push_back(style);
     }
-    const auto weight_of = [&](std::size_t i) {
-        return said > 0.0 ? says[i] / said : sources[i].weight;
-    };
-    Shares<RingStyle> shares;
-    for (std::size_t i = 0; i < styles.size(); ++i) shares.add(styles[i], weight_of(i));
-    RingStyle ring = blend(shares);
-    ring.width = width;
-    return ring;
+    Shares<Style> shares;
+    for (std::size_t i = 0; i < styles.size(); ++i)
+        shares.add(styles[i], said > 0.0 ? says[i] / said : sources[i].weight);
+    Style one = blend(shares);
+    one.*extent = whole * size;
+    one.thickness *= size;
+    return one;
 }
 
 /// The lightest step back from an individual's own proportions with which no level of detail crosses itself.
@@ -407,6 +424,10 @@ void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sourc
         none([](const Source& s) { return s.has_ring(); }))
         refuse("/ornaments/ring", without("a partial veil that could leave a ring",
                                           "no partial veil that could leave a ring"));
+    if (asked.ornaments.volva && *asked.ornaments.volva > 0.0 &&
+        none([](const Source& s) { return s.has_volva(); }))
+        refuse("/ornaments/volva", without("a universal veil that could leave a volva",
+                                           "no universal veil that could leave a volva"));
     if (!problems.empty()) throw Impossible(std::move(problems));
 }
 
@@ -423,6 +444,8 @@ void blend_amounts(Model& model, const std::vector<Source>& sources) {
                 [](S s) -> D { return s.now.ornaments.scales; }, model.ornaments.scales);
     blend_among([](S s) { return s.has_ring(); }, [](S s) -> D { return s.now.ornaments.ring; },
                 model.ornaments.ring);
+    blend_among([](S s) { return s.has_volva(); }, [](S s) -> D { return s.now.ornaments.volva; },
+                model.ornaments.volva);
     blend_among([](S s) { return s.pattern() == HymeniumPattern::ridges; },
                 [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
     blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
@@ -464,6 +487,7 @@ void report_effective(MushroomParams& effective, const Model& model,
     if (none([](const Source& s) { return s.first().scales.count > 0; }))
         effective.ornaments.scales.reset();
     if (none([](const Source& s) { return s.has_ring(); })) effective.ornaments.ring.reset();
+    if (none([](const Source& s) { return s.has_volva(); })) effective.ornaments.volva.reset();
 }
 
 void overlay_all(const MushroomParams& asked, Model& model) {
@@ -562,12 +586,13 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
-    individual.layers = layers_of(sources);
-    individual.ring = ring_of(sources);
-    individual.ring.width *= size;
-    individual.ring.thickness *= size;
+    individual.layers = layers_of(sources, *individual.set);
+    using Amounts = OrnamentsOf<Plain>;
+    individual.ring = shell_of(sources, &Model::ring, &RingStyle::width, &Amounts::ring, size);
+    individual.sac = shell_of(sources, &Model::sac, &SacStyle::height, &Amounts::volva, size);
     for (const Source& source : sources) {
         individual.has_ring = individual.has_ring || source.has_ring();
+        individual.has_sac = individual.has_sac || source.has_sac();
         if (source.has_margin()) individual.waves += source.weight * source.now.weathering.waves;
         const Comb comb{source.now.hymenium.blades, source.now.hymenium.tiers};
         if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())

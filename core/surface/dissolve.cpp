@@ -166,8 +166,14 @@ ChartDissolve measured(const DissolvePlan& plan, std::size_t part) {
 }
 
 void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
-                 std::span<const double> weights, const Parallel& parallel) {
+                 std::span<const double> weights, const Parallel& parallel,
+                 std::span<const PaintParams* const> laid) {
+    if (!laid.empty() && laid.size() != paintings.size())
+        throw InvalidInput("", "patches are laid for all paintings or for none");
+    PaintPlan patches;
     DissolvePlan plan;
+    if (!laid.empty()) patches = laid_plan(laid, weights);
+    if (!patches.patches.empty()) plan.laid = &patches;
     plan.side = canvas.side();
     plan.frames = chart_frames(plan.side);
     plan.linear = linear_table().data();
@@ -179,7 +185,7 @@ void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
         ++plan.paintings;
     }
     const PaintTarget target = canvas.target();
-    if (plan.paintings == 1) {
+    if (plan.paintings == 1 && !plan.laid) {
         std::uint8_t* const to[3] = {target.base_color, target.normal, target.orm};
         for (std::size_t image = 0; image < 3; ++image)
             std::memcpy(to[image], plan.images[0][image], canvas.size());
@@ -203,19 +209,26 @@ void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
 
 }  // namespace
 
+PaintParams unlaid(PaintParams params) {
+    params.warts = {};
+    params.scales = {};
+    params.ornaments = {};
+    return params;
+}
+
 RawImages dissolve_raw(std::span<const RawImages* const> paintings, std::span<const double> weights,
-                       const Parallel& parallel) {
+                       const Parallel& parallel, std::span<const PaintParams* const> laid) {
     check(paintings, weights);
     Canvas canvas(paintings[0]->side);
-    dissolve_on(canvas, paintings, weights, parallel);
+    dissolve_on(canvas, paintings, weights, parallel, laid);
     return raw(canvas);
 }
 
 ImageSet dissolve(std::span<const RawImages* const> paintings, std::span<const double> weights,
-                  const Parallel& parallel) {
+                  const Parallel& parallel, std::span<const PaintParams* const> laid) {
     check(paintings, weights);
     Canvas canvas(paintings[0]->side);
-    dissolve_on(canvas, paintings, weights, parallel);
+    dissolve_on(canvas, paintings, weights, parallel, laid);
     return encoded(canvas, parallel);
 }
 

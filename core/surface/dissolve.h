@@ -14,6 +14,8 @@ namespace sporeprint {
 /// 1 / sqrt(sum w^2), which is right for paintings that have nothing in common. Paintings of one individual share their noise and
 /// need less; equal ones need none. No texel passes what one of the paintings has at its place: it is bent back smoothly.
 ///
+/// laid       what was painted, of which the warts and scales were left out (unlaid()): they are laid on the dissolved cap, as
+///            large as their paintings weigh, as the solid ones are; empty for none
 /// paintings  1..9, equal sides, each 3 * side * side bytes an image
 /// weights    one each, >= 0, sum 1 (within 1e-6); a weight of 1 gives that painting, byte for byte
 /// returns    the atlas; the same bytes however the work is shared and with every instruction set
@@ -22,11 +24,15 @@ namespace sporeprint {
 /// source     [Heitz2018] for the blending that keeps mean and variance; differs: the gain is measured, not assumed
 [[nodiscard]] RawImages dissolve_raw(std::span<const RawImages* const> paintings,
                                      std::span<const double> weights,
-                                     const Parallel& parallel = in_turn);
+                                     const Parallel& parallel = in_turn,
+                                     std::span<const PaintParams* const> laid = {});
 
 /// The same, encoded as paint() encodes.
 [[nodiscard]] ImageSet dissolve(std::span<const RawImages* const> paintings,
-                                std::span<const double> weights,
-                                const Parallel& parallel = in_turn);
+                                std::span<const double> weights, const Parallel& parallel = in_turn,
+                                std::span<const PaintParams* const> laid = {});
+
+/// The same painting without warts and scales.
+[[nodiscard]] PaintParams unlaid(PaintParams params);
 
 }  // namespace sporeprint

@@ -17,6 +17,9 @@ namespace HWY_NAMESPACE {
 struct DissolveBench {
     HWY_ALIGN std::uint8_t from[most_paintings][9][padded];
     HWY_ALIGN std::uint8_t to[9][padded];
+    // Of a row of the cap on which patches are laid: texels, and the slopes that they had before.
+    Row rows[3];
+    HWY_ALIGN float slope[2][padded];
     float mean[dissolved_channels][widest / 16 + 2];  // of one row: the first and the last twice
 };
 
@@ -95,6 +98,60 @@ void mean_row(const ChartDissolve& chart, int cell, int y, DissolveBench& bench)
     }
 }
 
+// The heights of the patches that cross one row of the cap, which may lie outside of it.
+void patch_heights(const PaintPlan& laid, int y, Row& row) {
+    const Frame& frame = laid.frames[0];
+    std::fill_n(row.height, frame.width + 2 * margin, 0.0F);
+    if (y < 0 || y >= frame.height) return;
+    const VF down = disc_place(frame, set(static_cast<float>(y)));
+    HWY_ALIGN float place[8];
+    hn::Store(down, Floats(), place);
+    lay_patches(laid, y, down, place[0], row);
+}
+
+bool crossed(const PaintPlan& laid, int y) {
+    return y >= 0 && y < laid.frames[0].height &&
+           !laid.patches_by_row[static_cast<std::size_t>(y)].empty();
+}
+
+// Lays patches on a row of dissolved texels: `rows` hold their heights above, here and below, the middle one also colours,
+// roughness and occlusion; bench.slope has the slopes. Writes all channels.
+void lay_on_dissolved(const PaintPlan& laid, int y, Row* const* rows, DissolveBench& bench) {
+    const Floats f;
+    const Frame& frame = laid.frames[0];
+    const std::size_t width = static_cast<std::size_t>(frame.width);
+    const VF one = set(1.0F);
+    const VF half = set(0.5F);
+    patch_heights(laid, y, *rows[1]);
+    const float film = 1.0F - 0.25F * laid.wetness;
+    const VF per_step = set(film * 0.5F / laid.cap.disc.per_texel);
+    const VF down_place = disc_place(frame, set(static_cast<float>(y)));
+    for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
+        const Texel texel = load_texel(*rows[1], x);
+        const float* at = rows[1]->height + margin + x;
+        const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * per_step;
+        const VF down = (hn::Load(f, rows[2]->height + margin + x) -
+                         hn::Load(f, rows[0]->height + margin + x)) *
+                        per_step;
+        const DiscPoint p = disc_point_of(
+            laid.cap.disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))),
+            down_place);
+        const VF nx = hn::Load(f, bench.slope[0] + x) +
+                      disc_slope_x(p.cosine, p.sine, p.widening, right, down);
+        const VF ny = hn::Load(f, bench.slope[1] + x) +
+                      disc_slope_y(p.cosine, p.sine, p.widening, right, down);
+        const VF length = half / hn::Sqrt(one + nx * nx + ny * ny);
+        store_byte(srgb(texel.colour.r), bench.to[0] + x);
+        store_byte(srgb(texel.colour.g), bench.to[1] + x);
+        store_byte(srgb(texel.colour.b), bench.to[2] + x);
+        store_byte(half + nx * length, bench.to[3] + x);
+        store_byte(half + ny * length, bench.to[4] + x);
+        store_byte(half + length, bench.to[5] + x);
+        store_byte(texel.occlusion, bench.to[6] + x);
+        store_byte(hn::Max(texel.roughness, set(0.04F)), bench.to[7] + x);
+    }
+}
+
 /// Dissolves rows `from` to `to` (exclusive) of a part's chart.
 void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* memory,
                    const PaintTarget& target) {
@@ -106,7 +163,16 @@ void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* m
     const std::size_t cell = static_cast<std::size_t>(dissolve_cell(plan.side));
     const VF one = set(1.0F);
     const VF half = set(0.5F);
+    Row* rows[3] = {&bench.rows[0], &bench.rows[1], &bench.rows[2]};
+    const PaintPlan* const laid = part == 0 ? plan.laid : nullptr;
+    if (laid) {
+        std::memset(bench.rows, 0, sizeof bench.rows);  // heights are laid over some texels
+        patch_heights(*laid, from - 1, *rows[0]);
+        patch_heights(*laid, from, *rows[1]);
+    }
     for (int y = from; y < to; ++y) {
+        const bool lies =
+            laid && (crossed(*laid, y - 1) || crossed(*laid, y) || crossed(*laid, y + 1));
         const std::size_t at =
             3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) +
                  static_cast<std::size_t>(frame.x));
@@ -140,6 +206,12 @@ void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* m
                 const float b = bench.mean[c][left + 1];
                 out[c] = texel[c].restored(set(a) + set(b - a) * share, chart.surplus[c]);
             }
+            if (lies) {
+                store_texel({{out[0], out[1], out[2]}, set(0.0F), out[6], out[5]}, *rows[1], x);
+                hn::Store(out[3], f, bench.slope[0] + x);
+                hn::Store(out[4], f, bench.slope[1] + x);
+                continue;
+            }
             const VF length = half / hn::Sqrt(one + out[3] * out[3] + out[4] * out[4]);
             for (std::size_t c = 0; c < 3; ++c) store_byte(srgb(out[c]), bench.to[c] + x);
             store_byte(half + out[3] * length, bench.to[3] + x);
@@ -147,6 +219,12 @@ void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* m
             store_byte(half + length, bench.to[5] + x);
             store_byte(out[5], bench.to[6] + x);
             store_byte(out[6], bench.to[7] + x);
+        }
+        if (laid) {
+            patch_heights(*laid, y + 1, *rows[2]);
+            if (lies) lay_on_dissolved(*laid, y, rows, bench);
+            std::swap(rows[0], rows[1]);
+            std::swap(rows[1], rows[2]);
         }
         interleave(bench.to, width, at, target);
     }

@@ -28,6 +28,7 @@ HWY_EXPORT(workbench_size);
 HWY_EXPORT(fill_coarse);
 HWY_EXPORT(dissolve_rows);
 HWY_EXPORT(dissolve_bench_size);
+HWY_EXPORT(weathered_light);
 
 namespace {
 
@@ -116,11 +117,12 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.relief = relief_plan(params);
     plan.seed = seeds<12>(params.seed, cap_purpose);
     plan.lightness = single(params.lightness);
-    plan.roughness = single(cap.roughness);
+    // Slime is smooth, and fills what is uneven.
+    plan.roughness = single(cap.roughness + params.slime * (0.12 - cap.roughness));
     for (std::size_t i = 0; i < 3; ++i)
-        plan.bumps[i] =
-            single(cap.bumps) * shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) *
-                                                static_cast<double>(plan.disc.per_texel)));
+        plan.bumps[i] = single(cap.bumps * (1.0 - 0.7 * params.slime)) *
+                        shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) *
+                                        static_cast<double>(plan.disc.per_texel)));
     plan.fields = 7U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << cap_bump;
     std::vector<Colour> ramp = cap.ramp;
@@ -333,15 +335,15 @@ double roundness(const DiscPlan& disc, double rho) {
     return static_cast<double>(disc.sphere) * sine(angle) / rho;
 }
 
-void add_patches(const PatchStyle& style, int kind, double amount, const PaintParams& params,
-                 PaintPlan& plan) {
+void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t seed,
+                 double weight, PaintPlan& plan) {
     const std::uint32_t purpose = kind == 0 ? wart_purpose : scale_purpose;
     if (amount <= 0.0) return;
-    for (const Patch& patch : patches(style, params.seed, purpose)) {
+    for (const Patch& patch : patches(style, seed, purpose)) {
         const double scale = patch_scale(patch, amount);
         if (scale <= 0.0 || patch.radius <= 0.0) continue;
         // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
-        const double radius = patch.radius * (kind == 0 ? scale : 0.7 + 0.3 * scale);
+        const double radius = patch.radius * weight * (kind == 0 ? scale : 0.7 + 0.3 * scale);
         const double length = std::max(radius * style.elongation, 1e-4);
         const double width =
             std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
@@ -359,7 +361,7 @@ void add_patches(const PatchStyle& style, int kind, double amount, const PaintPa
             single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
         one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
         one.reach = patch_window * single(std::max(length, width));
-        Random stream(params.seed, outline_purpose + static_cast<std::uint32_t>(kind), patch.id);
+        Random stream(seed, outline_purpose + static_cast<std::uint32_t>(kind), patch.id);
         one.seed = stream.bits();
         for (std::size_t side = 0; side < 6; ++side) {
             const double angle = stream.uniform(-0.32, 0.32);
@@ -433,8 +435,8 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
     fill(plan.hymenium_fields[1], plan.hymenium.disc, plan.frames[1], plan.coarse_cells, 8.0F,
          coarse[4]);
     if (params.surface.cap.image.empty()) {
-        add_patches(params.scales, 1, params.ornaments.scales, params, plan);
-        add_patches(params.warts, 0, params.ornaments.warts, params, plan);
+        add_patches(params.scales, 1, params.ornaments.scales, params.seed, 1.0, plan);
+        add_patches(params.warts, 0, params.ornaments.warts, params.seed, 1.0, plan);
     }
     sort_patches_into_rows(plan);
     return plan;
@@ -485,6 +487,72 @@ ImageSet paint(const PaintParams& params, const Parallel& parallel) {
     Canvas canvas(checked_side(params));
     paint_canvas(params, {}, parallel, canvas);
     return encoded(canvas, parallel);
+}
+
+PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
+                    std::span<const double> weights) {
+    PaintPlan plan;
+    plan.side = paintings[0]->side;
+    plan.frames = chart_frames(plan.side);
+    const auto mean = [&](auto of) {
+        double sum = 0.0;
+        for (std::size_t i = 0; i < paintings.size(); ++i) sum += weights[i] * of(*paintings[i]);
+        return sum;
+    };
+    using P = const PaintParams&;
+    plan.cap.disc =
+        cap_disc(mean([](P p) { return length_of_step(p.metrics.cap_arc); }),
+                 mean([](P p) { return length_of_step(p.metrics.cap_radius); }), plan.frames[0]);
+    plan.fade = single(mean([](P p) { return p.fade; }));
+    plan.wetness = single(mean([](P p) { return p.wetness; }));
+    const auto light = [&](Colour VeilSurface::*colour) {
+        const auto channel = [&](float Light::*which) {
+            return single(mean(
+                [&](P p) { return static_cast<double>(light_of(p.surface.veil.*colour).*which); }));
+        };
+        return Light{channel(&Light::r), channel(&Light::g), channel(&Light::b)};
+    };
+    plan.veil.colour = light(&VeilSurface::colour);
+    plan.veil.tip = light(&VeilSurface::tip);
+    plan.veil.roughness = single(mean([](P p) { return p.surface.veil.roughness; }));
+    float roughness = plan.veil.roughness;
+    HWY_DYNAMIC_DISPATCH(weathered_light)(plan, plan.veil.colour, roughness);
+    roughness = plan.veil.roughness;
+    HWY_DYNAMIC_DISPATCH(weathered_light)(plan, plan.veil.tip, roughness);
+    plan.veil.roughness = roughness;
+    const auto lay = [&](int kind, PatchStyle PaintParams::*style,
+                         double PaintedOrnaments::*amount) {
+        std::vector<bool> laid(paintings.size(), false);
+        for (std::size_t i = 0; i < paintings.size(); ++i) {
+            const PatchStyle& one = paintings[i]->*style;
+            if (one.count == 0 || laid[i]) continue;
+            PatchStyle all = one;
+            all.size = all.height = all.lift = 0.0;
+            double left = 0.0, weight = 0.0;
+            for (std::size_t j = i; j < paintings.size(); ++j) {
+                const PatchStyle& two = paintings[j]->*style;
+                if (two.count != one.count || two.from != one.from || two.to != one.to ||
+                    two.elongation != one.elongation)
+                    continue;
+                laid[j] = true;
+                if (!paintings[j]->surface.cap.image.empty()) continue;  // given, not painted
+                weight += weights[j];
+                all.size += weights[j] * two.size;
+                all.height += weights[j] * two.height;
+                all.lift += weights[j] * two.lift;
+                left += weights[j] * paintings[j]->ornaments.*amount;
+            }
+            if (!(weight > 0.0)) continue;
+            all.size /= weight;
+            all.height /= weight;
+            all.lift /= weight;
+            add_patches(all, kind, left / weight, paintings[i]->seed, weight, plan);
+        }
+    };
+    lay(1, &PaintParams::scales, &PaintedOrnaments::scales);
+    lay(0, &PaintParams::warts, &PaintedOrnaments::warts);
+    sort_patches_into_rows(plan);
+    return plan;
 }
 
 void dissolve_piece(const DissolvePlan& plan, int part, int from, int to,

@@ -13,6 +13,18 @@
 
 namespace sporeprint {
 
+/// How much of what is painted is left; see OrnamentsOf.
+struct PaintedOrnaments {
+    double warts = 0.0, scales = 0.0;
+
+    static constexpr void fields(auto visit) {
+        using P = PaintedOrnaments;
+        visit(&P::warts, Info{.name = "warts", .min = 0, .max = 1, .doc = "Of the warts."});
+        visit(&P::scales, Info{.name = "scales", .min = 0, .max = 1, .doc = "Of the scales."});
+    }
+    bool operator==(const PaintedOrnaments&) const = default;
+};
+
 /// Everything that painting depends on. Equal canonical text means equal images, so its text is
 /// the key of the image cache.
 struct PaintParams {
@@ -27,7 +39,8 @@ struct PaintParams {
     PatchStyle scales;
     ReliefStyle relief;
     CarriedRelief carried;
-    OrnamentsOf<Plain> ornaments;
+    PaintedOrnaments ornaments;
+    double slime = 0.0;
     double fade = 0.0;
     double wetness = 0.0;
 
@@ -60,6 +73,7 @@ struct PaintParams {
         visit(&P::carried,
               Info{.name = "carried", .doc = "How much of the relief the mesh carries."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "How much of them is left."});
+        visit(&P::slime, Info{.name = "slime", .min = 0, .max = 1, .doc = "Slime on the cap."});
         visit(&P::fade, Info{.name = "fade", .min = 0, .max = 1, .doc = "Bleaching."});
         visit(&P::wetness, Info{.name = "wetness", .min = 0, .max = 1, .doc = "Film of water."});
     }

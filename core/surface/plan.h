@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "core/surface/charts.h"
@@ -241,6 +242,8 @@ struct PaintPlan {
     std::array<GivenImage, 3> given;
 };
 
+struct PaintParams;
+
 /// Where a piece of work paints: three RGB images of the whole atlas.
 struct PaintTarget {
     std::uint8_t* base_color = nullptr;
@@ -269,8 +272,14 @@ struct DissolvePlan {
     std::array<std::array<const std::uint8_t*, 3>, most_paintings> images{};
     std::array<float, most_paintings> weights{};
     std::array<ChartDissolve, part_count> charts{};
-    const float* linear = nullptr;  ///< light of each sRGB byte
+    const float* linear = nullptr;    ///< light of each sRGB byte
+    const PaintPlan* laid = nullptr;  ///< warts and scales on the dissolved cap; none of them: null
 };
+
+/// A plan that knows the cap's disc, the veil, the weather and the patches of several paintings, and nothing else. Patches with
+/// equal places are one patch; each is as large as its paintings weigh, and of the veil that they have together.
+[[nodiscard]] PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
+                                  std::span<const double> weights);
 
 /// Side in texels of the cells whose mean is what detail stands out from. Twice eight, so that a vector of texels never
 /// crosses the middle of one.

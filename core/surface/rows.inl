@@ -170,6 +170,21 @@ HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& c
     }
 }
 
+/// A colour and a roughness as they weather where the skin is even.
+void weathered_light(const PaintPlan& plan, Light& light, float& roughness) {
+    Rgb colour = rgb(light);
+    VF rough = set(roughness);
+    weather(plan, 1.0F, set(0.0F), colour, rough);
+    HWY_ALIGN float lanes[4][8];
+    const Floats f;
+    hn::Store(colour.r, f, lanes[0]);
+    hn::Store(colour.g, f, lanes[1]);
+    hn::Store(colour.b, f, lanes[2]);
+    hn::Store(rough, f, lanes[3]);
+    light = {lanes[0][0], lanes[1][0], lanes[2][0]};
+    roughness = lanes[3][0];
+}
+
 /// Place of texels x, x + 1, ... on a disc, in its radii from the pole.
 HWY_INLINE VF disc_place(const Frame& frame, VF texel) {
     return ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(0.5F)) *
@@ -464,6 +479,25 @@ void interleave(const std::uint8_t (*channels)[padded], std::size_t width, std::
     }
 }
 
+// Slopes along the tangent dP/du of a disc and across it, from those along its rows and columns: by the meridian and round the
+// axis in true lengths. `widening` is that of the meridian's own unit.
+HWY_INLINE VF disc_slope_x(VF cosine, VF sine, VF widening, VF right, VF down) {
+    const VF k = hn::Max(widening, set(0.02F));
+    const VF meridian = right * cosine + down * sine;
+    const VF round = down * cosine - right * sine;  // still to be divided by k
+    const VF ks = k * sine;
+    const VF inverse = set(1.0F) / (k * hn::Sqrt(cosine * cosine + ks * ks));
+    return (sine * round - cosine * meridian) * k * inverse;
+}
+HWY_INLINE VF disc_slope_y(VF cosine, VF sine, VF widening, VF right, VF down) {
+    const VF k = hn::Max(widening, set(0.02F));
+    const VF meridian = right * cosine + down * sine;
+    const VF round = down * cosine - right * sine;
+    const VF ks = k * sine;
+    const VF inverse = set(1.0F) / (k * hn::Sqrt(cosine * cosine + ks * ks));
+    return (ks * k * meridian + cosine * round) * inverse;
+}
+
 // Turns a row of texels, and the heights above and below it, into bytes.
 void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const Row& row,
                  const Row& below, Workbench& bench, const PaintTarget& target) {
@@ -510,18 +544,11 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
             per_y;
         VF nx, ny;
         if (is_disc) {
-            // Slopes along the meridian and round the axis in true lengths, then along the tangent
-            // dP/du and across it.
             const VF cosine = hn::Load(f, row.cosine + x);
             const VF sine = hn::Load(f, row.sine + x);
-            const VF k =
-                hn::Max(hn::Load(f, row.widening + x) * set(1.0F - disc.inner), set(0.02F));
-            const VF meridian = right * cosine + down * sine;
-            const VF round = down * cosine - right * sine;  // still to be divided by k
-            const VF ks = k * sine;
-            const VF inverse = one / (k * hn::Sqrt(cosine * cosine + ks * ks));
-            nx = (sine * round - cosine * meridian) * k * inverse;
-            ny = (ks * k * meridian + cosine * round) * inverse;
+            const VF widening = hn::Load(f, row.widening + x) * set(1.0F - disc.inner);
+            nx = disc_slope_x(cosine, sine, widening, right, down);
+            ny = disc_slope_y(cosine, sine, widening, right, down);
         } else {
             nx = set(0.0F) - right;
             ny = down;

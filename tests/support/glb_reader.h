@@ -37,7 +37,7 @@ struct ReadBack {
     std::vector<std::string> uris;           ///< of each linked image
     std::size_t textures = 0;
     std::string node, generator, canonical;
-    bool has_extensions = false;
+    bool has_foreign_extensions = false;
     std::vector<ReadTarget> targets;
     std::vector<double> weights;  ///< of the mesh, before any clip plays
     std::vector<ReadClip> clips;

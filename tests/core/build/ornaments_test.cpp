@@ -3,9 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 #include <vector>
 
+#include "core/grow/mushroom.h"
 #include "core/surface/charts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -124,6 +126,141 @@ TEST(Ornaments, RingsOfEveryKindAreValid) {
                         individual.ring = {height, width, flare, thickness, 1.0};
                         expect_valid(swept_mesh(individual, lod));
                     }
+    for (const double hang : {0.0, 1.0})
+        for (const double edge : {0.0, 1.0})
+            for (const double gap : {0.0, 1.0})
+                for (const double tear : {0.0, 1.0})
+                    for (const int lod : {0, 2}) {
+                        individual.ring = {.height = 0.6,
+                                           .width = 0.015,
+                                           .hang = hang,
+                                           .edge = edge,
+                                           .gap = gap,
+                                           .grooves = 1.0,
+                                           .tear = tear};
+                        expect_valid(swept_mesh(individual, lod));
+                    }
+}
+
+/// The last closed piece of a mesh: the ring, or a sac.
+Mesh last_piece(const Individual& individual, int lod = 0) {
+    return pieces(swept_mesh(individual, lod)).back();
+}
+
+/// Of the places that a piece's triangles use.
+template <class Of>
+double greatest(const Mesh& piece, Of of) {
+    double most = -1e9;
+    for (const std::uint32_t i : piece.indices) most = std::max(most, of(piece.positions[i]));
+    return most;
+}
+
+double radius_of(const glm::vec3& p) { return std::sqrt(double{p.x} * p.x + double{p.z} * p.z); }
+
+Individual straight_amanita() {
+    MushroomOrder order = order_of("amanita_muscaria", 0.6, 4);
+    order.params.variation = 0.0;
+    Individual individual = resolve(order, atlas());
+    individual.layers.clear();
+    individual.model.deformation = {};
+    individual.axis = {};
+    individual.ring = {.height = 0.6, .width = 0.02, .flare_deg = 80.0, .ruffle = 0.0};
+    return individual;
+}
+
+TEST(Ornaments, ARingHangsStandsOffSwellsAndTears) {
+    Individual individual = straight_amanita();
+    const auto with = [&](double RingStyle::*member, double value) {
+        Individual changed = individual;
+        changed.ring.*member = value;
+        return last_piece(changed);
+    };
+    const auto lowest = [](const Mesh& piece) {
+        return -greatest(piece, [](const glm::vec3& p) { return -double{p.y}; });
+    };
+    EXPECT_LT(lowest(with(&RingStyle::hang, 1.0)), lowest(with(&RingStyle::hang, 0.0)) - 0.005);
+    const auto nearest = [](const Mesh& piece) {
+        return -greatest(piece, [](const glm::vec3& p) { return -radius_of(p); });
+    };
+    EXPECT_GT(nearest(with(&RingStyle::gap, 0.5)), nearest(with(&RingStyle::gap, 0.0)) + 0.004);
+    EXPECT_GT(volume(with(&RingStyle::edge, 1.0)), 1.5 * volume(with(&RingStyle::edge, 0.0)));
+    EXPECT_LT(area(with(&RingStyle::tear, 1.0)), 0.85 * area(with(&RingStyle::tear, 0.0)));
+    EXPECT_GT(area(with(&RingStyle::grooves, 1.0)), 1.002 * area(with(&RingStyle::grooves, 0.0)));
+}
+
+TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
+    Individual individual = straight_amanita();
+    individual.has_ring = false;
+    individual.has_sac = true;
+    individual.sac = {.height = 0.04, .gap = 0.1, .hold = 0.7, .tear = 0.6};
+    for (const int lod : {0, 1, 2, 3}) {
+        const Mesh mesh = swept_mesh(individual, lod);
+        expect_valid(mesh);
+        EXPECT_EQ(pieces(mesh).size(), 2u);
+    }
+    const Mesh sac = last_piece(individual);
+    EXPECT_GT(volume(sac), 0.0);
+    const double high = greatest(sac, [](const glm::vec3& p) { return double{p.y}; });
+    EXPECT_LT(high, 0.0401);
+    EXPECT_GT(high, 0.03);
+    // Above its foot no place of it is inside the stem, and its edge stands off.
+    for (const std::uint32_t i : sac.indices) {
+        const glm::vec3& p = sac.positions[i];
+        if (p.y < 0.3 * 0.04) continue;
+        double share = 0.0, step = 0.5;
+        for (int k = 0; k < 30; ++k, step *= 0.5)
+            if (individual.outline.stem.at(share + step).y < double{p.y}) share += step;
+        EXPECT_GT(radius_of(p), individual.outline.stem.at(share).r - 1e-5);
+    }
+    // Rents are deep, and shallower where less is torn.
+    const auto areas = [&](double tear) {
+        individual.sac.tear = tear;
+        return area(last_piece(individual));
+    };
+    EXPECT_LT(areas(1.0), 0.85 * areas(0.3));
+    EXPECT_LT(areas(0.3), areas(0.0));
+}
+
+TEST(Ornaments, ASacGrowsAndGoesWithoutAStepAndKeepsItsVertices) {
+    Individual individual = straight_amanita();
+    individual.has_sac = true;
+    std::size_t vertices = 0;
+    for (const double height : {0.04, 0.01, 0.001, 0.0}) {
+        individual.sac.height = height;
+        const Mesh mesh = swept_mesh(individual, 0);
+        expect_valid(mesh);
+        if (vertices == 0) vertices = mesh.positions.size();
+        EXPECT_EQ(mesh.positions.size(), vertices);
+        EXPECT_EQ(pieces(mesh).size(), height > 0.0 ? 3u : 2u);
+        MushroomOrder order = order_of("amanita_muscaria");
+        EXPECT_EQ(estimate(order, individual).vertices, vertices);
+        const Mesh kept = swept_mesh(individual, 0, {.keep_absent = true});
+        EXPECT_EQ(kept.positions.size(), vertices);
+    }
+}
+
+TEST(Ornaments, ScalesOfTheBulbStayOnItsSkinWhileTheStemGrows) {
+    // The veil's pieces on the stem lie low on the mature one, and all over the lower half of the egg.
+    const auto highest = [](double age) {
+        MushroomOrder order = textured(order_of("amanita_muscaria", age, 4));
+        order.params.variation = 0.0;
+        order.params.ornaments.warts = 0.0;
+        order.params.ornaments.ring = 0.0;
+        Individual individual = resolve(order, atlas());
+        individual.model.deformation = {};
+        individual.axis = {};
+        double high = 0.0;
+        std::vector<Mesh> all = pieces(swept_mesh(individual, 0));
+        all.erase(std::max_element(all.begin(), all.end(), [](const Mesh& a, const Mesh& b) {
+            return volume(a) < volume(b);
+        }));
+        EXPECT_GT(all.size(), 20u);
+        for (const Mesh& piece : all)
+            high = std::max(high, greatest(piece, [](const glm::vec3& p) { return double{p.y}; }));
+        return high / individual.stem_top;
+    };
+    EXPECT_GT(highest(0.0), 0.55);
+    EXPECT_LT(highest(0.6), 0.45);
 }
 
 }  // namespace

@@ -178,6 +178,7 @@ Individual body_of(const MushroomOrder& order) {
     Individual individual = resolve(order, atlas());
     individual.layers.clear();
     individual.has_ring = false;
+    individual.has_sac = false;
     return individual;
 }
 

@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <array>
+#include <cstring>
 #include <memory>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
+#include "core/grow/mushroom.h"
 #include "core/grow/painting.h"
+#include "core/params/value.h"
 #include "tests/support/glb_reader.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -81,6 +85,72 @@ TEST(Glb, EmbeddedImagesDecodeToTheirSizeAndAreNeverCopied) {
     std::size_t own = 0;
     for (const Slice& slice : body) own += slice.size;
     EXPECT_EQ(own, size_of(body));
+}
+
+/// The JSON of a file.
+Value document_of(const Body& body) {
+    const Bytes file = joined(body);
+    std::uint32_t size = 0;
+    std::memcpy(&size, file.data() + 12, 4);
+    std::vector<Problem> problems;
+    Value json =
+        parse(std::string_view(reinterpret_cast<const char*>(file.data()) + 20, size), problems);
+    EXPECT_EQ(problems, std::vector<Problem>{});
+    return json;
+}
+
+TEST(Glb, MaterialExtensionsAreNamedExactlyWhenTheyAreUsed) {
+    const Mesh mesh = mesh_of(textured(order_of("mycena_sanguinolenta", 0.6, 2, 2)));
+    const std::array<std::string, 3> images = {"/a.jpg", "/b.jpg", "/c.jpg"};
+    const auto written = [&](const MaterialLook& look, bool textured = true) {
+        GlbParts parts = textured ? parts_of("m", images) : parts_of("m");
+        parts.look = look;
+        return document_of(glb(mesh, parts));
+    };
+    const Value none = written({});
+    EXPECT_EQ(none.find("extensionsUsed"), nullptr);
+    EXPECT_EQ(none.at_pointer("/materials/0/extensions"), nullptr);
+    EXPECT_EQ(none.at_pointer("/materials/0/emissiveFactor"), nullptr);
+
+    const Value coated = written({.coat = 0.5});
+    EXPECT_EQ(dump(*coated.find("extensionsUsed")), R"(["KHR_materials_clearcoat"])");
+    const std::string coat = "/materials/0/extensions/KHR_materials_clearcoat";
+    EXPECT_EQ(coated.at_pointer(coat + "/clearcoatFactor")->as_number(), 0.5);
+    // Its roughness is the painted one: sharp on the slime alone.
+    EXPECT_EQ(coated.at_pointer(coat + "/clearcoatRoughnessFactor")->as_number(), 1.0);
+    EXPECT_EQ(coated.at_pointer(coat + "/clearcoatRoughnessTexture/index")->as_number(), 2.0);
+    EXPECT_EQ(written({.coat = 0.5}, false).at_pointer(coat + "/clearcoatRoughnessTexture"),
+              nullptr);
+
+    const Value all = written({.coat = 1.0, .sheen = glm::dvec3(0.25), .glow = {0.0, 0.5, 0.25}});
+    EXPECT_EQ(
+        dump(*all.find("extensionsUsed")),
+        R"(["KHR_materials_clearcoat","KHR_materials_emissive_strength","KHR_materials_sheen"])");
+    EXPECT_EQ(all.find("extensionsRequired"), nullptr);
+    EXPECT_EQ(dump(*all.at_pointer("/materials/0/emissiveFactor")), "[0,0.5,0.25]");
+    EXPECT_EQ(all.at_pointer("/materials/0/emissiveTexture/index")->as_number(), 0.0);
+    EXPECT_EQ(dump(*all.at_pointer("/materials/0/extensions/KHR_materials_sheen/sheenColorFactor")),
+              "[0.25,0.25,0.25]");
+}
+
+TEST(Glb, AMushroomIsSlimyVelvetyOrGlowsAsItsModelSays) {
+    MushroomOrder order = textured(order_of("x", 0.6, 2, 2));
+    order.mix.clear();
+    order.model = atlas().find("boletus_edulis")->species.stages[2].model;
+    order.model->weathering.wetness = 0.0;
+    order.params.textures = Textures::none;
+    const auto used = [&] {
+        const Value json = document_of(grow_mushroom(order, atlas()).glb);
+        const Value* names = json.find("extensionsUsed");
+        return names ? names->items().size() : 0;
+    };
+    EXPECT_EQ(used(), 0u);
+    order.model->material.slime = 1.0;
+    EXPECT_EQ(used(), 1u);
+    order.model->material.velvet = 0.5;
+    EXPECT_EQ(used(), 2u);
+    order.params.ornaments.glow = 0.3;
+    EXPECT_EQ(used(), 3u);
 }
 
 TEST(Glb, LargeMeshesHaveWideIndices) {

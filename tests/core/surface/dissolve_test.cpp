@@ -8,13 +8,16 @@
 #include <cstddef>
 #include <cstdlib>
 #include <limits>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "core/grow/painting.h"
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
+#include "tests/support/orders.h"
 #include "tests/support/paintings.h"
 
 namespace sporeprint {
@@ -84,6 +87,38 @@ std::vector<double> numbers(const RawImages& painting, std::size_t part, ImageKi
                                                         : byte / 255.0);
         }
     return out;
+}
+
+// What the texels of a chart stand out from the mean of the 16 x 16 round them: root of the mean square, all channels.
+double detail_of(const RawImages& painting, std::size_t part, ImageKind kind) {
+    const Chart& chart = swept_charts[part];
+    const int side = painting.side;
+    const int x0 = static_cast<int>(chart.u * side), y0 = static_cast<int>(chart.v * side);
+    const int width = static_cast<int>(chart.width * side);
+    const int height = static_cast<int>(chart.height * side);
+    double sum = 0.0;
+    int cells = 0;
+    for (int j = 0; j + 16 <= height; j += 16)
+        for (int i = 0; i + 16 <= width; i += 16) {
+            const double dx = (i + 8.0) / width - 0.5, dy = (j + 8.0) / height - 0.5;
+            if (chart.map == ChartMap::disc && dx * dx + dy * dy > 0.16) continue;
+            ++cells;
+            for (int c = 0; c < 3; ++c) {
+                double first = 0.0, second = 0.0;
+                for (int y = 0; y < 16; ++y)
+                    for (int x = 0; x < 16; ++x) {
+                        const Texel t = texel(painting, kind, x0 + i + x, y0 + j + y);
+                        const int byte = c == 0 ? t.r : c == 1 ? t.g : t.b;
+                        const double value = kind == ImageKind::base_color
+                                                 ? srgb_to_linear(byte / 255.0)
+                                                 : byte / 255.0;
+                        first += value;
+                        second += value * value;
+                    }
+                sum += second / 256.0 - first * first / 65536.0;
+            }
+        }
+    return std::sqrt(sum / cells);
 }
 
 double mean_of(const std::vector<double>& values) {
@@ -245,6 +280,87 @@ TEST_F(Dissolve, ChartsDoNotBleedIntoEachOther) {
             ASSERT_EQ(before.g, after.g);
             ASSERT_EQ(before.b, after.b);
         }
+}
+
+TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
+    // White warts on red, dissolved into the same cap without any.
+    PaintParams warty;
+    warty.seed = 7;
+    warty.side = 256;
+    warty.surface.cap.ramp = {{150, 20, 20}, {150, 20, 20}};
+    warty.surface.veil.colour = warty.surface.veil.tip = {245, 240, 230};
+    warty.warts.count = 40;
+    warty.warts.size = 0.12;
+    warty.ornaments.warts = 1.0;
+    const PaintParams bare = unlaid(warty);
+    const RawImages whole_size = paint_raw(warty), plain = paint_raw(bare);
+    const RawImages* const paintings[] = {&plain, &plain};
+    const PaintParams* const laid[] = {&warty, &bare};
+    const auto at = [&](double weight) {
+        const double weights[] = {weight, 1.0 - weight};
+        return dissolve_raw(paintings, weights, in_turn, laid);
+    };
+    const auto white = [](const RawImages& images) {
+        int count = 0;
+        for (int y = 0; y < 128; ++y)
+            for (int x = 0; x < 128; ++x)
+                if (texel(images, ImageKind::base_color, x, y).g > 190) ++count;
+        return count;
+    };
+    const int all = white(whole_size);
+    ASSERT_GT(all, 1000);
+    EXPECT_NEAR(white(at(0.5)), 0.25 * all, 0.08 * all) << "half as large, as white";
+    EXPECT_NEAR(white(at(0.75)), 0.5625 * all, 0.1 * all);
+    EXPECT_EQ(at(0.0).rgb, plain.rgb);
+    // Alone it is what paint paints, but for a rounding.
+    const RawImages whole = at(1.0);
+    for (std::size_t image = 0; image < 3; ++image) {
+        EXPECT_LT(steps_between(whole, whole_size, image).mean, 0.3) << image;
+        EXPECT_LE(steps_between(whole, whole_size, image).most, 24) << image;
+    }
+    int last = all;
+    for (int k = 63; k >= 0; --k) {
+        const int now = white(at(k / 64.0));
+        EXPECT_LE(now, last + 12) << k;
+        EXPECT_GE(now, last - all / 16) << k;
+        last = now;
+    }
+    const double halves[] = {0.5, 0.5};
+    const RawImages here = at(0.5);
+    for (const std::string& name : simd_names()) {
+        force_simd(name);
+        EXPECT_TRUE(dissolve_raw(paintings, halves, all_at_once, laid).rgb == here.rgb) << name;
+    }
+    force_simd("auto");
+    EXPECT_THROW((void)dissolve_raw(paintings, halves, in_turn, std::span(laid, 1)), InvalidInput);
+}
+
+TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
+    // Each species with the next of the atlas and with one far from it.
+    const std::vector<std::string> ids = species_ids();
+    const auto raw_of = [&](std::size_t i) {
+        const MushroomOrder order = painted(order_of(ids[i % ids.size()]), 256);
+        return paint_raw(unlaid(paint_recipe(order, atlas()).at(0).painting));
+    };
+    for (std::size_t i = 0; i < ids.size(); ++i) {
+        const RawImages a = raw_of(i);
+        for (const std::size_t apart : {std::size_t{1}, ids.size() / 2}) {
+            const RawImages b = raw_of(i + apart);
+            const RawImages half = dissolved({a, b}, {0.5, 0.5});
+            for (std::size_t part = 0; part < 3; ++part)
+                for (const ImageKind kind : {ImageKind::base_color, ImageKind::normal}) {
+                    const double own = 0.5 * (detail_of(a, part, kind) + detail_of(b, part, kind));
+                    const double found = detail_of(half, part, kind);
+                    // What is next to nothing in both has no contrast to keep.
+                    EXPECT_GE(found, 0.5 * own - 0.002)
+                        << ids[i] << ' ' << ids[(i + apart) % ids.size()] << ' ' << part << ' '
+                        << name(kind);
+                    EXPECT_LE(found, 1.3 * own + 0.002)
+                        << ids[i] << ' ' << ids[(i + apart) % ids.size()] << ' ' << part << ' '
+                        << name(kind);
+                }
+        }
+    }
 }
 
 TEST_F(Dissolve, EncodesWhatItDissolves) {
