@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/build/detail.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/proportion.h"
 #include "core/params/blend.h"
 #include "core/params/canonical.h"
+#include "core/silhouette/weights.h"
 #include "core/version.h"
 
 namespace sporeprint {
@@ -168,8 +170,11 @@ std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
     Mix mix = order.mix;
     std::sort(mix.begin(), mix.end(),
               [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
-    for (const MixPart& part : mix)
-        sources.push_back(source_of(*atlas.find(part.id), part.weight / sum, order.params.age));
+    std::vector<double> weights;
+    for (const MixPart& part : mix) weights.push_back(part.weight / sum);
+    weights = eased_weights(std::move(weights));
+    for (std::size_t i = 0; i < mix.size(); ++i)
+        sources.push_back(source_of(*atlas.find(mix[i].id), weights[i], order.params.age));
     return sources;
 }
 
@@ -369,15 +374,35 @@ Style shell_of(const std::vector<Source>& sources, Style Model::*shell, double S
     return one;
 }
 
-/// The lightest step back from an individual's own proportions with which no level of detail crosses itself.
+/// The outline in an individual's own proportions; in those nearest to them with which no level of detail touches itself, where they
+/// would: on the way from the template to them, up to the first touch. That place moves with age and weights, without jumps.
 Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingPlaces>& places,
                     const std::function<Proportions(double)>& own, double open, double size) {
-    for (double variation = 1.0;; variation = variation > 0.1 ? 0.5 * variation : 0.0) {
-        Outline outline(scaled(proportioned(nodes, own(variation), open), size), places);
-        std::optional<CurveName> fault;
-        for (int lod = 0; lod < 4 && !fault; ++lod) fault = fault_of(outline, lod);
-        if (!fault || variation == 0.0) return outline;
+    constexpr int looks = 8, halvings = 20;
+    const auto at = [&](double share) {
+        return Outline(scaled(proportioned(nodes, own(share), open), size), places);
+    };
+    const auto is_simple = [](const Outline& outline) {
+        for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+            if (fault_of(outline, lod)) return false;
+        return true;
+    };
+    Outline whole = at(1.0);
+    if (is_simple(whole)) return whole;
+    double simple = 0.0, touching = 1.0;
+    for (int look = 1; look < looks; ++look) {
+        const double share = static_cast<double>(look) / looks;
+        if (!is_simple(at(share))) {
+            touching = share;
+            break;
+        }
+        simple = share;
     }
+    for (int halving = 0; halving < halvings; ++halving) {
+        const double middle = 0.5 * (simple + touching);
+        (is_simple(at(middle)) ? simple : touching) = middle;
+    }
+    return at(simple);
 }
 
 /// What no species of the order can have, in words.

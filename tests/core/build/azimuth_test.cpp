@@ -13,6 +13,7 @@
 #include "core/build/sweep.h"
 #include "core/math/random.h"
 #include "core/params/reader.h"
+#include "core/silhouette/weights.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
@@ -212,10 +213,10 @@ TEST(Azimuth, AmountsMixByWeightAndFormsByWhatEachSpeciesBrings) {
     for (const int weight : {1, 250, 500, 999}) {
         const MushroomOrder order =
             mix_of({{"boletus_edulis", 1000 - weight}, {"fan", weight / 2 + 1}, {"star", weight}});
-        const double sum = 1000.0 + weight / 2 + 1.0;
+        const auto weights = eased_weights({1000.0 - weight, weight / 2 + 1.0, 1.0 * weight});
         const Azimuth azimuth = resolve(order, forms).azimuth;
-        EXPECT_NEAR(azimuth.lateral, 0.8 * (weight / 2 + 1) / sum, 1e-12);
-        EXPECT_NEAR(azimuth.lobe_depth, 0.6 * weight / sum, 1e-12);
+        EXPECT_NEAR(azimuth.lateral, 0.8 * weights[1], 1e-12);
+        EXPECT_NEAR(azimuth.lobe_depth, 0.6 * weights[2], 1e-12);
         EXPECT_EQ(azimuth.fan_deg, 70.0);
         EXPECT_EQ(azimuth.width, 1.4);
         EXPECT_EQ(azimuth.lobe_sharpness, 1.0);

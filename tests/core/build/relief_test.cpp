@@ -14,6 +14,7 @@
 #include "core/math/noise.h"
 #include "core/math/random.h"
 #include "core/params/reader.h"
+#include "core/silhouette/weights.h"
 #include "core/surface/paint.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -180,8 +181,9 @@ TEST(Relief, EachSpeciesBringsItsOwnAsDeepAsItWeighs) {
     const Individual individual = resolve(
         mix_of({{"amanita_muscaria", 400}, {"fine", 100}, {"same", 200}, {"wide", 300}}), forms);
     ASSERT_EQ(individual.reliefs.size(), 2U) << "equal forms share one";
-    EXPECT_NEAR(individual.reliefs[0].pits, 0.1 * 0.04 + 0.2 * 0.08, 1e-12);
-    EXPECT_NEAR(individual.reliefs[1].pits, 0.3 * 0.06, 1e-12);
+    const auto weights = eased_weights({0.4, 0.1, 0.2, 0.3});
+    EXPECT_NEAR(individual.reliefs[0].pits, weights[1] * 0.04 + weights[2] * 0.08, 1e-12);
+    EXPECT_NEAR(individual.reliefs[1].pits, weights[3] * 0.06, 1e-12);
     expect_valid(swept_mesh(individual, 0));
     // The number of vertices is that of the set at every age, also before the first pit.
     const Mesh young = swept_mesh(resolve(order_of("fine", 0.0), forms), 0);

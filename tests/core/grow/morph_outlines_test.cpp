@@ -63,6 +63,20 @@ class RandomOutlines : public Parts {};
 INSTANTIATE_TEST_SUITE_P(Eighths, PairOutlines, ::testing::Range(std::size_t{0}, std::size_t{8}));
 INSTANTIATE_TEST_SUITE_P(Eighths, RandomOutlines, ::testing::Range(std::size_t{0}, std::size_t{8}));
 
+TEST_P(PairOutlines, AreRefusedForNoPairOfTheAtlas) {
+    // Individuals in proportions of their own, and as far from their templates as any: the mix of a pair is grown, never refused.
+    const auto pairs = sanitized ? some_species_pairs(8) : species_pairs();
+    for (std::size_t i = GetParam(); i < pairs.size(); i += parts)
+        for (const double age : {0.0, 0.25, 0.5, 0.75, 1.0})
+            for (const int t : {250, 500, 750}) {
+                MushroomOrder order = mix_of({{pairs[i].first, 1000 - t}, {pairs[i].second, t}},
+                                             age, static_cast<std::uint32_t>(i));
+                order.params.variation = 1.0;
+                EXPECT_NO_THROW((void)resolve(order, atlas(), kept_morphs()))
+                    << text_of(order.mix) << ", age " << age;
+            }
+}
+
 TEST_P(PairOutlines, AreSimpleAllTheWayBetweenEveryPairOfAges) {
     // Every pair there is: sanitizers are content with some.
     const auto pairs = sanitized ? some_species_pairs(8) : species_pairs();

@@ -13,14 +13,44 @@
 namespace sporeprint {
 namespace {
 
-/// What a deviation is compared with: the height of a mature mushroom. A cup that lies flat is up to four times as wide as high, and a
-/// thousandth of the way to a slender stem is more than that of its height; for it, and for eggs and buttons, it is the diagonal.
-double size(const Mesh& mesh, double age) {
+/// What a deviation is compared with.
+double height(const Mesh& mesh) {
     const Bounds box = bounds(mesh);
-    const glm::vec3 sides = box.max - box.min;
-    const bool flat =
-        static_cast<double>(sides.y) < 0.6 * static_cast<double>(std::max(sides.x, sides.z));
-    return flat || age != 0.6 ? diagonal(box) : static_cast<double>(sides.y);
+    return static_cast<double>(box.max.y - box.min.y);
+}
+
+/// "Done when" 2: beside a thousandth of another a species is within 0.3 % of its height of itself. At the finest level of detail:
+/// rings of others stand elsewhere along a meridian, and their chords with them.
+void expect_convergence(const MushroomOrder& alone, const MushroomOrder& beside) {
+    const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
+    // The chords of the widest waves are off by more than that of a withered cup that lies flat, a fifth as high as wide; by less than
+    // 0.15 % of its diagonal wherever the rings stand. Its outlines keep to the bound: morph_set_test.cpp.
+    const bool withered = alone.params.age == 1.0 && height(pure) < 0.25 * diagonal(bounds(pure));
+    EXPECT_LT(hausdorff(pure, mixed),
+              withered ? 0.0015 * diagonal(bounds(pure)) : 0.003 * height(pure))
+        << text_of(beside.mix) << ", age " << alone.params.age;
+    // Layers of no thickness that lie on the surface would be seen by nothing but their area.
+    EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02)
+        << text_of(beside.mix) << ", age " << alone.params.age;
+}
+
+class EveryPair : public ::testing::TestWithParam<std::size_t> {
+  protected:
+    static constexpr std::size_t parts = 8;
+};
+
+INSTANTIATE_TEST_SUITE_P(Eighths, EveryPair, ::testing::Range(std::size_t{0}, std::size_t{8}));
+
+TEST_P(EveryPair, ConvergesToEitherSpecies) {
+    const auto pairs = sanitized ? some_species_pairs(8) : species_pairs();
+    for (std::size_t i = GetParam(); i < pairs.size(); i += parts)
+        for (const auto& [corner, near] : {std::pair{0, 1}, std::pair{1000, 999}}) {
+            const auto& [a, b] = pairs[i];
+            const auto at = [&](int t) {
+                return mix_of(present({{a, 1000 - t}, {b, t}}), 0.6, 3, 0);
+            };
+            expect_convergence(at(corner), at(near));
+        }
 }
 
 // Meshes of a sample of pairs; outlines of every pair are looked at in morph_outlines_test.cpp.
@@ -39,17 +69,9 @@ INSTANTIATE_TEST_SUITE_P(Atlas, SomePairs, ::testing::ValuesIn(some_species_pair
                              return one.param.first + "_and_" + one.param.second;
                          });
 
-TEST_P(SomePairs, ConvergesToEitherSpecies) {
-    for (const double age : {0.1, 0.6, 1.0})
-        for (const auto& [corner, near] : {std::pair{0, 1}, std::pair{1000, 999}}) {
-            if (age != 0.6 && (age < 0.6) == (corner == 0)) continue;  // one corner will do
-            // The finest level: rings of others stand elsewhere along a meridian, and their chords with them.
-            const Mesh pure = mesh_of(at(corner, age, 3, 0)), mixed = mesh_of(at(near, age, 3, 0));
-            EXPECT_LT(hausdorff(pure, mixed), 0.003 * size(pure, age))
-                << "t " << near << ", age " << age;
-            // Layers of no thickness that lie on the surface would be seen by nothing but their area.
-            EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << "t " << near << ", age " << age;
-        }
+TEST_P(SomePairs, ConvergesToEitherSpeciesWhenYoungAndWhenOld) {
+    for (const auto& [age, corner] : {std::pair{0.1, 1000}, std::pair{1.0, 0}})
+        expect_convergence(at(corner, age, 3, 0), at(std::abs(corner - 1), age, 3, 0));
 }
 
 TEST_P(SomePairs, HasNoJumpFromOneSpeciesToTheOther) {
@@ -152,8 +174,9 @@ TEST(Morph, TowardsACornerOfEightSpeciesTheSurfaceConverges) {
         std::sort(mix.begin(), mix.end(),
                   [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
         const std::string& id = ids[corner];
-        const Mesh pure = mesh_of(order_of(id, 0.6, 3, 1)), mixed = mesh_of(mix_of(mix, 0.6, 3, 1));
-        EXPECT_LT(hausdorff(pure, mixed), 7 * 0.003 * size(pure, 0.6)) << id;
+        const Mesh pure = mesh_of(order_of(id, 0.6, 3, 0)), mixed = mesh_of(mix_of(mix, 0.6, 3, 0));
+        // Seven thousandths are not one: twice what one may do.
+        EXPECT_LT(hausdorff(pure, mixed), 2 * 0.003 * height(pure)) << id;
     }
 }
 

@@ -10,6 +10,7 @@
 
 #include "core/model/proportion.h"
 #include "core/params/reader.h"
+#include "core/silhouette/weights.h"
 #include "tests/support/orders.h"
 
 namespace sporeprint {
@@ -89,7 +90,7 @@ TEST(Mix, SizesGoByTheirRatio) {
     for (const int weight : {250, 500, 900}) {
         order.mix = {{"russula_vinosa", 1000 - weight}, {"twin", weight}};
         const Individual mixed = resolve(order, twins);
-        const double scale = std::pow(4.0, weight / 1000.0);
+        const double scale = std::pow(4.0, eased_weights({1000.0 - weight, 1.0 * weight})[1]);
         EXPECT_LT(largest_move(one, mixed, scale), 2e-3 * scale * places_of(one).back().y);
     }
 }
@@ -126,8 +127,9 @@ TEST(Mix, EachSpeciesBringsItsOwnPiecesAtItsWeight) {
     for (const PatchLayer& layer : mixed.layers)
         if (layer.purpose == wart_purpose) warts.push_back(layer);
     ASSERT_EQ(warts.size(), 2u);
-    EXPECT_NEAR(warts[0].weight, 0.6, 1e-15);
-    EXPECT_NEAR(warts[1].weight, 0.4, 1e-15);
+    const auto weights = eased_weights({0.6, 0.4});
+    EXPECT_NEAR(warts[0].weight, weights[0], 1e-15);
+    EXPECT_NEAR(warts[1].weight, weights[1], 1e-15);
     EXPECT_EQ(warts[1].style.count, 30);
     // Who is not in the mix brings nothing.
     EXPECT_EQ(resolve(order_of("amanita_muscaria"), twins).layers.size(), mixed.layers.size() - 1);
@@ -145,7 +147,8 @@ TEST(Mix, ARingIsAsWideAsItsSharesTogether) {
         order.mix = {{"amanita_muscaria", 1000 - weight}, {"twin", weight}};
         const Individual mixed = resolve(order, twins);
         EXPECT_TRUE(mixed.has_ring);
-        EXPECT_NEAR(mixed.ring.width, (1.0 - 0.001 * weight) * whole.ring.width, 1e-12);
+        EXPECT_NEAR(mixed.ring.width,
+                    eased_weights({1000.0 - weight, 1.0 * weight})[0] * whole.ring.width, 1e-12);
         EXPECT_EQ(mixed.ring.height, whole.ring.height) << "where the wider one is";
         EXPECT_NEAR(mixed.ring.thickness, whole.ring.thickness, 1e-12);
     }
@@ -200,7 +203,7 @@ TEST(Mix, WhatNoSpeciesOfItCanHaveIsRefused) {
 TEST(Mix, OnlyAMarginWaves) {
     MushroomOrder order = mix_of({{"clavariadelphus_pistillaris", 750}, {"russula_vinosa", 250}});
     order.params.weathering.waves = 0.8;
-    EXPECT_NEAR(resolve(order, atlas()).waves, 0.2, 1e-12);
+    EXPECT_NEAR(resolve(order, atlas()).waves, 0.8 * eased_weights({0.75, 0.25})[1], 1e-12);
 }
 
 TEST(Mix, ItsOrderChangesNoBitAndArcsFollowTheirSpecies) {
