@@ -57,6 +57,8 @@ for (const [name, values] of options.vary) {
         label: [...column.label, `${name} ${value}`],
     })));
 }
+// Software drawing on a busy machine: one strip has taken minutes.
+const patience = 900_000; // milliseconds
 const views = options.views ?? ["three-quarter"];
 
 /** Opens an address; after the first one without loading the page again. */
@@ -84,13 +86,14 @@ async function downloaded(page, address, button) {
         const state = await page.locator("#sheet-state").textContent();
         if (!/^\d+ mushrooms,/.test(state)) throw new Error(`${address}: ${state}`);
     }
-    const [file] = await Promise.all([page.waitForEvent("download", { timeout: 600_000 }), page.locator(button).click()]);
+    const [file] = await Promise.all([page.waitForEvent("download"), page.locator(button).click()]);
     return file;
 }
 
 async function pageSheets() {
     // A sheet is as large as its cells; the stage behind it need not be.
     const page = await browser.newPage({ viewport: { width: 640, height: 400 } });
+    page.setDefaultTimeout(patience);
     const heard = listen(page);
     await mkdir(path.dirname(options.out), { recursive: true });
     const rest = options.set.map((one) => `&${one}`).join("");
