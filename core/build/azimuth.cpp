@@ -13,6 +13,7 @@ namespace {
 constexpr std::uint32_t lobe_purpose = 4;
 constexpr double least_columns_per_lobe = 2.5;
 constexpr double gather = 0.45;  // how far columns turn towards the front of a fan, radians
+constexpr double crowd = 0.40;   // and then to its sides, where it turns back to the wall
 constexpr double back = 0.06;    // reach of a fan towards what it grows on
 constexpr double blunt = 0.15;   // roundness of the points of lobes
 
@@ -130,12 +131,22 @@ AzimuthMap::Column AzimuthMap::column(double angle) const {
     Column column;
     column.from = sine_cosine(angle);
     column.to = column.from;
+    double to = angle;
     if (has_fan_) {
+        // Towards the front; from there to both sides; and with these a little backwards, to where it meets the wall.
         const double turn = gather * azimuth_.lateral;
-        column.to = sine_cosine(angle + turn * column.from.cosine);
-        column.turning = 1.0 - turn * column.from.sine;
+        const double beside = crowd * azimuth_.lateral * (2.0 - azimuth_.lateral);
+        const double nearer = angle + turn * column.from.cosine;
+        const auto twice = sine_cosine(2.0 * nearer);
+        const double sides = nearer - beside * twice.sine;
+        const auto at_side = sine_cosine(sides);
+        to = sides - back * azimuth_.lateral * at_side.cosine;
+        column.to = sine_cosine(to);
+        column.turning = (1.0 - turn * column.from.sine) * (1.0 - 2.0 * beside * twice.cosine) *
+                         (1.0 + back * azimuth_.lateral * at_side.sine);
     }
-    column.lobe = lobe_at(angle);
+    column.lobe = lobe_at(to);
+    column.lobe.by_angle *= column.turning;
     column.fan = fan_at(column.to, column.turning);
     return column;
 }

@@ -334,7 +334,8 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     if (rings == 0 || !individual.has_sac) return;
     const double height = style.height;
     const double thickness = std::min(style.thickness, 0.2 * height);
-    const double foot = std::max(ground.deformer.base(), 0.0);
+    // On the ground, or where a stem ends that grows from a wall above or below it.
+    const double foot = std::min(std::max(ground.deformer.base(), 0.0), ground.deformer.top());
     Random random(ground.seed, sac_purpose);
     const Rents rents(random, 3, 5);
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <string>
 
 #include "core/build/ornaments.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/mesh/measure.h"
 #include "core/model/proportion.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
@@ -224,6 +226,11 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const bool denser = detail.cap_rings > details[static_cast<std::size_t>(lod)].cap_rings;
     sweeper.face(Part::cap, denser ? outline.denser_rings(CurveName::cap, lod)
                                    : outline.rings(CurveName::cap, lod));
+    // A sheet a metre wide and thinner than its dents are drawn by the mesh: no species is one.
+    if (individual.parts.front().id.empty() && volume(mesh) <= 0.0)
+        throw Impossible("/model/silhouette",
+                         "so thin for its width that dents turn it inside out at level of detail " +
+                             std::to_string(lod));
     const Ground ground{outline,          deformer,           skin, detail, seed,
                         options.textured, options.keep_absent};
     add_patches(mesh, individual, ground);

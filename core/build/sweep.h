@@ -48,7 +48,7 @@ struct SweepOptions {
 ///
 /// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last. The number and order of its vertices are
 ///           those of the set of species: ages and weights inside the mix do not change them
-/// throws    Impossible for a stem that folds
+/// throws    Impossible for a stem that folds, and for a model of one's own so thin that its dents turn it inside out
 /// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by meridian arc length, so that they never fold
 [[nodiscard]] Mesh swept_mesh(const Individual& individual, int lod,
                               const SweepOptions& options = {});

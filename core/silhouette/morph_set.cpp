@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <optional>
 #include <string>
@@ -21,6 +22,10 @@ constexpr double mature_age = 0.6;
 constexpr double least_foot = 1e-3;    // of the stem's length; less is no base to speak of
 constexpr std::size_t way_degree = 9;  // of the weights of a mix along a way with detours
 constexpr int deepest_piece = 9;
+// The bud: half its width over its height; the lower face's middle and half its breadth, as shares of a quarter turn.
+constexpr double bud_width = 0.175, bud_middle = -0.1, bud_band = 0.1;
+// Stems bend with their axis, wherever their outline is straight.
+constexpr double stem_evenness = 3.0;
 
 using Curves = std::array<SubCurve, 3>;
 
@@ -234,6 +239,61 @@ void align_joins(std::vector<OutlineNodes>& all, const std::vector<ControlShape>
     }
 }
 
+/// A smooth bud, as high as the shapes are on average, that their sub-curves run along from pole to pole, the lower face as a narrow band.
+/// Nothing of it hides anything else, so nearly every shape opens out of it straight.
+OutlineNodes bud_of(const std::vector<OutlineNodes>& shapes) {
+    const auto count_of_shapes = static_cast<double>(shapes.size());
+    double low = 0.0, high = 0.0;
+    for (const OutlineNodes& shape : shapes) {
+        low += shape.stem.front().position.y / count_of_shapes;
+        high += shape.cap.back().position.y / count_of_shapes;
+    }
+    const glm::dvec2 centre(0.0, 0.5 * (low + high));
+    const glm::dvec2 half(bud_width * (high - low), 0.5 * (high - low));
+    const double junction = (bud_middle - bud_band) * 0.5 * pi;
+    const double margin =
+        shapes.front().hymenium.empty() ? junction : (bud_middle + bud_band) * 0.5 * pi;
+    OutlineNodes bud;
+    for (const CurveName curve : curve_names) {
+        const std::size_t count = shapes.front().of(curve).size();
+        if (count == 0) continue;
+        // As the shapes run through their own lengths on average.
+        const auto even = [&](std::size_t i) {
+            return static_cast<double>(i) / static_cast<double>(count - 1);
+        };
+        std::vector<double> shares(count, 0.0);
+        for (const OutlineNodes& shape : shapes) {
+            std::vector<double> lengths{0.0};
+            const std::vector<OutlineNode>& own = shape.of(curve);
+            for (std::size_t i = 1; i < count; ++i)
+                lengths.push_back(lengths.back() +
+                                  glm::distance(own[i].position, own[i - 1].position));
+            for (std::size_t i = 0; i < count; ++i)
+                shares[i] += (lengths.back() > 0.0 ? lengths[i] / lengths.back() : even(i)) /
+                             count_of_shapes;
+        }
+        const double from = curve == CurveName::stem       ? -0.5 * pi
+                            : curve == CurveName::hymenium ? junction
+                                                           : margin;
+        const double to = curve == CurveName::stem       ? junction
+                          : curve == CurveName::hymenium ? margin
+                                                         : 0.5 * pi;
+        for (std::size_t i = 0; i < count; ++i) {
+            const std::size_t before = i == 0 ? 0 : i - 1, after = std::min(i + 1, count - 1);
+            const double rate = (shares[after] - shares[before]) / (even(after) - even(before));
+            const double share = i + 1 == count ? 1.0 : shares[i];  // without rounding: ends meet
+            const auto [s, c] = sine_cosine(from + (to - from) * share);
+            bud.of(curve).push_back(
+                {centre + half * glm::dvec2(c, s), (to - from) * rate * half * glm::dvec2(-s, c)});
+        }
+    }
+    bud.stem.front().position.x = bud.cap.back().position.x = 0.0;
+    if (!bud.hymenium.empty()) bud.hymenium.front().position = bud.stem.back().position;
+    bud.cap.front().position =
+        bud.hymenium.empty() ? bud.stem.back().position : bud.hymenium.back().position;
+    return bud;
+}
+
 std::shared_ptr<const RingPlaces> even_places(bool hymenium) {
     auto places = std::make_shared<RingPlaces>();
     for (std::size_t lod = 0; lod < details.size(); ++lod) {
@@ -347,6 +407,7 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
         const std::vector<double> places = even_for_all(present);
         std::vector<std::vector<double>> roots(shapes.size()), plain(shapes.size());
         std::vector<double> needs(measure_steps, 0.0);
+        const double evenness = curve == CurveName::stem ? stem_evenness : 1.0;
         double most_roots = 1e-9;
         for (std::size_t s = 0; s < shapes.size(); ++s) {
             if (at(s).empty()) continue;
@@ -358,7 +419,7 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
                 const double next = from_mature[s](from_hub[shapes[s].kin](place).at).at;
                 const double next_turning = at(s).turning(next);
                 const double length = next - share, turn = next_turning - turning;
-                plain[s].push_back(length + turn / whole);
+                plain[s].push_back(evenness * length + turn / whole);
                 roots[s].push_back(scale * std::sqrt(length * turn));
                 sum += roots[s].back();
                 share = next;
@@ -442,21 +503,28 @@ MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, 
     certify();
 }
 
-/// The weights after the detours: of what stage s gives, 1 - (1 - w)^7 (1 + 7 w) goes over to the mature stage of its kin, where w is
-/// the weight of what it folds with. That is 28 w^2 at first, so that nothing happens near its own corner, and nearly all from a half
-/// on: a stage of little weight folds no mix of others, whoever they are.
+/// The weights after the detours, the bud's last: of what stage s gives, 1 - (1 - w)^7 (1 + 7 w) goes over to the mature stage of its
+/// kin or to the bud, where w is the weight of what it folds with. That is 28 w^2 at first, so that nothing happens near its own
+/// corner, and nearly all from a half on: a stage of little weight folds no mix of others, whoever they are. With x = 1 - w it is
+/// w (1 + x + ... + x^6 - 7 x^7), so that each of those it folds with moves its part by the way of their own.
 std::vector<double> MorphSet::detoured(std::span<const double> weights) const {
     std::vector<double> moved(weights.begin(), weights.end());
-    if (detours_.empty()) return moved;
+    moved.push_back(0.0);
+    if (vias_.empty()) return moved;
     for (std::size_t s = 0; s < weights.size(); ++s) {
         if (weights[s] == 0.0) continue;
-        double met = 0.0;
-        for (std::size_t other = 0; other < weights.size(); ++other)
-            met += weights[other] * detours_[s * weights.size() + other];
-        const double apart = 1.0 - met, cube = apart * apart * apart;
-        const double share = 1.0 - cube * cube * apart * (1.0 + 7.0 * met);
-        moved[s] -= share * weights[s];
-        moved[kins_[kin_of(s)].mature] += share * weights[s];
+        double by_mature = 0.0, by_bud = 0.0;
+        for (std::size_t other = 0; other < weights.size(); ++other) {
+            if (via(s, other) == Via::mature) by_mature += weights[other];
+            if (via(s, other) == Via::bud) by_bud += weights[other];
+        }
+        const double x = 1.0 - by_mature - by_bud;
+        double rate = 1.0 - 7.0 * x;
+        for (int i = 0; i < 6; ++i) rate = 1.0 + x * rate;
+        rate *= weights[s];
+        moved[s] -= (by_mature + by_bud) * rate;
+        moved[kins_[kin_of(s)].mature] += by_mature * rate;
+        moved.back() += by_bud * rate;
     }
     return moved;
 }
@@ -470,7 +538,7 @@ OutlineNodes MorphSet::unchecked(std::span<const double> weights) const {
         nodes.resize(nodes_.front().of(curve).size());
         for (std::size_t s = 0; s < moved.size(); ++s) {
             if (moved[s] == 0.0) continue;
-            const std::vector<OutlineNode>& own = nodes_[s].of(curve);
+            const std::vector<OutlineNode>& own = shape(s).of(curve);
             for (std::size_t i = 0; i < nodes.size(); ++i) {
                 nodes[i].position += moved[s] * own[i].position;
                 nodes[i].velocity += moved[s] * own[i].velocity;
@@ -531,19 +599,37 @@ void MorphSet::certify() {
 /// first: what folds there needs no second look.
 void MorphSet::choose_detours(std::size_t i, std::size_t j) {
     const std::size_t count = nodes_.size();
+    std::vector<std::array<std::size_t, 2>> folding;
+    const auto folds = [&](std::size_t a, std::size_t b) {
+        return std::find(folding.begin(), folding.end(), std::array{a, b}) != folding.end();
+    };
     for (int lod = static_cast<int>(details.size()) - 1; lod >= 0; --lod) {
         std::vector<Polyline> lines(count);
         for (const std::size_t k : {i, j})
             for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s)
                 lines[s] = polyline(nodes_[s], lod);
         for (std::size_t a = kins_[i].first; a < kins_[i].first + kins_[i].count; ++a)
-            for (std::size_t b = kins_[j].first; b < kins_[j].first + kins_[j].count; ++b) {
-                if (!detours_.empty() && detours_[a * count + b] > 0.0) continue;
-                if (!contact_on_the_way(lines[a], lines[b])) continue;
-                if (detours_.empty()) detours_.assign(count * count, 0.0);
-                detours_[a * count + b] = detours_[b * count + a] = 1.0;
-            }
+            for (std::size_t b = kins_[j].first; b < kins_[j].first + kins_[j].count; ++b)
+                if (!folds(a, b) && contact_on_the_way(lines[a], lines[b]))
+                    folding.push_back({a, b});
     }
+    if (folding.empty()) return;
+    if (vias_.empty()) vias_.assign(count * count, Via::none);
+    const auto lead = [&](Via by) {
+        for (const auto& [a, b] : folding) vias_[a * count + b] = vias_[b * count + a] = by;
+    };
+    lead(Via::mature);
+    const auto is_simple = [&](const auto& pair) {
+        std::vector<double> from(count, 0.0), to(count, 0.0);
+        from[pair[0]] = to[pair[1]] = 1.0;
+        return curved_way_is_simple(from, to);
+    };
+    // One kind of way for the whole pair: a mix of stages takes a mix of their ways.
+    if (!folds(kins_[i].mature, kins_[j].mature) &&
+        std::all_of(folding.begin(), folding.end(), is_simple))
+        return;
+    if (bud_.cap.empty()) bud_ = bud_of(nodes_);
+    lead(Via::bud);
 }
 
 OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
@@ -572,7 +658,7 @@ CurveName MorphSet::curve_of(const Contact& contact, int lod) const {
 Certificate MorphSet::certificate() const {
     Certificate known;
     known.method = for_any_weights_ ? ProofMethod::certificate : ProofMethod::checked;
-    for (const double detour : detours_) known.detour = std::max(known.detour, detour);
+    if (!vias_.empty()) known.detour = 1.0;
     if (for_any_weights_ || known.detour > 0.0) return known;
     // Mixes of one age take only the two stages of each kin that are nearest to it.
     std::vector<double> ages = ages_;
@@ -593,11 +679,9 @@ Certificate MorphSet::certificate() const {
 Certificate MorphSet::certificate(std::span<const double> from, std::span<const double> to) const {
     Certificate known;
     const auto taken = [&](std::size_t s) { return from[s] > 0.0 || to[s] > 0.0; };
-    if (!detours_.empty())
-        for (std::size_t i = 0; i < from.size(); ++i)
-            for (std::size_t j = 0; j < from.size(); ++j)
-                if (taken(i) && taken(j))
-                    known.detour = std::max(known.detour, detours_[i * from.size() + j]);
+    for (std::size_t i = 0; i < from.size(); ++i)
+        for (std::size_t j = 0; j < from.size(); ++j)
+            if (taken(i) && taken(j) && via(i, j) != Via::none) known.detour = 1.0;
     const OutlineNodes a = unchecked(from), b = unchecked(to);
     if (known.detour == 0.0) {
         for (int lod = 0; lod < static_cast<int>(details.size()) && known.simple; ++lod)
@@ -630,22 +714,33 @@ std::vector<std::vector<double>> MorphSet::detoured_way(std::span<const double> 
     const auto raised = [&](const Polynomial& p, std::size_t degree) {
         return product(p, Polynomial(degree - p.size() + 2, 1.0));
     };
-    std::vector<Polynomial> moved(from.size());
+    std::vector<Polynomial> moved(from.size() + 1, Polynomial(way_degree + 1, 0.0));
     for (std::size_t s = 0; s < from.size(); ++s) moved[s] = raised({from[s], to[s]}, way_degree);
+    const auto add = [&](std::size_t s, const Polynomial& what, double factor) {
+        for (std::size_t i = 0; i < what.size(); ++i) moved[s][i] += factor * what[i];
+    };
     for (std::size_t s = 0; s < from.size(); ++s) {
         if (from[s] == 0.0 && to[s] == 0.0) continue;
-        Polynomial met{0.0, 0.0};
+        Polynomial by_mature{0.0, 0.0}, by_bud{0.0, 0.0};
         for (std::size_t other = 0; other < from.size(); ++other) {
-            met[0] += from[other] * detours_[s * from.size() + other];
-            met[1] += to[other] * detours_[s * from.size() + other];
+            const Via by = via(s, other);
+            if (by == Via::none) continue;
+            Polynomial& met = by == Via::mature ? by_mature : by_bud;
+            met[0] += from[other];
+            met[1] += to[other];
         }
-        Polynomial share{1.0 + 7.0 * met[0], 1.0 + 7.0 * met[1]};
-        for (int i = 0; i < 7; ++i) share = product(share, {1.0 - met[0], 1.0 - met[1]});
-        for (double& coefficient : share) coefficient = 1.0 - coefficient;
-        const Polynomial over = product(share, {from[s], to[s]});
-        for (std::size_t i = 0; i < over.size(); ++i) {
-            moved[s][i] -= over[i];
-            moved[kins_[kin_of(s)].mature][i] += over[i];
+        const Polynomial x{1.0 - by_mature[0] - by_bud[0], 1.0 - by_mature[1] - by_bud[1]};
+        Polynomial rate{1.0 - 7.0 * x[0], 1.0 - 7.0 * x[1]};
+        for (int i = 0; i < 6; ++i) {
+            rate = product(x, rate);
+            for (double& coefficient : rate) coefficient += 1.0;
+        }
+        rate = product(rate, {from[s], to[s]});
+        for (const auto& [met, target] :
+             {std::pair{by_mature, kins_[kin_of(s)].mature}, std::pair{by_bud, from.size()}}) {
+            const Polynomial over = product(rate, met);
+            add(s, over, -1.0);
+            add(target, over, 1.0);
         }
     }
     return moved;
@@ -654,7 +749,7 @@ std::vector<std::vector<double>> MorphSet::detoured_way(std::span<const double> 
 /// Detours make the way from one mix to another a curve; each piece of it lies among the means of the piece's Bezier polygons.
 bool MorphSet::curved_way_is_simple(std::span<const double> from,
                                     std::span<const double> to) const {
-    std::vector<Polyline> shapes(nodes_.size());
+    std::vector<Polyline> shapes(nodes_.size() + (bud_.cap.empty() ? 0 : 1));
     std::vector<Polyline> bezier(way_degree + 1);
     const auto is_simple = [&](const auto& self, double t0, double t1, int depth) -> bool {
         const auto way = detoured_way(between(from, to, t0), between(from, to, t1));
@@ -673,7 +768,7 @@ bool MorphSet::curved_way_is_simple(std::span<const double> from,
         return self(self, t0, middle, depth + 1) && self(self, middle, t1, depth + 1);
     };
     for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
-        for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s] = polyline(nodes_[s], lod);
+        for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s] = polyline(shape(s), lod);
         if (!is_simple(is_simple, 0.0, 1.0, 0)) return false;
     }
     return true;
@@ -713,10 +808,10 @@ std::vector<Arc> MorphSet::arcs(double age, int count) const {
 }
 
 std::size_t MorphSet::bytes() const {
-    std::size_t bytes = sizeof(MorphSet) + sizeof(RingPlaces) + detours_.size() * sizeof(double);
-    for (const OutlineNodes& nodes : nodes_)
+    std::size_t bytes = sizeof(MorphSet) + sizeof(RingPlaces) + vias_.size() * sizeof(Via);
+    for (std::size_t s = 0; s <= nodes_.size(); ++s)
         for (const CurveName curve : curve_names)
-            bytes += nodes.of(curve).size() * sizeof(OutlineNode);
+            bytes += shape(s).of(curve).size() * sizeof(OutlineNode);
     for (const auto& lod : places_->by_lod)
         for (const auto& u : lod) bytes += u.size() * sizeof(double);
     return bytes + ages_.size() * (sizeof(double) + sizeof(OutlineNodes)) +

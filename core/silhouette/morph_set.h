@@ -62,8 +62,8 @@ struct Certificate {
         visit(&C::detour,
               Info{.name = "detour",
                    .max = 1,
-                   .doc = "How far the shapes go over to their mature stages half way, because the "
-                          "straight way between younger ones would fold; 0 where none does."});
+                   .doc = "How far the shapes go over to their mature stages half way, or to a "
+                          "round bud, because the straight way would fold; 0 where none does."});
     }
     bool operator==(const Certificate&) const = default;
 };
@@ -81,7 +81,7 @@ class MorphSet {
     /// arcs      only for two kin, a for kin 0 and b for kin 1; `arcs_age` is the age at which the shares are counted
     /// throws    Impossible for a shape that crosses itself or its rings (path below "/model/silhouette"), for arcs that cross one another or
     ///           leave their curve (path "/arcs/<i>")
-    /// cost      about 1 ms for two kin of four shapes
+    /// cost      about 1 ms for two kin of four shapes; some ms more where ways fold
     /// source    [Desbenoit2004] sec. 4; [SederbergGreenwood1992]
     explicit MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs = {},
                       double arcs_age = 0.6);
@@ -89,7 +89,8 @@ class MorphSet {
     /// The outline of a mix, of unit size: never one that touches itself at any level of detail.
     ///
     /// Blends are straight, unless the straight way between stages of two kin folds: then mixes of these two stages make a detour by
-    /// the mature ones, by an amount decided once for the set, so that nothing jumps and every kin alone is itself.
+    /// the mature ones or, where these fold too, by a round bud; decided once for the set, so that nothing jumps and every kin alone
+    /// is itself.
     ///
     /// weights  one per control shape, >= 0, sum 1
     /// throws   Impossible (path "mix", names the sub-curve) for a mix that touches itself all the same: none is bent into another
@@ -126,7 +127,16 @@ class MorphSet {
         std::size_t first = 0, count = 0, mature = 0;
     };
 
+    /// What a mix of two stages goes by on its way.
+    enum class Via : std::uint8_t { none, mature, bud };
+
+    [[nodiscard]] Via via(std::size_t i, std::size_t j) const {
+        return vias_.empty() ? Via::none : vias_[i * nodes_.size() + j];
+    }
     [[nodiscard]] std::vector<double> detoured(std::span<const double> weights) const;
+    [[nodiscard]] const OutlineNodes& shape(std::size_t s) const {
+        return s < nodes_.size() ? nodes_[s] : bud_;
+    }
     [[nodiscard]] OutlineNodes unchecked(std::span<const double> weights) const;
     [[nodiscard]] Polyline polyline(const OutlineNodes& nodes, int lod) const;
     [[nodiscard]] std::size_t kin_of(std::size_t shape) const;
@@ -140,7 +150,9 @@ class MorphSet {
     void choose_detours(std::size_t i, std::size_t j);
 
     std::vector<Kin> kins_;
-    std::vector<double> detours_;  ///< of shape i where it meets j at [i * shapes + j]; empty: none
+    std::vector<Via>
+        vias_;          ///< of shape i where it meets j at [i * shapes + j]; empty: all straight
+    OutlineNodes bud_;  ///< empty where no way leads by it
     bool for_any_weights_ = false;
     std::vector<double> ages_;
     std::vector<OutlineNodes> nodes_;

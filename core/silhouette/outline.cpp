@@ -12,7 +12,8 @@ namespace sporeprint {
 namespace {
 
 constexpr int knots_between_controls = 24;  // a few long cubics between an author's control points
-constexpr int knots_between_nodes = 4;      // many short ones between the nodes of a set
+constexpr int knots_between_nodes =
+    8;  // many short ones between the nodes of a set; waves lean on their speed
 
 std::string number(double value) {
     std::string text = std::to_string(value);

@@ -90,22 +90,29 @@ struct Measured {
     double width = 0.0, height = 0.0;  ///< centimetres
 };
 
-/// The cap's width and the height of its top, from the vertices that wear the cap's chart: no ring, volva, bulb, wart or bend.
+/// Whether a vertex wears the chart of a part.
+bool wears(const glm::vec2& uv, Part part) {
+    const Chart& chart = swept_charts[static_cast<std::size_t>(part)];
+    return uv.x >= chart.u && uv.x <= chart.u + chart.width && uv.y >= chart.v &&
+           uv.y <= chart.v + chart.height;
+}
+
+/// The cap's width and the height of its top, from the vertices that wear the charts of its faces: no ring, volva, bulb, wart or bend.
+/// The rays of an earthstar are faces too. What grows from a wall has its height from its lowest point, not from the ground.
 Measured measure(MushroomOrder order) {
     order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
     order = textured(order);
-    const Mesh mesh = mushroom_mesh(order, resolve(order, straight_atlas()));
-    const Chart& chart = swept_charts[static_cast<std::size_t>(Part::cap)];
+    const Individual individual = resolve(order, straight_atlas());
+    const Mesh mesh = mushroom_mesh(order, individual);
     glm::vec3 low(1e9F), high(-1e9F);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec2 uv = mesh.texture_coordinates[i];
-        if (uv.x < chart.u || uv.x > chart.u + chart.width || uv.y < chart.v ||
-            uv.y > chart.v + chart.height)
-            continue;
+        if (!wears(uv, Part::cap) && !wears(uv, Part::hymenium)) continue;
         low = glm::min(low, mesh.positions[i]);
         high = glm::max(high, mesh.positions[i]);
     }
-    return {100.0 * std::max(high.x - low.x, high.z - low.z), 100.0 * high.y};
+    const float lowest = individual.azimuth.lateral > 0.0 ? low.y : 0.0F;
+    return {100.0 * std::max(high.x - low.x, high.z - low.z), 100.0 * (high.y - lowest)};
 }
 
 constexpr double rounding = 1e-6;

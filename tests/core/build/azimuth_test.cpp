@@ -49,7 +49,7 @@ glm::dvec2 gone(const AzimuthMap& map, const AzimuthMap::Column& column, double 
 TEST(Azimuth, AmountsOfZeroChangeNoByte) {
     for (const std::string& id : species_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            const Individual plain = resolve(order_of(id, 0.6, 3, lod), atlas());
+            const Individual plain = with(resolve(order_of(id, 0.6, 3, lod), atlas()), {});
             Azimuth azimuth;
             azimuth.fan_deg = 50.0;
             azimuth.width = 2.0;
@@ -66,7 +66,7 @@ TEST(Azimuth, EveryHalfPlaneIsMappedOntoOneInOrder) {
     for (int i = 0; i < 300; ++i) {
         const AzimuthMap map(with(plain, arbitrary_azimuth(random)), 64);
         const auto column = map.column(random.uniform(0.0, 2.0 * pi));
-        EXPECT_GT(column.turning, 0.5) << "half-planes keep their order";
+        EXPECT_GT(column.turning, 0.1) << "half-planes keep their order";
         const double height = random.uniform(-0.1, 0.3);
         double before = -1.0;
         for (int k = 0; k <= 60; ++k) {
@@ -116,13 +116,13 @@ TEST(Azimuth, AnyFanAndAnyLobesAreValidMeshesAtEveryDetail) {
         for (int lod = 0; lod < 4; ++lod) {
             const MushroomOrder order = order_of(id, random.uniform(), 2, lod);
             const Azimuth azimuth = arbitrary_azimuth(random);
-            const Mesh mesh = swept_mesh(with(resolve(order, atlas()), azimuth), lod,
-                                         {.textured = true, .keep_absent = false});
+            const Individual individual = with(resolve(order, atlas()), azimuth);
+            const Mesh mesh = swept_mesh(individual, lod, {.textured = true, .keep_absent = false});
             for (const std::string& defect : defects(mesh)) ADD_FAILURE() << id << ": " << defect;
             EXPECT_GT(volume(mesh), 0.0);
             // The seam repeats the first column.
             const auto row =
-                static_cast<std::size_t>(details[static_cast<std::size_t>(lod)].columns + 1);
+                static_cast<std::size_t>(detail_of(individual.has_relief, lod).columns + 1);
             for (std::size_t ring = 0; ring < 7; ++ring)
                 EXPECT_TRUE(
                     same_bits(mesh.positions[ring * row], mesh.positions[ring * row + row - 1]));
