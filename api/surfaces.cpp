@@ -8,7 +8,7 @@
 
 namespace sporeprint::api {
 
-static_assert(well_described<PaintedWeathering>());
+static_assert(well_described<PaintedWeathering<Maybe>>());
 static_assert(well_described<PaintedAmounts>());
 static_assert(well_described<SurfaceAddress>());
 
@@ -25,7 +25,7 @@ SurfaceAddress surface_address(const MushroomOrder& order) {
     address.lod = params.lod;
     address.ornaments = {params.ornaments.warts, params.ornaments.scales};
     address.hymenium = params.hymenium;
-    address.weathering = {params.weathering.fade, params.weathering.wetness};
+    address.weathering = painted_of(params.weathering);
     return address;
 }
 
@@ -41,8 +41,7 @@ PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     order.params.ornaments.warts = address.ornaments.warts;
     order.params.ornaments.scales = address.ornaments.scales;
     order.params.hymenium = address.hymenium;
-    order.params.weathering.fade = address.weathering.fade;
-    order.params.weathering.wetness = address.weathering.wetness;
+    order.params.weathering = as_weathering(address.weathering);
     PaintRecipe recipe = paint_recipe(order, atlas, memo);
     for (PaintShare& share : recipe) share.painting.side = address.texture_size;
     return recipe;

@@ -14,28 +14,6 @@
 
 namespace sporeprint::api {
 
-/// How `name` is described in T, so that nothing is described twice.
-template <class T>
-constexpr Info info_of(std::string_view name) {
-    Info found{.name = ""};
-    T::fields([&](auto, const Info& info) {
-        if (name == info.name) found = info;
-    });
-    return found;
-}
-
-/// What of the weather is painted.
-struct PaintedWeathering {
-    std::optional<double> fade, wetness;
-
-    static constexpr void fields(auto visit) {
-        using P = PaintedWeathering;
-        visit(&P::fade, info_of<WeatheringOf<Maybe>>("fade"));
-        visit(&P::wetness, info_of<WeatheringOf<Maybe>>("wetness"));
-    }
-    bool operator==(const PaintedWeathering&) const = default;
-};
-
 /// How much of what is painted is left.
 struct PaintedAmounts {
     std::optional<double> warts, scales;
@@ -58,7 +36,7 @@ struct SurfaceAddress {
     int lod = 0;
     PaintedAmounts ornaments;
     HymeniumOf<Maybe> hymenium;
-    PaintedWeathering weathering;
+    PaintedWeathering<Maybe> weathering;
 
     static constexpr void fields(auto visit) {
         using S = SurfaceAddress;

@@ -148,8 +148,10 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     Solid solid;
     for (const Patch& patch : patches(style, ground.seed, layer.purpose)) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
-        const OutlineSample at = curve.at(
-            on_stem ? grown_share(layer.segments, segments, patch.sigma) : 1.0 - patch.sigma);
+        // What stood where the margin is cut has moved inwards with it.
+        const OutlineSample at =
+            curve.at(on_stem ? grown_share(layer.segments, segments, patch.sigma)
+                             : 1.0 - ground.cuts.cap(patch.sigma, patch.theta));
         const SurfacePoint place =
             ground.skin.at(on_stem ? Part::stem : Part::cap, at, ground.skin.column(patch.theta));
         glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
@@ -161,7 +163,9 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         // (round, outward, normal) is right-handed, so that corners run counter-clockwise seen from outside.
         const glm::dvec3 round = glm::cross(outward, normal);
         const double radius = patch.radius * scale * length, height = patch.height * radius;
-        const glm::dvec3 centre = place.position;
+        glm::dvec3 centre = place.position;
+        if (!on_stem && ground.individual.wear.amounts.bumps > 0.0)
+            centre += lump_at(ground.individual, patch.sigma, patch.theta) * normal;
         const AxisStation station = ground.deformer.frozen_station(
             on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
         solid.rows = between + 2;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/build/sweep.h"
+#include "core/build/weathering.h"
 #include "core/model/individual.h"
 
 namespace sporeprint {
@@ -15,6 +16,8 @@ struct Ground {
     std::uint32_t seed;
     bool textured;
     bool keep_absent;  ///< whether what has no size keeps its triangles
+    const Cuts& cuts;  ///< of the margin
+    const Individual& individual;
 };
 
 /// Pieces of a layer: those that are gone too, so that no amount changes the number of vertices.

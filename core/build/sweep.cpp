@@ -6,6 +6,7 @@
 #include <string>
 
 #include "core/build/ornaments.h"
+#include "core/build/weathering.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/mesh/measure.h"
@@ -36,20 +37,28 @@ std::string text(double value) {
 
 class Sweeper {
   public:
-    Sweeper(Mesh& mesh, const Deformer& deformer, const Skin& skin, int columns, bool textured)
+    /// columns  where they stand, in turns
+    Sweeper(Mesh& mesh, const Deformer& deformer, const Skin& skin,
+            const std::vector<double>& columns, bool textured)
         : mesh_(mesh),
           deformer_(deformer),
           skin_(skin),
-          columns_(columns),
+          columns_(static_cast<int>(columns.size())),
           textured_(textured),
-          row_(static_cast<std::size_t>(columns + 1)) {
-        for (int j = 0; j <= columns; ++j)
-            turns_.push_back(skin.column(2.0 * pi * (j % columns) / columns));
+          shares_(columns),
+          row_(columns.size() + 1) {
+        for (const double turn : columns) turns_.push_back(skin.column(2.0 * pi * turn));
+        turns_.push_back(turns_.front());
+        shares_.push_back(1.0);
     }
 
-    void face(Part part, const std::vector<OutlineSample>& samples) {
+    FaceGrid face(Part part, const std::vector<OutlineSample>& samples) {
         const auto first = static_cast<std::uint32_t>(mesh_.positions.size());
-        for (const OutlineSample& sample : samples) ring(part, sample);
+        FaceGrid grid{part, first, {}};
+        for (const OutlineSample& sample : samples) {
+            ring(part, sample);
+            grid.shares.push_back(sample.share);
+        }
         const auto row = static_cast<std::uint32_t>(columns_ + 1);
         for (std::uint32_t i = 0; i + 1 < samples.size(); ++i) {
             const bool below = samples[i].r > 0.0, above = samples[i + 1].r > 0.0;
@@ -59,6 +68,7 @@ class Sweeper {
                 if (above) mesh_.indices.insert(mesh_.indices.end(), {b, c, d});
             }
         }
+        return grid;
     }
 
   private:
@@ -86,7 +96,7 @@ class Sweeper {
         TexturePoint at{};
         double handedness = -1.0;
         if (part == Part::stem) {
-            at = strip_point(chart, sample.share, static_cast<double>(j) / columns_);
+            at = strip_point(chart, sample.share, shares_[static_cast<std::size_t>(j)]);
             along = point.meridian;
         } else {
             const bool cap = part == Part::cap;
@@ -118,6 +128,7 @@ class Sweeper {
     const Skin& skin_;
     int columns_;
     bool textured_;
+    std::vector<double> shares_;  // of a turn
     std::vector<Skin::Column> turns_;
     std::vector<SurfacePoint> row_;
 };
@@ -219,20 +230,25 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
         mesh.texture_coordinates.reserve(vertices);
         mesh.tangents.reserve(vertices);
     }
-    Sweeper sweeper(mesh, deformer, skin, detail.columns, options.textured);
-    sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
-    sweeper.face(Part::hymenium, outline.rings(CurveName::hymenium, lod));
+    SweptBody body;
+    body.turns = column_turns(individual, lod);
+    Sweeper sweeper(mesh, deformer, skin, body.turns, options.textured);
+    body.stem = sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
+    body.hymenium = sweeper.face(Part::hymenium, outline.rings(CurveName::hymenium, lod));
     // A finer cap has rings between those of the set.
     const bool denser = detail.cap_rings > details[static_cast<std::size_t>(lod)].cap_rings;
-    sweeper.face(Part::cap, denser ? outline.denser_rings(CurveName::cap, lod)
-                                   : outline.rings(CurveName::cap, lod));
+    body.cap = sweeper.face(Part::cap, denser ? outline.denser_rings(CurveName::cap, lod)
+                                              : outline.rings(CurveName::cap, lod));
     // A sheet a metre wide and thinner than its dents are drawn by the mesh: no species is one.
     if (individual.parts.front().id.empty() && volume(mesh) <= 0.0)
         throw Impossible("/model/silhouette",
                          "so thin for its width that dents turn it inside out at level of detail " +
                              std::to_string(lod));
-    const Ground ground{outline,          deformer,           skin, detail, seed,
-                        options.textured, options.keep_absent};
+    weather(mesh, body, individual, lod, options.keep_absent);
+    const Cuts cuts(individual, lod);
+    const Ground ground{
+        outline, deformer,  skin, detail, seed, options.textured, options.keep_absent,
+        cuts,    individual};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);
     add_sac(mesh, individual, ground);

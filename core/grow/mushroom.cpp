@@ -2,6 +2,7 @@
 
 #include "core/build/ornaments.h"
 #include "core/build/sweep.h"
+#include "core/build/weathering.h"
 #include "core/gltf/glb.h"
 #include "core/grow/growth.h"
 #include "core/grow/painting.h"
@@ -71,7 +72,8 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& me
 
 Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     const Detail& detail = detail_of(individual.has_relief, order.params.lod);
-    const auto columns = static_cast<std::uint64_t>(detail.columns) + 1;
+    const WeatheringCount weathered = weathering_count(individual, order.params.lod);
+    const std::uint64_t columns = weathered.columns + 1;
     const bool lower_face = !individual.outline.hymenium.empty();
     const auto rings = static_cast<std::uint64_t>(
         detail.stem_rings + (lower_face ? detail.hymenium_rings : 0) + detail.cap_rings);
@@ -83,8 +85,10 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
         pieces += static_cast<std::uint64_t>(piece_count(layer));
     const auto loop = static_cast<std::uint64_t>(shell_rings(individual, detail));
     Estimate e;
-    e.vertices = rings * columns + loop * columns;
-    e.triangles = 2 * (rings - faces) * (columns - 1) + 2 * loop * (columns - 1);
+    const auto loop_columns = static_cast<std::uint64_t>(detail.columns);
+    e.vertices = rings * columns + loop * (loop_columns + 1) + weathered.vertices;
+    e.triangles =
+        2 * (rings - faces) * (columns - 1) + 2 * loop * loop_columns + weathered.triangles;
     if (sides > 0) {
         e.vertices += pieces * (rows * (sides + 1) + sides);
         e.triangles += pieces * (2 * (rows - 1) * sides - sides + sides - 2);

@@ -68,6 +68,7 @@ Lone lone(const MushroomOrder& stepped, const std::string& id, const Atlas& atla
     order.params.seed = stepped.params.seed;
     order.params.age = stepped.params.age;
     order.params.variation = stepped.params.variation;
+    order.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks know strain
     const Individual individual = resolve(order, atlas, memo.morphs);
     Lone found{surface_metrics(individual), individual.lightness};
     // Steps of lengths are steps of size.
@@ -76,6 +77,7 @@ Lone lone(const MushroomOrder& stepped, const std::string& id, const Atlas& atla
         found.metrics.*length = std::clamp(found.metrics.*length + larger,
                                            static_cast<int>(info.min), static_cast<int>(info.max));
     });
+    found.metrics.radial_strain = surface_metrics(individual).radial_strain;  // no length
     return found;
 }
 
@@ -107,10 +109,12 @@ SurfaceMetrics surface_metrics(const Individual& individual) {
     metrics.cap_radius = quantised_length(radius);
     metrics.stem_length = quantised_length(outline.stem.length());
     metrics.stem_radius = quantised_length(stem_radius);
+    metrics.hymenium_arc = quantised_length(0.0);
     if (!outline.hymenium.empty()) {
         metrics.hymenium_arc = quantised_length(outline.hymenium.length());
         metrics.hymenium_inner = quantised_length(outline.hymenium.at(0.0).r);
     }
+    metrics.radial_strain = static_cast<int>(individual.radial_strain * 16.0 + 0.5);
     return metrics;
 }
 
@@ -142,9 +146,11 @@ MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, cons
     MushroomOrder bare = stepped;
     bare.params.hymenium = {};
     bare.params.ornaments = {};
+    bare.params.weathering = {};
     const MushroomParams effective = resolve(bare, atlas, memo.morphs).effective;
     keep_possible(params.hymenium, effective.hymenium);
     keep_possible(params.ornaments, effective.ornaments);
+    keep_possible(params.weathering, effective.weathering);
     return stepped;
 }
 
@@ -179,8 +185,7 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         // Hairs do not shine by themselves.
         double& roughness = painting.surface.cap.roughness;
         roughness += model.material.velvet * (0.95 - roughness);
-        painting.fade = model.weathering.fade;
-        painting.wetness = model.weathering.wetness;
+        painting.weathering = painted_of(model.weathering);
         // A species on whose comb all stand is painted as if it were alone.
         const bool elsewhere = has_blades(model) && model.hymenium.blades != comb;
         const int own = elsewhere ? with_own_comb(share.sixty_fourths) : share.sixty_fourths;

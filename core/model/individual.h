@@ -41,6 +41,16 @@ struct Comb {
     bool operator==(const Comb&) const = default;
 };
 
+/// Weathering as geometry knows it: amounts times the weight of the species that can have them, and what can occur at some age,
+/// so that no age changes the number of vertices.
+struct Wear {
+    WeatheringOf<Plain> amounts;
+    double clubs = 0.0;  ///< weight of the species without a margin
+    bool bites = false, splits = false, melts = false, peels = false, dew = false;
+
+    [[nodiscard]] bool any() const { return !(amounts == WeatheringOf<Plain>{}); }
+};
+
 /// An order with everything decided: what `resolve` answers.
 struct Individual {
     Model
@@ -54,6 +64,8 @@ struct Individual {
     Outline outline;         ///< metres; proportions and size of the individual
     double stem_base = 0.0;  ///< height of the first point of the stem, metres
     double stem_top = 0.0;   ///< of its last
+    double radial_strain =
+        0.0;  ///< how much more the cap has grown round the axis than along its meridian, 0..1
     AxisCurve axis;
     Azimuth azimuth;
     std::vector<ReliefStyle>
@@ -67,6 +79,7 @@ struct Individual {
     RingStyle ring;         ///< its width holds amounts and weights; metres
     bool has_ring = false;  ///< whether a species of the mix can have one at some age
     double waves = 0.0;     ///< of the margin: what no species with a margin has, none can show
+    Wear wear;
     Comb comb;
 };
 

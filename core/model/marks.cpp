@@ -36,7 +36,7 @@ Habit habit_of(MarkKind kind, CurveName part) {
     switch (kind) {
         case MarkKind::pit:
             if (cap) return {7, 0.10, 0.80, 0.055, 0.15, 1.5};
-            if (stem) return {4, 0.25, 0.85, 0.07, 0.14, 2.2};
+            if (stem) return {4, 0.25, 0.85, 0.045, 0.10, 2.0};
             return {};
         case MarkKind::bruise:
             if (cap) return {7, 0.25, 0.98, 0.07, 0.22, 1.6};
@@ -106,7 +106,7 @@ Heading unit(double x, double y, Heading fallback) {
     return {x * inverse, y * inverse};
 }
 
-constexpr double crack_step = 0.03, net_spacing = 0.098, longest_crack = 0.9;
+constexpr double crack_step = 0.03, net_spacing = 0.082, longest_crack = 0.9;
 
 // Grows one end of a crack until it meets another or leaves the face.
 std::vector<CrackPoint> grow_end(CrackPoint at, Heading heading, std::uint32_t own,
@@ -114,7 +114,7 @@ std::vector<CrackPoint> grow_end(CrackPoint at, Heading heading, std::uint32_t o
     std::vector<CrackPoint> out;
     double left = longest_crack;
     while (left > 0.0) {
-        const double swerve = 0.42 * random.symmetric();
+        const double swerve = 0.26 * random.symmetric();
         heading = unit(heading.x - swerve * heading.y, heading.y + swerve * heading.x, heading);
         const auto near = grown_before.nearest(at.x, at.y, own);
         if (near.any && near.square < 2.25 * crack_step * crack_step && left < longest_crack) {
@@ -232,9 +232,21 @@ std::vector<Notch> splits(std::uint32_t seed) {
 double notch_profile(const Notch& notch, double theta) {
     const double turn = turn_between(notch.theta, theta);
     const double x = turn / notch.half_width;
-    if (x <= -1.0 || x >= 1.0) return 0.0;
+    // A column that stands on the edge is outside, however its angle was rounded.
+    constexpr double edge = 1.0 - 1e-6;
+    if (x <= -edge || x >= edge) return 0.0;
     if (notch.bitten) return std::sqrt(1.0 - x * x);
     return 1.0 - (x < 0.0 ? -x : x);
+}
+
+double tongue_ragged(const Tongue& tongue, double turn) {
+    // Like a cosine of period 1, as paint has it.
+    const auto wave = [](double t) {
+        const double u = std::abs(t - std::floor(t) - 0.5) * 2.0;
+        return u * u * (6.0 - 4.0 * u) - 1.0;
+    };
+    return 0.08 * wave(3.0 * turn + tongue.phases[0]) + 0.06 * wave(7.0 * turn + tongue.phases[1]) +
+           0.035 * wave(15.0 * turn + tongue.phases[2]);
 }
 
 std::vector<Tongue> tongues(std::uint32_t seed) {
@@ -247,6 +259,7 @@ std::vector<Tongue> tongues(std::uint32_t seed) {
         const double width = random.uniform(0.22, 0.55);
         const double reach = random.uniform(0.55, 1.0);
         Tongue tongue;
+        for (double& one : tongue.phases) one = random.uniform();
         tongue.theta = wrapped(phase + whole_turn * ((2 * i % count) + 0.3 * round) / count);
         tongue.half_width = width;
         tongue.reach = reach;
@@ -258,7 +271,7 @@ std::vector<Tongue> tongues(std::uint32_t seed) {
 }
 
 std::vector<Crack> crack_net(std::uint32_t seed) {
-    constexpr int seeds_across = 17;
+    constexpr int seeds_across = 23;
     struct Seed {
         double x, y, strength;
         std::uint32_t id;
@@ -308,7 +321,7 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
             points.add(crack.points[i].x, crack.points[i].y, own);
         }
         const double order = static_cast<double>(out.size());
-        crack.onset = 0.6 * std::min(1.0, order / 60.0);
+        crack.onset = 0.55 * std::min(1.0, order / 80.0);
         crack.width = 1.25 - 0.65 * std::min(1.0, order / 40.0);
         out.push_back(std::move(crack));
     }

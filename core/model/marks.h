@@ -2,11 +2,13 @@
 // paint. Amounts only open, deepen and lengthen what is drawn here, so that no slider and no age reshuffles it.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
+#include "core/math/elementary.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint {
@@ -30,6 +32,11 @@ struct Mark {
 /// How much of a mark is there, 0..1, when `amount` of its kind has come; continuous, 0 for amount 0, 1 for amount 1.
 [[nodiscard]] double grown(double onset, double amount);
 
+/// Height of a lump when full, in the unit of its radius; every third is a hollow.
+[[nodiscard]] constexpr double lump_height(const Mark& lump) {
+    return (lump.id % 3 == 2 ? -0.8 : 1.0) * 0.16 * lump.radius;
+}
+
 /// A piece out of the margin: a slug's bite or a split, through cap and lower face alike.
 struct Notch {
     double theta = 0.0;
@@ -49,14 +56,22 @@ inline constexpr double most_notch_width = 0.45;
 /// Depth of a full notch at an angle, as a share of its deepest: half an ellipse for a bite, a point for a split; 0 outside.
 [[nodiscard]] double notch_profile(const Notch& notch, double theta);
 
+/// Share of the cap's meridian that has melted away from the margin when `deliquescence` has come so far, ragged by a fifth of it.
+[[nodiscard]] constexpr double melted(double deliquescence) { return 0.36 * deliquescence; }
+
 /// A tongue of skin that has come off from the margin inwards.
 struct Tongue {
     double theta = 0.0;
     double half_width = 0.0;  ///< radians at the margin
     double reach = 0.0;       ///< when full, as a share of how far the species' skin peels
     double onset = 0.0;
+    std::array<double, 3> phases{};  ///< of its ragged border, in turns
     std::uint32_t id = 0;
 };
+
+/// How far its border strays inwards, in its own size, at a turn round the middle of its end: 0 along the margin, 1/4 straight in.
+[[nodiscard]] double tongue_ragged(const Tongue& tongue, double turn);
+
 [[nodiscard]] std::vector<Tongue> tongues(std::uint32_t seed);
 
 /// A point of a crack, on the young face laid flat: distance from the pole in lengths of the meridian, direction its angle.
@@ -94,6 +109,11 @@ struct Furrow {
 
 /// Angle of a furrow at a share of the stem.
 [[nodiscard]] double furrow_angle(const Furrow& furrow, double sigma);
+
+/// How deep furrows are on the upper part of a club, 0 where its sub-curve begins and at its tip.
+[[nodiscard]] constexpr double club_fade(double share) {
+    return smooth_step(0.0, 0.1, share) * (1.0 - smooth_step(0.35, 0.8, share));
+}
 
 /// How deep a furrow is at a share of the stem, 0..1 times its own depth: it begins and ends softly.
 [[nodiscard]] double furrow_depth(const Furrow& furrow, double sigma);

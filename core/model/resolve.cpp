@@ -6,6 +6,7 @@
 #include "core/build/detail.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/marks.h"
 #include "core/model/proportion.h"
 #include "core/params/blend.h"
 #include "core/params/canonical.h"
@@ -67,6 +68,16 @@ struct Source {
                            [](const Model* stage) { return stage->sac.height > 0.0; });
     }
     [[nodiscard]] bool has_volva() const { return has_sac() || first().volva.count > 0; }
+    [[nodiscard]] bool melts() const {
+        return std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
+            return stage->weathering.deliquescence > 0.0;
+        });
+    }
+    [[nodiscard]] bool peels() const {
+        return has_margin() && std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
+                   return stage->surface.scars.peel_reach > 0.0;
+               });
+    }
     [[nodiscard]] bool has_margin() const {
         return !std::get<Swept>(first().shape).silhouette.hymenium.empty();
     }
@@ -228,6 +239,55 @@ std::vector<double> shape_weights(const std::vector<Source>& sources) {
     for (const Source& source : sources)
         for (const double growth : source.growth) weights.push_back(source.weight * growth);
     return weights;
+}
+
+/// The same at the beginning of life.
+std::vector<double> young_weights(const std::vector<Source>& sources) {
+    std::vector<double> weights;
+    for (const Source& source : sources)
+        for (std::size_t i = 0; i < source.stages.size(); ++i)
+            weights.push_back(i == 0 ? source.weight : 0.0);
+    return weights;
+}
+
+/// How the cap's skin has been strained since it was young.
+double strain_of(const MorphSet& set, const std::vector<Source>& sources) {
+    const auto cap = [&](const std::vector<double>& weights) {
+        return SubCurve(set.nodes(weights).cap, {-1.0, 0.0});
+    };
+    return radial_strain(cap(young_weights(sources)), cap(shape_weights(sources)));
+}
+
+/// Weathering for geometry.
+Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& asked) {
+    using Amount = double WeatheringOf<Plain>::*;
+    Wear wear;
+    const auto lay = [&](Amount amount, const std::optional<double>& wanted, auto able) {
+        bool can = false;
+        double& sum = wear.amounts.*amount;
+        for (const Source& source : sources) {
+            if (!able(source)) continue;
+            sum += source.weight * (source.now.weathering.*amount);
+            can = can || (wanted && *wanted > 0.0) ||
+                  std::any_of(source.stages.begin(), source.stages.end(),
+                              [&](const Model* stage) { return stage->weathering.*amount > 0.0; });
+        }
+        return can;
+    };
+    using W = WeatheringOf<Plain>;
+    const auto all = [](const Source&) { return true; };
+    const auto margin = [](const Source& s) { return s.has_margin(); };
+    for (const Source& source : sources)
+        if (!source.has_margin()) wear.clubs += source.weight;
+    lay(&W::creases, asked.creases, all);
+    lay(&W::bumps, asked.bumps, all);
+    wear.bites = lay(&W::bites, asked.bites, all);
+    wear.splits = lay(&W::splits, asked.splits, margin);
+    wear.melts =
+        lay(&W::deliquescence, asked.deliquescence, [](const Source& s) { return s.melts(); });
+    wear.peels = lay(&W::peel, asked.peel, [](const Source& s) { return s.peels(); });
+    wear.dew = lay(&W::dew, asked.dew, all);
+    return wear;
 }
 
 AxisCurve axis_of(const std::vector<Source>& sources) {
@@ -453,6 +513,24 @@ void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sourc
         none([](const Source& s) { return s.has_volva(); }))
         refuse("/ornaments/volva", without("a universal veil that could leave a volva",
                                            "no universal veil that could leave a volva"));
+    const WeatheringOf<Maybe>& weather = asked.weathering;
+    if (weather.deliquescence && *weather.deliquescence > 0.0 &&
+        none([](const Source& s) { return s.melts(); }))
+        refuse("/weathering/deliquescence",
+               mixed ? who + " is an inkcap, whose cap melts into ink"
+                     : who + " is no inkcap; only their caps melt into ink");
+    if (none([](const Source& s) { return s.has_margin(); })) {
+        if (weather.splits && *weather.splits > 0.0)
+            refuse("/weathering/splits",
+                   without("a margin that could split", "no margin that could split"));
+        if (weather.peel && *weather.peel > 0.0)
+            refuse("/weathering/peel", without("a skin that peels off from a margin",
+                                               "no margin from which a skin could peel off"));
+    } else if (weather.peel && *weather.peel > 0.0 &&
+               none([](const Source& s) { return s.peels(); })) {
+        refuse("/weathering/peel",
+               without("a skin that peels off", "a skin that does not peel off"));
+    }
     if (!problems.empty()) throw Impossible(std::move(problems));
 }
 
@@ -475,6 +553,13 @@ void blend_amounts(Model& model, const std::vector<Source>& sources) {
                 [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
     blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
                 [](S s) -> D { return s.now.hymenium.pores_per_mm; }, model.hymenium.pores_per_mm);
+    blend_among([](S s) { return s.melts(); },
+                [](S s) -> D { return s.now.weathering.deliquescence; },
+                model.weathering.deliquescence);
+    blend_among([](S s) { return s.has_margin(); },
+                [](S s) -> D { return s.now.weathering.splits; }, model.weathering.splits);
+    blend_among([](S s) { return s.peels(); }, [](S s) -> D { return s.now.weathering.peel; },
+                model.weathering.peel);
 }
 
 /// The same amounts as overrides: what the individual really has.
@@ -513,6 +598,9 @@ void report_effective(MushroomParams& effective, const Model& model,
         effective.ornaments.scales.reset();
     if (none([](const Source& s) { return s.has_ring(); })) effective.ornaments.ring.reset();
     if (none([](const Source& s) { return s.has_volva(); })) effective.ornaments.volva.reset();
+    if (none([](const Source& s) { return s.melts(); })) effective.weathering.deliquescence.reset();
+    if (none([](const Source& s) { return s.has_margin(); })) effective.weathering.splits.reset();
+    if (none([](const Source& s) { return s.peels(); })) effective.weathering.peel.reset();
 }
 
 void overlay_all(const MushroomParams& asked, Model& model) {
@@ -611,6 +699,9 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
+    if (model.weathering.cracks > 0.0)
+        individual.radial_strain = strain_of(*individual.set, sources);
+    individual.wear = wear_of(sources, asked.weathering);
     individual.layers = layers_of(sources, *individual.set);
     using Amounts = OrnamentsOf<Plain>;
     individual.ring = shell_of(sources, &Model::ring, &RingStyle::width, &Amounts::ring, size);

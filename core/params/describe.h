@@ -390,6 +390,16 @@ constexpr Info item_info(const Info& info) {
     return item;
 }
 
+/// How `name` is described in T, so that nothing is described twice.
+template <class T>
+constexpr Info info_of(std::string_view name) {
+    Info found{.name = ""};
+    T::fields([&](auto, const Info& info) {
+        if (name == info.name) found = info;
+    });
+    return found;
+}
+
 /// Path of the member described by `sub` below `path`; an inlined member has its parent's.
 inline std::string member_path(const std::string& path, const Info& sub) {
     return sub.name[0] ? path + '/' + sub.name : path;

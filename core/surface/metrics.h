@@ -15,6 +15,7 @@ struct SurfaceMetrics {
     int hymenium_inner = -230;
     int stem_length = -130;
     int stem_radius = -230;
+    int radial_strain = 0;
 
     static constexpr void fields(auto visit) {
         using M = SurfaceMetrics;
@@ -42,6 +43,12 @@ struct SurfaceMetrics {
             &M::stem_radius,
             Info{
                 .name = "stem_radius", .min = -600, .max = 100, .doc = "Mean radius of the stem."});
+        visit(&M::radial_strain,
+              Info{.name = "radial_strain",
+                   .min = 0,
+                   .max = 16,
+                   .doc = "Growth strain of the upper face in sixteenths: 0 has stretched alike in "
+                          "all directions, 16 far more round the axis."});
     }
     bool operator==(const SurfaceMetrics&) const = default;
 };

@@ -417,8 +417,8 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
     plan.veil = veil_plan(params, plan.frames[3]);
     plan.blade = blade_plan(params, plan.frames[4]);
     plan.flesh = flesh_plan(params, plan.frames[5]);
-    plan.fade = single(params.fade);
-    plan.wetness = single(params.wetness);
+    plan.fade = single(params.weathering.fade);
+    plan.wetness = single(params.weathering.wetness);
     for (std::size_t i = 0; i < 3; ++i) {
         plan.given[i] = given_image(*uploads[i].upload, plan.frames[i], uploads[i].path);
         turn(plan.given[i], uploads[i].turn);
@@ -439,6 +439,7 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
         add_patches(params.warts, 0, params.ornaments.warts, params.seed, 1.0, plan);
     }
     sort_patches_into_rows(plan);
+    plan_scars(params, plan);
     return plan;
 }
 
@@ -503,8 +504,8 @@ PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
     plan.cap.disc =
         cap_disc(mean([](P p) { return length_of_step(p.metrics.cap_arc); }),
                  mean([](P p) { return length_of_step(p.metrics.cap_radius); }), plan.frames[0]);
-    plan.fade = single(mean([](P p) { return p.fade; }));
-    plan.wetness = single(mean([](P p) { return p.wetness; }));
+    plan.fade = single(mean([](P p) { return p.weathering.fade; }));
+    plan.wetness = single(mean([](P p) { return p.weathering.wetness; }));
     const auto light = [&](Colour VeilSurface::*colour) {
         const auto channel = [&](float Light::*which) {
             return single(mean(

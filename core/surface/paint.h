@@ -41,8 +41,7 @@ struct PaintParams {
     CarriedRelief carried;
     PaintedOrnaments ornaments;
     double slime = 0.0;
-    double fade = 0.0;
-    double wetness = 0.0;
+    PaintedWeathering<Plain> weathering;
 
     static constexpr void fields(auto visit) {
         using P = PaintParams;
@@ -74,8 +73,7 @@ struct PaintParams {
               Info{.name = "carried", .doc = "How much of the relief the mesh carries."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "How much of them is left."});
         visit(&P::slime, Info{.name = "slime", .min = 0, .max = 1, .doc = "Slime on the cap."});
-        visit(&P::fade, Info{.name = "fade", .min = 0, .max = 1, .doc = "Bleaching."});
-        visit(&P::wetness, Info{.name = "wetness", .min = 0, .max = 1, .doc = "Film of water."});
+        visit(&P::weathering, Info{.name = "weathering", .doc = "What time and weather did."});
     }
     bool operator==(const PaintParams&) const = default;
 };

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/surface/charts.h"
+#include "core/surface/scars.h"
 
 namespace sporeprint {
 
@@ -240,6 +241,7 @@ struct PaintPlan {
     std::vector<PatchPlan> patches;
     std::vector<std::vector<int>> patches_by_row;  ///< of the cap's chart
     std::array<GivenImage, 3> given;
+    ScarsPlan scars;
 };
 
 struct PaintParams;

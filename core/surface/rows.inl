@@ -12,6 +12,7 @@
 
 #include "core/surface/cap.inl"
 #include "core/surface/hymenium.inl"
+#include "core/surface/scars.inl"
 #include "core/surface/stem.inl"
 #include "core/surface/tissue.inl"
 
@@ -45,6 +46,7 @@ struct Workbench {
     SparseRow sparse[2];
     HWY_ALIGN float field[most_fields][padded];
     HWY_ALIGN float spare[padded];
+    HWY_ALIGN float scar[scar_planes][padded];
     HWY_ALIGN std::uint8_t bytes[9][padded];
 };
 
@@ -157,6 +159,10 @@ HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& c
         pale.r = mix(colour.r, bright, set(0.95F));
         pale.g = mix(colour.g, bright, set(0.50F));
         pale.b = mix(colour.b, bright, set(0.11F));
+        // What lies open to the sky goes on to the species' own faded colour, a little of its pattern left.
+        const VF bleached = w * w * set(exposure * exposure * 0.75F);
+        const VF light = set(0.72F) + set(0.42F) * hn::Sqrt(most);
+        pale = mix(pale, shaded(rgb(plan.scars.faded), light), bleached);
         colour = mix(colour, pale, w * set(0.85F));
         roughness = roughness + w * set(0.10F);
     }
@@ -358,6 +364,112 @@ void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& 
     }
 }
 
+// Place of a row on its chart, in the chart's lengths.
+float scar_row_place(const Frame& frame, int part, int y) {
+    const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
+    return part == 2 ? (v - frame.inset) / (1.0F - 2.0F * frame.inset)
+                     : (v - 0.5F) / (0.5F - frame.inset);
+}
+
+// Lays the scars that cross one row over its texels, then ink and dust.
+void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
+    const ScarsPlan& scars = plan.scars;
+    const bool disc = part < 2;
+    const std::size_t place = static_cast<std::size_t>(part);
+    const bool scarred = part < 3 && !scars.scars[place].empty();
+    const bool inked = (disc || part == 4) && scars.melted > 0.0F;
+    const bool dusted = (part == 0 || part == 2 || part == 3) && scars.dust > 0.0F;
+    if (!scarred && !inked && !dusted) return;
+    const Floats f;
+    const std::size_t lanes = hn::Lanes(f);
+    const Frame& frame = plan.frames[place];
+    const VF down = set(scar_row_place(frame, part, y));
+    const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
+    const float aspect = part == 2
+                             ? plan.stem.aspect
+                             : 1.0F / plan.veil.texel / static_cast<float>(frame.width) * inner;
+    const auto across = [&](std::size_t x) {
+        const VF texel = lane_numbers() + set(static_cast<float>(x));
+        if (disc) return disc_place(frame, texel);
+        const VF along =
+            ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) *
+            set(inner);
+        return unit(along) * set(aspect);
+    };
+    const Stretch painted = painted_stretch(plan, part, y);
+    if (scarred) {
+        bool any = false;
+        const float per_unit = disc ? (0.5F - frame.inset) * static_cast<float>(frame.width)
+                                    : static_cast<float>(frame.width) / (inner * aspect);
+        const float first = disc ? 0.5F * static_cast<float>(frame.width)
+                                 : frame.inset * static_cast<float>(frame.width);
+        for (const int index : scars.by_row[place][static_cast<std::size_t>(y + 1)]) {
+            const Scar& scar = scars.scars[place][static_cast<std::size_t>(index)];
+            if (!any) std::memset(bench.scar, 0, sizeof(bench.scar));
+            any = true;
+            const float begin = first + (scar.middle_x - scar.reach) * per_unit - 1.0F;
+            const float end = first + (scar.middle_x + scar.reach) * per_unit + 1.0F;
+            std::size_t x = begin < 0.0F ? 0 : static_cast<std::size_t>(begin) / 8 * 8;
+            x = std::max(x, painted.from);
+            for (; x < painted.until && static_cast<float>(x) < end; x += lanes) {
+                ScarTexel texel;
+                for (std::size_t k = 0; k < scar_planes; ++k)
+                    texel.plane[k] = hn::Load(f, bench.scar[k] + x);
+                switch (scar.shape) {
+                    case ScarShape::line:
+                        lay_line(scar, across(x), down, texel);
+                        break;
+                    case ScarShape::oval:
+                        lay_oval(scar, across(x), down, texel);
+                        break;
+                    case ScarShape::margin: {
+                        const VF u = across(x);
+                        lay_margin(scar, hn::Load(f, row.cosine + x), hn::Load(f, row.sine + x),
+                                   set(1.0F) - hn::Sqrt(u * u + down * down), texel);
+                        break;
+                    }
+                }
+                for (std::size_t k = 0; k < scar_planes; ++k)
+                    hn::Store(texel.plane[k], f, bench.scar[k] + x);
+            }
+        }
+        for (std::size_t x = painted.from; any && x < painted.until; x += lanes) {
+            ScarTexel laid;
+            VF most = set(0.0F);
+            for (std::size_t k = 0; k < scar_planes; ++k) {
+                laid.plane[k] = hn::Load(f, bench.scar[k] + x);
+                most = hn::Max(most, hn::Abs(laid.plane[k]));
+            }
+            if (hn::AllTrue(f, most <= set(0.0F))) continue;
+            if (!hn::AllTrue(f, laid.plane[scar_near] <= set(0.0F))) open_cracks(laid);
+            Texel texel = load_texel(row, x);
+            show_scars(scars, laid, across(x), down, texel);
+            store_texel(texel, row, x);
+        }
+    }
+    if (!inked && !dusted) return;
+    for (std::size_t x = painted.from; x < painted.until; x += lanes) {
+        Texel texel = load_texel(row, x);
+        const VF u = across(x);
+        if (inked) {
+            const DiscPlan& shape = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+            const VF share = disc ? (hn::Sqrt(u * u + down * down) - set(shape.inner)) *
+                                        set(1.0F / (1.0F - shape.inner))
+                                  : u * set(1.0F / aspect);
+            show_ink(scars, part == 0 ? scars.ink_front : scars.ink_lower, share,
+                     hn::Load(f, row.uneven + x), texel);
+        }
+        if (dusted) {
+            // Most falls from the own gills onto the stem below them and onto the ring; the cap has what a neighbour sheds.
+            const VF exposure = part == 2   ? smooth(u * set(1.0F / aspect), 0.12F, 1.3F)
+                                : part == 3 ? set(0.8F)
+                                            : set(0.30F) + hn::Load(f, row.uneven + x) * set(0.3F);
+            show_dust(scars, u, down, hn::Max(exposure, set(0.0F)), texel);
+        }
+        store_texel(texel, row, x);
+    }
+}
+
 // Paints the texels of one row; y may lie one row outside of the chart.
 void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
     const Floats f;
@@ -429,6 +541,7 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
             hn::Store(fields[1], f, row.uneven + x);
         }
     }
+    lay_scars(plan, part, y, row, bench);
     // Slopes at the ends of the painted stretch look one texel further.
     const Stretch painted = painted_stretch(plan, part, y);
     row.height[margin + painted.from - 1] = row.height[margin + painted.from];

@@ -56,8 +56,8 @@ inline PaintParams motley(HymeniumPattern pattern, int side = 256) {
     params.scales.size = 0.08;
     params.scales.lift = 0.2;
     params.ornaments.scales = 0.7;
-    params.fade = 0.3;
-    params.wetness = 0.3;
+    params.weathering.fade = 0.3;
+    params.weathering.wetness = 0.3;
     return params;
 }
 

@@ -9,6 +9,7 @@
 //     --views three-quarter,front,side,top,below
 //     --set name=value      any other parameter for every cell; may be repeated
 //     --vary name=v1,v2     any other parameter as columns; may be repeated
+//     --each a+b:name=v1,v2 one row for a parameter, its values for each of the species; may be repeated, instead of rows by species
 //     --cell 320            side of a cell in pixels
 //     --wireframe           draws edges
 //
@@ -21,7 +22,7 @@ import path from "node:path";
 import { launchBrowser, listen, ready, root } from "./support.mjs";
 
 function readArguments(argv) {
-    const options = { out: path.join(root, "build/screenshots/contact_sheet.png"), cell: 320, set: [], vary: [] };
+    const options = { out: path.join(root, "build/screenshots/contact_sheet.png"), cell: 320, set: [], vary: [], each: [] };
     const list = (text) => text.split(",").filter(Boolean);
     const take = {
         "--out": (text) => (options.out = path.resolve(text)),
@@ -32,6 +33,11 @@ function readArguments(argv) {
         "--views": (text) => (options.views = list(text)),
         "--set": (text) => options.set.push(text),
         "--vary": (text) => options.vary.push([text.split("=")[0], list(text.slice(text.indexOf("=") + 1))]),
+        "--each": (text) => {
+            const [, mixes, name, values] = /^(.+):([^:=]+)=(.+)$/.exec(text) ?? [];
+            if (!values) throw new Error(`--each '${text}' is not species:name=values`);
+            options.each.push({ mixes: mixes.split("+"), name, values: list(values) });
+        },
         "--cell": (text) => (options.cell = Number(text)),
         "--mixes": (text) => (options.mixes = list(text)),
         "--glb": (text) => (options.glb = path.resolve(text)),
@@ -59,6 +65,15 @@ for (const [name, values] of options.vary) {
 }
 // Software drawing on a busy machine: one strip has taken minutes.
 const patience = 900_000; // milliseconds
+/** What to show: rows of cells, each a mix with its parameters. */
+const table = options.each.length
+    ? options.each.map(({ mixes, name, values }) => ({
+        title: name,
+        shown: mixes.flatMap((mix) => values.flatMap((value) => columns.map(({ query, label }) => ({
+            mix, query: [...query, `${name}=${value}`], label: [mix.replaceAll("_", " "), value, ...label],
+        })))),
+    }))
+    : species.map((mix) => ({ title: mix.replaceAll("_", " "), shown: columns.map((column) => ({ mix, ...column })) }));
 const views = options.views ?? ["three-quarter"];
 
 /** Opens an address; after the first one without loading the page again. */
@@ -119,9 +134,9 @@ async function ownSheet() {
     const page = await browser.newPage({ viewport: { width: options.cell, height: options.cell } });
     const heard = listen(page);
     const rows = [];
-    for (const mix of species) {
+    for (const { title, shown } of table) {
         const cells = [];
-        for (const { query, label } of columns) {
+        for (const { mix, query, label } of shown) {
             const address = `/?${[`species=${mix}`, ...query, "shot=1"].join("&")}`;
             let facts = "";
             try {
@@ -143,7 +158,7 @@ async function ownSheet() {
                 cells.push({ png: png.toString("base64"), label: [...label, view, facts].join(" · ") });
             }
         }
-        rows.push({ mix, cells });
+        rows.push({ title, cells });
     }
     for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
 
@@ -153,9 +168,9 @@ body { margin: 0; background: #f5efe2; color: #2b211a; font: 12px/1.3 sans-serif
 table { border-collapse: collapse; } th { font: italic 600 15px serif; width: 130px; padding: 4px; overflow-wrap: anywhere; }
 td { border: 1px solid #d8ccb6; padding: 0; width: ${options.cell}px; } img { display: block; width: ${options.cell}px; }
 p { margin: 2px 5px; min-height: 2.6em; }</style>
-<table>${rows.map(({ mix, cells }) => `<tr><th>${escaped(mix.replaceAll("_", " "))}</th>${cells.map(({ png, label }) =>
+<table>${rows.map(({ title, cells }) => `<tr><th>${escaped(title)}</th>${cells.map(({ png, label }) =>
         `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`).join("")}</tr>`).join("")}</table>`;
-    const sheet = await browser.newPage({ viewport: { width: 140 + views.length * columns.length * (options.cell + 1), height: 600 } });
+    const sheet = await browser.newPage({ viewport: { width: 140 + Math.max(...rows.map(({ cells }) => cells.length)) * (options.cell + 1), height: 600 } });
     await sheet.setContent(html);
     await mkdir(path.dirname(options.out), { recursive: true });
     await writeFile(options.out, await sheet.screenshot({ fullPage: true }));

@@ -106,7 +106,7 @@ TEST(Ornaments, TheirTextureComesFromTheVeilsStrip) {
     MushroomOrder order = textured(order_of("amanita_muscaria"));
     const Mesh mesh = mesh_of(order);
     const Chart& strip = swept_charts[static_cast<std::size_t>(Part::veil)];
-    const auto columns = static_cast<std::size_t>(details[0].columns) + 1;
+    const std::size_t columns = column_turns(resolve(order, atlas()), 0).size() + 1;
     const auto rings = static_cast<std::size_t>(details[0].stem_rings + details[0].hymenium_rings +
                                                 details[0].cap_rings);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {

@@ -183,6 +183,7 @@ Individual body_of(const MushroomOrder& order) {
     individual.reliefs.clear();
     individual.has_relief = false;
     individual.has_sac = false;
+    individual.wear = {};
     return individual;
 }
 

@@ -296,8 +296,8 @@ TEST(Painting, WhatAPersonAsksForActsOnEverySpecies) {
     order.params.hymenium.blades = 50;
     order.params.ornaments.scales = 0.9;
     for (const PaintShare& share : recipe_of(order)) {
-        EXPECT_EQ(share.painting.fade, 0.7);
-        EXPECT_EQ(share.painting.wetness, 0.2);
+        EXPECT_EQ(share.painting.weathering.fade, 0.7);
+        EXPECT_EQ(share.painting.weathering.wetness, 0.2);
         EXPECT_EQ(share.painting.hymenium.blades, 50);
         EXPECT_EQ(share.painting.ornaments.scales, 0.9);
     }

@@ -314,6 +314,7 @@ TEST(Resolve, WhatIsAskedIsExactlyWhatTheIndividualHas) {
             for (const Problem& problem : refused.problems())
                 RC_ASSERT(problem.path.starts_with("/hymenium/") ||
                           problem.path.starts_with("/ornaments/") ||
+                          problem.path.starts_with("/weathering/") ||
                           problem.path == "/deformation/zone_to");
         }
     }));

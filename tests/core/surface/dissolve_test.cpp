@@ -41,7 +41,7 @@ std::vector<RawImages> unlike(int side) {
     pale.surface.cap.veins = 0.0;
     pale.ornaments.scales = 0.0;
     pale.surface.stem.bands = 0.0;
-    pale.fade = 0.0;
+    pale.weathering.fade = 0.0;
     return {paint_raw(red), paint_raw(brown), paint_raw(pale)};
 }
 

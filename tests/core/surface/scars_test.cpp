@@ -1,0 +1,131 @@
+#include "core/surface/scars.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cmath>
+#include <string>
+
+#include "core/surface/charts.h"
+#include "core/surface/paint.h"
+#include "tests/support/paintings.h"
+
+namespace sporeprint {
+namespace {
+
+using P = PaintedWeathering<Plain>;
+struct Effect {
+    const char* name;
+    double P::*amount;
+};
+constexpr std::array<Effect, 12> effects = {{{"cracks", &P::cracks},
+                                             {"creases", &P::creases},
+                                             {"peel", &P::peel},
+                                             {"splits", &P::splits},
+                                             {"bites", &P::bites},
+                                             {"bumps", &P::bumps},
+                                             {"deliquescence", &P::deliquescence},
+                                             {"fade", &P::fade},
+                                             {"bruise", &P::bruise},
+                                             {"dust", &P::dust},
+                                             {"dew", &P::dew},
+                                             {"wetness", &P::wetness}}};
+
+/// A plain mushroom whose colours are far from those of its wounds.
+PaintParams clean() {
+    PaintParams params = motley(HymeniumPattern::gills, 256);
+    params.weathering = {};
+    params.ornaments = {};
+    params.surface.cap.ramp = {{150, 20, 20}};
+    params.surface.flesh.colour = {250, 250, 250};
+    params.surface.scars.bruise = {20, 20, 200};
+    params.surface.scars.dust = {10, 200, 10};
+    return params;
+}
+
+/// Mean difference of two images over all bytes.
+double difference(const Bytes& a, const Bytes& b) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < a.size(); ++i)
+        sum += std::abs(static_cast<int>(a[i]) - static_cast<int>(b[i]));
+    return sum / static_cast<double>(a.size());
+}
+
+TEST(Scars, EachEffectShowsMoreTheMoreThereIsOfIt) {
+    const RawImages before = paint_raw(clean());
+    for (const Effect& effect : effects) {
+        double last = 0.0;
+        for (const double amount : {0.25, 0.6, 1.0}) {
+            PaintParams params = clean();
+            params.weathering.*effect.amount = amount;
+            const RawImages after = paint_raw(params);
+            const double now = difference(before.rgb[0], after.rgb[0]) +
+                               difference(before.rgb[1], after.rgb[1]) +
+                               difference(before.rgb[2], after.rgb[2]);
+            EXPECT_GT(now, last) << effect.name << ' ' << amount;
+            last = now;
+        }
+    }
+}
+
+TEST(Scars, AmountsChangeNoTexelInOneStep) {
+    for (const Effect& effect : effects)
+        for (const double amount : {0.1, 0.5, 0.9}) {
+            PaintParams params = clean();
+            params.weathering.*effect.amount = amount;
+            const RawImages before = paint_raw(params);
+            params.weathering.*effect.amount = amount + 1.0 / 256.0;
+            const RawImages after = paint_raw(params);
+            EXPECT_LT(difference(before.rgb[0], after.rgb[0]), 0.8) << effect.name << ' ' << amount;
+        }
+}
+
+TEST(Scars, AllAtOnceAndOnTheSmallestAtlasIsStillAnImage) {
+    for (const int side : {16, 32, 512}) {
+        PaintParams params = clean();
+        params.side = side;
+        for (const Effect& effect : effects) params.weathering.*effect.amount = 1.0;
+        const RawImages images = paint_raw(params);
+        for (const Bytes& image : images.rgb)
+            EXPECT_EQ(image.size(), 3U * static_cast<std::size_t>(side * side));
+    }
+}
+
+TEST(Scars, ABiteLaysOpenFleshAtTheMarginOfBothFaces) {
+    PaintParams params = clean();
+    params.weathering.bites = 1.0;
+    const RawImages before = paint_raw(clean()), after = paint_raw(params);
+    const auto reddest = [&](const RawImages& images, int from_x) {
+        int flesh = 0;
+        for (int y = 0; y < 128; ++y)
+            for (int x = from_x; x < from_x + 128; ++x) {
+                const std::size_t at = 3U * static_cast<std::size_t>(y * 256 + x);
+                if (images.rgb[0][at + 1] > 150 && images.rgb[0][at + 2] > 150) ++flesh;
+            }
+        return flesh;
+    };
+    EXPECT_GT(reddest(after, 0), reddest(before, 0) + 200);
+}
+
+TEST(Scars, CracksRunRadiallyWhereTheCapHasOpenedAndInANetWhereItHasNot) {
+    // The middle of the cap is cracked by the net alone.
+    const auto middle = [](int strain) {
+        PaintParams params = clean();
+        params.metrics.radial_strain = strain;
+        const RawImages whole = paint_raw(params);
+        params.weathering.cracks = 1.0;
+        const RawImages cracked = paint_raw(params);
+        int changed = 0;
+        for (int y = 56; y < 72; ++y)
+            for (int x = 56; x < 72; ++x) {
+                const std::size_t at = 3U * static_cast<std::size_t>(y * 256 + x);
+                if (std::abs(whole.rgb[0][at + 1] - cracked.rgb[0][at + 1]) > 20) ++changed;
+            }
+        return changed;
+    };
+    EXPECT_GT(middle(0), 10);
+    EXPECT_EQ(middle(16), 0);
+}
+
+}  // namespace
+}  // namespace sporeprint
