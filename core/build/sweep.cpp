@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "core/build/hymenium.h"
 #include "core/build/ornaments.h"
 #include "core/build/weathering.h"
 #include "core/math/elementary.h"
@@ -215,14 +216,17 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const Deformer deformer(individual);
     const Skin skin(individual, detail);
     Mesh mesh;
-    const int rings = detail.stem_rings + detail.hymenium_rings + detail.cap_rings +
-                      2 * (detail.veil_rings + 1) + 2 * (detail.sac_rings + 1);
+    const int rings = detail.stem_rings + detail.hymenium_rings + flesh_rings(individual, lod) +
+                      detail.cap_rings + 2 * (detail.veil_rings + 1) + 2 * (detail.sac_rings + 1);
     int pieces = 0;
     for (const PatchLayer& layer : individual.layers)
         pieces += detail.patch_sides > 0 ? piece_count(layer) : 0;
-    const auto vertices = static_cast<std::size_t>(
-        rings * (detail.columns + 1) +
-        pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
+    const HymeniumCount solids = hymenium_count(individual, lod);
+    const auto vertices =
+        static_cast<std::size_t>(solids.vertices) +
+        static_cast<std::size_t>(
+            rings * (detail.columns + 1) +
+            pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
     mesh.indices.reserve(vertices * 6);
@@ -234,7 +238,8 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     body.turns = column_turns(individual, lod);
     Sweeper sweeper(mesh, deformer, skin, body.turns, options.textured);
     body.stem = sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
-    body.hymenium = sweeper.face(Part::hymenium, outline.rings(CurveName::hymenium, lod));
+    const LowerFace lower(individual, lod);
+    body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, lod));
     // A finer cap has rings between those of the set.
     const bool denser = detail.cap_rings > details[static_cast<std::size_t>(lod)].cap_rings;
     body.cap = sweeper.face(Part::cap, denser ? outline.denser_rings(CurveName::cap, lod)
@@ -246,12 +251,15 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
                              std::to_string(lod));
     weather(mesh, body, individual, lod, options.keep_absent);
     const Cuts cuts(individual, lod);
+    // Ring and sac have as many columns beside a species with relief as without: torn edges would turn out otherwise.
+    const Detail& plain = details[static_cast<std::size_t>(lod)];
     const Ground ground{
-        outline, deformer,  skin, detail, seed, options.textured, options.keep_absent,
+        outline, deformer,  skin, plain, seed, options.textured, options.keep_absent,
         cuts,    individual};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);
     add_sac(mesh, individual, ground);
+    if (has_solids(lod)) add_hymenium(mesh, individual, lower, ground);
     return mesh;
 }
 

@@ -175,6 +175,13 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.metrics = alone.metrics;
         painting.surface = model.surface;
         painting.hymenium = model.hymenium;
+        // What shapes blades and shows in no image copies none.
+        const HymeniumOf<Plain> unshaped;
+        painting.hymenium.inner_depth = unshaped.inner_depth;
+        painting.hymenium.notch = unshaped.notch;
+        painting.hymenium.decurrent = unshaped.decurrent;
+        painting.hymenium.edge_waves = unshaped.edge_waves;
+        painting.cells = individual.parts[i].cells;
         painting.warts = model.warts;
         painting.scales = model.scales;
         painting.relief = std::get<Swept>(model.shape).relief;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/model/axis_curve.h"
+#include "core/model/comb.h"
 #include "core/model/patches.h"
 #include "core/model/request.h"
 #include "core/silhouette/morph_set.h"
@@ -17,6 +18,7 @@ struct SpeciesShare {
     std::string id;
     double weight = 1.0;  ///< weights of an individual sum to 1
     Model model;          ///< the species' own at this age, overrides applied: what is painted
+    CellRows cells;       ///< of its spines, whatever the age
 };
 
 /// The torn pieces that one species brings to an individual. Species whose pieces have equal places share a layer.
@@ -29,16 +31,6 @@ struct PatchLayer {
     /// segment, at its share of it.
     std::vector<double> segments{};
     bool operator==(const PatchLayer&) const = default;
-};
-
-/// The gills or ridges of a whole set, so that no weight and no age changes their number: those of the species and stage with the
-/// most at the margin. A species with fewer shows its own, the last tiers dropped first. 0 blades: none carries any.
-struct Comb {
-    int blades = 0;
-    int tiers = 0;
-
-    [[nodiscard]] long at_margin() const { return static_cast<long>(blades) << tiers; }
-    bool operator==(const Comb&) const = default;
 };
 
 /// Weathering as geometry knows it: amounts times the weight of the species that can have them, and what can occur at some age,
@@ -81,6 +73,9 @@ struct Individual {
     double waves = 0.0;     ///< of the margin: what no species with a margin has, none can show
     Wear wear;
     Comb comb;
+    int blade_tiers = 0;  ///< solids of blades stand on comb.blades << blade_tiers places
+    bool runs_down =
+        false;  ///< whether blades of a species of the mix run down the stem at some age
 };
 
 }  // namespace sporeprint

@@ -342,7 +342,7 @@ struct OrnamentsOf {
 };
 
 /// What carries the spores.
-enum class HymeniumPattern { smooth, gills, ridges, pores };
+enum class HymeniumPattern { smooth, gills, ridges, pores, teeth };
 
 constexpr const char* name(HymeniumPattern pattern) {
     switch (pattern) {
@@ -354,6 +354,8 @@ constexpr const char* name(HymeniumPattern pattern) {
             return "ridges";
         case HymeniumPattern::pores:
             return "pores";
+        case HymeniumPattern::teeth:
+            return "teeth";
     }
     return nullptr;
 }
@@ -365,6 +367,14 @@ struct HymeniumOf {
     M<double> forking{};
     M<double> pores_per_mm = preset<M>(1.5);
     M<double> relief = preset<M>(0.7);
+    M<double> depth = preset<M>(0.16);
+    M<double> thickness = preset<M>(0.26);
+    M<double> inner_gap{};
+    M<double> inner_depth = preset<M>(0.8);
+    M<double> notch{};
+    M<double> decurrent{};
+    M<double> edge_waves = preset<M>(0.15);
+    M<double> elongation = preset<M>(1.0);
 
     static constexpr void fields(auto visit) {
         using H = HymeniumOf;
@@ -387,11 +397,46 @@ struct HymeniumOf {
                                      .unit = "1/mm",
                                      .min = 0.2,
                                      .max = 6,
-                                     .doc = "Pores along a millimetre."});
+                                     .doc = "Pores or spines along a millimetre."});
         visit(&H::relief, Info{.name = "relief",
                                .min = 0,
                                .max = 1,
                                .doc = "How deep gills, ridges or pores look."});
+        visit(&H::depth,
+              Info{.name = "depth",
+                   .min = 0,
+                   .max = 0.6,
+                   .doc = "How deep gills, ridges and tubes are and how long spines are, in "
+                          "lengths of the lower face from stem to margin."});
+        visit(&H::thickness, Info{.name = "thickness",
+                                  .min = 0.05,
+                                  .max = 1,
+                                  .doc = "Thickness of a blade or spine, in gaps between two."});
+        visit(&H::inner_gap, Info{.name = "inner_gap",
+                                  .min = 0,
+                                  .max = 0.5,
+                                  .doc = "Share of the lower face by which gills, tubes or spines "
+                                         "keep away from the stem (free)."});
+        visit(&H::inner_depth, Info{.name = "inner_depth",
+                                    .min = 0,
+                                    .max = 1,
+                                    .doc = "Depth where they end at the stem: 0 free, a little "
+                                           "adnexed, all of it adnate."});
+        visit(&H::notch,
+              Info{.name = "notch",
+                   .min = 0,
+                   .max = 1,
+                   .doc = "How deeply their edge is notched before the stem (sinuate)."});
+        visit(&H::decurrent, Info{.name = "decurrent",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "Share of the stem that they run down, from its top."});
+        visit(&H::edge_waves,
+              Info{.name = "edge_waves", .min = 0, .max = 1, .doc = "Waves of the blades."});
+        visit(&H::elongation, Info{.name = "elongation",
+                                   .min = 0.5,
+                                   .max = 4,
+                                   .doc = "Length of a pore along the meridian over its width."});
     }
     bool operator==(const HymeniumOf&) const = default;
 };
@@ -619,7 +664,7 @@ struct HymeniumSurface {
     static constexpr void fields(auto visit) {
         using H = HymeniumSurface;
         visit(&H::pattern,
-              Info{.name = "pattern", .doc = "Gills, ridges, pores or a smooth face."});
+              Info{.name = "pattern", .doc = "Gills, ridges, pores, teeth or a smooth face."});
         visit(&H::colour,
               Info{.name = "colour", .doc = "Colour of the faces of the gills, or between pores."});
         visit(&H::edge,
@@ -954,7 +999,7 @@ struct Model {
         visit(&Model::shape, Info{.name = "", .doc = "Shape family."});
         visit(&Model::deformation,
               Info{.name = "deformation", .doc = "Axial and free-form deformation."});
-        visit(&Model::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
+        visit(&Model::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges, pores or teeth."});
         visit(&Model::warts,
               Info{.name = "warts", .doc = "Remnants of the universal veil on the cap."});
         visit(&Model::scales, Info{.name = "scales", .doc = "Scales of the cap's torn skin."});

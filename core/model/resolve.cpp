@@ -18,6 +18,7 @@ namespace sporeprint {
 namespace {
 
 constexpr std::uint32_t variation_purpose = 0;
+constexpr int most_pores = 3000;    // as solids; of more, all live in the images alone
 constexpr double mature_age = 0.6;  // of recorded sizes, for every species
 constexpr double most_natural_fold =
     0.6;  // curvature of the axis times the radius of the stem; it folds at 1
@@ -58,6 +59,10 @@ struct Source {
     [[nodiscard]] HymeniumPattern pattern() const { return first().surface.hymenium.pattern; }
     [[nodiscard]] bool has_blades() const {
         return pattern() == HymeniumPattern::gills || pattern() == HymeniumPattern::ridges;
+    }
+    /// Pores or teeth.
+    [[nodiscard]] bool has_cells() const {
+        return pattern() == HymeniumPattern::pores || pattern() == HymeniumPattern::teeth;
     }
     [[nodiscard]] bool has_ring() const {
         return std::any_of(stages.begin(), stages.end(),
@@ -465,72 +470,112 @@ Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingP
     return at(simple);
 }
 
+/// What a lower face carries, in words.
+const char* carried(HymeniumPattern pattern) {
+    return pattern == HymeniumPattern::smooth ? "a smooth face" : name(pattern);
+}
+
+/// One rule of anatomy: an override that asks for something, whether a source can have it, and why not if none can.
+struct AnatomyRule {
+    const char* path;
+    bool asked;
+    bool (*can)(const Source&);
+    const char* wants;  ///< "gills or ridges": what a mix lacks
+    std::string (*why)(const Source&);
+};
+
+/// Why a lone species carries no `wanted`.
+std::string carries_instead(const Source& s, const std::string& wanted) {
+    if (s.pattern() != HymeniumPattern::smooth)
+        return s.who + " carries " + carried(s.pattern()) + ", not " + wanted;
+    return s.has_margin()
+               ? s.who + " has a smooth lower face, without " + wanted
+               : s.who + " is smooth all over; it has no lower face that could carry " + wanted;
+}
+
+/// Whether an optional amount asks for more than nothing.
+bool wished(const std::optional<double>& amount) { return amount && *amount > 0.0; }
+
 /// What no species of the order can have, in words.
 void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sources) {
+    using S = const Source&;
+    using Pattern = HymeniumPattern;
+    const HymeniumOf<Maybe>& h = asked.hymenium;
+    const auto bladed = [](S s) { return s.has_blades(); };
+    const auto no_gills = [](S s) { return carries_instead(s, "gills"); };
+    const auto carrying = [](S s) { return s.pattern() != Pattern::smooth; };
+    const auto nothing_deep = [](S s) { return carries_instead(s, "gills, pores or teeth"); };
+    const AnatomyRule rules[] = {
+        {"/hymenium/blades", h.blades.has_value(), bladed, "carries gills or ridges", no_gills},
+        {"/hymenium/tiers", h.tiers.has_value(), bladed, "carries gills or ridges", no_gills},
+        {"/hymenium/edge_waves", wished(h.edge_waves), bladed, "carries gills or ridges", no_gills},
+        {"/hymenium/thickness", h.thickness.has_value(),
+         [](S s) { return s.has_blades() || s.pattern() == Pattern::teeth; },
+         "carries gills, ridges or teeth", no_gills},
+        {"/hymenium/forking", wished(h.forking), [](S s) { return s.pattern() == Pattern::ridges; },
+         "carries ridges, which fork",
+         [](S s) {
+             return s.pattern() == Pattern::gills
+                        ? s.who + " carries gills, which do not fork; ridges do"
+                        : carries_instead(s, "ridges");
+         }},
+        {"/hymenium/pores_per_mm", h.pores_per_mm.has_value(), [](S s) { return s.has_cells(); },
+         "carries pores or teeth", [](S s) { return carries_instead(s, "pores"); }},
+        {"/hymenium/elongation", h.elongation.has_value(),
+         [](S s) { return s.pattern() == Pattern::pores; }, "carries pores",
+         [](S s) { return carries_instead(s, "pores"); }},
+        {"/hymenium/depth", wished(h.depth), carrying, "carries gills, pores or teeth",
+         nothing_deep},
+        {"/hymenium/inner_gap", wished(h.inner_gap), carrying, "carries gills, pores or teeth",
+         nothing_deep},
+        {"/hymenium/inner_depth", h.inner_depth.has_value(), carrying,
+         "carries gills, pores or teeth", nothing_deep},
+        {"/hymenium/notch", wished(h.notch), carrying, "carries gills, pores or teeth",
+         nothing_deep},
+        {"/hymenium/decurrent", wished(h.decurrent), carrying, "carries gills, pores or teeth",
+         nothing_deep},
+        {"/ornaments/warts", wished(asked.ornaments.warts),
+         [](S s) { return s.first().warts.count > 0; },
+         "has a universal veil that could leave warts",
+         [](S s) {
+             return s.who + (s.has_margin() ? " has no universal veil that could leave warts"
+                                            : " has no cap skin that could carry warts, and no "
+                                              "universal veil that could leave them");
+         }},
+        {"/ornaments/scales", wished(asked.ornaments.scales),
+         [](S s) { return s.first().scales.count > 0; }, "has a skin that tears into scales",
+         [](S s) {
+             return s.who + (s.has_margin() ? " has a skin that does not tear into scales"
+                                            : " has no cap skin that could tear into scales");
+         }},
+        {"/ornaments/ring", wished(asked.ornaments.ring), [](S s) { return s.has_ring(); },
+         "has a partial veil that could leave a ring",
+         [](S s) { return s.who + " has no partial veil that could leave a ring"; }},
+        {"/ornaments/volva", wished(asked.ornaments.volva), [](S s) { return s.has_volva(); },
+         "has a universal veil that could leave a volva",
+         [](S s) { return s.who + " has no universal veil that could leave a volva"; }},
+        {"/weathering/waves", wished(asked.weathering.waves), [](S s) { return s.has_margin(); },
+         "has a margin that could wave",
+         [](S s) { return s.who + " has no margin that could wave"; }},
+        {"/weathering/deliquescence", wished(asked.weathering.deliquescence),
+         [](S s) { return s.melts(); }, "is an inkcap, whose cap melts into ink",
+         [](S s) { return s.who + " is no inkcap; only their caps melt into ink"; }},
+        {"/weathering/splits", wished(asked.weathering.splits), [](S s) { return s.has_margin(); },
+         "has a margin that could split",
+         [](S s) { return s.who + " has no margin that could split"; }},
+        {"/weathering/peel", wished(asked.weathering.peel), [](S s) { return s.peels(); },
+         "has a skin that peels off",
+         [](S s) {
+             return s.who + (s.has_margin() ? " has a skin that does not peel off"
+                                            : " has no margin from which a skin could peel off");
+         }},
+    };
     std::vector<Problem> problems;
-    const auto refuse = [&](const char* path, const std::string& why) {
-        report(problems, path, why);
-    };
-    const auto none = [&](auto has) { return std::none_of(sources.begin(), sources.end(), has); };
-    const bool mixed = sources.size() > 1;
-    const std::string who = mixed ? "no species of this mix" : sources.front().who;
-    const HymeniumPattern pattern = sources.front().pattern();
-    const auto carries = [&](const char* wanted) {
-        if (mixed) return who + " carries " + wanted;
-        return pattern == HymeniumPattern::pores    ? who + " carries pores, not gills"
-               : pattern == HymeniumPattern::gills  ? who + " carries gills, not pores"
-               : pattern == HymeniumPattern::ridges ? who + " carries ridges, not pores"
-                                                    : who + " has a smooth lower face";
-    };
-    const auto without = [&](const char* lacks, const char* has) {
-        return who + (mixed ? std::string(" has ") + lacks : std::string(" has ") + has);
-    };
-    if (none([](const Source& s) { return s.has_blades(); })) {
-        if (asked.hymenium.blades) refuse("/hymenium/blades", carries("gills or ridges"));
-        if (asked.hymenium.tiers) refuse("/hymenium/tiers", carries("gills or ridges"));
-    }
-    if (asked.hymenium.forking && *asked.hymenium.forking > 0.0 &&
-        none([](const Source& s) { return s.pattern() == HymeniumPattern::ridges; }))
-        refuse("/hymenium/forking", !mixed && pattern == HymeniumPattern::gills
-                                        ? who + " carries gills, which do not fork; ridges do"
-                                        : carries("ridges, which fork"));
-    if (asked.hymenium.pores_per_mm &&
-        none([](const Source& s) { return s.pattern() == HymeniumPattern::pores; }))
-        refuse("/hymenium/pores_per_mm", carries("pores"));
-    if (asked.ornaments.warts && *asked.ornaments.warts > 0.0 &&
-        none([](const Source& s) { return s.first().warts.count > 0; }))
-        refuse("/ornaments/warts", without("a universal veil that could leave warts",
-                                           "no universal veil that could leave warts"));
-    if (asked.ornaments.scales && *asked.ornaments.scales > 0.0 &&
-        none([](const Source& s) { return s.first().scales.count > 0; }))
-        refuse("/ornaments/scales",
-               without("a skin that tears into scales", "a skin that does not tear into scales"));
-    if (asked.ornaments.ring && *asked.ornaments.ring > 0.0 &&
-        none([](const Source& s) { return s.has_ring(); }))
-        refuse("/ornaments/ring", without("a partial veil that could leave a ring",
-                                          "no partial veil that could leave a ring"));
-    if (asked.ornaments.volva && *asked.ornaments.volva > 0.0 &&
-        none([](const Source& s) { return s.has_volva(); }))
-        refuse("/ornaments/volva", without("a universal veil that could leave a volva",
-                                           "no universal veil that could leave a volva"));
-    const WeatheringOf<Maybe>& weather = asked.weathering;
-    if (weather.deliquescence && *weather.deliquescence > 0.0 &&
-        none([](const Source& s) { return s.melts(); }))
-        refuse("/weathering/deliquescence",
-               mixed ? who + " is an inkcap, whose cap melts into ink"
-                     : who + " is no inkcap; only their caps melt into ink");
-    if (none([](const Source& s) { return s.has_margin(); })) {
-        if (weather.splits && *weather.splits > 0.0)
-            refuse("/weathering/splits",
-                   without("a margin that could split", "no margin that could split"));
-        if (weather.peel && *weather.peel > 0.0)
-            refuse("/weathering/peel", without("a skin that peels off from a margin",
-                                               "no margin from which a skin could peel off"));
-    } else if (weather.peel && *weather.peel > 0.0 &&
-               none([](const Source& s) { return s.peels(); })) {
-        refuse("/weathering/peel",
-               without("a skin that peels off", "a skin that does not peel off"));
-    }
+    for (const AnatomyRule& rule : rules)
+        if (rule.asked && std::none_of(sources.begin(), sources.end(), rule.can))
+            report(problems, rule.path,
+                   sources.size() > 1 ? std::string("no species of this mix ") + rule.wants
+                                      : rule.why(sources.front()));
     if (!problems.empty()) throw Impossible(std::move(problems));
 }
 
@@ -551,7 +596,7 @@ void blend_amounts(Model& model, const std::vector<Source>& sources) {
                 model.ornaments.volva);
     blend_among([](S s) { return s.pattern() == HymeniumPattern::ridges; },
                 [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
-    blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
+    blend_among([](S s) { return s.has_cells(); },
                 [](S s) -> D { return s.now.hymenium.pores_per_mm; }, model.hymenium.pores_per_mm);
     blend_among([](S s) { return s.melts(); },
                 [](S s) -> D { return s.now.weathering.deliquescence; },
@@ -560,6 +605,17 @@ void blend_amounts(Model& model, const std::vector<Source>& sources) {
                 [](S s) -> D { return s.now.weathering.splits; }, model.weathering.splits);
     blend_among([](S s) { return s.peels(); }, [](S s) -> D { return s.now.weathering.peel; },
                 model.weathering.peel);
+    blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
+                [](S s) -> D { return s.now.hymenium.elongation; }, model.hymenium.elongation);
+    blend_among([](S s) { return s.has_blades(); },
+                [](S s) -> D { return s.now.hymenium.edge_waves; }, model.hymenium.edge_waves);
+    blend_among([](S s) { return s.has_blades() || s.pattern() == HymeniumPattern::teeth; },
+                [](S s) -> D { return s.now.hymenium.thickness; }, model.hymenium.thickness);
+    using H = HymeniumOf<Plain>;
+    for (double H::*const part :
+         {&H::depth, &H::inner_gap, &H::inner_depth, &H::notch, &H::decurrent})
+        blend_among([](S s) { return s.pattern() != HymeniumPattern::smooth; },
+                    [part](S s) -> D { return s.now.hymenium.*part; }, model.hymenium.*part);
 }
 
 /// The same amounts as overrides: what the individual really has.
@@ -584,12 +640,27 @@ void report_effective(MushroomParams& effective, const Model& model,
     set(effective.hymenium, model.hymenium);
     set(effective.weathering, model.weathering);
     const auto none = [&](auto has) { return std::none_of(sources.begin(), sources.end(), has); };
+    HymeniumOf<Maybe>& hymenium = effective.hymenium;
+    if (none([](const Source& s) { return s.has_cells(); })) hymenium.pores_per_mm.reset();
     if (none([](const Source& s) { return s.pattern() == HymeniumPattern::pores; }))
-        effective.hymenium.pores_per_mm.reset();
+        hymenium.elongation.reset();
     if (none([](const Source& s) { return s.has_blades(); })) {
-        effective.hymenium.blades.reset();
-        effective.hymenium.tiers.reset();
+        hymenium.blades.reset();
+        hymenium.tiers.reset();
+        hymenium.edge_waves.reset();
     }
+    if (none([](const Source& s) {
+            return s.has_blades() || s.pattern() == HymeniumPattern::teeth;
+        }))
+        hymenium.thickness.reset();
+    if (none([](const Source& s) { return s.pattern() != HymeniumPattern::smooth; })) {
+        hymenium.depth.reset();
+        hymenium.inner_gap.reset();
+        hymenium.inner_depth.reset();
+        hymenium.notch.reset();
+        hymenium.decurrent.reset();
+    }
+    if (none([](const Source& s) { return s.has_margin(); })) effective.weathering.waves.reset();
     if (none([](const Source& s) { return s.pattern() == HymeniumPattern::ridges; }))
         effective.hymenium.forking.reset();
     if (none([](const Source& s) { return s.first().warts.count > 0; }))
@@ -601,6 +672,44 @@ void report_effective(MushroomParams& effective, const Model& model,
     if (none([](const Source& s) { return s.melts(); })) effective.weathering.deliquescence.reset();
     if (none([](const Source& s) { return s.has_margin(); })) effective.weathering.splits.reset();
     if (none([](const Source& s) { return s.peels(); })) effective.weathering.peel.reset();
+}
+
+/// Rows of a species' spines, or of pores so coarse that they are solids: by its template when it is mature, so that no age has
+/// others. They grow with the mushroom.
+CellRows cells_of(const Source& source) {
+    if (!source.has_cells() || !source.has_margin()) return {};
+    std::size_t mature = 0;
+    for (std::size_t i = 1; i < source.ages.size(); ++i)
+        if (std::abs(source.ages[i] - mature_age) < std::abs(source.ages[mature] - mature_age))
+            mature = i;
+    const Outline outline = Outline::unproven(silhouette_of(*source.stages[mature]));
+    const double inner = outline.hymenium.at(0.0).r, outer = outline.hymenium.at(1.0).r;
+    const double arc = std::max(outline.hymenium.length(), 1e-5), far = std::max(inner, outer);
+    const double per_metre = 1000.0 * source.now.hymenium.pores_per_mm;
+    if (source.pattern() == HymeniumPattern::teeth)
+        return cell_rows(arc, inner, far, per_metre, most_spines);
+    // Long pores are fewer along the meridian: as on a shorter one.
+    const double area = pi * (inner + far) * arc;
+    if (area * per_metre * per_metre / source.now.hymenium.elongation > 1.1 * most_pores) return {};
+    return cell_rows(arc / source.now.hymenium.elongation, inner, far, per_metre, most_pores);
+}
+
+/// What no weight and no age may change of the solids on the lower face.
+void stand_hymenium(Individual& individual, const MushroomParams& asked,
+                    const std::vector<Source>& sources) {
+    individual.blade_tiers = individual.comb.tiers;
+    for (const Source& source : sources) {
+        if (!source.has_blades()) continue;
+        individual.runs_down =
+            individual.runs_down || wished(asked.hymenium.decurrent) ||
+            std::any_of(source.stages.begin(), source.stages.end(),
+                        [](const Model* stage) { return stage->hymenium.decurrent > 0.0; });
+        // Each ridge may fork, and each of its forks.
+        if (source.pattern() == HymeniumPattern::ridges)
+            while (individual.comb.blades << individual.blade_tiers <
+                   4 * source.now.hymenium.blades)
+                ++individual.blade_tiers;
+    }
 }
 
 void overlay_all(const MushroomParams& asked, Model& model) {
@@ -714,13 +823,16 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
         if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
             individual.comb = comb;
     }
+    stand_hymenium(individual, asked, sources);
     if (individual.comb.blades > 0) {
         model.hymenium.blades = individual.comb.blades;
         model.hymenium.tiers = individual.comb.tiers;
     }
     report_effective(individual.effective, model, sources);
-    for (Source& source : sources)
-        individual.parts.push_back({source.id, source.weight, std::move(source.now)});
+    for (Source& source : sources) {
+        const CellRows cells = cells_of(source);
+        individual.parts.push_back({source.id, source.weight, std::move(source.now), cells});
+    }
     return individual;
 }
 

@@ -7,6 +7,7 @@
 #define SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
 #endif
 
+#include "core/model/comb.h"
 #include "core/surface/texel.inl"
 
 HWY_BEFORE_NAMESPACE();
@@ -33,7 +34,7 @@ HWY_INLINE VF wrapped(VF x, float period) {
 }
 
 /// Where a texel lies among the blades that reach the stem.
-struct Comb {
+struct Among {
     VF x;     ///< the k-th blade stands at k
     VF wide;  ///< width of the gap here over that of the others
 };
@@ -45,7 +46,7 @@ HWY_INLINE VF slot_of(const HymeniumPlan& plan, VF k) {
 }
 
 /// Blades that stand evenly; or, on a comb with more of them, each on a slot. `bend`: how far `wander` moves them, in turns.
-HWY_INLINE Comb comb_of(const HymeniumPlan& plan, VF turn, VF wander, float bend) {
+HWY_INLINE Among comb_of(const HymeniumPlan& plan, VF turn, VF wander, float bend) {
     if (plan.slots == 0.0F) {
         const float n = static_cast<float>(plan.blades);
         return {turn * set(n) + wander * set(n * bend), set(1.0F)};
@@ -61,12 +62,21 @@ HWY_INLINE Comb comb_of(const HymeniumPlan& plan, VF turn, VF wander, float bend
             wide * set(plan.stands / plan.slots)};
 }
 
+/// How far blades stray from their meridians, -1..1.
+HWY_INLINE VF wander_at(const HymeniumPlan& plan, VF turn, VF share) {
+    VF sum = set(0.0F);
+    for (const WavePlan& one : plan.wander)
+        sum = sum +
+              wave(turn * set(one.count) + share * set(one.lean) + set(one.phase)) * set(one.size);
+    return sum;
+}
+
 /// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from
 /// its own radius outwards.
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const auto [x, wide] = comb_of(plan, turn, wander, 0.0013F);
+    const auto [x, wide] = comb_of(plan, turn, wander, static_cast<float>(gill_wander));
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
@@ -77,12 +87,12 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
         const VF place = hn::Floor(fine);
         const VF chance =
             lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
-        const float from = tier == 0 ? 0.30F : tier == 1 ? 0.58F : 0.78F;
-        const VF begin = set(from) + chance * set(0.11F);
-        VF grown = unit((share - begin) * set(9.0F));
+        const VF begin = set(static_cast<float>(tier_begins[static_cast<std::size_t>(tier)])) +
+                         chance * set(static_cast<float>(tier_strays));
+        VF grown = unit((share - begin) * set(static_cast<float>(tier_rise)));
         if (tier + 1 == plan.tiers && plan.last_tier < 1.0F) {
             // Steps of the golden section spread what is there as evenly as can be, whatever its share.
-            const VF rank = wrapped(place, n * scale) * set(0.61803399F);
+            const VF rank = wrapped(place, n * scale) * set(static_cast<float>(golden_step));
             grown = hn::IfThenElseZero(rank - hn::Floor(rank) < set(plan.last_tier), grown);
         }
         const VF here = hn::Abs(fine - place - set(0.5F)) * set(1.0F / scale);
@@ -104,12 +114,12 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
     const float n = static_cast<float>(plan.blades);
-    const auto [x, wide] = comb_of(plan, turn, wander, 0.0095F);
+    const auto [x, wide] = comb_of(plan, turn, wander, static_cast<float>(ridge_wander));
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
     VF room = one;
-    const float hidden = 1.0F - plan.forking;
+    const double hidden = 1.0 - static_cast<double>(plan.forking);
     float scale = 1.0F;
     for (int level = 0; level < 2; ++level, scale *= 2.0F) {
         const VF fine = x * set(scale);
@@ -119,9 +129,10 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
             lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(level));
         const VF side =
             lot(wrapped(place, n * scale), plan.seed[3] + static_cast<std::uint32_t>(level));
-        const VF begin = set((level == 0 ? 0.24F : 0.66F) + hidden * 1.1F) +
-                         chance * set(level == 0 ? 0.17F : 0.10F);
-        const VF swing = set(0.5F) * smooth(share - begin, 0.0F, 3.2F);
+        const std::size_t i = static_cast<std::size_t>(level);
+        const VF begin = set(static_cast<float>(fork_begins[i] + fork_missing * hidden)) +
+                         chance * set(static_cast<float>(fork_strays[i]));
+        const VF swing = set(0.5F) * smooth(share - begin, 0.0F, static_cast<float>(fork_swing));
         const VF fork = hn::IfThenElse(side < set(0.0F), swing, one - swing);
         distance = hn::Min(distance, hn::Abs(within - fork) * set(1.0F / scale));
         room = room * (one - swing);
@@ -139,13 +150,23 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
 }
 
 HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
-    const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from,
-                                  plan.pore_grow / plan.pore_rows, 1.0F, 0.30F, plan.seed[5]);
+    const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow,
+                                  plan.pore_tall, cell_jitter, plan.seed[5]);
     // Each tube has its own width.
     const VF width = set(0.16F) + set(0.06F) * lower_part(hash(cell.id));
     Slot slot;
     slot.depth = unit((cell.border - width * set(0.6F)) * set(3.4F));
     slot.depth = slot.depth * slot.depth * (set(3.0F) - set(2.0F) * slot.depth);
+    slot.visible = set(plan.pore_shown);
+    return slot;
+}
+
+/// Spines seen from their tips: a cone on each cell's point, the flesh between them deep.
+HWY_INLINE Slot teeth(const HymeniumPlan& plan, VF share, VF turn) {
+    const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow,
+                                  1.0F, cell_jitter, plan.seed[5]);
+    Slot slot;
+    slot.depth = unit((cell.centre - set(0.4F * plan.spine)) * set(1.0F / (1.1F * plan.spine)));
     slot.visible = set(plan.pore_shown);
     return slot;
 }
@@ -190,27 +211,32 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
         height = height * set(0.35F + plan.relief);
     } else {
         const VF turn = turn_of(p.cosine, p.sine);
-        const Slot slot = plan.pattern == 1 ? gills(plan, p, share, turn, uneven)
-                          : plan.pattern == 2
-                              ? ridges(plan, p, share, turn, uneven + middle * set(0.22F))
-                              : pores(plan, share, turn);
-        const float mean_depth = plan.pattern == 3 ? 0.5F : 0.45F;
+        const Slot slot =
+            plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan, turn, share))
+            : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan, turn, share))
+            : plan.pattern == 3 ? pores(plan, share, turn)
+                                : teeth(plan, share, turn);
+        const float mean_depth = plan.pattern >= 3 ? 0.5F : 0.45F;
         VF depth = mix(set(mean_depth), slot.depth, slot.visible);
         // Ridges run down the stem and are lost there.
         if (plan.pattern == 2) depth = depth * smooth(share, 0.0F, 4.5F);
+        // Free gills leave the flesh round the stem bare.
+        const VF carried = one - (one - smooth(share, 0.55F * plan.inner_gap, plan.bare_slope)) *
+                                     set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
+        depth = depth * carried;
         const VF deep = depth * depth;
         // Edge, face, and depth of the slot; what is deep is only as dark as the relief makes it.
         const VF on_edge =
             (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +
-            (one - slot.visible) * set(0.2F);
+            (one - slot.visible) * set(0.2F) - (one - carried);
         colour = mix(colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
-        colour = mix(colour, rgb(plan.edge), on_edge);
+        colour = mix(colour, rgb(plan.edge), unit(on_edge));
         occlusion =
             occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
-        const VF period = plan.pattern == 3
+        const VF period = plan.pattern >= 3
                               ? set(1.0F / plan.pore_rows)
                               : p.radius * set(6.2831853F / static_cast<float>(plan.blades));
-        const VF rise = (one - deep) * slot.visible * period;
+        const VF rise = (one - deep) * slot.visible * period * carried;
         height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
     }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);

@@ -9,6 +9,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/comb.h"
 #include "core/params/problems.h"
 #include "core/surface/canvas.h"
 #include "core/surface/charts.h"
@@ -34,7 +35,6 @@ namespace {
 
 // Purposes of the random streams that paint draws from.
 constexpr std::uint32_t cap_purpose = 101;
-constexpr std::uint32_t hymenium_purpose = 102;
 constexpr std::uint32_t stem_purpose = 103;
 constexpr std::uint32_t veil_purpose = 104;
 constexpr std::uint32_t coarse_purpose = 105;
@@ -166,31 +166,6 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
-// Stands the blades of a species on the comb of its set. Tiers fill up one after another; a species with so few blades that all
-// would reach the stem keeps its own tiers instead, each blade on a slot. Ridges fork, so only those that reach the stem stand on it.
-void stand_on_comb(const PaintParams& params, HymeniumPlan& plan) {
-    const int own = params.hymenium.blades, comb = params.comb;
-    if (comb < 1) return;
-    const bool ridges = params.surface.hymenium.pattern == HymeniumPattern::ridges;
-    const int all = ridges ? own : own << params.hymenium.tiers;
-    int tiers = 0;
-    while (comb << tiers < all) ++tiers;
-    if (ridges || all < comb) {
-        if (comb << tiers == own) return;
-        plan.slots = static_cast<float>(comb << tiers);
-        plan.stands = static_cast<float>(all);
-        const int stride = all / own;  // each so many slots one that reaches the stem
-        plan.stride = static_cast<float>(stride);
-        return;
-    }
-    plan.blades = comb;
-    plan.tiers = tiers;
-    if (tiers > 0) {
-        const int before = comb << (tiers - 1);
-        plan.last_tier = single(static_cast<double>(all - before) / before);
-    }
-}
-
 HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     const HymeniumSurface& face = params.surface.hymenium;
     HymeniumPlan plan;
@@ -202,7 +177,13 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.disc.inner = single(hymenium_inner_share);
     plan.disc.cone_from = single(inner / unit);
     plan.disc.cone_grow = single((outer - inner) / unit);
-    plan.seed = seeds<8>(params.seed, hymenium_purpose);
+    plan.seed = hymenium_words(params.seed);
+    const Wander wander = wander_of(params.seed);
+    for (std::size_t i = 0; i < wander.waves.size(); ++i) {
+        const Wander::Wave& wave = wander.waves[i];
+        plan.wander[i] = {single(wave.count), single(wave.lean), single(wave.size),
+                          single(wave.phase)};
+    }
     plan.colour = light_of(face.colour);
     plan.edge = light_of(face.edge);
     plan.depth = light_of(face.depth);
@@ -216,21 +197,38 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
     plan.mottle = single(face.mottle);
-    plan.blades = params.hymenium.blades;
-    plan.tiers = params.hymenium.tiers;
-    stand_on_comb(params, plan);
+    const Stand stand =
+        stand_on(params.comb, face.pattern, params.hymenium.blades, params.hymenium.tiers);
+    plan.blades = stand.blades;
+    plan.tiers = stand.tiers;
+    plan.last_tier = single(stand.last_tier);
+    plan.slots = static_cast<float>(stand.slots);
+    plan.stands = static_cast<float>(stand.stands);
+    plan.stride = static_cast<float>(stand.stride);
+    plan.inner_gap = single(params.hymenium.inner_gap);
+    plan.bare_slope = single(1.0 / std::max(0.9 * params.hymenium.inner_gap, 1e-3));
     plan.forking = single(params.hymenium.forking);
     // The bottom of a slot as deep as `steep` times its width sees that little of the sky; ridges
     // are shallow folds.
     const double steep =
         (face.pattern == HymeniumPattern::ridges ? 0.6 : 1.6) * params.hymenium.relief;
     plan.slot_occlusion = single(std::sqrt(1.0 + steep * steep) - steep);
-    plan.blade = single(0.13 * 2.0 * pi * outer / unit /
+    plan.blade = single(0.5 * params.hymenium.thickness * 2.0 * pi * outer / unit /
                         (params.hymenium.blades * (1 << params.hymenium.tiers)));
-    const double rows = std::max(3.0, arc * params.hymenium.pores_per_mm * 1000.0);
+    // Elongated pores stand in fewer rows.
+    const double tall = face.pattern == HymeniumPattern::pores ? params.hymenium.elongation : 1.0;
+    CellRows cells = params.cells;
+    double rows = cells.rows;
+    if (cells.rows == 0) {
+        rows = std::max(3.0, arc * params.hymenium.pores_per_mm * 1000.0 / tall);
+        cells.from = 2.0 * pi * inner / arc * rows * tall;
+        cells.grow = 2.0 * pi * (outer - inner) / arc * tall;
+    }
     plan.pore_rows = single(rows);
-    plan.pore_from = single(2.0 * pi * inner / arc * rows);
-    plan.pore_grow = single(2.0 * pi * (outer - inner) / arc * rows);
+    plan.pore_from = single(cells.from);
+    plan.pore_grow = single(cells.grow);
+    plan.pore_tall = single(tall);
+    plan.spine = single(0.5 * params.hymenium.thickness);
     plan.pore_shown = single(std::clamp(
         ((1.0 - hymenium_inner_share) / (rows * static_cast<double>(plan.disc.per_texel)) - 1.6) /
             2.0,
@@ -303,13 +301,21 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
     plan.seed = seeds<4>(params.seed, blade_purpose);
     plan.texel_along = single(1.0 / (share * frame.width));
-    plan.texel_across = single(blade_depth / (share * frame.height));
+    const double depth = std::max(params.hymenium.depth, 0.01);
+    plan.texel_across = single(depth / (share * frame.height));
     plan.colour = light_of(face.colour);
     plan.edge = light_of(face.edge);
     plan.depth = light_of(face.depth);
     plan.mottle = single(face.mottle);
     plan.roughness = single(face.roughness);
-    plan.steep = single(3.0 * params.hymenium.relief);
+    // Over the gap between two blades half-way to the margin.
+    const double arc = length_of_step(params.metrics.hymenium_arc);
+    const double radius = 0.5 * (length_of_step(params.metrics.hymenium_inner) +
+                                 length_of_step(params.metrics.cap_radius));
+    const double gap =
+        2.0 * pi * radius /
+        static_cast<double>(params.hymenium.blades << std::min(params.hymenium.tiers, 1));
+    plan.steep = single(std::clamp(params.hymenium.relief * depth * arc / gap, 0.2, 6.0));
     plan.grain = shown_of(share * frame.width / static_cast<double>(blade_grain));
     return plan;
 }

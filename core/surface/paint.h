@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/bytes.h"
+#include "core/model/comb.h"
 #include "core/model/patches.h"
 #include "core/model/relief.h"
 #include "core/model/request.h"
@@ -35,6 +36,7 @@ struct PaintParams {
     Surface surface;
     HymeniumOf<Plain> hymenium;
     int comb = 0;
+    CellRows cells;
     PatchStyle warts;
     PatchStyle scales;
     ReliefStyle relief;
@@ -66,6 +68,8 @@ struct PaintParams {
                    .max = 400,
                    .doc = "Blades that reach the stem in the comb of a set of species: where the "
                           "blades of each of them stand. 0: where its own stand."});
+        visit(&P::cells,
+              Info{.name = "cells", .doc = "Rows of spines of the species, whatever the lengths."});
         visit(&P::warts, Info{.name = "warts", .doc = "Remnants of the universal veil."});
         visit(&P::scales, Info{.name = "scales", .doc = "Scales of the torn skin."});
         visit(&P::relief, Info{.name = "relief", .doc = "Relief of the upper face."});

@@ -118,6 +118,11 @@ struct CapPlan {
     unsigned fields = 0;  ///< bit of each CapField that is used
 };
 
+/// A wave of straying blades.
+struct WavePlan {
+    float count = 1.0F, lean = 0.0F, size = 0.0F, phase = 0.0F;
+};
+
 struct HymeniumPlan {
     DiscPlan disc;
     std::array<std::uint32_t, 8> seed{};
@@ -135,9 +140,14 @@ struct HymeniumPlan {
     float slots = 0.0F, stands = 0.0F, stride = 1.0F;
     float blade = 0.0F;  ///< half thickness, in lengths of one disc radius
     float forking = 0.0F;
+    float inner_gap = 0.0F;   ///< share of the face without blades round the stem
+    float bare_slope = 1.0F;  ///< over one: how fast the bare ring round the stem ends
+    std::array<WavePlan, 4> wander{};
+    float spine = 0.13F;      ///< half thickness of a spine, in cells
+    float pore_tall = 1.0F;   ///< length of a cell over its width
     float pore_rows = 1.0F;   ///< from the inner edge to the rim
     float pore_from = 6.0F;   ///< pores round the inner edge
-    float pore_grow = 0.0F;   ///< more of them at the rim
+    float pore_grow = 0.0F;   ///< more of them in each row
     float pore_shown = 0.0F;  ///< 0 when pores are smaller than texels
     std::array<float, 2> bumps{};
     unsigned fields = 0;
@@ -199,8 +209,7 @@ struct FleshPlan {
     float roughness = 0.85F;
 };
 
-/// Depth of a blade and width of a tear as their charts stand for them, over their lengths.
-inline constexpr double blade_depth = 0.2;
+/// Width of a tear as its chart stands for it, over its length.
 inline constexpr double flesh_width = 0.4;
 inline constexpr float blade_grain = 72.0F;  ///< lines across a blade
 inline constexpr std::array<float, 3> flesh_bump_frequency = {11.0F, 26.0F, 58.0F};

@@ -108,6 +108,7 @@ HWY_INLINE VF shown(VF texels, float full) {
 /// Where a texel lies among scattered cells.
 struct Cells {
     VF border;  ///< distance to the border with the next cell, in cells
+    VF centre;  ///< distance to the cell's own point
     VU id;      ///< of the cell
 };
 
@@ -152,7 +153,7 @@ struct Neighbours {
             const VF square = twice * twice / hn::Max(apart, set(1e-6F));
             border = hn::IfThenElse(apart > set(1e-6F), hn::Min(border, square), border);
         }
-        return {hn::Sqrt(border) * set(0.5F), id};
+        return {hn::Sqrt(border) * set(0.5F), hn::Sqrt(nearest), id};
     }
 };
 

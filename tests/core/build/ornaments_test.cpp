@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/build/hymenium.h"
 #include "core/grow/mushroom.h"
 #include "core/surface/charts.h"
 #include "tests/support/meshes.h"
@@ -19,6 +20,7 @@ Mesh amanita(double warts, double ring, int lod = 0, std::uint32_t seed = 4) {
     MushroomOrder order = textured(order_of("amanita_muscaria", 0.5, seed, lod));
     order.params.ornaments.warts = warts;
     order.params.ornaments.ring = ring;
+    order.params.hymenium.depth = 0.0;  // no gills among the pieces
     Mesh mesh = mesh_of(order);
     expect_valid(mesh);
     return mesh;
@@ -96,6 +98,7 @@ TEST(Ornaments, ScalesOfAnInkCapAreClosed) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
             MushroomOrder order = textured(order_of("coprinus_comatus", age, seed));
             order.params.ornaments.scales = 1.0;
+            order.params.hymenium.depth = 0.0;  // no gills among the pieces
             const Mesh mesh = mesh_of(order);
             expect_valid(mesh);
             EXPECT_GT(pieces(mesh).size(), 20u);
@@ -108,7 +111,8 @@ TEST(Ornaments, TheirTextureComesFromTheVeilsStrip) {
     const Chart& strip = swept_charts[static_cast<std::size_t>(Part::veil)];
     const std::size_t columns = column_turns(resolve(order, atlas()), 0).size() + 1;
     const auto rings = static_cast<std::size_t>(details[0].stem_rings + details[0].hymenium_rings +
-                                                details[0].cap_rings);
+                                                details[0].cap_rings) +
+                       static_cast<std::size_t>(flesh_rings(resolve(order, atlas()), 0));
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const bool body = i < rings * columns;
         EXPECT_EQ(static_cast<double>(mesh.texture_coordinates[i].y) < strip.v, body) << i;
@@ -160,6 +164,7 @@ double radius_of(const glm::vec3& p) { return std::sqrt(double{p.x} * p.x + doub
 Individual straight_amanita() {
     MushroomOrder order = order_of("amanita_muscaria", 0.6, 4);
     order.params.variation = 0.0;
+    order.params.hymenium.depth = 0.0;  // no gills among the pieces
     Individual individual = resolve(order, atlas());
     individual.layers.clear();
     individual.model.deformation = {};
@@ -246,6 +251,7 @@ TEST(Ornaments, ScalesOfTheBulbStayOnItsSkinWhileTheStemGrows) {
         order.params.variation = 0.0;
         order.params.ornaments.warts = 0.0;
         order.params.ornaments.ring = 0.0;
+        order.params.hymenium.depth = 0.0;
         Individual individual = resolve(order, atlas());
         individual.model.deformation = {};
         individual.axis = {};

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include "core/build/hymenium.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/proportion.h"
@@ -28,6 +29,7 @@ namespace {
 Model bare(Silhouette silhouette) {
     Model model;
     model.shape = Swept{std::move(silhouette), {}};
+    model.surface.hymenium.pattern = HymeniumPattern::smooth;
     return model;
 }
 
@@ -184,6 +186,11 @@ Individual body_of(const MushroomOrder& order) {
     individual.has_relief = false;
     individual.has_sac = false;
     individual.wear = {};
+    individual.comb = {};
+    for (SpeciesShare& part : individual.parts) {
+        part.cells = {};
+        part.model.hymenium.depth = 0.0;
+    }
     return individual;
 }
 
@@ -266,7 +273,8 @@ TEST(Sweep, NormalsAgreeWithDifferencesOfTheSurfaceUnderAxialDeformationAndWaves
             order.params.deformation.twist_deg = 45.0 * seed;
             order.params.deformation.taper = 0.2 * seed - 0.5;
             order.params.deformation.lean_deg = 5.0 * seed;
-            order.params.weathering.waves = 0.25 * seed;
+            if (!mature_silhouette(id).hymenium.empty())
+                order.params.weathering.waves = 0.25 * seed;
             const auto [worst, mean] = normal_errors(body_of(order), seed);
             // Differences across the knots of the arc-length tables, where speed jumps a little.
             EXPECT_LT(worst, 0.02) << id << ' ' << seed;
@@ -321,9 +329,18 @@ TEST(Sweep, NormalsOfTheMeshComeCloserToItsFacesWithDetail) {
     }
 }
 
+std::vector<std::pair<std::string, bool>> with_and_without_solids() {
+    std::vector<std::pair<std::string, bool>> all;
+    for (const std::string& id : species_ids())
+        for (const bool solids : {false, true}) all.emplace_back(id, solids);
+    return all;
+}
+
 TEST(Sweep, TangentsPointWhereTheTextureGoesAndHandednessUpTheImage) {
-    for (const std::string& id : species_ids()) {
-        const Mesh mesh = mesh_of(textured(order_of(id, 0.6, 5)));
+    for (const auto& [id, solids] : with_and_without_solids()) {
+        MushroomOrder order = textured(order_of(id, 0.6, 5));
+        if (!solids) order.params.hymenium.depth = 0.0;
+        const Mesh mesh = mesh_of(order);
         expect_valid(mesh);
         ASSERT_EQ(mesh.tangents.size(), mesh.positions.size());
         int agree = 0, handed = 0, count = 0;
@@ -345,8 +362,9 @@ TEST(Sweep, TangentsPointWhereTheTextureGoesAndHandednessUpTheImage) {
                 ++count;
             }
         }
-        // The rest are corners of the coarse triangles round poles, tips and torn edges.
-        EXPECT_GT(agree, 0.97 * count) << id;
+        // The rest are corners of the coarse triangles round poles, tips and torn edges; and of gills, whose rows of long thin
+        // triangles turn where they rise at the stem and run out at the margin.
+        EXPECT_GT(agree, (solids ? 0.88 : 0.97) * count) << id;
         EXPECT_GT(handed, 0.985 * count) << id;
     }
 }
@@ -396,14 +414,16 @@ TEST(Sweep, StemHymeniumAndCapAreWeldedBitForBit) {
             for (int lod = 0; lod < 4; ++lod) {
                 MushroomOrder order = order_of(id, 0.2 * seed, seed, lod);
                 order.params.variation = 1.0;
-                order.params.weathering.waves = 1.0;
+                if (!mature_silhouette(id).hymenium.empty()) order.params.weathering.waves = 1.0;
                 const Individual individual = body_of(order);
                 const Mesh mesh = swept(individual, lod);
                 const Detail& detail = detail_of(individual.has_relief, lod);
                 const auto row = static_cast<std::size_t>(detail.columns) + 1;
                 const bool has_hymenium = !individual.outline.hymenium.empty();
                 std::vector<int> joints = {detail.stem_rings};
-                if (has_hymenium) joints.push_back(detail.stem_rings + detail.hymenium_rings);
+                if (has_hymenium)
+                    joints.push_back(detail.stem_rings + detail.hymenium_rings +
+                                     flesh_rings(individual, lod));
                 for (const int joint : joints)
                     for (std::size_t j = 0; j < row; ++j) {
                         const std::size_t above = static_cast<std::size_t>(joint) * row + j;
@@ -431,8 +451,9 @@ TEST(Sweep, AClubHasNoMarginThatCouldWave) {
     MushroomOrder order = order_of("clavariadelphus_pistillaris");
     order.params.weathering.waves = 0.0;
     const Mesh still = mesh_of(order);
+    EXPECT_FALSE(still.positions.empty());
     order.params.weathering.waves = 1.0;
-    EXPECT_TRUE(same_bits(mesh_of(order), still));
+    EXPECT_THROW((void)mesh_of(order), Impossible);
 }
 
 TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {

@@ -68,11 +68,29 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
         }
     });
     EXPECT_GT(grown, 40);
-    const std::set<std::string> known = {
-        "/hymenium/blades",       "/hymenium/tiers",  "/hymenium/forking",
-        "/hymenium/pores_per_mm", "/ornaments/warts", "/ornaments/scales",
-        "/ornaments/ring",        "/ornaments/volva", "/deformation/bend_deg",
-        "/deformation/zone_to",   "/frames"};
+    const std::set<std::string> known = {"/hymenium/blades",
+                                         "/hymenium/tiers",
+                                         "/hymenium/forking",
+                                         "/hymenium/pores_per_mm",
+                                         "/hymenium/depth",
+                                         "/hymenium/thickness",
+                                         "/hymenium/inner_gap",
+                                         "/hymenium/inner_depth",
+                                         "/hymenium/notch",
+                                         "/hymenium/decurrent",
+                                         "/hymenium/edge_waves",
+                                         "/hymenium/elongation",
+                                         "/ornaments/warts",
+                                         "/ornaments/scales",
+                                         "/ornaments/ring",
+                                         "/ornaments/volva",
+                                         "/weathering/waves",
+                                         "/weathering/splits",
+                                         "/weathering/peel",
+                                         "/weathering/deliquescence",
+                                         "/deformation/bend_deg",
+                                         "/deformation/zone_to",
+                                         "/frames"};
     for (const std::string& path : refused) EXPECT_TRUE(known.contains(path)) << path;
 }
 
@@ -133,6 +151,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
             for (const Problem& problem : refused.problems())
                 RC_ASSERT(problem.path.starts_with("/hymenium/") ||
                           problem.path.starts_with("/ornaments/") ||
+                          problem.path.starts_with("/weathering/") ||
                           problem.path.starts_with("/deformation/"));
         }
     }));

@@ -217,6 +217,17 @@ TEST(Resolve, WhatASpeciesCannotHaveIsRefusedByName) {
                       "/ornaments/scales", "does not tear"));
     EXPECT_TRUE(names(refused("boletus_edulis", &P::ornaments, &O::ring, 1.0), "/ornaments/ring",
                       "no partial veil"));
+    EXPECT_TRUE(names(refused("clavariadelphus_pistillaris", &P::ornaments, &O::warts, 0.5),
+                      "/ornaments/warts", "no cap skin that could carry warts"));
+    EXPECT_TRUE(names(refused("amanita_muscaria", &P::hymenium, &H::elongation, 2.0),
+                      "/hymenium/elongation", "carries gills, not pores"));
+    EXPECT_TRUE(names(refused("disciotis_venosa", &P::hymenium, &H::decurrent, 0.5),
+                      "/hymenium/decurrent", "has a smooth lower face"));
+    EXPECT_TRUE(names(refused("boletus_edulis", &P::hymenium, &H::thickness, 0.5),
+                      "/hymenium/thickness", "carries pores, not gills"));
+    EXPECT_TRUE(names(
+        refused("clavariadelphus_pistillaris", &P::weathering, &WeatheringOf<Maybe>::waves, 0.5),
+        "/weathering/waves", "has no margin that could wave"));
     // None of what it has not is no fault.
     EXPECT_TRUE(refused("russula_vinosa", &P::ornaments, &O::warts, 0.0).empty());
     EXPECT_TRUE(refused("russula_vinosa", &P::hymenium, &H::forking, 0.0).empty());

@@ -200,6 +200,15 @@ TEST_F(Paint, EveryNumberChangesThePicture) {
                     [&](const std::string& name, const Info&, auto&) { names.push_back(name); });
     for (const std::string& wanted : names) {
         if (wanted == "/side") continue;
+        // Shapes of blades alone, and rows of spines that this pattern does not show.
+        const auto shapes = {"/hymenium/inner_depth",
+                             "/hymenium/notch",
+                             "/hymenium/decurrent",
+                             "/hymenium/edge_waves",
+                             "/cells/rows",
+                             "/cells/from",
+                             "/cells/grow"};
+        if (std::find(shapes.begin(), shapes.end(), wanted) != shapes.end()) continue;
         bool changed = false;
         for (std::size_t p = 0; p < 4 && !changed; ++p) {
             PaintParams params = worn(all_patterns[p]);
