@@ -25,7 +25,7 @@ inline constexpr std::array<Detail, 4> details = {{
 /// By LOD, of a set of species that has relief: twice the rings of the cap, less one (see Outline::rings), and more columns.
 inline constexpr std::array<Detail, 4> fine_details = {{
     {26, 18, 55, 128, 7, 1, 6, 8},
-    {13, 9, 27, 56, 4, 0, 3, 4},
+    {13, 9, 27, 48, 4, 0, 3, 4},
     {7, 5, 7, 16, 0, 0, 1, 2},
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};

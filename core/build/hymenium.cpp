@@ -17,7 +17,8 @@ namespace {
 constexpr std::uint32_t blade_purpose = 24, spine_purpose = 25;
 constexpr int stations = 64;       // of the meridian
 constexpr double room_used = 0.6;  // of what lies between the edges and the cap's upper face
-constexpr int most_segments = 12, least_segments = 2, stem_segments = 3;
+// As many rows to each blade in nearly every set of species: chords of other rows would lie off.
+constexpr int most_segments = 8, least_segments = 2, stem_segments = 3;
 constexpr std::size_t row_corners = 6;
 /// Where the flesh has rings of its own: it rises from the stem and runs out at the margin.
 constexpr std::array<double, 10> steep_places = {0.012, 0.026, 0.042, 0.06, 0.085,
@@ -440,8 +441,9 @@ void Builder::blades(const Budget& shares) {
         const auto left = [&](double full) {
             return std::min(1.0, most / (full * length + 1e-12));
         };
-        const Spot rest = vertex_near(0.4 * begin + 0.6, angle_at(0.4 * begin + 0.6));
-        const double middle = rest.share * length;
+        const double own_middle = 0.4 * begin + 0.6;
+        const Spot rest = vertex_near(own_middle, angle_at(own_middle));
+        const double middle = length * (rest.share + left(0.003) * (own_middle - rest.share));
         for (Plan& plan : plans_) {
             plan.along = middle + left(0.015) * (plan.along - middle);
             const double share = std::max(plan.along, 0.0) / std::max(length, 1e-12);
@@ -451,8 +453,10 @@ void Builder::blades(const Budget& shares) {
             double ripple = 0.0;
             for (const Ripple& one : ripples)
                 if (one.size > 0.0) ripple += one.at(share);
-            plan.angle = rest.angle + left(0.015) * (angle_at(share) - rest.angle);
+            plan.angle = rest.angle + left(0.003) * (angle_at(share) - rest.angle);
             plan.half = left(0.004) * std::min(half_all, room);
+            // A blade that does not run down the stem begins on the face as sharp as where no species of the set does.
+            if (&plan - plans_.data() <= shares.below) plan.half *= std::min(1.0, 12.0 * down);
             plan.stray = left(0.004) * 0.275 * each * std::min(room, 3.0 * half_all) * ripple *
                          smooth(share / 0.15) * smooth((1.0 - share) / 0.2);
             row(plan, left(0.01));

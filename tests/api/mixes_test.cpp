@@ -222,6 +222,7 @@ std::string spelt(double value) {
         case 2:
             return shortest.find_first_of(".eE") == std::string::npos ? shortest + ".00" : shortest;
         case 3:
+            if (value == 0.0) return "0e-1";  // JSON writes no second zero in front
             return shortest.find_first_of(".eE") == std::string::npos ? shortest + "0e-1"
                                                                       : shortest + "E+0";
         default:

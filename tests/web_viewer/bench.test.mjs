@@ -42,7 +42,7 @@ const shares = (page) => Object.fromEntries(parameters(page).get("morph").split(
     const [id, weight] = part.split(":");
     return [id, Number(weight)];
 }));
-const models = (heard) => heard.requests.filter((url) => /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url)).map((url) => decodeURIComponent(url));
+const models = (heard) => heard.requests.filter((url) => /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url)).map((url) => decodeURIComponent(url));
 const arcs = (page) => page.locator(".drawing .own > g").evaluateAll((groups) => groups.map((group) => group.getAttribute("class").split(" ")[1]));
 
 async function centre(locator) {

@@ -34,7 +34,8 @@ async function open(t, query = "", viewport = undefined, from = base) {
 
 const stagePicture = (page) => page.locator("#stage").screenshot();
 const parameters = (page) => new URL(page.url()).searchParams;
-const models = (heard) => heard.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url));
+/** What was asked for to be shown large: the gallery's pictures come when there is time. */
+const models = (heard) => heard.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url));
 const slider = (page, name) => page.locator(`input[type=range][name="${name}"]`);
 
 /** How many different colours a picture has: a blank stage has a gradient's few. */

@@ -141,7 +141,8 @@ RC_GTEST_PROP(WeatheringProperty, any_combination_of_any_mix_is_a_closed_mesh, (
     for (const Effect& effect : shaping)
         if (bare.effective.weathering.*effect.amount && *rc::gen::inRange(0, 3) > 0)
             order.params.weathering.*effect.amount = *rc::gen::inRange(0, 101) / 100.0;
-    if (*rc::gen::arbitrary<bool>()) order.params.weathering.waves = 1.0;
+    if (bare.effective.weathering.waves && *rc::gen::arbitrary<bool>())
+        order.params.weathering.waves = 1.0;
     const Individual individual = resolve(order, atlas());
     const Mesh mesh = mushroom_mesh(order, individual);
     const std::vector<std::string> found = defects(mesh);

@@ -43,7 +43,7 @@ void expect_convergence(MushroomOrder alone, MushroomOrder beside) {
 /// chords lie off by more: up to 0.7 % of the height.
 void expect_solids_converge(const MushroomOrder& alone, const MushroomOrder& beside) {
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
-    EXPECT_LT(hausdorff(pure, mixed), 0.007 * height(pure)) << text_of(beside.mix);
+    EXPECT_LT(hausdorff(pure, mixed), 0.003 * height(pure)) << text_of(beside.mix);
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << text_of(beside.mix);
 }
 
