@@ -14,7 +14,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t blade_purpose = 24, spine_purpose = 25;
+constexpr std::uint32_t blade_purpose = 24;
 constexpr int stations = 64;       // of the meridian
 constexpr double room_used = 0.6;  // of what lies between the edges and the cap's upper face
 // As many rows to each blade in nearly every set of species: chords of other rows would lie off.
