@@ -143,7 +143,7 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
             const double chance =
                 static_cast<double>(lot_of(k, words[2] + static_cast<std::uint32_t>(tier)));
             put(at, {.presence = 1.0,
-                     .begin = tier_begins[static_cast<std::size_t>(tier)] + chance * tier_strays,
+                     .begin = tier_begin(tier) + chance * tier_strays,
                      .rise = 1.0 / tier_rise,
                      .from = at,
                      .to = at});

@@ -33,8 +33,16 @@ struct Stand {
 /// comb  blades that reach the stem in the comb of the set; 0: the species stands alone
 [[nodiscard]] Stand stand_on(int comb, HymeniumPattern pattern, int blades, int tiers);
 
-/// Where a tier of shorter gills begins on the meridian (0 stem, 1 margin), how far that strays, and how fast they rise.
-inline constexpr std::array<double, 3> tier_begins = {0.30, 0.58, 0.78};
+/// Where a tier of shorter gills begins on the meridian (0 stem, 1 margin). On the comb of a set a species may fill more tiers than
+/// any has of its own: those begin ever nearer to the margin.
+[[nodiscard]] constexpr double tier_begin(int tier) {
+    constexpr std::array<double, 3> begins = {0.30, 0.58, 0.78};
+    if (tier < 3) return begins[static_cast<std::size_t>(tier)];
+    double left = 1.0 - begins[2];
+    for (int i = 3; i <= tier; ++i) left *= 0.5;
+    return 1.0 - left;
+}
+/// How far that strays, and how fast they rise.
 inline constexpr double tier_strays = 0.11, tier_rise = 9.0;
 /// The same of the two levels of forks of a ridge, when it forks as much as can be; and how fast they swing to the middle.
 inline constexpr std::array<double, 2> fork_begins = {0.24, 0.66}, fork_strays = {0.17, 0.10};

@@ -87,7 +87,7 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
         const VF place = hn::Floor(fine);
         const VF chance =
             lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
-        const VF begin = set(static_cast<float>(tier_begins[static_cast<std::size_t>(tier)])) +
+        const VF begin = set(static_cast<float>(tier_begin(tier))) +
                          chance * set(static_cast<float>(tier_strays));
         VF grown = unit((share - begin) * set(static_cast<float>(tier_rise)));
         if (tier + 1 == plan.tiers && plan.last_tier < 1.0F) {

@@ -75,8 +75,9 @@ inline std::vector<Mesh> pieces(const Mesh& mesh) {
         if (vertex[from] == unused) {
             vertex[from] = static_cast<std::uint32_t>(piece.positions.size());
             piece.positions.push_back(mesh.positions[from]);
-            if (!mesh.normals.empty()) piece.normals.push_back(mesh.normals[from]);
-            if (!mesh.texture_coordinates.empty())
+            if (mesh.normals.size() == mesh.positions.size())
+                piece.normals.push_back(mesh.normals[from]);
+            if (mesh.texture_coordinates.size() == mesh.positions.size())
                 piece.texture_coordinates.push_back(mesh.texture_coordinates[from]);
         }
         piece.indices.push_back(vertex[from]);

@@ -31,7 +31,7 @@ void expect_convergence(MushroomOrder alone, MushroomOrder beside) {
     // What is left of a cap that has melted away lies between few rings.
     const bool melted = resolved(alone).wear.amounts.deliquescence > 0.3;
     EXPECT_LT(hausdorff(pure, mixed), withered ? 0.0015 * diagonal(bounds(pure))
-                                      : melted ? 0.006 * height(pure)
+                                      : melted ? 0.01 * height(pure)
                                                : 0.003 * height(pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
     // Layers of no thickness that lie on the surface would be seen by nothing but their area.
