@@ -1,9 +1,10 @@
 // The parts of the page that need no browser: schema to fields, settings to addresses, words.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
+import { readFileSync } from "node:fs";
 import path from "node:path";
 import test from "node:test";
-import { confusionTable, points, scored } from "./naming_trial.mjs";
+import { confusionTable, pass, points, readTrial, scored } from "./naming_trial.mjs";
 import { packages, root } from "./support.mjs";
 
 const { outputFiles } = packages("esbuild").buildSync({
@@ -367,4 +368,13 @@ test("a naming trial counts a genus half, whatever the letters' case, and lists 
     const table = confusionTable({ key, files: ["answers_first.json", "answers_second.json"] }, result);
     assert.match(table, /Mean 62\.5 %; first 75\.0 %, second 50\.0 %/);
     assert.match(table, /\| 2 \| \*Mycena haematopus\* \| Mycena galericulata \| \(nothing\) \|/);
+});
+
+test("the trial that was held last was passed, and its table is that of its answers", async () => {
+    const folder = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "naming_trial");
+    const trial = await readTrial(folder);
+    assert.ok(trial.judges.length >= 2);
+    const result = scored(trial.key, trial.judges);
+    assert.ok(result.mean >= pass, `${result.mean}`);
+    assert.equal(readFileSync(path.join(folder, "confusion.md"), "utf8").trim(), confusionTable(trial, result).trim());
 });
