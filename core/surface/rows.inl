@@ -411,7 +411,10 @@ void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
             const float end = first + (scar.middle_x + scar.reach) * per_unit + 1.0F;
             std::size_t x = begin < 0.0F ? 0 : static_cast<std::size_t>(begin) / 8 * 8;
             x = std::max(x, painted.from);
-            for (; x < painted.until && static_cast<float>(x) < end; x += lanes) {
+            // Whole eights, however many texels a vector has: a stain's rim may reach a little beyond.
+            const float rest = std::max(end - static_cast<float>(x), 0.0F);
+            const std::size_t stop = x + (static_cast<std::size_t>(std::ceil(rest)) + 7) / 8 * 8;
+            for (; x < std::min(painted.until, stop); x += lanes) {
                 ScarTexel texel;
                 for (std::size_t k = 0; k < scar_planes; ++k)
                     texel.plane[k] = hn::Load(f, bench.scar[k] + x);
