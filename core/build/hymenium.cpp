@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <optional>
 
+#include "core/build/directions.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/surface/charts.h"
@@ -27,16 +28,6 @@ constexpr const Chart& chart = swept_charts[static_cast<std::size_t>(Part::blade
 
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
-double smooth(double t) {
-    const double x = std::clamp(t, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
-
-glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
-    const double square = glm::dot(v, v);
-    return square > 1e-30 ? v / std::sqrt(square) : fallback;
-}
-
 bool is_bladed(HymeniumPattern pattern) {
     return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
 }
@@ -44,7 +35,7 @@ bool is_bladed(HymeniumPattern pattern) {
 /// How deep a blade may be along the meridian: it rises from the stem's skin and runs out towards the margin.
 double envelope(double share) {
     const double out = std::clamp((1.0 - share) / 0.32, 0.0, 1.0);
-    return smooth(share / 0.06) * out * (2.0 - out);
+    return smooth_step(0.0, 1.0, share / 0.06) * out * (2.0 - out);
 }
 
 /// How much of that depth a species uses where its blades meet the stem; they begin at their gap.
@@ -57,7 +48,7 @@ double attachment(const HymeniumOf<Plain>& h, double share) {
 
 /// The same of pores and spines, which stand in the gap too, without any depth.
 double carried(const HymeniumOf<Plain>& h, double share) {
-    return attachment(h, share) * smooth(1.0 + (share - h.inner_gap) / 0.03);
+    return attachment(h, share) * smooth_step(0.0, 1.0, 1.0 + (share - h.inner_gap) / 0.03);
 }
 
 /// How the solids share the triangles there are. What there is of one kind does not change how another looks, as far as the budget
@@ -216,6 +207,9 @@ class Builder {
         double share, angle;
     };
     [[nodiscard]] Spot vertex_near(double share, double angle) const;
+    /// Where a spine or a pore stands: at its own place, or, when all but gone (rooted: 0), at the vertex nearest to it.
+    [[nodiscard]] SurfacePoint cell_root(const CellPlace& cell, double rooted,
+                                         const AxisStation& station) const;
     void append(double shoulder, double waist, bool drawn);
     void vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& along,
                 double u, double v, float hand);
@@ -264,6 +258,15 @@ SurfacePoint Builder::place(Part part, const OutlineSample& sample, double angle
     const glm::dvec3 outward = glm::cross(point.meridian, point.azimuth);
     point.meridian = std::min(along, 1.0) * unit_or(outward, {0.0, -1.0, 0.0});
     return point;
+}
+
+SurfacePoint Builder::cell_root(const CellPlace& cell, double rooted,
+                                const AxisStation& station) const {
+    const double own = 2.0 * pi * cell.turn;
+    const Spot rest = vertex_near(cell.share, own);
+    const double angle = rest.angle + rooted * (own - rest.angle);
+    const double share = ground_.cuts.lower(rest.share + rooted * (cell.share - rest.share), angle);
+    return place(Part::hymenium, root_at(share, rooted), angle, station);
 }
 
 // Roots are sunk into the flesh; those of blades that are all but gone less so (rooted: 1 to 0), or what is left of another species
@@ -418,7 +421,7 @@ void Builder::blades(const Budget& shares) {
             plans_.push_back(plan);
         }
         // Rows crowd where a blade rises at the stem.
-        const double crowding = 0.65 * smooth((0.3 - begin) / 0.3);
+        const double crowding = 0.65 * smooth_step(0.0, 1.0, (0.3 - begin) / 0.3);
         for (int j = 0; j <= shares.segments; ++j) {
             const double t = static_cast<double>(j) / shares.segments;
             const double share = begin + (1.0 - begin) * (t + crowding * (t * t - t));
@@ -427,13 +430,14 @@ void Builder::blades(const Budget& shares) {
             for (const Wearer& w : all) {
                 const Blade& blade = w.on(slot);
                 if (blade.presence <= 0.0) continue;
-                const double rise =
-                    blade.rise > 0.0 ? smooth(0.85 * (share - begin) / blade.rise) : 1.0;
+                const double rise = blade.rise > 0.0
+                                        ? smooth_step(0.0, 1.0, 0.85 * (share - begin) / blade.rise)
+                                        : 1.0;
                 plan.height +=
                     w.weight * blade.presence * rise * w.h->depth * attachment(*w.h, share);
             }
             plan.height *= length * envelope(share) * face_.at(share).scale;
-            plan.height += beyond * (1.0 - smooth(share / 0.25));
+            plan.height += beyond * (1.0 - smooth_step(0.0, 1.0, share / 0.25));
             plans_.push_back(plan);
         }
         for (const Plan& plan : plans_) most = std::max(most, plan.height);
@@ -458,7 +462,8 @@ void Builder::blades(const Budget& shares) {
             // A blade that does not run down the stem begins on the face as sharp as where no species of the set does.
             if (&plan - plans_.data() <= shares.below) plan.half *= std::min(1.0, 12.0 * down);
             plan.stray = left(0.004) * 0.275 * each * std::min(room, 3.0 * half_all) * ripple *
-                         smooth(share / 0.15) * smooth((1.0 - share) / 0.2);
+                         smooth_step(0.0, 1.0, share / 0.15) *
+                         smooth_step(0.0, 1.0, (1.0 - share) / 0.2);
             row(plan, left(0.01));
         }
         append(shoulder, waist, most > 0.0 || ground_.keep_absent);
@@ -483,11 +488,7 @@ void Builder::spines() {
             const double height = own > 0.0 ? own + rooted * at.sink : 0.0;
             const double radius =
                 std::min(0.5 * h.thickness * cell * (0.9 + 0.1 * size), 0.45 * height + 1e-9);
-            const Spot rest = vertex_near(cell_at.share, 2.0 * pi * cell_at.turn);
-            const double angle = rest.angle + rooted * (2.0 * pi * cell_at.turn - rest.angle);
-            const double share =
-                ground_.cuts.lower(rest.share + rooted * (cell_at.share - rest.share), angle);
-            const SurfacePoint root = place(Part::hymenium, root_at(share, rooted), angle, station);
+            const SurfacePoint root = cell_root(cell_at, rooted, station);
             const glm::dvec3 down = unit_or(root.meridian, {0.0, -1.0, 0.0}),
                              round = unit_or(root.azimuth, {1.0, 0.0, 0.0}),
                              out = glm::cross(down, round);
@@ -536,11 +537,7 @@ void Builder::pores(const Budget& shares) {
             const double rooted = std::min(1.0, own / (0.01 * length + 1e-12));
             const double height = own > 0.0 ? own + rooted * at.sink : 0.0;
             const double along = height > 0.0 ? 0.53 * cell : 0.0, round = along / h.elongation;
-            const Spot rest = vertex_near(cell_at.share, 2.0 * pi * cell_at.turn);
-            const double angle = rest.angle + rooted * (2.0 * pi * cell_at.turn - rest.angle);
-            const double share =
-                ground_.cuts.lower(rest.share + rooted * (cell_at.share - rest.share), angle);
-            const SurfacePoint root = place(Part::hymenium, root_at(share, rooted), angle, station);
+            const SurfacePoint root = cell_root(cell_at, rooted, station);
             const glm::dvec3 down = unit_or(root.meridian, {0.0, -1.0, 0.0}),
                              aside = unit_or(root.azimuth, {1.0, 0.0, 0.0}),
                              out = glm::cross(down, aside);

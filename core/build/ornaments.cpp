@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
+#include "core/build/directions.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/surface/charts.h"
@@ -17,21 +18,6 @@ namespace {
 constexpr std::uint32_t corner_purpose = 21, ruffle_purpose = 22, groove_purpose = 23,
                         ring_tear_purpose = 24, sac_purpose = 25;
 constexpr const Chart& veil = swept_charts[static_cast<std::size_t>(Part::veil)];
-
-glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
-    const double square = glm::dot(v, v);
-    return square > 1e-30 ? v / std::sqrt(square) : fallback;
-}
-
-/// `direction` made unit and square to a unit normal; any such direction when it has none.
-glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
-    const glm::dvec3 other =
-        std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
-    // Much shorter than it was: almost parallel to the normal, so its direction is rounding noise.
-    if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, other);
-    return unit_or(other - glm::dot(other, normal) * normal, other);
-}
 
 /// A closed solid made of a grid of corners: rows from its base to its tip, columns round it, the first column repeated.
 struct Solid {

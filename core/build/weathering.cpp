@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <iterator>
 
+#include "core/build/directions.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/marks.h"
@@ -50,19 +51,6 @@ constexpr std::uint64_t drop_vertices = 2 * (drop_sides + 1) + 2;
 constexpr std::uint64_t drop_triangles = 4 * drop_sides;
 constexpr std::uint64_t drip_vertices = drip_rows * (drip_sides + 1) + 2;
 constexpr std::uint64_t drip_triangles = 2 * (drip_rows - 1) * drip_sides + 2 * drip_sides;
-
-glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
-    const double square = glm::dot(v, v);
-    return square > 1e-30 ? v / std::sqrt(square) : fallback;
-}
-
-glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
-    const glm::dvec3 other =
-        std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
-    const glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
-    if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, other);
-    return unit_or(other - glm::dot(other, normal) * normal, other);
-}
 
 // A place slides along its meridian so that the end goes to `last`; what lies within `still` stays.
 double slid(double share, double still, double last) {

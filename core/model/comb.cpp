@@ -37,11 +37,6 @@ int cells_in_row(const CellRows& cells, int row) {
     return std::max(static_cast<int>(count), 3);
 }
 
-double smooth(double t) {
-    const double x = std::clamp(t, 0.0, 1.0);
-    return x * x * (3.0 - 2.0 * x);
-}
-
 }  // namespace
 
 Stand stand_on(int comb, HymeniumPattern pattern, int blades, int tiers) {
@@ -126,7 +121,8 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
                 const double begin =
                     fork_begins[i] + (1.0 - forking) * fork_missing + chance * fork_strays[i];
                 const double gap = 1.0 / (1 << level), left = k * gap;
-                Blade fork{.presence = smooth((1.0 - begin) / 0.12), .begin = std::min(begin, 1.0)};
+                Blade fork{.presence = smooth_step(0.0, 1.0, (1.0 - begin) / 0.12),
+                           .begin = std::min(begin, 1.0)};
                 fork.from = side < 0.0 ? left : left + gap;
                 fork.to = left + 0.5 * gap;
                 put(fork.to, fork);
@@ -172,7 +168,7 @@ void BladeRow::put(double gaps, Blade blade) {
 
 double BladeRow::turn(const Blade& blade, double share) const {
     const double begun = std::max(share - blade.begin, 0.0);
-    const double swung = smooth(begun * fork_swing);
+    const double swung = smooth_step(0.0, 1.0, begun * fork_swing);
     const double turn = turn_of(blade.from + (blade.to - blade.from) * swung);
     return turn - wander_size_ * wander_.at(turn - std::floor(turn), share);
 }
