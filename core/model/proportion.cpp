@@ -83,15 +83,8 @@ OutlineNodes scaled(OutlineNodes nodes, double by) {
 std::optional<CurveName> fault_of(const Outline& outline, int lod) {
     const auto contact = contact_at_rest(polyline(outline, lod));
     if (!contact) return std::nullopt;
-    // The vertex where the later of the two segments ends; or the vertex itself that is on the wrong side of the axis.
-    std::size_t vertex = contact->j == contact->i ? contact->i : contact->j + 1;
-    for (const CurveName curve : {CurveName::stem, CurveName::hymenium}) {
-        const std::size_t rings = outline.rings(curve, lod).size();
-        if (rings == 0) continue;
-        if (vertex < rings) return curve;
-        vertex -= rings - 1;  // joins count once
-    }
-    return CurveName::cap;
+    return curve_of(*contact, outline.rings(CurveName::stem, lod).size(),
+                    outline.rings(CurveName::hymenium, lod).size());
 }
 
 double greatest_radius(const SubCurve& curve) {

@@ -319,6 +319,13 @@ Polyline polyline(const Outline& outline, int lod) {
     return line;
 }
 
+CurveName curve_of(const Contact& contact, std::size_t stem_rings, std::size_t hymenium_rings) {
+    std::size_t vertex = contact.j == contact.i ? contact.i : contact.j + 1;
+    if (vertex < stem_rings) return CurveName::stem;
+    if (stem_rings > 0) vertex -= stem_rings - 1;  // joins count once
+    return vertex < hymenium_rings ? CurveName::hymenium : CurveName::cap;
+}
+
 MorphSet::MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs, double arcs_age) {
     assert(!shapes.empty());
     std::vector<Curves> curves;
@@ -643,16 +650,9 @@ OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
     return mix;
 }
 
-/// The sub-curve of the vertex where the later of two touching segments ends, or of the vertex on the wrong side of the axis.
 CurveName MorphSet::curve_of(const Contact& contact, int lod) const {
-    std::size_t vertex = contact.j == contact.i ? contact.i : contact.j + 1;
-    for (const CurveName curve : {CurveName::stem, CurveName::hymenium}) {
-        const std::size_t rings = places_->of(curve, lod).size();
-        if (rings == 0) continue;
-        if (vertex < rings) return curve;
-        vertex -= rings - 1;  // joins count once
-    }
-    return CurveName::cap;
+    return sporeprint::curve_of(contact, places_->of(CurveName::stem, lod).size(),
+                                places_->of(CurveName::hymenium, lod).size());
 }
 
 Certificate MorphSet::certificate() const {

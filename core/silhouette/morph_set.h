@@ -71,6 +71,11 @@ struct Certificate {
 /// The polyline of an outline's rings, base to apex, joins once.
 [[nodiscard]] Polyline polyline(const Outline& outline, int lod);
 
+/// The sub-curve of a contact on such a polyline: that of the vertex where the later of the two segments ends, or of the vertex
+/// itself that is on the wrong side of the axis. The counts of rings are 0 for a sub-curve that the outline lacks.
+[[nodiscard]] CurveName curve_of(const Contact& contact, std::size_t stem_rings,
+                                 std::size_t hymenium_rings);
+
 class MorphSet {
   public:
     /// Finds what belongs together and how it is blended without folding.
