@@ -7,6 +7,7 @@
 #include "core/gltf/glb.h"
 #include "core/grow/growth.h"
 #include "core/grow/painting.h"
+#include "core/mesh/index_order.h"
 #include "core/params/reader.h"
 
 namespace sporeprint {
@@ -115,9 +116,11 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
 }
 
 Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
-    return swept_mesh(
+    Mesh mesh = swept_mesh(
         individual, order.params.lod,
         {.textured = textured(order), .keep_absent = order.params.animation != Animation::none});
+    order_for_vertex_cache(mesh);
+    return mesh;
 }
 
 Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras,

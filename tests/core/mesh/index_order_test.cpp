@@ -1,0 +1,95 @@
+#include "core/mesh/index_order.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <deque>
+
+#include "core/build/sweep.h"
+#include "core/grow/mushroom.h"
+#include "core/math/random.h"
+#include "tests/support/mixes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+using Triangles = std::vector<std::array<std::uint32_t, 3>>;
+
+/// Corners in their order, from the least: what a triangle is, wherever it begins.
+Triangles triangles_of(const Mesh& mesh) {
+    Triangles all;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        std::array<std::uint32_t, 3> t{mesh.indices[i], mesh.indices[i + 1], mesh.indices[i + 2]};
+        std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+        all.push_back(t);
+    }
+    std::sort(all.begin(), all.end());
+    return all;
+}
+
+/// Vertices worked out per triangle by a processor that remembers the last sixteen.
+double misses(const Mesh& mesh) {
+    std::deque<std::uint32_t> kept;
+    std::size_t missed = 0;
+    for (const std::uint32_t index : mesh.indices) {
+        if (std::find(kept.begin(), kept.end(), index) != kept.end()) continue;
+        ++missed;
+        kept.push_back(index);
+        if (kept.size() > 16) kept.pop_front();
+    }
+    return static_cast<double>(missed) / static_cast<double>(mesh.triangles());
+}
+
+/// A sheet of side x side squares, row by row.
+Mesh sheet(std::uint32_t side) {
+    Mesh mesh;
+    mesh.positions.resize((side + 1) * (side + 1));
+    for (std::uint32_t i = 0; i < side; ++i)
+        for (std::uint32_t j = 0; j < side; ++j) {
+            const std::uint32_t a = i * (side + 1) + j, c = a + side + 1;
+            mesh.indices.insert(mesh.indices.end(), {a, c, a + 1, a + 1, c, c + 1});
+        }
+    return mesh;
+}
+
+TEST(IndexOrder, NothingIsLostTurnedOverOrMoved) {
+    Random random(11, 1);
+    for (int round = 0; round < 50; ++round) {
+        Mesh mesh;
+        mesh.positions.resize(40);
+        for (int i = 0; i < 3 * 60; ++i)
+            mesh.indices.push_back(static_cast<std::uint32_t>(random.uniform() * 40.0));
+        const Triangles before = triangles_of(mesh);
+        order_for_vertex_cache(mesh);
+        EXPECT_EQ(triangles_of(mesh), before);
+        EXPECT_EQ(mesh.positions.size(), 40U);
+    }
+    Mesh none;
+    order_for_vertex_cache(none);
+    EXPECT_TRUE(none.indices.empty());
+}
+
+TEST(IndexOrder, ASheetNeedsTwoThirdsOfAVertexPerTriangle) {
+    Mesh mesh = sheet(60);
+    EXPECT_GT(misses(mesh), 1.0);
+    order_for_vertex_cache(mesh);
+    EXPECT_LT(misses(mesh), 0.68);
+}
+
+TEST(IndexOrder, EveryMushroomIsDrawnInSuchAnOrder) {
+    for (const std::string& id : species_ids())
+        for (const int lod : {0, 1}) {
+            const MushroomOrder order = textured(order_of(id, 0.6, 3, lod));
+            const Individual individual = resolved(order);
+            const Mesh swept = swept_mesh(individual, lod),
+                       drawn = mushroom_mesh(order, individual);
+            EXPECT_EQ(triangles_of(drawn), triangles_of(swept)) << id;
+            EXPECT_EQ(drawn.positions, swept.positions) << id;
+            EXPECT_LT(misses(drawn), 0.9 * misses(swept)) << id << " at LOD " << lod;
+        }
+}
+
+}  // namespace
+}  // namespace sporeprint
