@@ -7,41 +7,12 @@
 #include <span>
 #include <vector>
 
-#include "core/silhouette/correspondence.h"
+#include "core/silhouette/aligned.h"
+#include "core/silhouette/detours.h"
 #include "core/silhouette/outline.h"
 #include "core/silhouette/proof.h"
 
 namespace sporeprint {
-
-/// One control shape of a set: a growth stage of a species, or a model of somebody's own.
-struct ControlShape {
-    Silhouette silhouette;  ///< metres
-    double size =
-        1.0;  ///< metres, > 0; the shape is divided by it, because sizes mix apart from shapes
-    std::size_t kin =
-        0;  ///< shapes of one kin are stages of one species: their control points correspond one to one
-    double age = 0.6;  ///< 0..1; the stage nearest to 0.6 speaks for its kin
-};
-
-/// The designer's own link between the two species of a pair: what belongs together, in shares of arc length of their outlines.
-struct Arc {
-    CurveName curve = CurveName::cap;
-    double a = 0.5;
-    double b = 0.5;
-
-    static constexpr void fields(auto visit) {
-        visit(&Arc::curve, Info{.name = "curve", .doc = "The sub-curve that it links."});
-        visit(&Arc::a, Info{.name = "a",
-                            .min = 0,
-                            .max = 1,
-                            .doc = "Share of the arc length on the first species' outline."});
-        visit(&Arc::b, Info{.name = "b",
-                            .min = 0,
-                            .max = 1,
-                            .doc = "Share of the arc length on the second species' outline."});
-    }
-    bool operator==(const Arc&) const = default;
-};
 
 /// What is known about the outlines between shapes.
 struct Certificate {
@@ -88,7 +59,7 @@ class MorphSet {
     ///           leave their curve (path "/arcs/<i>")
     /// cost      about 1 ms for two kin of four shapes; some ms more where ways fold
     /// source    [Desbenoit2004] sec. 4; [SederbergGreenwood1992]
-    explicit MorphSet(std::vector<ControlShape> shapes, std::span<const Arc> arcs = {},
+    explicit MorphSet(const std::vector<ControlShape>& shapes, std::span<const Arc> arcs = {},
                       double arcs_age = 0.6);
 
     /// The outline of a mix, of unit size: never one that touches itself at any level of detail.
@@ -128,35 +99,22 @@ class MorphSet {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    struct Kin {
-        std::size_t first = 0, count = 0, mature = 0;
-    };
+    MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common);
 
-    /// What a mix of two stages goes by on its way.
-    enum class Via : std::uint8_t { none, mature, bud };
-
-    [[nodiscard]] Via via(std::size_t i, std::size_t j) const {
-        return vias_.empty() ? Via::none : vias_[i * nodes_.size() + j];
-    }
-    [[nodiscard]] std::vector<double> detoured(std::span<const double> weights) const;
     [[nodiscard]] const OutlineNodes& shape(std::size_t s) const {
         return s < nodes_.size() ? nodes_[s] : bud_;
     }
     [[nodiscard]] OutlineNodes unchecked(std::span<const double> weights) const;
     [[nodiscard]] Polyline polyline(const OutlineNodes& nodes, int lod) const;
-    [[nodiscard]] std::size_t kin_of(std::size_t shape) const;
     [[nodiscard]] CurveName curve_of(const Contact& contact, int lod) const;
     [[nodiscard]] bool certified(std::span<const std::size_t> shapes) const;
-    [[nodiscard]] std::vector<std::vector<double>> detoured_way(std::span<const double> from,
-                                                                std::span<const double> to) const;
     [[nodiscard]] bool curved_way_is_simple(std::span<const double> from,
                                             std::span<const double> to) const;
     void certify();
     void choose_detours(std::size_t i, std::size_t j);
 
     std::vector<Kin> kins_;
-    std::vector<Via>
-        vias_;          ///< of shape i where it meets j at [i * shapes + j]; empty: all straight
+    Detours detours_;
     OutlineNodes bud_;  ///< empty where no way leads by it
     bool for_any_weights_ = false;
     std::vector<double> ages_;
