@@ -17,18 +17,20 @@ HWY_INLINE Rgb rgb(const std::array<float, 3>& light) {
     return {set(light[0]), set(light[1]), set(light[2])};
 }
 
-/// What the scars that cross a row have done to its texels, before any colour is changed: the deepest counts, not their sum.
+/// What the scars that cross a row have done to its texels, before any colour is changed: the deepest counts, not their sum. Where all
+/// are 0 a texel stays as it is, to the bit: whole vectors of such are passed over.
 enum ScarPlane {
     scar_open,    ///< how much of the skin is gone, down to the flesh
     scar_sunk,    ///< height to take away, in lengths of the chart
     scar_raised,  ///< height to add
+    scar_lumpy,   ///< height of lumps, below zero in hollows: their sum
     scar_shade,   ///< shade of walls and rims
     scar_stain,   ///< bruised
     scar_water,   ///< under a drop
     scar_near,  ///< crack_window less the distance from the nearest crack's middle, in its half widths
     scar_wide  ///< half width of the cracks near by, in lengths of the chart
 };
-inline constexpr std::size_t scar_planes = 8;
+inline constexpr std::size_t scar_planes = 9;
 inline constexpr float crack_window = 2.5F;
 
 struct ScarTexel {
@@ -60,7 +62,7 @@ HWY_INLINE void lay_line(const Scar& scar, VF x, VF y, ScarTexel& texel) {
         hn::Max(texel.plane[scar_wide], hn::IfThenElseZero(near > zero, set(scar.height)));
 }
 
-/// Opens the skin where cracks run.
+/// Opens the skin where cracks run; elsewhere nothing changes, for a vector may hold both.
 HWY_INLINE void open_cracks(ScarTexel& texel) {
     const VF zero = set(0.0F), one = set(1.0F);
     const VF far = set(crack_window) - texel.plane[scar_near];
@@ -127,7 +129,7 @@ HWY_INLINE void lay_oval(const Scar& scar, VF x, VF y, ScarTexel& texel) {
         default: {
             const VF inside = hn::Max(one - square, zero);
             const VF dome = inside * inside * set(scar.height);
-            texel.plane[scar_raised] = texel.plane[scar_raised] + dome;
+            texel.plane[scar_lumpy] = texel.plane[scar_lumpy] + dome;
             return;
         }
     }
@@ -201,8 +203,8 @@ HWY_INLINE void show_scars(const ScarsPlan& plan, const ScarTexel& scars, VF x, 
         shaded(rgb(plan.flesh), one + fibre * set(0.14F) + cloud * set(0.10F) - set(0.04F));
     texel.colour = mix(texel.colour, flesh, open);
     texel.roughness = mix(texel.roughness, set(0.88F), open);
-    texel.height = texel.height + scars.plane[scar_raised] - scars.plane[scar_sunk] +
-                   fibre * open * set(0.0016F);
+    texel.height = texel.height + scars.plane[scar_lumpy] + scars.plane[scar_raised] -
+                   scars.plane[scar_sunk] + fibre * open * set(0.0016F);
     const VF shade = unit(scars.plane[scar_shade]);
     texel.occlusion = texel.occlusion * (one - set(0.55F) * shade);
     texel.colour = shaded(texel.colour, one - set(0.42F) * shade);

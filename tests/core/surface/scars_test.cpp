@@ -4,8 +4,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <string>
+#include <utility>
 
+#include "core/math/noise.h"
 #include "core/surface/charts.h"
 #include "core/surface/paint.h"
 #include "tests/support/paintings.h"
@@ -88,6 +91,67 @@ TEST(Scars, AllAtOnceAndOnTheSmallestAtlasIsStillAnImage) {
         const RawImages images = paint_raw(params);
         for (const Bytes& image : images.rgb)
             EXPECT_EQ(image.size(), 3U * static_cast<std::size_t>(side * side));
+    }
+}
+
+/// Vectors differ in how many texels they hold, so what a scar does beside another may not depend on which of them share one.
+class ScarsOfEveryInstructionSet : public ::testing::Test {
+  protected:
+    void TearDown() override { force_simd("auto"); }
+};
+
+TEST_F(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
+    for (std::size_t first = 0; first < effects.size(); ++first)
+        for (std::size_t second = first; second < effects.size(); ++second)
+            for (const int side : {32, 128}) {
+                PaintParams params = motley(HymeniumPattern::gills, side);
+                params.seed = static_cast<std::uint32_t>(100 * first + second);
+                params.weathering = {};
+                params.weathering.*effects[first].amount = 0.7;
+                // Little of the second: small scars cross few texels of a vector.
+                params.weathering.*effects[second].amount = 0.08;
+                force_simd("scalar");
+                const RawImages expected = paint_raw(params);
+                for (const std::string& name : simd_names()) {
+                    force_simd(name);
+                    const RawImages found = paint_raw(params);
+                    for (std::size_t i = 0; i < 3; ++i)
+                        EXPECT_TRUE(found.rgb[i] == expected.rgb[i])
+                            << name << ' ' << effects[first].name << ' ' << effects[second].name
+                            << ' ' << side;
+                }
+            }
+}
+
+TEST(Scars, ACrackLeavesTheHollowsBesideItAsDeepAsTheyAre) {
+    // Normals of the cap outside of cracks: what a vector or a drop's window covers besides must not fill them.
+    PaintParams params = clean();
+    params.weathering.bumps = 1.0;
+    const RawImages lumpy = paint_raw(params);
+    for (const auto& [effect, amount] : {std::pair{&P::cracks, 0.3}, std::pair{&P::dew, 0.5}}) {
+        PaintParams both = params, alone = clean();
+        both.weathering.*effect = alone.weathering.*effect = amount;
+        const RawImages worn = paint_raw(alone), plain = paint_raw(clean()),
+                        mixed = paint_raw(both);
+        const auto same = [](const RawImages& a, const RawImages& b, int x, int y, int around) {
+            for (int j = y - around; j <= y + around; ++j)
+                for (int i = x - around; i <= x + around; ++i) {
+                    const std::size_t at = 3U * static_cast<std::size_t>(j * 256 + i);
+                    for (std::size_t c = 0; c < 3; ++c)
+                        if (a.rgb[0][at + c] != b.rgb[0][at + c] ||
+                            a.rgb[1][at + c] != b.rgb[1][at + c])
+                            return false;
+                }
+            return true;
+        };
+        int looked = 0;
+        for (int y = 8; y < 120; ++y)
+            for (int x = 8; x < 120; ++x) {
+                if (!same(worn, plain, x, y, 2)) continue;
+                ++looked;
+                EXPECT_TRUE(same(mixed, lumpy, x, y, 0)) << x << ' ' << y;
+            }
+        EXPECT_GT(looked, 1000);
     }
 }
 
