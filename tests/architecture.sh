@@ -59,6 +59,8 @@ forbid core 'glm::(rotate|angleAxis|slerp|mix\(.*quat|perlin|simplex|linearRand|
 forbid core '\b(Mul(Add|Sub)|NegMul(Add|Sub))\(|\b(SumOfLanes|MinOfLanes|MaxOfLanes|ReduceSum)\(|Approximate[A-Z]' 'differs between SIMD targets'
 forbid core 'std::(stof|stod|strtod|atof|ostringstream|stringstream|istringstream)\b|(^|[^A-Za-z0-9_])(strtod|atof|setlocale)\(' 'numbers go through from_chars and to_chars'
 
+forbid core '(constexpr|const) std::uint32_t [a-z_]*purpose[a-z_]* *=|Random( [a-z_]+)?\([^,()]*(\(\))?, [0-9]' 'purposes of random streams stand in one list, core/model/purposes.h'
+
 # Heavy or narrow headers stay where they belong.
 verdict 'Highway in two places: the noise of core/math and the paint kernels of core/surface' "$(
     code core api server | grep -E '#include [<"]hwy/(highway|foreach_target|contrib)' | cut -d: -f1 | sed 's,/[^/]*$,,' |

@@ -5,12 +5,12 @@
 
 #include "core/math/random.h"
 #include "core/model/proportion.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t lobe_purpose = 4;
 constexpr double least_columns_per_lobe = 2.5;
 constexpr double gather = 0.45;  // how far columns turn towards the front of a fan, radians
 constexpr double crowd = 0.40;   // and then to its sides, where it turns back to the wall
@@ -70,7 +70,7 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
         }
     }
     root_ = low + azimuth_.lobe_root * (high - low);
-    Random random(individual.effective.seed, lobe_purpose);
+    Random random(individual.effective.seed, purposes::lobes);
     phase_ = random.uniform(0.0, 2.0 * pi);
     first_ = random.uniform(0.0, 2.0 * pi);
     second_ = random.uniform(0.0, 2.0 * pi);

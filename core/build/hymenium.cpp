@@ -9,13 +9,13 @@
 #include "core/build/directions.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 #include "core/surface/charts.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t blade_purpose = 24;
 constexpr int stations = 64;       // of the meridian
 constexpr double room_used = 0.6;  // of what lies between the edges and the cap's upper face
 // As many rows to each blade in nearly every set of species: chords of other rows would lie off.
@@ -144,7 +144,7 @@ struct Ripple {
     double size, pitch, phase, other;
 
     Ripple(std::uint32_t seed, int number, double with_size) : size(with_size) {
-        Random random(seed, blade_purpose, static_cast<std::uint32_t>(number));
+        Random random(seed, purposes::blade_ripple, static_cast<std::uint32_t>(number));
         phase = random.uniform();
         other = random.uniform();
         pitch = random.uniform(1.6, 3.4);

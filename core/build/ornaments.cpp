@@ -9,14 +9,13 @@
 #include "core/build/directions.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 #include "core/surface/charts.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t corner_purpose = 21, ruffle_purpose = 22, groove_purpose = 23,
-                        ring_tear_purpose = 24, sac_purpose = 25;
 constexpr const Chart& veil = swept_charts[static_cast<std::size_t>(Part::veil)];
 
 /// A closed solid made of a grid of corners: rows from its base to its tip, columns round it, the first column repeated.
@@ -123,7 +122,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     if (ground.detail.patch_sides == 0) return;
     const PatchStyle& style = layer.style;
     // Positions run up the stem, or from the apex down.
-    const bool on_stem = layer.purpose == volva_purpose;
+    const bool on_stem = layer.purpose == purposes::bulb_scales;
     const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
     const std::vector<double> segments = on_stem ? curve.segment_shares() : std::vector<double>{};
     const double length = ground.outline.cap.length();
@@ -157,7 +156,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         solid.rows = between + 2;
         solid.columns = sides;
         solid.corners.clear();
-        Random random(ground.seed, corner_purpose + layer.purpose, patch.id);
+        Random random(ground.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
         // Seven draws whatever the detail; a coarser outline takes some of them.
         std::array<double, 7> reach{};
         for (double& r : reach) r = random.uniform(0.78, 1.12);
@@ -244,10 +243,11 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     const OutlineSample attachment = stem_at(ground.outline.stem, height);
     const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);
-    Random groove_stream(ground.seed, groove_purpose), tear_stream(ground.seed, ring_tear_purpose);
+    Random groove_stream(ground.seed, purposes::ring_grooves),
+        tear_stream(ground.seed, purposes::ring_tear);
     const int groove_count = 15 + static_cast<int>(groove_stream.bits() % 5);
     const Rents rents(tear_stream, 9, 13);
-    Random random(ground.seed, ruffle_purpose);
+    Random random(ground.seed, purposes::ring_ruffle);
     const int waves = 5 + static_cast<int>(random.bits() % 4);
     const double phase = random.uniform(0.0, 2.0 * pi);
     const double other = random.uniform(0.0, 2.0 * pi);
@@ -326,7 +326,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     const double thickness = std::min(style.thickness, 0.2 * height);
     // On the ground, or where a stem ends that grows from a wall above or below it.
     const double foot = std::min(std::max(ground.deformer.base(), 0.0), ground.deformer.top());
-    Random random(ground.seed, sac_purpose);
+    Random random(ground.seed, purposes::sac);
     const Rents rents(random, 3, 5);
 
     // The stem inside, up to the height of the highest lobe, and its greatest radius so far.

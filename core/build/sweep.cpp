@@ -12,6 +12,7 @@
 #include "core/math/random.h"
 #include "core/mesh/measure.h"
 #include "core/model/proportion.h"
+#include "core/model/purposes.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
 
@@ -19,13 +20,12 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t angle_purpose = 1, dent_purpose = 2;
 constexpr int cap_dents = 7, stem_dents = 4;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
 AxisAngles angles_of(std::uint32_t seed) {
-    Random random(seed, angle_purpose);
+    Random random(seed, purposes::axis_angles);
     const double bend = random.uniform(0.0, 2.0 * pi);
     const double lean = random.uniform(0.0, 2.0 * pi);
     return {bend, lean};
@@ -161,7 +161,7 @@ Deformer::Deformer(const Individual& individual)
     const AzimuthMap azimuth(individual, details[0].columns);
     const auto push_at = [&](std::uint32_t index, const SubCurve& curve, double share, double size,
                              double reach) {
-        Random random(seed, dent_purpose, index);
+        Random random(seed, purposes::dents, index);
         const double angle = random.uniform(0.0, 2.0 * pi);
         const double along = random.uniform();
         const double strength = random.symmetric();

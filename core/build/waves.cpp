@@ -3,18 +3,13 @@
 #include <algorithm>
 
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
-namespace {
-
-constexpr std::uint32_t wave_purpose = 3;
-
-}  // namespace
-
 Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed)
     : amplitude_(amount * 0.16 * cap_radius) {
-    Random random(seed, wave_purpose);
+    Random random(seed, purposes::margin_waves);
     const int coarse = 3 + static_cast<int>(random.bits() % 3);
     const double phase = random.uniform(0.0, 2.0 * pi);
     const double other = random.uniform(0.0, 2.0 * pi);

@@ -11,12 +11,12 @@
 #include "core/math/random.h"
 #include "core/model/marks.h"
 #include "core/model/proportion.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t ragged_purpose = 41, drip_purpose = 42;
 constexpr double whole_turn = 2.0 * pi;
 
 // What stays of a face under the deepest cut.
@@ -92,7 +92,7 @@ Cuts::Cuts(const Individual& individual, int lod) {
     lower_length_ = outline.hymenium.length();
     melts_ = individual.wear.melts;
     melted_ = melted(amounts.deliquescence) * cap_length_;
-    phase_ = Random(individual.effective.seed, ragged_purpose).uniform(0.0, whole_turn);
+    phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
     const double radius = greatest_radius(outline.cap);
     for (const Notch& notch : notches_of(individual, lod)) {
         const double scale = grown(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
@@ -658,7 +658,8 @@ class Weatherer {
     void drips() {
         const double length = individual_.outline.cap.length();
         for (int i = 0; i < carries_.drips; ++i) {
-            Random random(individual_.effective.seed, drip_purpose, static_cast<std::uint32_t>(i));
+            Random random(individual_.effective.seed, purposes::drips,
+                          static_cast<std::uint32_t>(i));
             const double round = random.symmetric();
             const double size = random.uniform(0.5, 1.0);
             const double hang = random.uniform(1.6, 4.2);

@@ -6,12 +6,12 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t hymenium_purpose = 102, wander_purpose = 107;
 constexpr int most_between = 16;  // blades from one that reaches the stem to the next, at most
 
 // The hash of core/math/noise.inl, one lane of it.
@@ -75,7 +75,7 @@ double Wander::at(double turn, double share) const {
 }
 
 Wander wander_of(std::uint32_t seed) {
-    Random random(seed, wander_purpose);
+    Random random(seed, purposes::wander);
     constexpr std::array<int, 4> counts = {2, 5, 11, 19};
     constexpr std::array<double, 4> sizes = {0.34, 0.30, 0.22, 0.14};
     Wander wander;
@@ -88,7 +88,7 @@ Wander wander_of(std::uint32_t seed) {
 }
 
 std::array<std::uint32_t, 8> hymenium_words(std::uint32_t seed) {
-    Random stream(seed, hymenium_purpose);
+    Random stream(seed, purposes::hymenium);
     std::array<std::uint32_t, 8> words{};
     for (std::uint32_t& word : words) word = stream.bits();
     return words;

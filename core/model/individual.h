@@ -23,10 +23,10 @@ struct SpeciesShare {
 
 /// The torn pieces that one species brings to an individual. Species whose pieces have equal places share a layer.
 struct PatchLayer {
-    std::uint32_t purpose = wart_purpose;
-    PatchStyle style;     ///< places are drawn from it, whatever the weight
-    double amount = 0.0;  ///< of the veil or skin: 0..1
-    double weight = 1.0;  ///< of the species in the mix: factor on the size of every piece
+    std::uint32_t purpose = 0;  ///< purposes::warts or another kind of piece
+    PatchStyle style;           ///< places are drawn from it, whatever the weight
+    double amount = 0.0;        ///< of the veil or skin: 0..1
+    double weight = 1.0;        ///< of the species in the mix: factor on the size of every piece
     /// Of pieces on the stem: shares of arc length at which the segments of the mature stem begin, and 1. A piece stays on its
     /// segment, at its share of it.
     std::vector<double> segments{};

@@ -7,13 +7,10 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 namespace {
-
-constexpr std::uint32_t bite_purpose = 31, split_purpose = 32, tongue_purpose = 33,
-                        net_purpose = 34, radial_purpose = 35, furrow_purpose = 36;
-constexpr std::uint32_t mark_purpose = 40;  // 40.. by kind and part
 
 constexpr double whole_turn = 2.0 * pi;
 
@@ -156,7 +153,7 @@ double grown(double onset, double amount) {
 std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed) {
     const Habit habit = habit_of(kind, part);
     const auto purpose =
-        mark_purpose + 4 * static_cast<std::uint32_t>(kind) + static_cast<std::uint32_t>(part);
+        purposes::marks + 4 * static_cast<std::uint32_t>(kind) + static_cast<std::uint32_t>(part);
     std::vector<Mark> out;
     out.reserve(static_cast<std::size_t>(habit.count));
     Random start(seed, purpose, 0x80000000U);
@@ -190,9 +187,9 @@ std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed) {
 std::vector<Notch> bites(std::uint32_t seed) {
     constexpr int count = 4;
     std::vector<Notch> out;
-    const double phase = Random(seed, bite_purpose, 0x80000000U).uniform(0.0, whole_turn);
+    const double phase = Random(seed, purposes::bites, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
-        Random random(seed, bite_purpose, static_cast<std::uint32_t>(i));
+        Random random(seed, purposes::bites, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double width = random.uniform(0.17, 0.36);
         const double depth = random.uniform(0.85, 1.35);
@@ -210,9 +207,9 @@ std::vector<Notch> bites(std::uint32_t seed) {
 std::vector<Notch> splits(std::uint32_t seed) {
     constexpr int count = 13;
     std::vector<Notch> out;
-    const double phase = Random(seed, split_purpose, 0x80000000U).uniform(0.0, whole_turn);
+    const double phase = Random(seed, purposes::splits, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
-        Random random(seed, split_purpose, static_cast<std::uint32_t>(i));
+        Random random(seed, purposes::splits, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double width = random.uniform(0.028, 0.07);
         const double luck = random.uniform();
@@ -252,9 +249,9 @@ double tongue_ragged(const Tongue& tongue, double turn) {
 std::vector<Tongue> tongues(std::uint32_t seed) {
     constexpr int count = 5;
     std::vector<Tongue> out;
-    const double phase = Random(seed, tongue_purpose, 0x80000000U).uniform(0.0, whole_turn);
+    const double phase = Random(seed, purposes::tongues, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
-        Random random(seed, tongue_purpose, static_cast<std::uint32_t>(i));
+        Random random(seed, purposes::tongues, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double width = random.uniform(0.22, 0.55);
         const double reach = random.uniform(0.55, 1.0);
@@ -280,7 +277,7 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
     for (int j = 0; j < seeds_across; ++j)
         for (int i = 0; i < seeds_across; ++i) {
             const auto id = static_cast<std::uint32_t>(j * seeds_across + i);
-            Random random(seed, net_purpose, id);
+            Random random(seed, purposes::crack_net, id);
             const double off_x = random.uniform();
             const double off_y = random.uniform();
             const double strength = random.uniform();
@@ -297,7 +294,7 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
         const auto own = static_cast<std::uint32_t>(out.size());
         const auto near = points.nearest(from.x, from.y, own);
         if (near.any && near.square < net_spacing * net_spacing) continue;
-        Random random(seed, net_purpose, 0x10000U + from.id);
+        Random random(seed, purposes::crack_net, 0x10000U + from.id);
         const SineCosine turn = sine_cosine(random.uniform(0.0, whole_turn));
         // Away from the nearest crack, or anywhere.
         const double away = near.any ? 0.8 : 0.0;
@@ -331,9 +328,10 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
 std::vector<Crack> radial_cracks(std::uint32_t seed) {
     constexpr int count = 44;
     std::vector<Crack> out;
-    const double phase = Random(seed, radial_purpose, 0x80000000U).uniform(0.0, whole_turn);
+    const double phase =
+        Random(seed, purposes::radial_cracks, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
-        Random random(seed, radial_purpose, static_cast<std::uint32_t>(i));
+        Random random(seed, purposes::radial_cracks, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double luck = random.uniform();
         const double rank = random.uniform();
@@ -361,9 +359,9 @@ std::vector<Crack> radial_cracks(std::uint32_t seed) {
 std::vector<Furrow> furrows(std::uint32_t seed) {
     constexpr int count = 15;
     std::vector<Furrow> out;
-    const double phase = Random(seed, furrow_purpose, 0x80000000U).uniform(0.0, whole_turn);
+    const double phase = Random(seed, purposes::furrows, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
-        Random random(seed, furrow_purpose, static_cast<std::uint32_t>(i));
+        Random random(seed, purposes::furrows, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double wander = random.uniform(0.05, 0.16);
         const double start = random.uniform(0.0, whole_turn);

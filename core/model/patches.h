@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/model.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
@@ -33,9 +34,5 @@ inline constexpr double least_window = 1e-6;
 
 /// Size factor 0..1 of a piece when `amount` (0..1) of the veil is left; continuous in amount, 0 when amount is 0.
 [[nodiscard]] double patch_scale(const Patch& patch, double amount);
-
-inline constexpr std::uint32_t wart_purpose = 11;
-inline constexpr std::uint32_t scale_purpose = 12;
-inline constexpr std::uint32_t volva_purpose = 13;
 
 }  // namespace sporeprint

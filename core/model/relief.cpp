@@ -3,17 +3,12 @@
 #include <algorithm>
 
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
-namespace {
-
-constexpr std::uint32_t relief_purpose = 5;
-
-}  // namespace
-
 std::array<std::uint32_t, 3> relief_seeds(std::uint32_t seed) {
-    Random random(seed, relief_purpose);
+    Random random(seed, purposes::relief);
     std::array<std::uint32_t, 3> seeds{};
     for (std::uint32_t& one : seeds) one = random.bits();
     return seeds;

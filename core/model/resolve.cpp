@@ -8,6 +8,7 @@
 #include "core/math/random.h"
 #include "core/model/marks.h"
 #include "core/model/proportion.h"
+#include "core/model/purposes.h"
 #include "core/params/blend.h"
 #include "core/params/canonical.h"
 #include "core/silhouette/weights.h"
@@ -17,7 +18,6 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t variation_purpose = 0;
 constexpr int most_pores = 3000;    // as solids; of more, all live in the images alone
 constexpr double mature_age = 0.6;  // of recorded sizes, for every species
 constexpr double most_natural_fold =
@@ -29,7 +29,7 @@ struct Draws {
 };
 
 Draws draws_of(std::uint32_t seed) {
-    Random random(seed, variation_purpose);
+    Random random(seed, purposes::variation);
     Draws d{};
     d.size = random.symmetric();
     d.stem_length = random.symmetric();
@@ -397,14 +397,14 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const Morp
                  among(sources, alike,
                        [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
                  among(sources, alike, amount), weight,
-                 purpose == volva_purpose ? segments_of(i) : std::vector<double>{}});
+                 purpose == purposes::bulb_scales ? segments_of(i) : std::vector<double>{}});
         }
     };
-    lay(wart_purpose, &Model::warts,
+    lay(purposes::warts, &Model::warts,
         [](const Source& s) -> const double& { return s.now.ornaments.warts; });
-    lay(scale_purpose, &Model::scales,
+    lay(purposes::scales, &Model::scales,
         [](const Source& s) -> const double& { return s.now.ornaments.scales; });
-    lay(volva_purpose, &Model::volva,
+    lay(purposes::bulb_scales, &Model::volva,
         [](const Source& s) -> const double& { return s.now.ornaments.volva; });
     return layers;
 }

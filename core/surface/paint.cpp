@@ -10,6 +10,7 @@
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/comb.h"
+#include "core/model/purposes.h"
 #include "core/params/problems.h"
 #include "core/surface/canvas.h"
 #include "core/surface/charts.h"
@@ -32,15 +33,6 @@ HWY_EXPORT(dissolve_bench_size);
 HWY_EXPORT(weathered_light);
 
 namespace {
-
-// Purposes of the random streams that paint draws from.
-constexpr std::uint32_t cap_purpose = 101;
-constexpr std::uint32_t stem_purpose = 103;
-constexpr std::uint32_t veil_purpose = 104;
-constexpr std::uint32_t coarse_purpose = 105;
-constexpr std::uint32_t outline_purpose = 106;
-constexpr std::uint32_t blade_purpose = 108;  // scales have the one between
-constexpr std::uint32_t flesh_purpose = 109;
 
 constexpr float single(double value) { return static_cast<float>(value); }
 
@@ -115,7 +107,7 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     const double arc = length_of_step(params.metrics.cap_arc);
     plan.disc = cap_disc(arc, length_of_step(params.metrics.cap_radius), frame);
     plan.relief = relief_plan(params);
-    plan.seed = seeds<12>(params.seed, cap_purpose);
+    plan.seed = seeds<12>(params.seed, purposes::cap_paint);
     plan.lightness = single(params.lightness);
     // Slime is smooth, and fills what is uneven.
     plan.roughness = single(cap.roughness + params.slime * (0.12 - cap.roughness));
@@ -245,7 +237,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     const double aspect = std::clamp(length / circumference, 0.02, 40.0);
     const double along = aspect / (share * frame.width);
     const double round = 1.0 / (share * frame.height);
-    plan.seed = seeds<12>(params.seed, stem_purpose);
+    plan.seed = seeds<12>(params.seed, purposes::stem_paint);
     plan.aspect = single(aspect);
     plan.ragged = single(0.10 * std::min(1.0, 1.5 / aspect));
     plan.texel_along = single(along);
@@ -284,7 +276,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
 VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
     VeilPlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, veil_purpose);
+    plan.seed = seeds<4>(params.seed, purposes::veil_paint);
     plan.texel = single(1.0 / (share * frame.width));
     plan.across = single(static_cast<double>(frame.height) / frame.width);
     plan.colour = light_of(params.surface.veil.colour);
@@ -299,7 +291,7 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
     const HymeniumSurface& face = params.surface.hymenium;
     BladePlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, blade_purpose);
+    plan.seed = seeds<4>(params.seed, purposes::blade_paint);
     plan.texel_along = single(1.0 / (share * frame.width));
     const double depth = std::max(params.hymenium.depth, 0.01);
     plan.texel_across = single(depth / (share * frame.height));
@@ -323,7 +315,7 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
 FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
     FleshPlan plan;
     const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
-    plan.seed = seeds<4>(params.seed, flesh_purpose);
+    plan.seed = seeds<4>(params.seed, purposes::flesh_paint);
     plan.texel_along = single(1.0 / (share * frame.width));
     plan.texel_across = single(flesh_width / (share * frame.height));
     plan.colour = light_of(params.surface.flesh.colour);
@@ -343,9 +335,9 @@ double roundness(const DiscPlan& disc, double rho) {
 
 void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t seed,
                  double weight, PaintPlan& plan) {
-    const std::uint32_t purpose = kind == 0 ? wart_purpose : scale_purpose;
+    const bool warts = kind == 0;
     if (amount <= 0.0) return;
-    for (const Patch& patch : patches(style, seed, purpose)) {
+    for (const Patch& patch : patches(style, seed, warts ? purposes::warts : purposes::scales)) {
         const double scale = patch_scale(patch, amount);
         if (scale <= 0.0 || patch.radius <= 0.0) continue;
         // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
@@ -367,7 +359,7 @@ void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t
             single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
         one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
         one.reach = patch_window * single(std::max(length, width));
-        Random stream(seed, outline_purpose + static_cast<std::uint32_t>(kind), patch.id);
+        Random stream(seed, warts ? purposes::wart_outlines : purposes::scale_outlines, patch.id);
         one.seed = stream.bits();
         for (std::size_t side = 0; side < 6; ++side) {
             const double angle = stream.uniform(-0.32, 0.32);
@@ -429,7 +421,7 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
         plan.given[i] = given_image(*uploads[i].upload, plan.frames[i], uploads[i].path);
         turn(plan.given[i], uploads[i].turn);
     }
-    const auto coarse = seeds<5>(params.seed, coarse_purpose);
+    const auto coarse = seeds<5>(params.seed, purposes::clouds);
     plan.disc_step = plan.side >= 512 ? 2 : 1;
     plan.strip_step = std::clamp(plan.side / 256, 1, 8);
     plan.coarse_cells = std::min(64, plan.side / 2);

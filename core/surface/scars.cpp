@@ -6,6 +6,7 @@
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/marks.h"
+#include "core/model/purposes.h"
 #include "core/surface/canvas.h"
 #include "core/surface/charts.h"
 #include "core/surface/paint.h"
@@ -143,7 +144,7 @@ class Planner {
             scar.middle_x = scar.x;
             scar.middle_y = scar.y;
             scar.reach = scar_window * single(std::max(length, width));
-            scar.seed = Random(params_.seed, seed_purpose + static_cast<std::uint32_t>(part),
+            scar.seed = Random(params_.seed, purposes::scars + static_cast<std::uint32_t>(part),
                                static_cast<std::uint32_t>(kind) * 1000U + mark.id)
                             .bits();
             const double shown = std::min(1.0, radius / sheet.texel());
@@ -212,7 +213,7 @@ class Planner {
         const double strain = params_.metrics.radial_strain / 16.0;
         const double radial =
             std::clamp(own < 0.0 ? strain * (1.0 + own) : strain + (1.0 - strain) * own, 0.0, 1.0);
-        const std::uint32_t seed = Random(params_.seed, seed_purpose + 8U).bits();
+        const std::uint32_t seed = Random(params_.seed, purposes::scars + 8U).bits();
         const double net_share = 1.0 - smooth_step(0.55, 1.0, radial);
         const auto pieces = [&](const Crack& crack, auto width_at) {
             for (std::size_t i = 0; i + 1 < crack.points.size(); ++i) {
@@ -251,7 +252,7 @@ class Planner {
     void lay_furrows(double amount) {
         constexpr int steps = 28;
         const double aspect = plan_.stem.aspect;
-        const std::uint32_t seed = Random(params_.seed, seed_purpose + 9U).bits();
+        const std::uint32_t seed = Random(params_.seed, purposes::scars + 9U).bits();
         for (const Furrow& furrow : furrows(params_.seed)) {
             const double scale = grown(furrow.onset, amount);
             if (scale <= 0.0) continue;
@@ -335,11 +336,10 @@ class Planner {
         scar.middle_x = single(middle * turn.cosine);
         scar.middle_y = single(middle * turn.sine);
         scar.reach = single(std::max(1.35 * half_width + 2.0 * rim, 0.5 * out + 0.08) + 0.06);
-        scar.seed = Random(params_.seed, seed_purpose + 7U, id).bits();
+        scar.seed = Random(params_.seed, purposes::scars + 7U, id).bits();
         add(part, scar);
     }
 
-    static constexpr std::uint32_t seed_purpose = 110;  // .. 119
     const PaintParams& params_;
     PaintPlan& plan_;
 };
@@ -377,7 +377,7 @@ void plan_scars(const PaintParams& params, PaintPlan& plan) {
     scars.dusty = light_of(look.dust);
     scars.dust = single(params.weathering.dust);
     scars.melted = single(params.weathering.deliquescence);
-    scars.seed = Random(params.seed, 119U).bits();
+    scars.seed = Random(params.seed, purposes::scar_grain).bits();
     const double gone = melted(params.weathering.deliquescence);
     const double arc = length_of_step(params.metrics.cap_arc),
                  lower = std::max(length_of_step(params.metrics.hymenium_arc), 1e-5);

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/model/proportion.h"
+#include "core/model/purposes.h"
 #include "core/params/reader.h"
 #include "core/silhouette/weights.h"
 #include "tests/support/orders.h"
@@ -125,7 +126,7 @@ TEST(Mix, EachSpeciesBringsItsOwnPiecesAtItsWeight) {
     const Individual mixed = resolve(order, twins);
     std::vector<PatchLayer> warts;
     for (const PatchLayer& layer : mixed.layers)
-        if (layer.purpose == wart_purpose) warts.push_back(layer);
+        if (layer.purpose == purposes::warts) warts.push_back(layer);
     ASSERT_EQ(warts.size(), 2u);
     const auto weights = eased_weights({0.6, 0.4});
     EXPECT_NEAR(warts[0].weight, weights[0], 1e-15);
@@ -197,7 +198,7 @@ TEST(Mix, WhatNoSpeciesOfItCanHaveIsRefused) {
     EXPECT_EQ(mixed.effective.ornaments.warts, 0.25);
     EXPECT_FALSE(mixed.effective.ornaments.scales.has_value());
     for (const PatchLayer& layer : mixed.layers)
-        EXPECT_TRUE(layer.purpose != wart_purpose || layer.amount == 0.25);
+        EXPECT_TRUE(layer.purpose != purposes::warts || layer.amount == 0.25);
 }
 
 TEST(Mix, OnlyAMarginWaves) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 namespace {
@@ -25,7 +26,7 @@ TEST(Patches, LieWhereTheirStyleSays) {
     PatchStyle style = warts();
     style.from = 0.2;
     style.to = 0.9;
-    const std::vector<Patch> found = patches(style, 5, wart_purpose);
+    const std::vector<Patch> found = patches(style, 5, purposes::warts);
     ASSERT_EQ(found.size(), 150U);
     std::size_t crowded_out = 0;
     for (const Patch& patch : found) {
@@ -47,7 +48,7 @@ TEST(Patches, AreEvenlySpreadOverTheHemisphere) {
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         PatchStyle style = warts();
         style.size = 0.01;  // none is crowded out
-        for (const Patch& patch : patches(style, seed, wart_purpose)) {
+        for (const Patch& patch : patches(style, seed, purposes::warts)) {
             ++all;
             if (patch.sigma < 2.0 / 3.0) ++upper;
             if (patch.theta < pi) ++right;
@@ -61,7 +62,7 @@ TEST(Patches, AreEvenlySpreadOverTheHemisphere) {
 TEST(Patches, OverlapByAFifthAtMost) {
     PatchStyle style = warts();
     style.size = 0.08;
-    const std::vector<Patch> found = patches(style, 3, wart_purpose);
+    const std::vector<Patch> found = patches(style, 3, purposes::warts);
     for (std::size_t i = 0; i < found.size(); ++i)
         for (std::size_t j = 0; j < i; ++j) {
             const auto place = [](const Patch& p) {
@@ -79,28 +80,28 @@ TEST(Patches, OverlapByAFifthAtMost) {
 }
 
 TEST(Patches, AreTheIndividualsOwn) {
-    const std::vector<Patch> once = patches(warts(), 5, wart_purpose);
-    const std::vector<Patch> again = patches(warts(), 5, wart_purpose);
+    const std::vector<Patch> once = patches(warts(), 5, purposes::warts);
+    const std::vector<Patch> again = patches(warts(), 5, purposes::warts);
     ASSERT_EQ(once.size(), again.size());
     for (std::size_t i = 0; i < once.size(); ++i) EXPECT_TRUE(same(once[i], again[i]));
-    EXPECT_FALSE(same(once[0], patches(warts(), 6, wart_purpose)[0]));
-    EXPECT_FALSE(same(once[0], patches(warts(), 5, scale_purpose)[0]));
+    EXPECT_FALSE(same(once[0], patches(warts(), 6, purposes::warts)[0]));
+    EXPECT_FALSE(same(once[0], patches(warts(), 5, purposes::scales)[0]));
 }
 
 TEST(Patches, NoneWhereThereIsNoneToPlace) {
     PatchStyle style = warts();
     style.count = 0;
-    EXPECT_TRUE(patches(style, 1, wart_purpose).empty());
+    EXPECT_TRUE(patches(style, 1, purposes::warts).empty());
     style.count = 10;
     style.from = style.to = 0.5;
-    EXPECT_TRUE(patches(style, 1, wart_purpose).empty());
+    EXPECT_TRUE(patches(style, 1, purposes::warts).empty());
 }
 
 TEST(Patches, ASmallChangeOfStyleMovesThemLittle) {
     PatchStyle style = warts();
-    const std::vector<Patch> before = patches(style, 5, wart_purpose);
+    const std::vector<Patch> before = patches(style, 5, purposes::warts);
     style.size *= 1.001;
-    const std::vector<Patch> after = patches(style, 5, wart_purpose);
+    const std::vector<Patch> after = patches(style, 5, purposes::warts);
     std::size_t j = 0;
     for (const Patch& patch : before) {
         while (j < after.size() && after[j].id < patch.id) ++j;
@@ -110,7 +111,7 @@ TEST(Patches, ASmallChangeOfStyleMovesThemLittle) {
 }
 
 TEST(Patches, ShrinkToNothingAsTheVeilIsWashedOff) {
-    for (const Patch& patch : patches(warts(), 5, wart_purpose)) {
+    for (const Patch& patch : patches(warts(), 5, purposes::warts)) {
         EXPECT_EQ(patch_scale(patch, 0.0), 0.0);
         EXPECT_EQ(patch_scale(patch, 1.0), 1.0);
         double last = 0.0;

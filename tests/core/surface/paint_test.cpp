@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/math/noise.h"
+#include "core/model/purposes.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
 #include "core/surface/codecs.h"
@@ -157,7 +158,7 @@ TEST_F(Paint, ABumpFacesAwayFromItsMiddle) {
     params.warts.size = 0.3;
     params.warts.height = 2.0;
     params.ornaments.warts = 1.0;
-    const Patch wart = patches(params.warts, params.seed, wart_purpose).at(0);
+    const Patch wart = patches(params.warts, params.seed, purposes::warts).at(0);
     const RawImages images = paint_raw(params);
     const TexturePoint middle =
         disc_point(swept_charts[0], wart.sigma, std::cos(wart.theta), std::sin(wart.theta));

@@ -1,0 +1,110 @@
+// The one list of what random draws are for: each purpose is a stream of its own (core/math/random.h), so that a new draw in one
+// place changes nothing elsewhere.
+#pragma once
+
+#include <cstdint>
+
+/// What a stream of draws is for. A number once given stays: another one is another individual for every seed.
+namespace sporeprint::purposes {
+
+enum Purpose : std::uint32_t {
+    variation = 0,    ///< how an individual differs from its species
+    axis_angles = 1,  ///< which way a body leans and bends
+    dents = 2,        ///< small deformations
+    margin_waves = 3,
+    lobes = 4,   ///< azimuth: fans, lobes, rays
+    relief = 5,  ///< folds, pits and tiers
+    warts = 11,  ///< places of warts; so for the two below
+    scales = 12,
+    bulb_scales = 13,
+    ring_ruffle = 22,
+    ring_grooves = 23,
+    ring_tear = 24,
+    sac = 25,
+    corners = 26,       ///< outlines of solid warts, scales and bulb scales
+    blade_ripple = 29,  ///< how single gills stray
+    bites = 31,
+    splits = 32,
+    tongues = 33,
+    crack_net = 34,
+    radial_cracks = 35,
+    furrows = 36,
+    ragged = 37,  ///< edge of what is torn or dissolved
+    drips = 38,
+    marks = 40,  ///< of four kinds on four parts
+    cap_paint = 101,
+    hymenium = 102,  ///< places of gills, ridges, pores and spines
+    stem_paint = 103,
+    veil_paint = 104,
+    clouds = 105,         ///< slowly varying fields of paint
+    wart_outlines = 106,  ///< painted
+    wander = 107,         ///< how all gills stray together
+    blade_paint = 108,
+    flesh_paint = 109,
+    scars = 110,           ///< painted, of ten kinds
+    scale_outlines = 120,  ///< painted
+    scar_grain = 121,
+};
+
+/// How many numbers a purpose takes, itself the first; 0: no purpose begins here. Lists all of them: the compiler refuses two that
+/// are equal, and one that is forgotten.
+[[nodiscard]] constexpr std::uint32_t numbers_of(Purpose which) {
+    switch (which) {
+        case marks:
+            return 16;
+        case scars:
+            return 10;
+        case corners:
+            return 3;
+        case variation:
+        case axis_angles:
+        case dents:
+        case margin_waves:
+        case lobes:
+        case relief:
+        case warts:
+        case scales:
+        case bulb_scales:
+        case ring_ruffle:
+        case ring_grooves:
+        case ring_tear:
+        case sac:
+        case blade_ripple:
+        case bites:
+        case splits:
+        case tongues:
+        case crack_net:
+        case radial_cracks:
+        case furrows:
+        case ragged:
+        case drips:
+        case cap_paint:
+        case hymenium:
+        case stem_paint:
+        case veil_paint:
+        case clouds:
+        case wart_outlines:
+        case wander:
+        case blade_paint:
+        case flesh_paint:
+        case scale_outlines:
+        case scar_grain:
+            return 1;
+    }
+    return 0;
+}
+
+/// Whether no number belongs to two purposes below `end`.
+[[nodiscard]] constexpr bool are_apart(std::uint32_t end) {
+    std::uint32_t free_from = 0;
+    for (std::uint32_t number = 0; number < end; ++number) {
+        const std::uint32_t numbers = numbers_of(static_cast<Purpose>(number));
+        if (numbers == 0) continue;
+        if (number < free_from) return false;
+        free_from = number + numbers;
+    }
+    return true;
+}
+static_assert(are_apart(1000), "two purposes would share their draws");
+
+}  // namespace sporeprint::purposes
