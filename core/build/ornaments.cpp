@@ -128,6 +128,8 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     const double length = ground.outline.cap.length();
     const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
     // An outline with fewer corners stands wider, so that it covers as much.
+    // Low pieces are cushions, tall ones spines.
+    const double pointed = smooth_step(0.9, 1.5, style.height);
     const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
     const double wider = std::sqrt(covered(details[0].patch_sides) / covered(sides));
     Solid solid;
@@ -173,7 +175,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
             radius * (tip_round * round + tip_outward * style.elongation * outward);
         for (int i = 0; i < solid.rows; ++i) {
             const double up = static_cast<double>(i) / (solid.rows - 1);
-            const double narrowing = 1.0 - up * (0.45 + 0.55 * up);
+            const double narrowing = (1.0 - up) * (1.0 + 0.55 * up * (1.0 - 2.2 * pointed));
             const glm::dvec3 middle =
                 centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * normal;
             for (int j = 0; j < sides; ++j)
@@ -324,40 +326,65 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     if (rings == 0 || !individual.has_sac) return;
     const double height = style.height;
     const double thickness = std::min(style.thickness, 0.2 * height);
-    // On the ground, or where a stem ends that grows from a wall above or below it.
-    const double foot = std::min(std::max(ground.deformer.base(), 0.0), ground.deformer.top());
+    // From under the bulb, or where a stem ends that grows from a wall above or below it; a low one holds the bulb too, but what is all
+    // but gone holds nothing.
+    const double level = std::min(std::max(ground.deformer.base(), 0.0), ground.deformer.top());
+    const double buried = std::min(std::max(level - ground.deformer.base(), 0.0), 8.0 * height);
     Random random(ground.seed, purposes::sac);
     const Rents rents(random, 3, 5);
+    Random fold_stream(ground.seed, purposes::sac_folds);
+    const int folds = 5 + static_cast<int>(fold_stream.bits() % 3);
+    std::array<double, 3> phases{};
+    for (double& phase : phases) phase = fold_stream.uniform(0.0, 2.0 * pi);
+    const double lean = fold_stream.uniform(-1.5, 1.5);
 
-    // The stem inside, up to the height of the highest lobe, and its greatest radius so far.
-    constexpr int samples = 24;
-    struct Girth {
-        double r, widest;
+    // The way of its skin: along the stem up to where that is widest, and on from there by itself.
+    constexpr int samples = 48;
+    struct Way {
+        double r, y, normal_r, normal_y;
+        double clear;  // how far it is from the stem
+        double above;  // 0 at the ground, 1 at the highest lobe
     };
-    std::array<Girth, samples + 1> girths{};
+    std::array<Way, samples + 1> way{};
     double widest = 0.0;
     for (int i = 0; i <= samples; ++i) {
-        const double r = stem_at(ground.outline.stem, foot + height * i / samples).r;
-        widest = std::max(widest, r);
-        girths[static_cast<std::size_t>(i)] = {r, widest};
+        // Rows crowd under the bulb, where the stem turns.
+        const double share = static_cast<double>(i) / samples;
+        const double climb = share * (0.12 + 0.88 * share);
+        const double y = level - buried + (buried + height) * climb;
+        const OutlineSample stem = stem_at(ground.outline.stem, y);
+        const double above = height > 0.0 ? std::clamp((y - level) / height, 0.0, 1.0) : 0.0;
+        widest = std::max(widest, stem.r);
+        const double held = style.hold * (widest - stem.r);
+        const double off = held + style.gap * height * above * above;
+        const bool free = stem.r < widest;
+        way[static_cast<std::size_t>(i)] = {
+            stem.r + off, stem.y, free ? 1.0 : stem.tangent_y, free ? 0.0 : -stem.tangent_r,
+            off,          above};
     }
-    const auto girth_at = [&](double share) {
+    const auto way_at = [&](double share) {
         const double place = share * samples;
         const auto k =
             static_cast<std::size_t>(std::min<int>(static_cast<int>(place), samples - 1));
-        const double beyond = place - static_cast<double>(k);
-        const Girth &a = girths[k], &b = girths[k + 1];
-        return Girth{a.r + beyond * (b.r - a.r), a.widest + beyond * (b.widest - a.widest)};
+        const double t = place - static_cast<double>(k);
+        const Way &a = way[k], &b = way[k + 1];
+        const auto mix = [t](double x, double y) { return x + t * (y - x); };
+        return Way{mix(a.r, b.r),
+                   mix(a.y, b.y),
+                   mix(a.normal_r, b.normal_r),
+                   mix(a.normal_y, b.normal_y),
+                   mix(a.clear, b.clear),
+                   mix(a.above, b.above)};
     };
-    // Inside the stem at its foot, outside of it before long, standing off at its edge.
-    const double sunk = std::min(0.06 * girths[0].r, 0.25 * height);
-    const auto radius_at = [&](double share) {
-        const Girth girth = girth_at(share);
-        const double off = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.22, share) - sunk;
-        return std::max(girth.r + style.hold * (girth.widest - girth.r) + off +
-                            style.gap * height * share * share,
-                        thickness);
+    // Folds too fine for these columns would beat with them.
+    const bool fine = 4 * (2 * folds + 1) <= ground.detail.columns;
+    const auto fold_at = [&](double angle, double share) {
+        const double coarse = sine(folds * angle + phases[0] + lean * share);
+        return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases[1]) +
+               (fine ? 0.2 * sine((2 * folds + 1) * angle + phases[2] - lean * share) : 0.0);
     };
+    // Inside the stem where it begins, outside of it before long.
+    const double sunk = std::min(0.02 * widest, 0.25 * height);
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
@@ -365,13 +392,18 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
         for (int j = 0; j <= ground.detail.columns; ++j) {
             const double angle =
                 -2.0 * pi * (j % ground.detail.columns) / ground.detail.columns;  // as the ring
-            const double up = share * (1.0 - 0.8 * style.tear * rents.at(angle));
-            // The skin thins towards its edge.
+            const double up = 0.01 + 0.99 * share * (1.0 - 0.62 * style.tear * rents.at(angle));
+            const Way at = way_at(up);
+            // The skin thins towards its edge, lies in folds where it is loose, and its lobes bend out or in.
             const double half = (outside ? 0.5 : -0.5) * thickness * (1.2 - 0.6 * share);
-            const double r = radius_at(up) + half;
+            const double fold = fold_at(angle, up);
+            const double loose = at.clear * (0.5 * fold - 0.12 * at.above);
+            const double rise = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.16, share) - sunk;
+            const double off = half + rise + std::max(loose, -0.8 * at.clear);
+            const double r = std::max(at.r + off * at.normal_r, thickness + half);
             const auto turn = sine_cosine(angle);
-            glm::dvec3 place =
-                ground.skin.azimuth().moved({r * turn.cosine, foot + height * up, r * turn.sine});
+            glm::dvec3 place = ground.skin.azimuth().moved(
+                {r * turn.cosine, at.y + off * at.normal_y, r * turn.sine});
             ground.deformer.apply(std::span(&place, 1), ground.deformer.station(std::min(
                                                             place.y, ground.deformer.top())));
             solid.corners.push_back(place);

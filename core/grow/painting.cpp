@@ -39,10 +39,7 @@ std::vector<int> weights_of(const Mix& mix) {
     return weights;
 }
 
-bool has_blades(const Model& model) {
-    const HymeniumPattern pattern = model.surface.hymenium.pattern;
-    return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
-}
+bool has_blades(const Model& model) { return is_bladed(model.surface.hymenium.pattern); }
 
 // Of a species' sixty-fourths in a mix, how many are painted with its blades where they stand when it is alone: none up to three
 // quarters, all when it is alone, without a step between.
@@ -179,7 +176,6 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         const HymeniumOf<Plain> unshaped;
         painting.hymenium.inner_depth = unshaped.inner_depth;
         painting.hymenium.notch = unshaped.notch;
-        painting.hymenium.decurrent = unshaped.decurrent;
         painting.hymenium.edge_waves = unshaped.edge_waves;
         painting.cells = individual.parts[i].cells;
         painting.warts = model.warts;

@@ -173,6 +173,23 @@ double BladeRow::turn(const Blade& blade, double share) const {
     return turn - wander_size_ * wander_.at(turn - std::floor(turn), share);
 }
 
+std::vector<CrossVein> cross_veins(int ridges, double forking, std::uint32_t seed) {
+    const std::uint32_t word = hymenium_words(seed)[4];
+    const int rows = cross_vein_rows(ridges);
+    std::vector<CrossVein> veins;
+    for (int row = 0; row < rows; ++row)
+        for (int ridge = 0; ridge < ridges; ++ridge) {
+            const int whole = ridge + vein_rows_apart * row;
+            const auto lot = [&](std::uint32_t which) {
+                return static_cast<double>(lot_of(whole, word + which));
+            };
+            veins.push_back(
+                {ridge, (row + 0.5 + vein_stray * lot(0)) / rows, vein_tilt * lot(1) / rows,
+                 std::clamp(vein_steepness * (veins_there(forking) - 0.5 * lot(2)), 0.0, 1.0)});
+        }
+    return veins;
+}
+
 int cell_count(const CellRows& cells) {
     int count = 0;
     for (int row = 0; row < cells.rows; ++row) count += cells_in_row(cells, row);

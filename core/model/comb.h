@@ -19,6 +19,10 @@ struct Comb {
     bool operator==(const Comb&) const = default;
 };
 
+[[nodiscard]] constexpr bool is_bladed(HymeniumPattern pattern) {
+    return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
+}
+
 /// How a species stands its blades on the comb of its set. Tiers fill up one after another; a species with so few blades that all
 /// would reach the stem keeps its own tiers instead, each blade on a slot.
 struct Stand {
@@ -68,7 +72,7 @@ struct Wander {
 /// Like a cosine of period 1: 1 at whole numbers, -1 half-way between; a cubic.
 [[nodiscard]] double cubic_wave(double t);
 
-/// Words that the places of an individual's hymenium are drawn from; 2 and 3 belong to blades, 5 to cells.
+/// Words that the places of an individual's hymenium are drawn from; 2 and 3 belong to blades, 4 to cross veins, 5 to cells.
 [[nodiscard]] std::array<std::uint32_t, 8> hymenium_words(std::uint32_t seed);
 
 /// Number in -1..1 that belongs to a whole number; equal to what paint draws, to the bit.
@@ -105,6 +109,29 @@ class BladeRow {
     Wander wander_;
     std::vector<Blade> blades_;
 };
+
+/// A low fold that joins a ridge to the next one round the axis.
+struct CrossVein {
+    int ridge = 0;        ///< it begins at; the next one is where it ends
+    double share = 0.0;   ///< of the meridian, half-way between both
+    double tilt = 0.0;    ///< share at the next ridge less that at its own
+    double height = 0.0;  ///< 0..1: 0 where ridges are not joined
+};
+/// Rows of cross veins from the stem to the margin: one in each gap, as far as a species may have so many.
+[[nodiscard]] constexpr int cross_vein_rows(int ridges) {
+    const int rows = 320 / (ridges > 0 ? ridges : 1);
+    return rows < 7 ? rows : 7;
+}
+/// How far they stray in their rows, how much they tilt, and how wide they are, in rows.
+inline constexpr double vein_stray = 0.36, vein_tilt = 0.4, vein_width = 0.11;
+/// Of each whole number there is one vein: that of gap k in row j has k + vein_rows_apart * j.
+inline constexpr int vein_rows_apart = 512;
+/// How many there are: this less what a vein draws, times the steepness, is its height.
+[[nodiscard]] constexpr double veins_there(double forking) { return 1.3 * forking - 0.35; }
+inline constexpr double vein_steepness = 4.0;
+
+/// The cross veins of a species with so many ridges: those without height too, so that no age changes their number.
+[[nodiscard]] std::vector<CrossVein> cross_veins(int ridges, double forking, std::uint32_t seed);
 
 /// Rows of cells (pores, spines) from the stem to the margin; row j has max(floor(from + grow * (j + 0.5)), 3) of them.
 struct CellRows {

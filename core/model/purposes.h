@@ -23,6 +23,7 @@ enum Purpose : std::uint32_t {
     sac = 25,
     corners = 26,       ///< outlines of solid warts, scales and bulb scales
     blade_ripple = 29,  ///< how single gills stray
+    sac_folds = 30,
     bites = 31,
     splits = 32,
     tongues = 33,
@@ -70,6 +71,7 @@ enum Purpose : std::uint32_t {
         case ring_tear:
         case sac:
         case blade_ripple:
+        case sac_folds:
         case bites:
         case splits:
         case tongues:

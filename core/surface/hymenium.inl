@@ -8,7 +8,7 @@
 #endif
 
 #include "core/model/comb.h"
-#include "core/surface/texel.inl"
+#include "core/surface/comb.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
@@ -33,50 +33,12 @@ HWY_INLINE VF wrapped(VF x, float period) {
     return x - hn::IfThenElseZero(x >= set(period), set(period));
 }
 
-/// Where a texel lies among the blades that reach the stem.
-struct Among {
-    VF x;     ///< the k-th blade stands at k
-    VF wide;  ///< width of the gap here over that of the others
-};
-
-/// Slot of the k-th blade: the one nearest to its even place. Not quite a half, so that a place half-way between two goes one
-/// way however it is rounded.
-HWY_INLINE VF slot_of(const HymeniumPlan& plan, VF k) {
-    return hn::Floor(k * set(plan.slots / plan.stands) + set(0.501F));
-}
-
-/// Blades that stand evenly; or, on a comb with more of them, each on a slot. `bend`: how far `wander` moves them, in turns.
-HWY_INLINE Among comb_of(const HymeniumPlan& plan, VF turn, VF wander, float bend) {
-    if (plan.slots == 0.0F) {
-        const float n = static_cast<float>(plan.blades);
-        return {turn * set(n) + wander * set(n * bend), set(1.0F)};
-    }
-    const VF one = set(1.0F);
-    const VF x = turn * set(plan.slots) + wander * set(plan.slots * bend);
-    VF k = hn::Floor(x * set(plan.stands / plan.slots));
-    k = k - hn::IfThenElseZero(slot_of(plan, k) > x, one);
-    k = k + hn::IfThenElseZero(slot_of(plan, k + one) <= x, one);
-    const VF from = slot_of(plan, k);
-    const VF wide = slot_of(plan, k + one) - from;
-    return {(k + (x - from) / wide) * set(1.0F / plan.stride),
-            wide * set(plan.stands / plan.slots)};
-}
-
-/// How far blades stray from their meridians, -1..1.
-HWY_INLINE VF wander_at(const HymeniumPlan& plan, VF turn, VF share) {
-    VF sum = set(0.0F);
-    for (const WavePlan& one : plan.wander)
-        sum = sum +
-              wave(turn * set(one.count) + share * set(one.lean) + set(one.phase)) * set(one.size);
-    return sum;
-}
-
 /// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from
 /// its own radius outwards.
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
-    const float n = static_cast<float>(plan.blades);
-    const auto [x, wide] = comb_of(plan, turn, wander, static_cast<float>(gill_wander));
+    const float n = static_cast<float>(plan.comb.blades);
+    const auto [x, wide] = comb_of(plan.comb, turn, wander);
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
@@ -113,8 +75,8 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
 /// another from each half.
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
-    const float n = static_cast<float>(plan.blades);
-    const auto [x, wide] = comb_of(plan, turn, wander, static_cast<float>(ridge_wander));
+    const float n = static_cast<float>(plan.comb.blades);
+    const auto [x, wide] = comb_of(plan.comb, turn, wander);
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
@@ -140,11 +102,30 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
     const VF half = gap * room * set(0.5F);
     Slot slot;
     slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.12F, 1.15F);
-    // Cross veins, low and thin.
-    const VF vein = periodic_noise2(turn * set(2.0F * n) + wander * set(0.6F), share * set(13.0F),
-                                    2 * plan.blades, plan.seed[4]);
-    const VF cross = (one - smooth(hn::Abs(vein), 0.03F, 5.5F)) * set(0.55F * plan.forking);
-    slot.depth = slot.depth * (one - cross);
+    // Cross veins, low and thin; those of the rows above and below may reach over.
+    if (plan.vein_rows > 0) {
+        const VF ridge = hn::Floor(x);
+        const VF within = x - ridge - set(0.5F);
+        const VF along = share * set(static_cast<float>(plan.vein_rows));
+        VF cross = set(0.0F);
+        for (int j = -1; j <= 1; ++j) {
+            const VF row = hn::Floor(along) + set(static_cast<float>(j));
+            const VF whole = wrapped(ridge, n) + row * set(static_cast<float>(vein_rows_apart));
+            const VF middle =
+                row + set(0.5F) + lot(whole, plan.seed[4]) * set(static_cast<float>(vein_stray));
+            const VF tilt = lot(whole, plan.seed[4] + 1U) * set(static_cast<float>(vein_tilt));
+            const VF there =
+                unit((set(plan.veins_there) - lot(whole, plan.seed[4] + 2U) * set(0.5F)) *
+                     set(static_cast<float>(vein_steepness)));
+            const VF far = hn::Abs(along - middle - tilt * within);
+            const VF vein = one - smooth(far, 0.3F * static_cast<float>(vein_width),
+                                         0.6F / static_cast<float>(vein_width));
+            const auto inside =
+                hn::And(row >= set(0.0F), row < set(static_cast<float>(plan.vein_rows)));
+            cross = hn::Max(cross, hn::IfThenElseZero(inside, vein * there));
+        }
+        slot.depth = slot.depth * (one - set(0.45F) * cross);
+    }
     slot.visible = shown(gap_texels * room, 4.0F);
     return slot;
 }
@@ -212,8 +193,8 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
     } else {
         const VF turn = turn_of(p.cosine, p.sine);
         const Slot slot =
-            plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan, turn, share))
-            : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan, turn, share))
+            plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan.comb, turn, share))
+            : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan.comb, turn, share))
             : plan.pattern == 3 ? pores(plan, share, turn)
                                 : teeth(plan, share, turn);
         const float mean_depth = plan.pattern >= 3 ? 0.5F : 0.45F;
@@ -235,7 +216,7 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
             occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
         const VF period = plan.pattern >= 3
                               ? set(1.0F / plan.pore_rows)
-                              : p.radius * set(6.2831853F / static_cast<float>(plan.blades));
+                              : p.radius * set(6.2831853F / static_cast<float>(plan.comb.blades));
         const VF rise = (one - deep) * slot.visible * period * carried;
         height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
     }

@@ -158,6 +158,45 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
+Stand stand_of(const PaintParams& params) {
+    return stand_on(params.comb, params.surface.hymenium.pattern, params.hymenium.blades,
+                    params.hymenium.tiers);
+}
+
+CombPlan comb_plan(const PaintParams& params, const Stand& stand) {
+    CombPlan plan;
+    plan.blades = stand.blades;
+    plan.slots = static_cast<float>(stand.slots);
+    plan.stands = static_cast<float>(stand.stands);
+    plan.stride = static_cast<float>(stand.stride);
+    const bool ridges = params.surface.hymenium.pattern == HymeniumPattern::ridges;
+    plan.bend = single(ridges ? ridge_wander : gill_wander);
+    const Wander wander = wander_of(params.seed);
+    for (std::size_t i = 0; i < wander.waves.size(); ++i) {
+        const Wander::Wave& wave = wander.waves[i];
+        plan.wander[i] = {single(wave.count), single(wave.lean), single(wave.size),
+                          single(wave.phase)};
+    }
+    return plan;
+}
+
+// What pale walls give back to each other, as a share of the light that meets them.
+double given_back(Colour colour) {
+    const Light light = light_of(colour);
+    return std::min(0.8, 0.8 * static_cast<double>(light.r + light.g + light.b) / 3.0);
+}
+
+// Light at the bottom of a slot between blades: one as deep as `steep` times its width sees that little of the sky, and the rest of
+// what it sees are walls. Ridges are shallow folds, spines stand apart.
+double slot_occlusion(const PaintParams& params) {
+    const HymeniumSurface& face = params.surface.hymenium;
+    const bool open =
+        face.pattern == HymeniumPattern::ridges || face.pattern == HymeniumPattern::teeth;
+    const double steep = (open ? 0.6 : 1.6) * params.hymenium.relief;
+    const double sky = std::sqrt(1.0 + steep * steep) - steep;
+    return sky / (1.0 - given_back(face.colour) * (1.0 - sky));
+}
+
 HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     const HymeniumSurface& face = params.surface.hymenium;
     HymeniumPlan plan;
@@ -170,12 +209,6 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.disc.cone_from = single(inner / unit);
     plan.disc.cone_grow = single((outer - inner) / unit);
     plan.seed = hymenium_words(params.seed);
-    const Wander wander = wander_of(params.seed);
-    for (std::size_t i = 0; i < wander.waves.size(); ++i) {
-        const Wander::Wave& wave = wander.waves[i];
-        plan.wander[i] = {single(wave.count), single(wave.lean), single(wave.size),
-                          single(wave.phase)};
-    }
     plan.colour = light_of(face.colour);
     plan.edge = light_of(face.edge);
     plan.depth = light_of(face.depth);
@@ -189,22 +222,16 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
     plan.mottle = single(face.mottle);
-    const Stand stand =
-        stand_on(params.comb, face.pattern, params.hymenium.blades, params.hymenium.tiers);
-    plan.blades = stand.blades;
+    const Stand stand = stand_of(params);
+    plan.comb = comb_plan(params, stand);
     plan.tiers = stand.tiers;
     plan.last_tier = single(stand.last_tier);
-    plan.slots = static_cast<float>(stand.slots);
-    plan.stands = static_cast<float>(stand.stands);
-    plan.stride = static_cast<float>(stand.stride);
     plan.inner_gap = single(params.hymenium.inner_gap);
     plan.bare_slope = single(1.0 / std::max(0.9 * params.hymenium.inner_gap, 1e-3));
     plan.forking = single(params.hymenium.forking);
-    // The bottom of a slot as deep as `steep` times its width sees that little of the sky; ridges
-    // are shallow folds.
-    const double steep =
-        (face.pattern == HymeniumPattern::ridges ? 0.6 : 1.6) * params.hymenium.relief;
-    plan.slot_occlusion = single(std::sqrt(1.0 + steep * steep) - steep);
+    plan.vein_rows = cross_vein_rows(stand.blades);
+    plan.veins_there = single(veins_there(params.hymenium.forking));
+    plan.slot_occlusion = single(slot_occlusion(params));
     plan.blade = single(0.5 * params.hymenium.thickness * 2.0 * pi * outer / unit /
                         (params.hymenium.blades * (1 << params.hymenium.tiers)));
     // Elongated pores stand in fewer rows.
@@ -267,6 +294,21 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     if (plan.fibrils > 0.0F) plan.fields |= (1U << stem_fibre) | (1U << stem_furrow);
     plan.bands = single(stem.bands);
     plan.net = single(stem.net);
+    const HymeniumSurface& face = params.surface.hymenium;
+    if (is_bladed(face.pattern) && params.hymenium.decurrent > 0.0) {
+        const Stand stand = stand_of(params);
+        plan.comb = comb_plan(params, stand);
+        plan.gills = single(params.hymenium.decurrent);
+        plan.gill_half = single(std::min(
+            0.36, 0.5 * params.hymenium.thickness * length_of_step(params.metrics.cap_radius) *
+                      2.0 * pi / circumference / (1 << params.hymenium.tiers)));
+        plan.gill_relief = single(0.22 * params.hymenium.relief / stand.blades);
+        plan.gill_occlusion = single(slot_occlusion(params));
+        plan.gill_shown = single(std::clamp((1.0 / (stand.blades * round) - 2.0) / 2.0, 0.0, 1.0));
+        plan.gill_colour = light_of(face.colour);
+        plan.gill_edge = light_of(face.edge);
+        plan.gill_depth = light_of(face.depth);
+    }
     plan.net_shown = shown_of(1.0 / (static_cast<double>(net_columns) *
                                      std::max(round, along / static_cast<double>(net_stretch))) -
                               1.0);
@@ -308,6 +350,7 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
         2.0 * pi * radius /
         static_cast<double>(params.hymenium.blades << std::min(params.hymenium.tiers, 1));
     plan.steep = single(std::clamp(params.hymenium.relief * depth * arc / gap, 0.2, 6.0));
+    plan.pale = single(given_back(face.colour));
     plan.grain = shown_of(share * frame.width / static_cast<double>(blade_grain));
     return plan;
 }

@@ -123,6 +123,16 @@ struct WavePlan {
     float count = 1.0F, lean = 0.0F, size = 0.0F, phase = 0.0F;
 };
 
+/// Blades round the axis.
+struct CombPlan {
+    int blades = 60;  ///< that reach the stem
+    // Blades on the slots of a comb with more: `slots` slots for `stands` blades, of which each `stride`-th reaches the stem.
+    // No slots: the blades stand where they like.
+    float slots = 0.0F, stands = 0.0F, stride = 1.0F;
+    std::array<WavePlan, 4> wander{};
+    float bend = 0.0F;  ///< how far `wander` moves them, in turns
+};
+
 struct HymeniumPlan {
     DiscPlan disc;
     std::array<std::uint32_t, 8> seed{};
@@ -132,23 +142,21 @@ struct HymeniumPlan {
     float roughness = 0.8F;
     float relief = 0.0F;
     float slot_occlusion = 1.0F;  ///< of the bottom of a slot, with `relief`
-    int blades = 60;
+    CombPlan comb;
     int tiers = 0;
     float last_tier = 1.0F;  ///< share of the last tier's blades that is there
-    // Blades on the slots of a comb with more: `slots` slots for `stands` blades, of which each `stride`-th reaches the stem.
-    // No slots: the blades stand where they like.
-    float slots = 0.0F, stands = 0.0F, stride = 1.0F;
-    float blade = 0.0F;  ///< half thickness, in lengths of one disc radius
+    float blade = 0.0F;      ///< half thickness, in lengths of one disc radius
     float forking = 0.0F;
-    float inner_gap = 0.0F;   ///< share of the face without blades round the stem
-    float bare_slope = 1.0F;  ///< over one: how fast the bare ring round the stem ends
-    std::array<WavePlan, 4> wander{};
-    float spine = 0.13F;      ///< half thickness of a spine, in cells
-    float pore_tall = 1.0F;   ///< length of a cell over its width
-    float pore_rows = 1.0F;   ///< from the inner edge to the rim
-    float pore_from = 6.0F;   ///< pores round the inner edge
-    float pore_grow = 0.0F;   ///< more of them in each row
-    float pore_shown = 0.0F;  ///< 0 when pores are smaller than texels
+    int vein_rows = 0;         ///< of cross veins between ridges
+    float veins_there = 0.0F;  ///< see comb.h
+    float inner_gap = 0.0F;    ///< share of the face without blades round the stem
+    float bare_slope = 1.0F;   ///< over one: how fast the bare ring round the stem ends
+    float spine = 0.13F;       ///< half thickness of a spine, in cells
+    float pore_tall = 1.0F;    ///< length of a cell over its width
+    float pore_rows = 1.0F;    ///< from the inner edge to the rim
+    float pore_from = 6.0F;    ///< pores round the inner edge
+    float pore_grow = 0.0F;    ///< more of them in each row
+    float pore_shown = 0.0F;   ///< 0 when pores are smaller than texels
     std::array<float, 2> bumps{};
     unsigned fields = 0;
 };
@@ -169,6 +177,14 @@ struct StemPlan {
     std::array<float, 3> bumps{};
     std::array<float, 3> fibres{};  ///< by octave, already limited
     float net_shown = 1.0F;
+    // Gills and ridges that run down from its top.
+    CombPlan comb;
+    float gills = 0.0F;           ///< share of its length that they reach; 0: none do
+    float gill_half = 0.0F;       ///< half their thickness, in gaps
+    float gill_relief = 0.0F;     ///< height in circumferences
+    float gill_occlusion = 1.0F;  ///< between two
+    float gill_shown = 0.0F;      ///< 0 when gaps are smaller than texels
+    Light gill_colour, gill_edge, gill_depth;
     float roughness = 0.75F;
     unsigned fields = 0;
 };
@@ -196,6 +212,7 @@ struct BladePlan {
     Light colour, edge, depth;
     float mottle = 0.0F;
     float steep = 1.0F;  ///< depth of the slot between two blades over its width
+    float pale = 0.0F;   ///< share of light that its walls give back to each other
     float grain = 0.0F;  ///< 0..1: whether the finest lines across it show
     float roughness = 0.8F;
 };

@@ -7,7 +7,7 @@
 #define SPOREPRINT_CORE_SURFACE_STEM_INL
 #endif
 
-#include "core/surface/texel.inl"
+#include "core/surface/comb.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
@@ -108,6 +108,21 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
         height = height + up * set(0.15F / net_columns);
         occlusion = occlusion * (one - set(0.22F) * strength * (one - thread));
         shade = shade * (one - set(0.08F) * strength * (one - thread));
+    }
+    if (plan.gills > 0.0F) {
+        // Lower the farther down, as the solid ones are.
+        const VF up = smooth(along, 1.0F - plan.gills, 1.0F / plan.gills);
+        const VF x = comb_of(plan.comb, turn, wander_at(plan.comb, turn, zero)).x;
+        const VF far = hn::Abs(x - hn::Floor(x + set(0.5F)));
+        const VF deep =
+            mix(set(0.45F), unit((far - set(plan.gill_half)) * set(1.0F / (0.5F - plan.gill_half))),
+                set(plan.gill_shown));
+        const VF bottom = deep * deep;
+        Rgb gill = mix(rgb(plan.gill_colour), rgb(plan.gill_depth), bottom);
+        gill = mix(gill, rgb(plan.gill_edge), one - smooth(deep, 0.0F, 4.0F));
+        colour = mix(colour, gill, up);
+        height = height + (one - bottom) * up * set(plan.gill_relief * plan.gill_shown);
+        occlusion = occlusion * (one - (one - set(plan.gill_occlusion)) * bottom * up);
     }
     if (plan.base_stain > 0.0F) {
         const VF ragged =

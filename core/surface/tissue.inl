@@ -29,17 +29,18 @@ HWY_INLINE Texel blade_texel(const BladePlan& plan, VF along, VF across, const V
                     set(plan.grain) * (one - down * set(0.6F));
     const VF on_edge = smooth(down + fields[blade_cloud] * set(0.03F), 0.87F, 11.0F);
     // How much of the sky a point of the wall sees, and what pale walls give back to each other.
-    const VF d = (one - down) * set(plan.steep);
+    // Thin pale ones let light through besides, as if they stood in shallower slots.
+    const VF d = (one - down) * set(plan.steep * (1.0F - 0.7F * plan.pale));
     const VF open = one - d / hn::Sqrt(d * d + one);
-    const VF pale = set(0.4F * (plan.colour.r + plan.colour.g + plan.colour.b) * (1.0F / 1.5F));
-    const VF seen = open / (one - hn::Min(pale, set(0.8F)) * (one - open));
-    Rgb colour = mix(rgb(plan.colour), rgb(plan.depth), (one - seen) * set(0.55F));
+    const VF seen = open / (one - set(plan.pale) * (one - open));
+    Rgb colour = mix(rgb(plan.colour), rgb(plan.depth),
+                     (one - seen) * set(0.55F * (1.0F - 0.5F * plan.pale)));
     colour = mix(colour, rgb(plan.edge), on_edge);
     out.colour = shaded(
         colour, hn::Max(one + cloud * set(0.20F * plan.mottle) + line * set(0.07F), set(0.05F)));
     out.height = line * set(0.10F / blade_grain) + fields[blade_cloud] * set(0.0015F);
     out.roughness = set(plan.roughness) + line * set(0.04F);
-    out.occlusion = set(0.12F) + set(0.88F) * seen;
+    out.occlusion = set(0.12F + 0.25F * plan.pale) + set(0.88F - 0.25F * plan.pale) * seen;
     return out;
 }
 

@@ -194,6 +194,65 @@ TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
         }
 }
 
+TEST(Hymenium, CrossVeinsAreSolidsBetweenRidgesAndPaintedUnderThem) {
+    // Few ridges and forks that begin far out, so that nothing else lies between two of them near the stem.
+    MushroomOrder order = textured(order_of("cantharellus_cibarius", 0.6, 5));
+    order.params.hymenium.blades = 12;
+    order.params.hymenium.forking = 0.55;
+    const Individual individual = resolve(order, atlas());
+    const std::vector<CrossVein> veins = cross_veins(12, 0.55, 5);
+    const auto there = static_cast<std::size_t>(std::count_if(
+        veins.begin(), veins.end(), [](const CrossVein& vein) { return vein.height > 0.0; }));
+    EXPECT_GT(there, 20u);
+    const std::size_t joined = solids(mushroom_mesh(order, individual)).size();
+    order.params.hymenium.forking = 0.0;
+    EXPECT_EQ(joined, solids(mesh_of(order)).size() + there + 12u * 2u) << "and forks";
+
+    PaintParams params = motley(HymeniumPattern::ridges, 1024);
+    params.seed = 5;
+    params.hymenium = individual.parts[0].model.hymenium;
+    params.surface.hymenium.colour = {0, 255, 0};
+    params.surface.hymenium.edge = {0, 255, 0};
+    params.surface.hymenium.depth = {0, 0, 255};
+    params.surface.hymenium.mottle = 0.0;
+    params.weathering = {};
+    const RawImages images = paint_raw(params);
+    const BladeRow row(stand_on(0, HymeniumPattern::ridges, 12, 1), HymeniumPattern::ridges, 0.55,
+                       5, 24);
+    const auto blue = [&](const CrossVein& vein, double share) {
+        const double gaps = vein.ridge + 0.5;
+        const auto turn = sine_cosine(2.0 * pi * row.turn({.from = gaps, .to = gaps}, share));
+        const double radius = hymenium_inner_share + (1.0 - hymenium_inner_share) * share;
+        const TexturePoint at = disc_point(swept_charts[1], radius, turn.cosine, turn.sine);
+        return texel(images, ImageKind::base_color, static_cast<int>(at.u * 1024.0),
+                     static_cast<int>(at.v * 1024.0))
+            .b;
+    };
+    int seen = 0;
+    for (const CrossVein& vein : veins) {
+        if (vein.height < 0.9 || vein.share < 0.35 || vein.share > 0.6) continue;
+        ++seen;
+        const double beside = 0.35 / cross_vein_rows(12);
+        EXPECT_LT(blue(vein, vein.share),
+                  std::max(blue(vein, vein.share + beside), blue(vein, vein.share - beside)))
+            << vein.ridge << ' ' << vein.share;
+    }
+    EXPECT_GT(seen, 5);
+}
+
+TEST(Hymenium, GillsThatRunDownLeaveNoStepAtTheStem) {
+    // From the top of the stem the flesh between them falls back slowly; where gills end there, at once.
+    for (const char* id :
+         {"infundibulicybe_geotropa", "infundibulicybe_gibba", "cantharellus_cibarius"}) {
+        MushroomOrder order = order_of(id);
+        const LowerFace face(resolve(order, atlas()), 0);
+        order.params.hymenium.decurrent = 0.0;
+        const LowerFace ending(resolve(order, atlas()), 0);
+        EXPECT_LT(face.at(0.06).recess, 0.4 * ending.at(0.06).recess) << id;
+        EXPECT_NEAR(face.at(0.5).recess, ending.at(0.5).recess, 1e-9) << id;
+    }
+}
+
 TEST(Hymenium, SpinesAreClosedConesAsManyAsTheirRowsHold) {
     for (const double per_mm : {0.2, 0.5, 2.0}) {
         const Individual individual = individual_of(toothed(per_mm));

@@ -226,6 +226,28 @@ TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
     EXPECT_LT(areas(0.3), areas(0.0));
 }
 
+TEST(Ornaments, ASacHoldsTheWholeBulb) {
+    MushroomOrder order = order_of("amanita_phalloides");
+    order.params.variation = 0.0;
+    Individual individual = resolve(order, atlas());
+    individual.has_ring = false;
+    const Mesh sac = last_piece(individual);
+    double lowest = 1.0, narrowest = 1.0, widest = 0.0, bulb = 0.0, ground = 1.0;
+    for (int i = 0; i <= 100; ++i) {
+        bulb = std::max(bulb, individual.outline.stem.at(i / 100.0).r);
+        ground = std::min(ground, individual.outline.stem.at(i / 100.0).y);
+    }
+    for (const std::uint32_t i : sac.indices) {
+        const glm::vec3& p = sac.positions[i];
+        lowest = std::min(lowest, double{p.y});
+        narrowest = std::min(narrowest, radius_of(p));
+        widest = std::max(widest, radius_of(p));
+    }
+    EXPECT_LT(lowest, ground + 1e-3) << "from under it";
+    EXPECT_LT(narrowest, 0.25 * bulb) << "all but closed there";
+    EXPECT_GT(widest, bulb);
+}
+
 TEST(Ornaments, ASacGrowsAndGoesWithoutAStepAndKeepsItsVertices) {
     Individual individual = straight_amanita();
     individual.has_sac = true;

@@ -87,6 +87,25 @@ TEST(Comb, BladesKeepTheirOrderWhateverTheyWander) {
     }
 }
 
+TEST(Comb, CrossVeinsStayInTheirRowsAndComeWithForking) {
+    EXPECT_EQ(cross_veins(34, 0.7, 3).size(), 34u * 7u);
+    EXPECT_EQ(cross_veins(100, 0.7, 3).size(), 300u) << "many ridges have fewer rows";
+    EXPECT_TRUE(cross_veins(400, 0.7, 3).empty()) << "gaps too narrow to be joined";
+    std::vector<CrossVein> before = cross_veins(34, 0.0, 3);
+    for (const CrossVein& vein : before) EXPECT_EQ(vein.height, 0.0);
+    for (double forking = 0.01; forking <= 1.0; forking += 0.01) {
+        const std::vector<CrossVein> now = cross_veins(34, forking, 3);
+        for (std::size_t i = 0; i < now.size(); ++i) {
+            EXPECT_EQ(now[i].share, before[i].share) << "places stay";
+            EXPECT_GE(now[i].height, before[i].height);
+            EXPECT_LT(now[i].height - before[i].height, 0.06);
+            EXPECT_GT(now[i].share, 0.0);
+            EXPECT_LT(now[i].share, 1.0);
+        }
+        before = now;
+    }
+}
+
 TEST(Comb, SpinesAreAsManyAsTheirSpacingAsksForAndNeverTooMany) {
     const CellRows few = cell_rows(0.02, 0.005, 0.025, 500.0, most_spines);
     EXPECT_EQ(few.rows, 10);

@@ -202,13 +202,8 @@ TEST_F(Paint, EveryNumberChangesThePicture) {
     for (const std::string& wanted : names) {
         if (wanted == "/side") continue;
         // Shapes of blades alone, and rows of spines that this pattern does not show.
-        const auto shapes = {"/hymenium/inner_depth",
-                             "/hymenium/notch",
-                             "/hymenium/decurrent",
-                             "/hymenium/edge_waves",
-                             "/cells/rows",
-                             "/cells/from",
-                             "/cells/grow"};
+        const auto shapes = {"/hymenium/inner_depth", "/hymenium/notch", "/hymenium/edge_waves",
+                             "/cells/rows",           "/cells/from",     "/cells/grow"};
         if (std::find(shapes.begin(), shapes.end(), wanted) != shapes.end()) continue;
         bool changed = false;
         for (std::size_t p = 0; p < 4 && !changed; ++p) {
@@ -461,6 +456,40 @@ TEST_F(Paint, DeeperGillsAreDarkerBetween) {
         sum /= 128.0 * 128.0;
         EXPECT_LT(sum, last);
         last = sum;
+    }
+}
+
+TEST_F(Paint, GillsRunDownTheStemAsFarAsTheyReach) {
+    PaintParams params = motley(HymeniumPattern::gills, 512);
+    params.surface.stem.net = params.surface.stem.bands = params.surface.stem.bumps = 0.0;
+    params.surface.hymenium.edge = {255, 0, 0};
+    params.surface.hymenium.depth = {0, 0, 255};
+    const RawImages ending = paint_raw(params);
+    params.hymenium.decurrent = 0.3;
+    const RawImages running = paint_raw(params);
+    const Chart& stem = swept_charts[static_cast<std::size_t>(Part::stem)];
+    // How often the stem goes from red to blue and back round a ring; every gill that reaches it has a flank on each side.
+    const auto flanks = [&](const RawImages& images, double along) {
+        int count = 0;
+        bool red = false;
+        for (int i = 0; i <= 400; ++i) {
+            const TexturePoint at = strip_point(stem, along, i / 400.0);
+            const Texel t = texel(images, ImageKind::base_color, static_cast<int>(at.u * 512.0),
+                                  static_cast<int>(at.v * 512.0));
+            const bool now = t.r > t.b;
+            if (i > 0 && now != red) ++count;
+            red = now;
+        }
+        return count;
+    };
+    EXPECT_EQ(flanks(running, 0.98), 2 * params.hymenium.blades);
+    EXPECT_EQ(flanks(ending, 0.98), 0);
+    for (int i = 0; i < 100; ++i) {
+        const TexturePoint at = strip_point(stem, 0.69, i / 100.0);
+        const auto x = static_cast<int>(at.u * 512.0), y = static_cast<int>(at.v * 512.0);
+        EXPECT_EQ(texel(running, ImageKind::base_color, x, y).r,
+                  texel(ending, ImageKind::base_color, x, y).r)
+            << "below them the stem is bare";
     }
 }
 
