@@ -151,8 +151,9 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         const glm::dvec3 round = glm::cross(outward, normal);
         const double radius = patch.radius * scale * length, height = patch.height * radius;
         glm::dvec3 centre = place.position;
-        if (!on_stem && ground.individual.wear.amounts.bumps > 0.0)
-            centre += lump_at(ground.individual, patch.sigma, patch.theta) * normal;
+        if (!on_stem && (ground.individual.wear.amounts.bumps > 0.0 ||
+                         ground.individual.wear.amounts.creases > 0.0))
+            centre += cap_dent(ground.individual, patch.sigma, patch.theta) * normal;
         const AxisStation station = ground.deformer.frozen_station(
             on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
         solid.rows = between + 2;
@@ -184,6 +185,10 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
                 solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
         }
         ground.deformer.apply(solid.corners, station);
+        if (!on_stem && !ground.curl.none()) {
+            const glm::dvec3 by = ground.curl.moved(true, 1.0 - at.share, patch.theta);
+            for (glm::dvec3& corner : solid.corners) corner += by;
+        }
         const glm::dvec3 fallback =
             unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
         append(mesh, solid, fallback, ground.textured, radius > 0.0 || ground.keep_absent);
@@ -199,6 +204,10 @@ OutlineSample stem_at(const SubCurve& stem, double height) {
     }
     return stem.at(0.5 * (low + high));
 }
+
+/// How far a shell of a size lies on what dents the stem inside it: wholly when all but gone, no more when it is a third as large as
+/// the stem is thick.
+double lying(double size, double radius) { return 1.0 - smooth_step(0.0, 0.3 * radius, size); }
 
 /// How far an edge is torn at an angle, 0..1: rents between `count` lobes, and a finer raggedness.
 class Rents {
@@ -273,8 +282,10 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     }
     struct Column {
         SineCosine turn;
-        double ruffle, groove, reach;
+        double ruffle, groove, reach, dent;
     };
+    // What is left of a ring lies on the stem's furrows and lumps; a whole one spans them.
+    const double lies = lying(width, attachment.r);
     std::vector<Column> columns;
     for (int j = 0; j <= ground.detail.columns; ++j) {
         const double angle = -2.0 * pi * (j % ground.detail.columns) /
@@ -284,7 +295,8 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
             {sine_cosine(angle),
              sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
              3 * groove_count > ground.detail.columns ? 0.0 : sine(groove_count * angle + other),
-             1.0 - 0.8 * style.tear * rents.at(angle)});
+             1.0 - 0.8 * style.tear * rents.at(angle),
+             lies > 0.0 ? lies * stem_dent(individual, attachment.share, angle) : 0.0});
     }
     // The veil tears off level with its edge, which is thicker.
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
@@ -310,7 +322,8 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
             const double off = half +
                                style.ruffle * 0.16 * width * at.share * at.share * column.ruffle +
                                style.grooves * 0.04 * width * at.share * column.groove;
-            const double rr = at.r + off * at.normal_r, yy = at.y + off * at.normal_y;
+            const double rr = std::max(at.r + off * at.normal_r + column.dent, 0.0),
+                         yy = at.y + off * at.normal_y;
             solid.corners.push_back(
                 ground.skin.azimuth().moved({rr * column.turn.cosine, yy, rr * column.turn.sine}));
         }
@@ -344,6 +357,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
         double r, y, normal_r, normal_y;
         double clear;  // how far it is from the stem
         double above;  // 0 at the ground, 1 at the highest lobe
+        double share;  // of the stem
     };
     std::array<Way, samples + 1> way{};
     double widest = 0.0;
@@ -359,8 +373,8 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
         const double off = held + style.gap * height * above * above;
         const bool free = stem.r < widest;
         way[static_cast<std::size_t>(i)] = {
-            stem.r + off, stem.y, free ? 1.0 : stem.tangent_y, free ? 0.0 : -stem.tangent_r,
-            off,          above};
+            stem.r + off, stem.y,    free ? 1.0 : stem.tangent_y, free ? 0.0 : -stem.tangent_r, off,
+            above,        stem.share};
     }
     const auto way_at = [&](double share) {
         const double place = share * samples;
@@ -374,7 +388,8 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
                    mix(a.normal_r, b.normal_r),
                    mix(a.normal_y, b.normal_y),
                    mix(a.clear, b.clear),
-                   mix(a.above, b.above)};
+                   mix(a.above, b.above),
+                   mix(a.share, b.share)};
     };
     // Folds too fine for these columns would beat with them.
     const bool fine = 4 * (2 * folds + 1) <= ground.detail.columns;
@@ -383,6 +398,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
         return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases[1]) +
                (fine ? 0.2 * sine((2 * folds + 1) * angle + phases[2] - lean * share) : 0.0);
     };
+    const double lies = lying(height, widest);
     // Inside the stem where it begins, outside of it before long.
     const double sunk = std::min(0.02 * widest, 0.25 * height);
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
@@ -400,7 +416,8 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
             const double loose = at.clear * (0.5 * fold - 0.12 * at.above);
             const double rise = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.16, share) - sunk;
             const double off = half + rise + std::max(loose, -0.8 * at.clear);
-            const double r = std::max(at.r + off * at.normal_r, thickness + half);
+            double r = std::max(at.r + off * at.normal_r, thickness + half);
+            if (lies > 0.0) r = std::max(r + lies * stem_dent(individual, at.share, angle), 0.0);
             const auto turn = sine_cosine(angle);
             glm::dvec3 place = ground.skin.azimuth().moved(
                 {r * turn.cosine, at.y + off * at.normal_y, r * turn.sine});

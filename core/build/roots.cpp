@@ -69,6 +69,7 @@ SurfacePoint Roots::place(Part part, const OutlineSample& sample, double angle,
     // Where a fan squeezes or stretches the face, what stands on it is as much thinner or thicker, and no deeper.
     const double along = std::sqrt(glm::dot(point.meridian, point.meridian));
     ground.deformer.apply({&point, 1}, station);
+    if (part == Part::hymenium) point.position += ground.curl.moved(false, sample.share, angle);
     const glm::dvec3 outward = glm::cross(point.meridian, point.azimuth);
     point.meridian = std::min(along, 1.0) * unit_or(outward, {0.0, -1.0, 0.0});
     return point;

@@ -215,6 +215,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const std::uint32_t seed = individual.effective.seed;
     const Deformer deformer(individual);
     const Skin skin(individual, detail);
+    const Cuts cuts(individual, lod);
     Mesh mesh;
     const int rings = detail.stem_rings + detail.hymenium_rings + flesh_rings(individual, lod) +
                       detail.cap_rings + 2 * (detail.veil_rings + 1) + 2 * (detail.sac_rings + 1);
@@ -225,7 +226,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const auto vertices =
         static_cast<std::size_t>(solids.vertices) +
         static_cast<std::size_t>(
-            rings * (detail.columns + 1) +
+            rings * static_cast<int>(cuts.turns().size() + 1) +
             pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
@@ -235,8 +236,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
         mesh.tangents.reserve(vertices);
     }
     SweptBody body;
-    body.turns = column_turns(individual, lod);
-    Sweeper sweeper(mesh, deformer, skin, body.turns, options.textured);
+    Sweeper sweeper(mesh, deformer, skin, cuts.turns(), options.textured);
     body.stem = sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
     const LowerFace lower(individual, lod);
     body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, lod));
@@ -249,13 +249,12 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
         throw Impossible("/model/silhouette",
                          "so thin for its width that dents turn it inside out at level of detail " +
                              std::to_string(lod));
-    weather(mesh, body, individual, lod, options.keep_absent);
-    const Cuts cuts(individual, lod);
+    const Curl curl = weather(mesh, body, individual, cuts, lod, options.keep_absent);
     // Ring and sac have as many columns beside a species with relief as without: torn edges would turn out otherwise.
     const Detail& plain = details[static_cast<std::size_t>(lod)];
     const Ground ground{
-        outline, deformer,  skin, plain, seed, options.textured, options.keep_absent,
-        cuts,    individual};
+        outline, deformer, skin,      plain, seed, options.textured, options.keep_absent,
+        cuts,    curl,     individual};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);
     add_sac(mesh, individual, ground);

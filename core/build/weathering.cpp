@@ -4,8 +4,9 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <iterator>
+#include <utility>
 
+#include "core/build/detail.h"
 #include "core/build/directions.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
@@ -19,23 +20,16 @@ namespace {
 
 constexpr double whole_turn = 2.0 * pi;
 
-// What stays of a face under the deepest cut.
-constexpr double least_cap = 0.28, least_lower = 0.14;
-// Further in than this nothing moves.
-constexpr double still_cap = 0.18, still_lower = 0.06;
-
 // What a level of detail can carry.
 struct Carried {
-    int bites, bite_columns;  // columns inside a bite, its two edges beside
-    int splits;
     int rolls, roll_pieces, drops, drips;
     bool lumps, furrows, pits;
 };
 constexpr std::array<Carried, 4> carried = {{
-    {4, 7, 13, 5, 14, 22, 12, true, true, true},
-    {4, 3, 5, 0, 0, 0, 6, true, true, false},
-    {2, 1, 0, 0, 0, 0, 0, true, false, false},
-    {0, 0, 0, 0, 0, 0, 0, false, false, false},
+    {5, 14, 22, 12, true, true, true},
+    {0, 0, 0, 6, true, true, false},
+    {0, 0, 0, 0, true, false, false},
+    {0, 0, 0, 0, false, false, false},
 }};
 const Carried& carried_at(int lod) { return carried[static_cast<std::size_t>(lod)]; }
 
@@ -52,159 +46,68 @@ constexpr std::uint64_t drop_triangles = 4 * drop_sides;
 constexpr std::uint64_t drip_vertices = drip_rows * (drip_sides + 1) + 2;
 constexpr std::uint64_t drip_triangles = 2 * (drip_rows - 1) * drip_sides + 2 * drip_sides;
 
-// A place slides along its meridian so that the end goes to `last`; what lies within `still` stays.
-double slid(double share, double still, double last) {
-    if (share <= still || last >= 1.0) return share;
-    return still + (share - still) * (last - still) / (1.0 - still);
+// How deep a full furrow is, in radii of the stem, and how wide to each side.
+constexpr double furrow_deep = 0.20, furrow_half_width = 0.045 * whole_turn;
+
+// The upper part of a club swells between few rings: the rest of its furrows is painted.
+constexpr double club_carried = 0.35;
+
+// Depth across a furrow, 0..1.
+double furrow_valley(double middle, double angle) {
+    const double x = turn_between(middle, angle) / furrow_half_width;
+    return x <= -1.0 || x >= 1.0 ? 0.0 : (1.0 - x * x) * (1.0 - x * x);
 }
 
-// The notches that a level of detail carries, in the order in which they come.
-std::vector<Notch> notches_of(const Individual& individual, int lod) {
-    const Carried& carries = carried_at(lod);
-    const std::uint32_t seed = individual.effective.seed;
-    std::vector<Notch> out;
-    if (individual.outline.hymenium.empty()) return out;
-    if (individual.wear.bites) {
-        std::vector<Notch> all = bites(seed);
-        all.resize(std::min(all.size(), static_cast<std::size_t>(carries.bites)));
-        out = all;
-    }
-    if (individual.wear.splits) {
-        std::vector<Notch> all = splits(seed);
-        all.resize(std::min(all.size(), static_cast<std::size_t>(carries.splits)));
-        out.insert(out.end(), all.begin(), all.end());
-    }
-    return out;
+double mean_radius(const SubCurve& stem) {
+    double sum = 0.0;
+    for (int i = 0; i <= 16; ++i) sum += stem.at(i / 16.0).r / 17.0;
+    return sum;
 }
 
-bool cuts_at_all(const Individual& individual, int lod) {
-    return (individual.wear.melts && !individual.outline.hymenium.empty()) ||
-           !notches_of(individual, lod).empty();
+// How far from its neighbours' edges the skin of the stem may move.
+double stem_freedom(double share) {
+    return smooth_step(0.0, 0.06, share) * (1.0 - smooth_step(0.93, 0.995, share));
 }
 
-}  // namespace
-
-Cuts::Cuts(const Individual& individual, int lod) {
-    const Outline& outline = individual.outline;
-    if (outline.hymenium.empty() || !cuts_at_all(individual, lod)) return;
-    const WeatheringOf<Plain>& amounts = individual.wear.amounts;
-    cap_length_ = outline.cap.length();
-    lower_length_ = outline.hymenium.length();
-    melts_ = individual.wear.melts;
-    melted_ = melted(amounts.deliquescence) * cap_length_;
-    phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
-    const double radius = greatest_radius(outline.cap);
-    for (const Notch& notch : notches_of(individual, lod)) {
-        const double scale = grown(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
-        cuts_.push_back(
-            {notch.theta, notch.half_width, notch.depth * scale * radius, notch.bitten});
-        cut_ = cut_ || scale > 0.0;
-    }
-    cut_ = cut_ || melted_ > 0.0;
-}
-
-double Cuts::depth(double angle) const {
+// Depth of the furrows that run on over a club, metres.
+double club_furrow(const Individual& individual, double share, double angle) {
+    const double radius = mean_radius(individual.outline.stem);
+    const double fades = club_carried * individual.wear.clubs * club_fade(share);
     double deepest = 0.0;
-    for (const Cut& cut : cuts_)
-        if (cut.depth > 0.0)
-            deepest = std::max(deepest, cut.depth * notch_profile({cut.theta, cut.half_width, 0.0,
-                                                                   0.0, cut.bitten, 0},
-                                                                  angle));
-    if (melted_ > 0.0) {
-        const double ragged = 0.5 * sine(3.0 * angle + phase_) + 0.3 * sine(7.0 * angle - phase_) +
-                              0.2 * sine(13.0 * angle + 2.0 * phase_);
-        deepest += melted_ * (1.0 + 0.2 * ragged);
-    }
+    for (const Furrow& furrow : furrows(individual.effective.seed))
+        deepest = std::max(deepest, furrow_deep * radius * fades * furrow.depth *
+                                        grown(furrow.onset, individual.wear.amounts.creases) *
+                                        furrow_valley(furrow_angle(furrow, 1.0 + share), angle));
     return deepest;
 }
-
-bool Cuts::reaches(double angle) const {
-    if (melts_) return true;
-    return std::any_of(cuts_.begin(), cuts_.end(), [&](const Cut& cut) {
-        const double turn = turn_between(cut.theta, angle);
-        return std::abs(turn) < cut.half_width * (1.0 - 1e-6);
-    });
-}
-
-double Cuts::cap_end(double angle) const {
-    if (!cut_ || cap_length_ <= 0.0) return 1.0;
-    return std::max(1.0 - depth(angle) / cap_length_, least_cap);
-}
-
-double Cuts::lower_end(double angle) const {
-    if (!cut_ || lower_length_ <= 0.0) return 1.0;
-    return std::max(1.0 - depth(angle) / lower_length_, least_lower);
-}
-
-double Cuts::cap(double sigma, double angle) const {
-    return slid(sigma, still_cap, cap_end(angle));
-}
-
-double Cuts::lower(double share, double angle) const {
-    return slid(share, still_lower, lower_end(angle));
-}
-
-std::vector<double> column_turns(const Individual& individual, int lod) {
-    const int columns = detail_of(individual.has_relief, lod).columns;
-    const Carried& carries = carried_at(lod);
-    // Those of a cut first: an evenly spaced one that comes too near gives way.
-    std::vector<double> own;
-    const auto add = [&](double angle) {
-        double turn = angle / whole_turn;
-        turn -= std::floor(turn);
-        own.push_back(turn);
-    };
-    for (const Notch& notch : notches_of(individual, lod)) {
-        add(notch.theta - notch.half_width);
-        add(notch.theta + notch.half_width);
-        if (!notch.bitten) {
-            add(notch.theta);
-            continue;
-        }
-        // Even steps along the arc of the bite.
-        for (int k = 1; k <= carries.bite_columns; ++k)
-            add(notch.theta + notch.half_width * cosine(pi * k / (carries.bite_columns + 1)));
-    }
-    std::sort(own.begin(), own.end());
-    const double nearest = 0.0002;
-    std::vector<double> kept;
-    for (const double turn : own)
-        if (turn < 1.0 - nearest && (kept.empty() ? turn > nearest : turn - kept.back() > nearest))
-            kept.push_back(turn);
-    std::vector<double> out;
-    const double room = kept.empty() ? 0.0 : 0.45 / columns;
-    for (int j = 0; j < columns; ++j) {
-        const double turn = static_cast<double>(j) / columns;
-        const auto near = std::lower_bound(kept.begin(), kept.end(), turn);
-        const bool crowded = (near != kept.end() && *near - turn < room) ||
-                             (near != kept.begin() && turn - *std::prev(near) < room);
-        if (j == 0 || !crowded) out.push_back(turn);
-    }
-    out.insert(out.end(), kept.begin(), kept.end());
-    std::sort(out.begin(), out.end());
-    return out;
-}
-
-namespace {
 
 /// Works on the vertices of a swept body.
 class Weatherer {
   public:
-    Weatherer(Mesh& mesh, const SweptBody& body, const Individual& individual, int lod,
-              bool keep_absent)
+    Weatherer(Mesh& mesh, const SweptBody& body, const Individual& individual, const Cuts& cuts,
+              int lod, bool keep_absent)
         : mesh_(mesh),
           body_(body),
           individual_(individual),
           carries_(carried_at(lod)),
           amounts_(individual.wear.amounts),
-          cuts_(individual, lod),
+          cuts_(cuts),
+          lod_(lod),
           keep_absent_(keep_absent),
           textured_(!mesh.texture_coordinates.empty()),
-          columns_(body.turns.size()),
-          has_cuts_(cuts_at_all(individual, lod)) {}
+          columns_(cuts.turns().size()) {
+        for (const double turn : cuts.turns()) turns_.push_back(sine_cosine(whole_turn * turn));
+        opened_.assign(columns_ + 1, 1.0);
+        even_.assign(columns_ + 1, true);
+        for (const Cuts::Between& own : cuts.between()) {
+            opened_[own.column] = own.open;
+            even_[own.column] = false;
+        }
+    }
 
-    void all() {
+    Curl all() {
         dent();
+        lay_closed();
         // What stands on the cap finds its place while the rings still stand where they were swept.
         if (individual_.wear.peels && carries_.rolls > 0) rolls();
         if (individual_.wear.dew && carries_.drops > 0) drops();
@@ -216,9 +119,11 @@ class Weatherer {
             slide(body_.hymenium);
             slide(body_.cap);
             curl();
+            lay_closed();
         }
-        if (has_cuts_) wall();
+        if (cuts_.possible()) wall();
         if (individual_.wear.melts && carries_.drips > 0) drips();
+        return std::move(curl_);
     }
 
   private:
@@ -226,7 +131,7 @@ class Weatherer {
         return face.first + ring * (columns_ + 1) + column;
     }
     [[nodiscard]] double angle(std::size_t column) const {
-        return column == columns_ ? 0.0 : whole_turn * body_.turns[column];
+        return column == columns_ ? 0.0 : whole_turn * cuts_.turns()[column];
     }
     [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
         return glm::dvec3(mesh_.positions[vertex]);
@@ -241,6 +146,74 @@ class Weatherer {
         }
     }
 
+    /// The neighbour of a vertex along its ring. To an even column a column on the straight way to the next one is none.
+    [[nodiscard]] glm::dvec3 beside(const FaceGrid& face, std::size_t ring, std::size_t column,
+                                    bool after) const {
+        const auto next = [&](std::size_t j) {
+            return after ? (j + 1) % columns_ : (j == 0 ? columns_ : j) - 1;
+        };
+        std::size_t other = next(column);
+        if (!even_[column] || even_[other]) return place(at(face, ring, other));
+        glm::dvec3 found(0.0);
+        double left = 1.0;
+        for (; !even_[other] && left > 0.0; other = next(other)) {
+            found += left * opened_[other] * place(at(face, ring, other));
+            left *= 1.0 - opened_[other];
+        }
+        return left > 0.0 ? found + left * place(at(face, ring, other)) : found;
+    }
+
+    /// Lays columns of closed cuts onto the straight ways between those that count beside them.
+    void lay_closed() {
+        std::vector<Laid> laid;
+        for (const FaceGrid* face : {&body_.stem, &body_.hymenium, &body_.cap})
+            for (std::size_t i = 0; i < face->shares.size(); ++i) {
+                laid.clear();
+                for (const Cuts::Between& own : cuts_.between())
+                    if (own.open < 1.0) laid.push_back(laid_on_ways(*face, i, own));
+                for (const Laid& one : laid) {
+                    mesh_.positions[one.vertex] = glm::vec3(one.position);
+                    mesh_.normals[one.vertex] = glm::vec3(one.normal);
+                    if (!textured_) continue;
+                    mesh_.texture_coordinates[one.vertex] = glm::vec2(one.texture);
+                    mesh_.tangents[one.vertex] =
+                        glm::vec4(glm::vec3(square_to(one.normal, one.tangent)),
+                                  mesh_.tangents[one.vertex].w);
+                }
+            }
+    }
+    struct Laid {
+        std::size_t vertex;
+        glm::dvec3 position, normal, tangent;
+        glm::dvec2 texture;
+    };
+    // As double, so that faces which share an edge keep it.
+    [[nodiscard]] Laid laid_on_ways(const FaceGrid& face, std::size_t ring,
+                                    const Cuts::Between& own) const {
+        const std::size_t first = at(face, ring, 0), vertex = first + own.column;
+        Laid one{vertex, own.open * place(vertex), own.open * glm::dvec3(mesh_.normals[vertex]),
+                 glm::dvec3(0.0), glm::dvec2(0.0)};
+        if (textured_) {
+            one.tangent = own.open * glm::dvec3(mesh_.tangents[vertex]);
+            one.texture = own.open * glm::dvec2(mesh_.texture_coordinates[vertex]);
+        }
+        for (const Cuts::Way& way : cuts_.ways(own)) {
+            const double weight = (1.0 - own.open) * way.weight;
+            const double to_right = weight * way.share, to_left = weight - to_right;
+            const std::size_t left = first + way.left, right = first + way.right;
+            one.position += to_left * place(left) + to_right * place(right);
+            one.normal += to_left * glm::dvec3(mesh_.normals[left]) +
+                          to_right * glm::dvec3(mesh_.normals[right]);
+            if (!textured_) continue;
+            one.tangent += to_left * glm::dvec3(mesh_.tangents[left]) +
+                           to_right * glm::dvec3(mesh_.tangents[right]);
+            one.texture += to_left * glm::dvec2(mesh_.texture_coordinates[left]) +
+                           to_right * glm::dvec2(mesh_.texture_coordinates[right]);
+        }
+        one.normal = unit_or(one.normal, glm::dvec3(mesh_.normals[vertex]));
+        return one;
+    }
+
     /// Gives the vertices of a face the normals of their neighbours' places, as far as `weights` says.
     void turn_normals(const FaceGrid& face, const std::vector<double>& weights) {
         const std::size_t rings = face.shares.size();
@@ -248,11 +221,9 @@ class Weatherer {
             for (std::size_t j = 0; j < columns_; ++j) {
                 const double weight = weights[i * columns_ + j];
                 if (weight <= 0.0) continue;
-                const std::size_t before = j == 0 ? columns_ - 1 : j - 1,
-                                  after = (j + 1) % columns_;
                 const glm::dvec3 meridian = place(at(face, std::min(i + 1, rings - 1), j)) -
                                             place(at(face, i == 0 ? 0 : i - 1, j));
-                const glm::dvec3 azimuth = place(at(face, i, after)) - place(at(face, i, before));
+                const glm::dvec3 azimuth = beside(face, i, j, true) - beside(face, i, j, false);
                 const std::size_t vertex = at(face, i, j);
                 const glm::dvec3 old(mesh_.normals[vertex]);
                 glm::dvec3 found = unit_or(glm::cross(meridian, azimuth), old);
@@ -287,8 +258,7 @@ class Weatherer {
 
     // How far from its neighbours' edges a face may move.
     [[nodiscard]] static double freedom(bool stem, double share) {
-        return stem ? smooth_step(0.0, 0.06, share) * (1.0 - smooth_step(0.93, 0.995, share))
-                    : smooth_step(0.0, 0.08, share);
+        return stem ? stem_freedom(share) : smooth_step(0.0, 0.08, share);
     }
 
     void add_marks(const FaceGrid& face, CurveName part, MarkKind kind, double amount) {
@@ -304,7 +274,8 @@ class Weatherer {
             const bool pit = kind == MarkKind::pit;
             const double size =
                 std::max(mark.radius * (pit ? scale : 0.5 + 0.5 * scale), 1e-4) * unit;
-            const double height = pit ? -0.30 * size : lump_height(mark) * scale * unit;
+            double height = pit ? -0.30 * size : lump_height(mark) * scale * unit;
+            if (pit) height *= carried_pit(size, length, mark, curve, stem);
             const double along = size * mark.elongation;
             const double r = std::max(curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r, 1e-4);
             const double x = r * cosine(mark.theta), z = r * sine(mark.theta);
@@ -329,15 +300,18 @@ class Weatherer {
         }
     }
 
-    static double mean_radius(const SubCurve& stem) {
-        double sum = 0.0;
-        for (int i = 0; i <= 16; ++i) sum += stem.at(i / 16.0).r / 17.0;
-        return sum;
+    // A pit narrower than a few rings and columns is painted only: it would be as deep as a vertex happens to stand in it.
+    [[nodiscard]] double carried_pit(double size, double length, const Mark& mark,
+                                     const SubCurve& curve, bool stem) const {
+        const Detail& plain = details[static_cast<std::size_t>(lod_)];
+        const double ring = length / ((stem ? plain.stem_rings : plain.cap_rings) - 1);
+        const double round =
+            whole_turn * curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r / plain.columns;
+        return smooth_step(2.0, 6.0, size / std::max({ring, round, 1e-6}));
     }
 
     void add_furrows(const FaceGrid& face, bool stem) {
         const double radius = mean_radius(individual_.outline.stem);
-        constexpr double half_width = 0.045 * whole_turn;
         for (const Furrow& furrow : furrows(individual_.effective.seed)) {
             const double scale = grown(furrow.onset, amounts_.creases);
             if (scale <= 0.0) continue;
@@ -345,17 +319,17 @@ class Weatherer {
                 const double share = face.shares[i];
                 // On a club they run on over its end.
                 const double sigma = stem ? share : 1.0 + share;
-                const double fades = stem ? 1.0 : individual_.wear.clubs * club_fade(share);
-                const double deep = 0.20 * radius * scale * fades *
+                const double fades =
+                    stem ? 1.0 : club_carried * individual_.wear.clubs * club_fade(share);
+                const double deep = furrow_deep * radius * scale * fades *
                                     (stem ? furrow_depth(furrow, sigma) : furrow.depth);
                 if (deep <= 0.0) continue;
                 const double middle = furrow_angle(furrow, sigma);
                 for (std::size_t j = 0; j < columns_; ++j) {
-                    const double x = turn_between(middle, angle(j)) / half_width;
-                    if (x <= -1.0 || x >= 1.0) continue;
-                    const double inside = 1.0 - x * x;
+                    const double valley = furrow_valley(middle, angle(j));
+                    if (valley <= 0.0) continue;
                     double& height = heights_[i * columns_ + j];
-                    height = std::min(height, -deep * inside * inside);
+                    height = std::min(height, -deep * valley);
                 }
             }
         }
@@ -397,6 +371,26 @@ class Weatherer {
         turn_normals(face, weights);
     }
 
+    /// The place between rings k and k + 1, on a cubic through them and their neighbours: on the straight way it would depend on
+    /// where the rings of a set stand.
+    static glm::vec3 along_meridian(const std::vector<glm::vec3>& places,
+                                    const std::vector<double>& shares, std::size_t k, double t) {
+        const auto slope = [&](std::size_t i) {
+            return (glm::dvec3(places[i + 1]) - glm::dvec3(places[i])) /
+                   std::max(shares[i + 1] - shares[i], 1e-9);
+        };
+        const auto velocity = [&](std::size_t i) {
+            if (i == 0) return slope(0);
+            if (i + 1 == places.size()) return slope(i - 1);
+            const double before = shares[i] - shares[i - 1], after = shares[i + 1] - shares[i];
+            return (after * slope(i - 1) + before * slope(i)) / std::max(before + after, 1e-9);
+        };
+        const double gap = shares[k + 1] - shares[k], s = 1.0 - t;
+        const glm::dvec3 a(places[k]), b(places[k + 1]);
+        return glm::vec3(s * s * (1.0 + 2.0 * t) * a + t * t * (1.0 + 2.0 * s) * b +
+                         gap * s * t * (s * velocity(k) - t * velocity(k + 1)));
+    }
+
     /// Moves the vertices of a face along their columns to where the cuts leave it.
     void slide(const FaceGrid& face) {
         const bool cap = face.part == Part::cap;
@@ -420,7 +414,7 @@ class Weatherer {
             for (std::size_t i = 0; i < rings; ++i) {
                 const double from = face.shares[i];
                 const double to =
-                    cap ? 1.0 - slid(1.0 - from, still_cap, end) : slid(from, still_lower, end);
+                    cap ? 1.0 - Cuts::cap_to(1.0 - from, end) : Cuts::lower_to(from, end);
                 if (to == from) continue;
                 while (k > 0 && face.shares[k] > to) --k;
                 while (k + 2 < rings && face.shares[k + 1] < to) ++k;
@@ -431,7 +425,7 @@ class Weatherer {
                     return a + static_cast<float>(t) * (b - a);
                 };
                 const std::size_t vertex = at(face, i, j);
-                mesh_.positions[vertex] = between(positions[k], positions[k + 1]);
+                mesh_.positions[vertex] = along_meridian(positions, face.shares, k, t);
                 const glm::dvec3 normal = unit_or(glm::dvec3(between(normals[k], normals[k + 1])),
                                                   glm::dvec3(normals[k]));
                 mesh_.normals[vertex] = glm::vec3(normal);
@@ -448,30 +442,24 @@ class Weatherer {
     /// A melting margin rolls up and outwards.
     void curl() {
         if (amounts_.deliquescence <= 0.0) return;
-        const double length = individual_.outline.cap.length();
-        const double reach = 0.22 * length;
-        const double most = 0.075 * length * smooth_step(0.0, 0.6, amounts_.deliquescence);
         std::vector<glm::dvec3> away(columns_);
         for (std::size_t j = 0; j < columns_; ++j)
             away[j] = glm::dvec3(mesh_.normals[at(body_.cap, 0, j)]);
+        curl_ = Curl(individual_, cuts_, std::move(away));
         for (const FaceGrid* face : {&body_.hymenium, &body_.cap}) {
             const bool cap = face->part == Part::cap;
-            const double own =
-                individual_.outline.of(cap ? CurveName::cap : CurveName::hymenium).length();
             std::vector<double> weights(face->shares.size() * columns_, 0.0);
             for (std::size_t i = 0; i < face->shares.size(); ++i)
                 for (std::size_t j = 0; j < columns_; ++j) {
                     const double share = face->shares[i];
                     const double end = (cap ? cap_ends_ : lower_ends_)[j];
-                    const double off = own * (end - (cap ? slid(1.0 - share, still_cap, end)
-                                                         : slid(share, still_lower, end)));
-                    // Where a face begins it stays on its neighbour, however little is left of it.
-                    const double whole = std::min(reach, 0.95 * own * end);
-                    const double u = whole > 1e-9 ? std::max(0.0, 1.0 - off / whole) : 0.0;
-                    if (u <= 0.0) continue;
+                    const double to =
+                        cap ? Cuts::cap_to(1.0 - share, end) : Cuts::lower_to(share, end);
+                    const glm::dvec3 by = curl_.moved(cap, to, cap_ends_[j], lower_ends_[j], j);
+                    if (by == glm::dvec3(0.0)) continue;
                     const std::size_t vertex = at(*face, i, j);
-                    mesh_.positions[vertex] = glm::vec3(place(vertex) + most * u * u * away[j]);
-                    weights[i * columns_ + j] = std::min(1.0, 4.0 * u * most / (0.05 * length));
+                    mesh_.positions[vertex] = glm::vec3(place(vertex) + by);
+                    weights[i * columns_ + j] = curl_.turned(by);
                 }
             close(*face);
             turn_normals(*face, weights);
@@ -515,7 +503,7 @@ class Weatherer {
             const glm::dvec3 normal =
                 unit_or(1e-4 * outward + sure * sure * glm::cross(up, along), outward);
             // The chart is worn eight times round, to and fro.
-            const double turns = 8.0 * (j == columns_ ? 1.0 : body_.turns[here]);
+            const double turns = 8.0 * (j == columns_ ? 1.0 : cuts_.turns()[here]);
             const double to = turns - 2.0 * std::floor(0.5 * turns);
             const double u = to > 1.0 ? 2.0 - to : to;
             for (const std::size_t edge : {bottom, top}) {
@@ -524,10 +512,12 @@ class Weatherer {
             }
         }
         for (std::size_t j = 0; j < columns_; ++j) {
-            const double here = angle(j),
-                         next = whole_turn * (j + 1 == columns_ ? 1.0 : body_.turns[j + 1]);
-            if (!cuts_.reaches(here) && !cuts_.reaches(next)) continue;
-            if (!keep_absent_ && cuts_.depth(here) <= 0.0 && cuts_.depth(next) <= 0.0) continue;
+            if (!cuts_.may_cut(j)) continue;
+            // By the places themselves: a column that begins to open stands off before it is cut.
+            const auto closed = [&](std::size_t k) {
+                return mesh_.positions[first + 2 * k] == mesh_.positions[first + 2 * k + 1];
+            };
+            if (!keep_absent_ && closed(j) && closed(j + 1)) continue;
             const std::size_t bottom = first + 2 * j, top = bottom + 1;
             triangle(bottom, top, bottom + 2);
             triangle(bottom + 2, top, top + 2);
@@ -542,10 +532,10 @@ class Weatherer {
     [[nodiscard]] Spot spot(const FaceGrid& face, double share, double turn) const {
         turn -= std::floor(turn);
         const auto column = static_cast<std::size_t>(
-            std::upper_bound(body_.turns.begin(), body_.turns.end(), turn) - body_.turns.begin() -
-            1);
-        const double next = column + 1 == columns_ ? 1.0 : body_.turns[column + 1];
-        const double v = (turn - body_.turns[column]) / (next - body_.turns[column]);
+            std::upper_bound(cuts_.turns().begin(), cuts_.turns().end(), turn) -
+            cuts_.turns().begin() - 1);
+        const double next = column + 1 == columns_ ? 1.0 : cuts_.turns()[column + 1];
+        const double v = (turn - cuts_.turns()[column]) / (next - cuts_.turns()[column]);
         const auto above = std::upper_bound(face.shares.begin(), face.shares.end(), share);
         const std::size_t ring = std::min(
             static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - face.shares.begin() - 1, 0)),
@@ -722,30 +712,72 @@ class Weatherer {
     const Individual& individual_;
     const Carried& carries_;
     const WeatheringOf<Plain>& amounts_;
-    Cuts cuts_;
+    const Cuts& cuts_;
+    int lod_;
     bool keep_absent_, textured_;
     std::size_t columns_;
-    bool has_cuts_;
+    std::vector<double> opened_;  // by column: how far it stands at its own place
+    std::vector<bool> even_;      // by column
     std::vector<double> heights_;
     std::vector<double> cap_ends_, lower_ends_;  // by column, when something is cut
-    std::vector<SineCosine> turns_ = [this] {
-        std::vector<SineCosine> out;
-        for (const double turn : body_.turns) out.push_back(sine_cosine(whole_turn * turn));
-        return out;
-    }();
+    std::vector<SineCosine> turns_;
+    Curl curl_;
 };
 
 }  // namespace
 
+Curl::Curl(const Individual& individual, const Cuts& cuts, std::vector<glm::dvec3> away)
+    : cuts_(&cuts),
+      cap_length_(individual.outline.cap.length()),
+      lower_length_(individual.outline.hymenium.length()),
+      reach_(0.22 * cap_length_),
+      most_(0.075 * cap_length_ * smooth_step(0.0, 0.6, individual.wear.amounts.deliquescence)),
+      away_(std::move(away)) {}
+
+double Curl::height(bool cap, double at, double cap_end, double lower_end) const {
+    const double off = cap ? cap_length_ * (cap_end - at) : lower_length_ * (lower_end - at);
+    // As far on both faces, or they would cross; where a face begins it stays on its neighbour, however little is left of it.
+    const double whole =
+        std::min(reach_, 0.95 * std::min(cap_length_ * cap_end, lower_length_ * lower_end));
+    const double u = whole > 1e-9 ? std::max(0.0, 1.0 - off / whole) : 0.0;
+    // The lower face stays behind a little: rings of both faces stand at places of their own, and the flesh between is thin.
+    return (cap ? 1.0 : 0.75) * most_ * u * u;
+}
+
+glm::dvec3 Curl::moved(bool cap, double at, double cap_end, double lower_end,
+                       std::size_t column) const {
+    return height(cap, at, cap_end, lower_end) * away_[column];
+}
+
+double Curl::turned(const glm::dvec3& by) const {
+    return std::min(1.0, 80.0 * std::sqrt(glm::length(by) * most_) / cap_length_);
+}
+
+glm::dvec3 Curl::moved(bool cap, double at, double angle) const {
+    if (none()) return glm::dvec3(0.0);
+    const double high = height(cap, at, cuts_->cap_end(angle), cuts_->lower_end(angle));
+    if (high <= 0.0) return glm::dvec3(0.0);
+    const std::vector<double>& turns = cuts_->turns();
+    double turn = angle / whole_turn;
+    turn -= std::floor(turn);
+    const auto next = static_cast<std::size_t>(std::upper_bound(turns.begin(), turns.end(), turn) -
+                                               turns.begin());
+    const std::size_t column = next - 1, after = next == turns.size() ? 0 : next;
+    const double to = after == 0 ? 1.0 : turns[after];
+    const double t = (turn - turns[column]) / (to - turns[column]);
+    return high * (away_[column] + t * (away_[after] - away_[column]));
+}
+
 WeatheringCount weathering_count(const Individual& individual, int lod) {
     const Carried& carries = carried_at(lod);
     WeatheringCount count;
-    count.columns = column_turns(individual, lod).size();
+    const Cuts cuts(individual, lod);
+    count.columns = cuts.turns().size();
     const auto solids = [&](int number, std::uint64_t vertices, std::uint64_t triangles) {
         count.vertices += static_cast<std::uint64_t>(number) * vertices;
         count.triangles += static_cast<std::uint64_t>(number) * triangles;
     };
-    if (cuts_at_all(individual, lod)) {
+    if (cuts.possible()) {
         count.vertices += 2 * (count.columns + 1);
         count.triangles += 2 * count.columns;
     }
@@ -757,20 +789,55 @@ WeatheringCount weathering_count(const Individual& individual, int lod) {
     return count;
 }
 
-void weather(Mesh& mesh, const SweptBody& body, const Individual& individual, int lod,
-             bool keep_absent) {
+Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual, const Cuts& cuts,
+             int lod, bool keep_absent) {
     const Wear& wear = individual.wear;
     if (!wear.any() && !wear.bites && !wear.splits && !wear.melts && !wear.peels && !wear.dew)
-        return;
-    Weatherer(mesh, body, individual, lod, keep_absent).all();
+        return {};
+    return Weatherer(mesh, body, individual, cuts, lod, keep_absent).all();
 }
 
-double lump_at(const Individual& individual, double sigma, double angle) {
+double stem_dent(const Individual& individual, double sigma, double angle) {
+    const WeatheringOf<Plain>& amounts = individual.wear.amounts;
+    const SubCurve& stem = individual.outline.stem;
+    double height = 0.0;
+    if (amounts.bumps > 0.0) {
+        const double length = stem.length(), girth = whole_turn * mean_radius(stem);
+        const double ring = stem.at(sigma).r;
+        for (const Mark& mark : marks(MarkKind::lump, CurveName::stem, individual.effective.seed)) {
+            const double scale = grown(mark.onset, amounts.bumps);
+            const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * girth;
+            const double a = (sigma - mark.sigma) * length / (size * mark.elongation);
+            if (scale <= 0.0 || a < -1.0 || a > 1.0) continue;
+            const double r = std::max(stem.at(mark.sigma).r, 1e-4);
+            const double chord = 2.0 * sine(0.5 * turn_between(mark.theta, angle));
+            const double square = a * a + r * ring * chord * chord / (size * size);
+            if (square < 1.0)
+                height += lump_height(mark) * scale * girth * (1.0 - square) * (1.0 - square);
+        }
+    }
+    if (amounts.creases > 0.0) {
+        const double radius = mean_radius(stem);
+        double deepest = 0.0;
+        for (const Furrow& furrow : furrows(individual.effective.seed)) {
+            const double scale = grown(furrow.onset, amounts.creases);
+            if (scale <= 0.0) continue;
+            deepest = std::max(deepest, furrow_deep * radius * scale * furrow_depth(furrow, sigma) *
+                                            furrow_valley(furrow_angle(furrow, sigma), angle));
+        }
+        height = std::min(height, -deepest);
+    }
+    return height * stem_freedom(sigma);
+}
+
+double cap_dent(const Individual& individual, double sigma, double angle) {
     const double amount = individual.wear.amounts.bumps;
-    if (amount <= 0.0) return 0.0;
     const SubCurve& cap = individual.outline.cap;
     const double length = cap.length(), ring = cap.at(1.0 - sigma).r;
     double height = 0.0;
+    if (individual.wear.clubs > 0.0 && individual.wear.amounts.creases > 0.0)
+        height -= club_furrow(individual, 1.0 - sigma, angle) * smooth_step(0.0, 0.08, 1.0 - sigma);
+    if (amount <= 0.0) return height;
     for (const Mark& mark : marks(MarkKind::lump, CurveName::cap, individual.effective.seed)) {
         const double scale = grown(mark.onset, amount);
         const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * length;

@@ -1,54 +1,15 @@
-// Weathering as geometry: margins cut back by bites, tears and melting, walls of flesh, lumps, furrows and pits, rolled skin, drips
-// and drops. All of it reads the places of core/model/marks.h; paint reads the same.
+// Weathering as geometry: margins cut back, walls of flesh, lumps, furrows and pits, rolled skin, drips and drops. All of it reads the places of core/model/marks.h; paint reads the same.
 #pragma once
 
 #include <cstdint>
 #include <vector>
 
-#include "core/build/detail.h"
+#include "core/build/cuts.h"
 #include "core/mesh/mesh.h"
 #include "core/model/individual.h"
 #include "core/surface/charts.h"
 
 namespace sporeprint {
-
-/// Where cap and lower face end. A cut takes the same length off both meridians; what lies further in moves along its meridian, so
-/// that images stretch only there and gills, warts and pores follow.
-class Cuts {
-  public:
-    Cuts(const Individual& individual, int lod);
-
-    /// Whether nothing is cut at present.
-    [[nodiscard]] bool none() const { return !cut_; }
-
-    /// Where a place of the upper face goes; sigma 0 at the apex, 1 at the margin.
-    [[nodiscard]] double cap(double sigma, double angle) const;
-
-    /// Where a place of the lower face goes; share 0 at the stem, 1 at the margin.
-    [[nodiscard]] double lower(double share, double angle) const;
-
-    /// Where the faces end at an angle, in the same shares: 1 where nothing is cut.
-    [[nodiscard]] double cap_end(double angle) const;
-    [[nodiscard]] double lower_end(double angle) const;
-
-    /// Length taken off at an angle, metres.
-    [[nodiscard]] double depth(double angle) const;
-
-    /// Whether some amount could cut here: what has walls, whatever the amounts are at present.
-    [[nodiscard]] bool reaches(double angle) const;
-
-  private:
-    struct Cut {
-        double theta, half_width, depth;  // depth in metres, at present
-        bool bitten;
-    };
-    std::vector<Cut> cuts_;
-    double cap_length_ = 0.0, lower_length_ = 0.0, melted_ = 0.0, phase_ = 0.0;
-    bool melts_ = false, cut_ = false;
-};
-
-/// Places of the columns of a mesh, in turns, rising from 0: evenly spaced, and more where a cut needs them. Equal for all amounts.
-[[nodiscard]] std::vector<double> column_turns(const Individual& individual, int lod);
 
 /// A face of a swept mesh: `shares.size()` rings of `columns + 1` vertices.
 struct FaceGrid {
@@ -60,7 +21,34 @@ struct FaceGrid {
 /// The body of a swept mesh.
 struct SweptBody {
     FaceGrid stem, hymenium, cap;  ///< no rings where a form has no lower face
-    std::vector<double> turns;     ///< of the columns
+};
+
+/// A melting margin rolls up and outwards. What stands on the faces goes with them.
+class Curl {
+  public:
+    Curl() = default;
+
+    /// away  where each column of `cuts`, which must outlive this, goes to: unit vectors
+    Curl(const Individual& individual, const Cuts& cuts, std::vector<glm::dvec3> away);
+
+    [[nodiscard]] bool none() const { return away_.empty(); }
+
+    /// How far a place goes, metres. at: on the cap its sigma, on the lower face its share, where the cuts have brought it
+    [[nodiscard]] glm::dvec3 moved(bool cap, double at, double angle) const;
+
+    /// The same in a column, where the faces end there.
+    [[nodiscard]] glm::dvec3 moved(bool cap, double at, double cap_end, double lower_end,
+                                   std::size_t column) const;
+
+    /// How much of its new normal a vertex takes that has gone so far, 0..1.
+    [[nodiscard]] double turned(const glm::dvec3& by) const;
+
+  private:
+    [[nodiscard]] double height(bool cap, double at, double cap_end, double lower_end) const;
+
+    const Cuts* cuts_ = nullptr;
+    double cap_length_ = 0.0, lower_length_ = 0.0, reach_ = 0.0, most_ = 0.0;
+    std::vector<glm::dvec3> away_;
 };
 
 /// What weathering adds to a mesh; no amount changes it.
@@ -72,13 +60,17 @@ struct WeatheringCount {
 [[nodiscard]] WeatheringCount weathering_count(const Individual& individual, int lod);
 
 /// Moves the vertices of a body that has just been swept: dents it, cuts it back and closes the cuts; then adds what stands on it.
-/// An individual without any weathering is left as it is, to the bit.
+/// An individual that nothing can wear is left as it is, to the bit.
 ///
+/// body, cuts   the columns of the body are those of the cuts
 /// keep_absent  whether triangles of what is absent stay, without area
-void weather(Mesh& mesh, const SweptBody& body, const Individual& individual, int lod,
-             bool keep_absent);
+Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual, const Cuts& cuts,
+             int lod, bool keep_absent);
 
-/// Height of lumps at a place of the cap (sigma 0 at the apex), metres: what stands on the skin is lifted by it.
-[[nodiscard]] double lump_at(const Individual& individual, double sigma, double angle);
+/// Height of lumps and furrows at a place of the stem (sigma 0 at the ground), metres: what is all but gone lies on it.
+[[nodiscard]] double stem_dent(const Individual& individual, double sigma, double angle);
+
+/// Height of lumps, and of a club's furrows, at a place of the cap (sigma 0 at the apex), metres: what stands on the skin goes with it.
+[[nodiscard]] double cap_dent(const Individual& individual, double sigma, double angle);
 
 }  // namespace sporeprint

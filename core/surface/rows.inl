@@ -377,7 +377,7 @@ void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
     const bool disc = part < 2;
     const std::size_t place = static_cast<std::size_t>(part);
     const bool scarred = part < 3 && !scars.scars[place].empty();
-    const bool inked = (disc || part == 4) && scars.melted > 0.0F;
+    const bool inked = (disc || part >= 4) && scars.melted > 0.0F;
     const bool dusted = (part == 0 || part == 2 || part == 3) && scars.dust > 0.0F;
     if (!scarred && !inked && !dusted) return;
     const Floats f;
@@ -456,9 +456,11 @@ void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         const VF u = across(x);
         if (inked) {
             const DiscPlan& shape = part == 0 ? plan.cap.disc : plan.hymenium.disc;
-            const VF share = disc ? (hn::Sqrt(u * u + down * down) - set(shape.inner)) *
-                                        set(1.0F / (1.0F - shape.inner))
-                                  : u * set(1.0F / aspect);
+            // Flesh lies open where the margin has melted: all of it is ink.
+            VF share = part == 5 ? set(1.0F) : u * set(1.0F / aspect);
+            if (disc)
+                share = (hn::Sqrt(u * u + down * down) - set(shape.inner)) *
+                        set(1.0F / (1.0F - shape.inner));
             show_ink(scars, part == 0 ? scars.ink_front : scars.ink_lower, share,
                      hn::Load(f, row.uneven + x), texel);
         }

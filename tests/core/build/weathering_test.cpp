@@ -11,6 +11,9 @@
 #include <string>
 #include <vector>
 
+#include "core/build/cuts.h"
+#include "core/build/detail.h"
+#include "core/build/hymenium.h"
 #include "core/build/sweep.h"
 #include "core/grow/mushroom.h"
 #include "core/math/elementary.h"
@@ -18,6 +21,7 @@
 #include "core/model/proportion.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
+#include "tests/support/surfaces.h"
 
 namespace sporeprint {
 namespace {
@@ -198,7 +202,7 @@ TEST(Weathering, ABiteTakesItsDepthOutOfCapAndLowerFace) {
     }
 }
 
-TEST(Weathering, ColumnsStandWhereACutNeedsThemAndNeverAtOnePlace) {
+TEST(Weathering, AllEvenColumnsStandAndMoreWhereACutNeedsThem) {
     // Of a turn. A tear beside a bite keeps all of its columns, however close: without one it would not show.
     constexpr double apart = 0.0002;
     for (std::uint32_t seed = 0; seed < 30; ++seed)
@@ -206,18 +210,77 @@ TEST(Weathering, ColumnsStandWhereACutNeedsThemAndNeverAtOnePlace) {
             MushroomOrder order = order_of("boletus_edulis", 0.6, seed, lod);
             order.params.weathering.bites = 0.5;
             order.params.weathering.splits = 0.5;
-            const std::vector<double> turns = column_turns(resolve(order, atlas()), lod);
+            const Cuts cuts(resolve(order, atlas()), lod);
+            const std::vector<double>& turns = cuts.turns();
             EXPECT_EQ(turns.front(), 0.0);
             for (std::size_t i = 1; i < turns.size(); ++i)
                 EXPECT_GT(turns[i] - turns[i - 1], apart);
             EXPECT_LT(turns.back(), 1.0 - apart);
-            const auto even =
-                static_cast<std::size_t>(details[static_cast<std::size_t>(lod)].columns);
-            EXPECT_LE(turns.size(), even * 2 + 12);
+            const int even = details[static_cast<std::size_t>(lod)].columns;
+            for (int j = 0; j < even; ++j)
+                EXPECT_TRUE(
+                    std::binary_search(turns.begin(), turns.end(), static_cast<double>(j) / even))
+                    << j;
+            EXPECT_EQ(turns.size(), static_cast<std::size_t>(even) + cuts.between().size());
+            EXPECT_LE(turns.size(), static_cast<std::size_t>(even) * 2);
             if (lod == 3) {
-                EXPECT_EQ(turns.size(), even);
+                EXPECT_TRUE(cuts.between().empty());
+            }
+            for (const Cuts::Between& own : cuts.between()) {
+                double sum = 0.0;
+                for (const Cuts::Way& way : cuts.ways(own)) {
+                    const double left = turns[way.left],
+                                 right = way.right == turns.size() ? 1.0 : turns[way.right];
+                    EXPECT_NEAR(turns[own.column], left + way.share * (right - left), 1e-12);
+                    EXPECT_LE(right - left, 1.0 / even + 1e-12);
+                    sum += way.weight;
+                }
+                EXPECT_NEAR(sum, 1.0, 1e-12);
             }
         }
+}
+
+TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
+    for (const auto& [id, lod] : walk(3)) {
+        if (lod == 3) continue;
+        MushroomOrder order = textured(order_of(id, 0.8, 7, lod));
+        // What is open keeps its columns; the surface between is that of the even ones.
+        order.params.weathering.bites = 0.0;
+        if (can(id, shaping[1])) order.params.weathering.splits = 0.0;
+        Individual individual = resolve(order, atlas());
+        if (individual.outline.hymenium.empty()) continue;
+        individual.wear.bites = individual.wear.splits = false;
+        const Mesh clean = mushroom_mesh(order, individual);
+        individual.wear.bites = individual.wear.splits = true;
+        const Mesh worn = mushroom_mesh(order, individual);
+        SCOPED_TRACE(id + " lod " + std::to_string(lod));
+        expect_valid(worn);
+        EXPECT_GT(worn.positions.size(), clean.positions.size());
+        const Bounds box = bounds(clean);
+        const Cuts cuts(individual, lod);
+        const Detail& detail = detail_of(individual.has_relief, lod);
+        const std::size_t row = cuts.turns().size() + 1;
+        const auto rings =
+            static_cast<std::size_t>(detail.stem_rings + detail.hymenium_rings +
+                                     flesh_rings(individual, lod) + detail.cap_rings);
+        for (std::size_t i = 0; i < rings; ++i)
+            for (const Cuts::Between& own : cuts.between()) {
+                ASSERT_EQ(own.open, 0.0);
+                ASSERT_EQ(cuts.ways(own).size(), 1U);
+                const Cuts::Way& way = cuts.ways(own).front();
+                const glm::dvec3 left(worn.positions[i * row + way.left]),
+                    right(worn.positions[i * row + way.right]);
+                EXPECT_LT(glm::distance(glm::dvec3(worn.positions[i * row + own.column]),
+                                        left + way.share * (right - left)),
+                          1e-6 * glm::distance(box.min, box.max));
+            }
+        // Between rings a twisted quad is two triangles in one mesh and more in the other: more so the coarser it is.
+        if (lod == 0) {
+            EXPECT_LT(hausdorff(clean, worn), 0.0005 * glm::distance(box.min, box.max));
+        }
+        EXPECT_NEAR(area(worn) / area(clean), 1.0, 0.005);
+        EXPECT_NEAR(volume(worn) / volume(clean), 1.0, 0.005);
+    }
 }
 
 TEST(Weathering, AClipHasOneTopologyWhateverTheAgeTakes) {
