@@ -16,17 +16,17 @@ struct Detail {
 
 /// By LOD. The same individual in each: counts change, draws do not.
 inline constexpr std::array<Detail, 4> details = {{
-    {26, 18, 28, 64, 7, 1, 6, 8},
-    {13, 9, 14, 32, 4, 0, 3, 4},
-    {7, 5, 7, 16, 0, 0, 1, 2},
+    {26, 18, 28, 64, 7, 1, 6, 11},
+    {13, 9, 14, 32, 4, 0, 3, 7},
+    {7, 5, 7, 16, 0, 0, 1, 4},
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
 /// By LOD, of a set of species that has relief: twice the rings of the cap, less one (see Outline::rings), and more columns.
 inline constexpr std::array<Detail, 4> fine_details = {{
-    {26, 18, 55, 128, 7, 1, 6, 8},
-    {13, 9, 27, 48, 4, 0, 3, 4},
-    {7, 5, 7, 16, 0, 0, 1, 2},
+    {26, 18, 55, 128, 7, 1, 6, 11},
+    {13, 9, 27, 48, 4, 0, 3, 7},
+    {7, 5, 7, 16, 0, 0, 1, 4},
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 

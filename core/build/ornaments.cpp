@@ -376,11 +376,18 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
             stem.r + off, stem.y,    free ? 1.0 : stem.tangent_y, free ? 0.0 : -stem.tangent_r, off,
             above,        stem.share};
     }
+    // By arc length, so that rows lie as close where it turns under the bulb as where it rises.
+    std::array<double, samples + 1> arcs{};
+    for (std::size_t i = 1; i <= samples; ++i) {
+        const double dr = way[i].r - way[i - 1].r, dy = way[i].y - way[i - 1].y;
+        arcs[i] = arcs[i - 1] + std::sqrt(dr * dr + dy * dy);
+    }
     const auto way_at = [&](double share) {
-        const double place = share * samples;
-        const auto k =
-            static_cast<std::size_t>(std::min<int>(static_cast<int>(place), samples - 1));
-        const double t = place - static_cast<double>(k);
+        const double arc = share * arcs.back();
+        std::size_t k = 0;
+        while (k + 1 < samples && arcs[k + 1] < arc) ++k;
+        const double step = arcs[k + 1] - arcs[k];
+        const double t = step > 0.0 ? std::clamp((arc - arcs[k]) / step, 0.0, 1.0) : share;
         const Way &a = way[k], &b = way[k + 1];
         const auto mix = [t](double x, double y) { return x + t * (y - x); };
         return Way{mix(a.r, b.r),

@@ -127,7 +127,7 @@ inline constexpr double vein_stray = 0.36, vein_tilt = 0.4, vein_width = 0.11;
 /// Of each whole number there is one vein: that of gap k in row j has k + vein_rows_apart * j.
 inline constexpr int vein_rows_apart = 512;
 /// How many there are: this less what a vein draws, times the steepness, is its height.
-[[nodiscard]] constexpr double veins_there(double forking) { return 1.3 * forking - 0.35; }
+[[nodiscard]] constexpr double veins_there(double forking) { return 1.4 * forking - 0.5; }
 inline constexpr double vein_steepness = 4.0;
 
 /// The cross veins of a species with so many ridges: those without height too, so that no age changes their number.

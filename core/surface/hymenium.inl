@@ -96,7 +96,9 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
                          chance * set(static_cast<float>(fork_strays[i]));
         const VF swing = set(0.5F) * smooth(share - begin, 0.0F, static_cast<float>(fork_swing));
         const VF fork = hn::IfThenElse(side < set(0.0F), swing, one - swing);
-        distance = hn::Min(distance, hn::Abs(within - fork) * set(1.0F / scale));
+        // One that has not begun is far away: where it will grow from there may be no ridge yet.
+        const VF begun = unit((share - begin) * set(40.0F));
+        distance = hn::Min(distance, (hn::Abs(within - fork) + (one - begun)) * set(1.0F / scale));
         room = room * (one - swing);
     }
     const VF half = gap * room * set(0.5F);

@@ -232,7 +232,7 @@ TEST(Ornaments, ASacHoldsTheWholeBulb) {
     order.params.variation = 0.0;
     Individual individual = resolve(order, atlas());
     individual.has_ring = false;
-    const Mesh sac = last_piece(individual);
+    const Mesh sac = last_piece(individual, 1);  // gills come after it at the finest level
     double lowest = 1.0, narrowest = 1.0, widest = 0.0, bulb = 0.0, ground = 1.0;
     for (int i = 0; i <= 100; ++i) {
         bulb = std::max(bulb, individual.outline.stem.at(i / 100.0).r);

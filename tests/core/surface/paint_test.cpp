@@ -372,6 +372,8 @@ PaintParams combed(int blades, int tiers, int comb,
     params.comb = comb;
     params.surface.hymenium.pattern = pattern;
     params.surface.hymenium.mottle = 0.0;
+    // Walls that give no light back: slots are as dark as their depth makes them.
+    params.surface.hymenium.colour = {0, 0, 0};
     return params;
 }
 

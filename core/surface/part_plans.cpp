@@ -1,0 +1,406 @@
+#include "core/surface/part_plans.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/elementary.h"
+#include "core/model/comb.h"
+#include "core/model/purposes.h"
+#include "core/surface/canvas.h"
+#include "core/surface/charts.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr float single(double value) { return static_cast<float>(value); }
+
+// How much of a noise octave with features `texels` large can be shown: none below two, all from
+// four on.
+float shown_of(double texels) { return single(std::clamp((texels - 2.0) / 2.0, 0.0, 1.0)); }
+
+double disc_texel(const Frame& frame) {
+    return 1.0 / ((0.5 - static_cast<double>(frame.inset)) * frame.width);
+}
+
+ReliefPlan relief_plan(const PaintParams& params) {
+    const ReliefStyle& style = params.relief;
+    ReliefPlan plan;
+    plan.seed = relief_seeds(params.seed);
+    // The normals of the mesh hold what it carries; a little more is kept, because its triangles round what is sharp.
+    const auto left = [](double carried) { return 1.0 - 0.75 * carried; };
+    plan.folds = single(style.folds);
+    plan.fold_slope = single(style.folds * left(params.carried.folds));
+    plan.fold_size = 0.5F * static_cast<float>(style.fold_count);
+    plan.pits = single(style.pits);
+    plan.pit_slope = single(style.pits * left(params.carried.pits));
+    plan.pit_columns = static_cast<float>(style.pit_columns);
+    plan.pit_rows = static_cast<float>(style.pit_rows);
+    plan.rib = single(pit_rib * style.rib);
+    plan.tiers = single(style.tiers);
+    plan.tier_slope = single(style.tiers * left(params.carried.tiers));
+    plan.tier_count = static_cast<float>(style.tier_count);
+    plan.hollow = light_of(params.surface.cap.hollow);
+    plan.tint = single(params.surface.cap.hollow_tint);
+    return plan;
+}
+
+Stand stand_of(const PaintParams& params) {
+    return stand_on(params.comb, params.surface.hymenium.pattern, params.hymenium.blades,
+                    params.hymenium.tiers);
+}
+
+CombPlan comb_plan(const PaintParams& params, const Stand& stand) {
+    CombPlan plan;
+    plan.blades = stand.blades;
+    plan.slots = static_cast<float>(stand.slots);
+    plan.stands = static_cast<float>(stand.stands);
+    plan.stride = static_cast<float>(stand.stride);
+    const bool ridges = params.surface.hymenium.pattern == HymeniumPattern::ridges;
+    plan.bend = single(ridges ? ridge_wander : gill_wander);
+    const Wander wander = wander_of(params.seed);
+    for (std::size_t i = 0; i < wander.waves.size(); ++i) {
+        const Wander::Wave& wave = wander.waves[i];
+        plan.wander[i] = {single(wave.count), single(wave.lean), single(wave.size),
+                          single(wave.phase)};
+    }
+    return plan;
+}
+
+// What pale walls give back to each other, as a share of the light that meets them.
+double given_back(Colour colour) {
+    const Light light = light_of(colour);
+    return std::min(0.8, 0.8 * static_cast<double>(light.r + light.g + light.b) / 3.0);
+}
+
+// Light at the bottom of a slot between blades: one as deep as `steep` times its width sees that little of the sky, and the rest of
+// what it sees are walls. Ridges are shallow folds, spines stand apart.
+double slot_occlusion(const PaintParams& params) {
+    const HymeniumSurface& face = params.surface.hymenium;
+    const bool open =
+        face.pattern == HymeniumPattern::ridges || face.pattern == HymeniumPattern::teeth;
+    const double steep = (open ? 0.6 : 1.6) * params.hymenium.relief;
+    const double sky = std::sqrt(1.0 + steep * steep) - steep;
+    return sky / (1.0 - given_back(face.colour) * (1.0 - sky));
+}
+
+// Radius from the axis over disc radius, at share rho of the meridian.
+double roundness(const DiscPlan& disc, double rho) {
+    if (rho < 1e-4) return 1.0;
+    const double angle = std::min(rho * static_cast<double>(disc.bend), 0.5 * pi);
+    return static_cast<double>(disc.sphere) * sine(angle) / rho;
+}
+
+}  // namespace
+
+Light light_of(Colour colour) {
+    const std::array<float, 256>& table = linear_table();
+    return {table[colour.r], table[colour.g], table[colour.b]};
+}
+
+DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
+    DiscPlan disc;
+    disc.per_texel = single(disc_texel(frame));
+    const double ratio = std::max(arc / radius, 1.0);
+    double bend = 0.5 * pi;
+    if (ratio < 0.5 * pi) {
+        // Bisection of bend / sin(bend) = ratio.
+        double low = 0.01, high = 0.5 * pi;
+        for (int i = 0; i < 40; ++i) {
+            bend = 0.5 * (low + high);
+            (bend / sine(bend) < ratio ? low : high) = bend;
+        }
+    } else {
+        bend = ratio;
+    }
+    disc.bend = single(bend);
+    disc.sphere = single(1.0 / bend);
+    return disc;
+}
+
+CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
+    const CapSurface& cap = params.surface.cap;
+    CapPlan plan;
+    const double arc = length_of_step(params.metrics.cap_arc);
+    plan.disc = cap_disc(arc, length_of_step(params.metrics.cap_radius), frame);
+    plan.relief = relief_plan(params);
+    plan.seed = seeds<12>(params.seed, purposes::cap_paint);
+    plan.lightness = single(params.lightness);
+    // Slime is smooth, and fills what is uneven.
+    plan.roughness = single(cap.roughness + params.slime * (0.12 - cap.roughness));
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.bumps[i] = single(cap.bumps * (1.0 - 0.7 * params.slime)) *
+                        shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) *
+                                        static_cast<double>(plan.disc.per_texel)));
+    plan.fields = 7U;
+    if (plan.bumps[0] > 0.0F) plan.fields |= 1U << cap_bump;
+    std::vector<Colour> ramp = cap.ramp;
+    if (ramp.empty()) ramp.push_back(Colour{128, 128, 128});
+    if (ramp.size() > most_ramp_steps + 1) ramp.resize(most_ramp_steps + 1);
+    plan.first = light_of(ramp[0]);
+    plan.steps = static_cast<int>(ramp.size()) - 1;
+    for (std::size_t i = 0; i + 1 < ramp.size(); ++i) {
+        const Light from = light_of(ramp[i]);
+        const Light to = light_of(ramp[i + 1]);
+        plan.step[i] = {to.r - from.r, to.g - from.g, to.b - from.b};
+    }
+    if (!cap.image.empty()) {
+        plan.lightness = 1.0F;
+        return plan;
+    }
+    plan.ramp_noise = single(cap.ramp_noise);
+    plan.fibrils = single(cap.fibrils);
+    plan.fibril_count = cap.fibril_count;
+    plan.zones = single(cap.zones);
+    plan.zone_count = single(cap.zone_count);
+    plan.patches = single(cap.patches);
+    plan.patch_frequency = single(
+        std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
+    // Share of the face above a threshold of the noise: a logistic stand-in for its distribution.
+    const double share = std::clamp(cap.patches, 0.01, 0.99);
+    plan.patch_threshold = single(-0.20 * logarithm(share / (1.0 - share)));
+    plan.patch_weight = single(std::min(1.0, cap.patches * 8.0));
+    plan.patch_colour = light_of(cap.patch_colour);
+    plan.streaks = single(cap.streaks);
+    plan.veins = single(cap.veins);
+    plan.vein_rows = 7.0F;
+    plan.striae = single(cap.striae);
+    // Few gills show through a thin cap one by one, with the shorter ones between; many run
+    // together.
+    plan.striae_count = std::min(2 * params.hymenium.blades, 54 + params.hymenium.blades / 2);
+    if (plan.streaks > 0.0F) plan.fields |= 1U << cap_streak;
+    if (plan.fibrils > 0.0F) plan.fields |= 1U << cap_fibre;
+    if (plan.patches > 0.0F) plan.fields |= 1U << cap_patch;
+    if (plan.veins > 0.0F) plan.fields |= 1U << cap_vein;
+    return plan;
+}
+
+HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
+    const HymeniumSurface& face = params.surface.hymenium;
+    HymeniumPlan plan;
+    const double arc = length_of_step(params.metrics.hymenium_arc);
+    const double inner = length_of_step(params.metrics.hymenium_inner);
+    const double outer = std::max(length_of_step(params.metrics.cap_radius), inner);
+    const double unit = arc / (1.0 - hymenium_inner_share);
+    plan.disc.per_texel = single(disc_texel(frame));
+    plan.disc.inner = single(hymenium_inner_share);
+    plan.disc.cone_from = single(inner / unit);
+    plan.disc.cone_grow = single((outer - inner) / unit);
+    plan.seed = hymenium_words(params.seed);
+    plan.colour = light_of(face.colour);
+    plan.edge = light_of(face.edge);
+    plan.depth = light_of(face.depth);
+    plan.roughness = single(face.roughness);
+    plan.relief = single(params.hymenium.relief);
+    for (std::size_t i = 0; i < 2; ++i)
+        plan.bumps[i] = 0.6F * shown_of(1.0 / (static_cast<double>(hymenium_bump_frequency[i]) *
+                                               static_cast<double>(plan.disc.per_texel)));
+    plan.fields = 3U;
+    if (plan.bumps[0] > 0.0F) plan.fields |= 1U << hymenium_bump;
+    if (!face.image.empty()) return plan;
+    plan.pattern = static_cast<int>(face.pattern);
+    plan.mottle = single(face.mottle);
+    const Stand stand = stand_of(params);
+    plan.comb = comb_plan(params, stand);
+    plan.tiers = stand.tiers;
+    plan.last_tier = single(stand.last_tier);
+    plan.inner_gap = single(params.hymenium.inner_gap);
+    plan.bare_slope = single(1.0 / std::max(0.9 * params.hymenium.inner_gap, 1e-3));
+    plan.forking = single(params.hymenium.forking);
+    plan.vein_rows = cross_vein_rows(stand.blades);
+    plan.veins_there = single(veins_there(params.hymenium.forking));
+    plan.slot_occlusion = single(slot_occlusion(params));
+    plan.blade = single(0.5 * params.hymenium.thickness * 2.0 * pi * outer / unit /
+                        (params.hymenium.blades * (1 << params.hymenium.tiers)));
+    // Elongated pores stand in fewer rows.
+    const double tall = face.pattern == HymeniumPattern::pores ? params.hymenium.elongation : 1.0;
+    CellRows cells = params.cells;
+    double rows = cells.rows;
+    if (cells.rows == 0) {
+        rows = std::max(3.0, arc * params.hymenium.pores_per_mm * 1000.0 / tall);
+        cells.from = 2.0 * pi * inner / arc * rows * tall;
+        cells.grow = 2.0 * pi * (outer - inner) / arc * tall;
+    }
+    plan.pore_rows = single(rows);
+    plan.pore_from = single(cells.from);
+    plan.pore_grow = single(cells.grow);
+    plan.pore_tall = single(tall);
+    plan.spine = single(0.5 * params.hymenium.thickness);
+    plan.pore_shown = single(std::clamp(
+        ((1.0 - hymenium_inner_share) / (rows * static_cast<double>(plan.disc.per_texel)) - 1.6) /
+            2.0,
+        0.0, 1.0));
+    return plan;
+}
+
+StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
+    const StemSurface& stem = params.surface.stem;
+    StemPlan plan;
+    const double length = length_of_step(params.metrics.stem_length);
+    const double circumference = 2.0 * pi * length_of_step(params.metrics.stem_radius);
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    const double aspect = std::clamp(length / circumference, 0.02, 40.0);
+    const double along = aspect / (share * frame.width);
+    const double round = 1.0 / (share * frame.height);
+    plan.seed = seeds<12>(params.seed, purposes::stem_paint);
+    plan.aspect = single(aspect);
+    plan.ragged = single(0.10 * std::min(1.0, 1.5 / aspect));
+    plan.texel_along = single(along);
+    plan.texel_round = single(round);
+    plan.top = light_of(stem.top);
+    plan.base = light_of(stem.base);
+    plan.stain = light_of(stem.stain);
+    plan.band_colour = light_of(stem.band_colour);
+    plan.net_colour = light_of(stem.net_colour);
+    plan.roughness = single(stem.roughness);
+    const double stretch = std::clamp(1.6 * round / along, 0.05, 1.0);
+    plan.stretch = single(stretch);
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.bumps[i] = single(stem.bumps) *
+                        shown_of(1.0 / (stem_bump_cells[i] * std::max(round, along * stretch)));
+    plan.fields = 3U;
+    if (plan.bumps[0] > 0.0F) plan.fields |= 1U << stem_bump;
+    if (!stem.image.empty()) return plan;
+    plan.base_stain = single(stem.base_stain);
+    plan.fibrils = single(stem.fibrils);
+    const double weights[3] = {0.25 + 0.75 * stem.fibrils, 0.7, 0.6};
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.fibres[i] =
+            single(weights[i]) *
+            shown_of(1.0 / (stem_fibre_cells[i] *
+                            std::max(round, along * static_cast<double>(stem_fibre_slender[i]))));
+    if (plan.fibrils > 0.0F) plan.fields |= (1U << stem_fibre) | (1U << stem_furrow);
+    plan.bands = single(stem.bands);
+    plan.net = single(stem.net);
+    const HymeniumSurface& face = params.surface.hymenium;
+    if (is_bladed(face.pattern) && params.hymenium.decurrent > 0.0) {
+        const Stand stand = stand_of(params);
+        plan.comb = comb_plan(params, stand);
+        plan.gills = single(params.hymenium.decurrent);
+        plan.gill_half = single(std::min(
+            0.36, 0.5 * params.hymenium.thickness * length_of_step(params.metrics.cap_radius) *
+                      2.0 * pi / circumference / (1 << params.hymenium.tiers)));
+        plan.gill_relief = single(0.22 * params.hymenium.relief / stand.blades);
+        plan.gill_occlusion = single(slot_occlusion(params));
+        plan.gill_shown = single(std::clamp((1.0 / (stand.blades * round) - 2.0) / 2.0, 0.0, 1.0));
+        plan.gill_colour = light_of(face.colour);
+        plan.gill_edge = light_of(face.edge);
+        plan.gill_depth = light_of(face.depth);
+    }
+    plan.net_shown = shown_of(1.0 / (static_cast<double>(net_columns) *
+                                     std::max(round, along / static_cast<double>(net_stretch))) -
+                              1.0);
+    return plan;
+}
+
+VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
+    VeilPlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, purposes::veil_paint);
+    plan.texel = single(1.0 / (share * frame.width));
+    plan.across = single(static_cast<double>(frame.height) / frame.width);
+    plan.colour = light_of(params.surface.veil.colour);
+    plan.tip = light_of(params.surface.veil.tip);
+    plan.roughness = single(params.surface.veil.roughness);
+    return plan;
+}
+
+// A texel's share of the wall between two neighbouring blades that sees the sky: 1 - d / sqrt(d^2 + w^2) at depth d in a slot of
+// width w; light that the walls themselves give back brightens what is pale.
+BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
+    const HymeniumSurface& face = params.surface.hymenium;
+    BladePlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, purposes::blade_paint);
+    plan.texel_along = single(1.0 / (share * frame.width));
+    const double depth = std::max(params.hymenium.depth, 0.01);
+    plan.texel_across = single(depth / (share * frame.height));
+    plan.colour = light_of(face.colour);
+    plan.edge = light_of(face.edge);
+    plan.depth = light_of(face.depth);
+    plan.mottle = single(face.mottle);
+    plan.roughness = single(face.roughness);
+    // Over the gap between two blades half-way to the margin.
+    const double arc = length_of_step(params.metrics.hymenium_arc);
+    const double radius = 0.5 * (length_of_step(params.metrics.hymenium_inner) +
+                                 length_of_step(params.metrics.cap_radius));
+    const double gap =
+        2.0 * pi * radius /
+        static_cast<double>(params.hymenium.blades << std::min(params.hymenium.tiers, 1));
+    plan.steep = single(std::clamp(params.hymenium.relief * depth * arc / gap, 0.2, 6.0));
+    plan.pale = single(given_back(face.colour));
+    plan.grain = shown_of(share * frame.width / static_cast<double>(blade_grain));
+    return plan;
+}
+
+FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
+    FleshPlan plan;
+    const double share = 1.0 - 2.0 * static_cast<double>(frame.inset);
+    plan.seed = seeds<4>(params.seed, purposes::flesh_paint);
+    plan.texel_along = single(1.0 / (share * frame.width));
+    plan.texel_across = single(flesh_width / (share * frame.height));
+    plan.colour = light_of(params.surface.flesh.colour);
+    plan.roughness = single(params.surface.flesh.roughness);
+    for (std::size_t i = 0; i < 3; ++i)
+        plan.bumps[i] =
+            shown_of(share * frame.width / static_cast<double>(flesh_bump_frequency[i]));
+    return plan;
+}
+
+void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t seed,
+                 double weight, PaintPlan& plan) {
+    const bool warts = kind == 0;
+    if (amount <= 0.0) return;
+    for (const Patch& patch : patches(style, seed, warts ? purposes::warts : purposes::scales)) {
+        const double scale = patch_scale(patch, amount);
+        if (scale <= 0.0 || patch.radius <= 0.0) continue;
+        // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
+        const double radius = patch.radius * weight * (kind == 0 ? scale : 0.7 + 0.3 * scale);
+        const double length = std::max(radius * style.elongation, 1e-4);
+        const double width =
+            std::max(radius / std::max(roundness(plan.cap.disc, patch.sigma), 0.1), 1e-4);
+        const SineCosine turn = sine_cosine(patch.theta);
+        PatchPlan one;
+        one.kind = kind;
+        one.x = single(patch.sigma * turn.cosine);
+        one.y = single(patch.sigma * turn.sine);
+        one.along_x = single(turn.cosine);
+        one.along_y = single(turn.sine);
+        one.lift = single(std::clamp(3.0 * style.lift, -1.0, 1.0));
+        one.per_length = single(1.0 / length);
+        one.per_width = single(1.0 / width);
+        one.relief =
+            single((kind == 0 ? 0.22 * patch.height : 0.12 * patch.height + 0.04) * radius);
+        one.shown = single(kind == 0 ? std::min(1.0, 4.0 * scale) : scale);
+        one.reach = patch_window * single(std::max(length, width));
+        Random stream(seed, warts ? purposes::wart_outlines : purposes::scale_outlines, patch.id);
+        one.seed = stream.bits();
+        for (std::size_t side = 0; side < 6; ++side) {
+            const double angle = stream.uniform(-0.32, 0.32);
+            const double off = stream.uniform(0.78, 1.12);
+            const SineCosine normal =
+                sine_cosine(patch.spin + (static_cast<double>(side) / 6.0) * 2.0 * pi + angle);
+            one.side_x[side] = single(normal.cosine / off);
+            one.side_y[side] = single(normal.sine / off);
+        }
+        plan.patches.push_back(one);
+    }
+}
+
+void sort_patches_into_rows(PaintPlan& plan) {
+    const Frame& frame = plan.frames[0];
+    plan.patches_by_row.resize(static_cast<std::size_t>(frame.height));
+    const double reach = 0.5 - static_cast<double>(frame.inset);
+    for (std::size_t i = 0; i < plan.patches.size(); ++i) {
+        const PatchPlan& patch = plan.patches[i];
+        const double middle = (static_cast<double>(patch.y) * reach + 0.5) * frame.height;
+        const double half = static_cast<double>(patch.reach) * reach * frame.height + 1.0;
+        const int from = static_cast<int>(std::max(middle - half, 0.0));
+        const int to =
+            static_cast<int>(std::clamp(middle + half, 0.0, static_cast<double>(frame.height)));
+        for (int y = from; y < to; ++y)
+            plan.patches_by_row[static_cast<std::size_t>(y)].push_back(static_cast<int>(i));
+    }
+}
+
+}  // namespace sporeprint
