@@ -408,6 +408,8 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     const double lies = lying(height, widest);
     // Inside the stem where it begins, outside of it before long.
     const double sunk = std::min(0.02 * widest, 0.25 * height);
+    // A single band would cut through the bulb: from afar it is the wall alone.
+    const double first = rings > 1 ? 0.01 : 0.66;
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
@@ -415,7 +417,8 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
         for (int j = 0; j <= ground.detail.columns; ++j) {
             const double angle =
                 -2.0 * pi * (j % ground.detail.columns) / ground.detail.columns;  // as the ring
-            const double up = 0.01 + 0.99 * share * (1.0 - 0.62 * style.tear * rents.at(angle));
+            const double up =
+                first + (1.0 - first) * share * (1.0 - 0.62 * style.tear * rents.at(angle));
             const Way at = way_at(up);
             // The skin thins towards its edge, lies in folds where it is loose, and its lobes bend out or in.
             const double half = (outside ? 0.5 : -0.5) * thickness * (1.2 - 0.6 * share);
