@@ -409,7 +409,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     // Inside the stem where it begins, outside of it before long.
     const double sunk = std::min(0.02 * widest, 0.25 * height);
     // A single band would cut through the bulb: from afar it is the wall alone.
-    const double first = rings > 1 ? 0.01 : 0.66;
+    const double first = rings > 1 ? 0.01 : 0.6;
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
