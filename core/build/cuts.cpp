@@ -87,6 +87,16 @@ Cuts::Cuts(const Individual& individual, int lod) {
     }
     place_columns(notches, amounts, carries.inside, details[level].columns,
                   detail_of(individual.has_relief, lod).columns);
+    if (none()) return;
+    for (const double turn : turns_) depths_.push_back(cut_at(whole_turn * turn));
+    depths_.push_back(depths_.front());
+    const std::vector<double> own = depths_;
+    for (const Between& column : between_) {
+        double on_ways = 0.0;
+        for (const Way& way : ways(column))
+            on_ways += way.weight * (own[way.left] + way.share * (own[way.right] - own[way.left]));
+        depths_[column.column] = on_ways + column.open * (own[column.column] - on_ways);
+    }
 }
 
 void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
@@ -165,7 +175,7 @@ void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<P
     }
 }
 
-double Cuts::depth(double angle) const {
+double Cuts::cut_at(double angle) const {
     double deepest = 0.0;
     for (const Open& cut : open_)
         deepest = std::max(deepest, cut.depth * notch_profile(cut.notch, angle));
@@ -175,6 +185,17 @@ double Cuts::depth(double angle) const {
         deepest += melted_ * (1.0 + 0.2 * ragged);
     }
     return deepest;
+}
+
+double Cuts::depth(double angle) const {
+    if (depths_.empty()) return 0.0;
+    double turn = angle / whole_turn;
+    turn -= std::floor(turn);
+    const auto next = static_cast<std::size_t>(
+        std::upper_bound(turns_.begin(), turns_.end(), turn) - turns_.begin());
+    const double from = turns_[next - 1], to = next == turns_.size() ? 1.0 : turns_[next];
+    const double t = (turn - from) / (to - from);
+    return depths_[next - 1] + t * (depths_[next] - depths_[next - 1]);
 }
 
 double Cuts::cap_end(double angle) const {

@@ -45,7 +45,7 @@ class Cuts {
     [[nodiscard]] double cap_end(double angle) const;
     [[nodiscard]] double lower_end(double angle) const;
 
-    /// Length taken off at an angle, metres.
+    /// Length taken off at an angle, metres: straight from column to column, as the margin of the mesh runs.
     [[nodiscard]] double depth(double angle) const;
 
     /// Places of the columns, in turns, rising from 0. Equal for all amounts.
@@ -76,12 +76,14 @@ class Cuts {
         Notch notch;
         double depth;  // metres, at present
     };
+    [[nodiscard]] double cut_at(double angle) const;
     // plain, all: even columns without and with those that relief adds
     void place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
                        int inside, int plain, int all);
 
     std::vector<Open> open_;
     std::vector<double> turns_;
+    std::vector<double> depths_;  // of the columns and, again, the first; empty when nothing is cut
     std::vector<Between> between_;
     std::vector<Way> ways_;
     std::vector<bool> may_cut_;

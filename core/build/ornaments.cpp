@@ -151,9 +151,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         const glm::dvec3 round = glm::cross(outward, normal);
         const double radius = patch.radius * scale * length, height = patch.height * radius;
         glm::dvec3 centre = place.position;
-        if (!on_stem && (ground.individual.wear.amounts.bumps > 0.0 ||
-                         ground.individual.wear.amounts.creases > 0.0))
-            centre += cap_dent(ground.individual, patch.sigma, patch.theta) * normal;
+        if (!on_stem) centre += ground.dents.cap(patch.sigma, patch.theta) * normal;
         const AxisStation station = ground.deformer.frozen_station(
             on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
         solid.rows = between + 2;
@@ -296,7 +294,7 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
              sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
              3 * groove_count > ground.detail.columns ? 0.0 : sine(groove_count * angle + other),
              1.0 - 0.8 * style.tear * rents.at(angle),
-             lies > 0.0 ? lies * stem_dent(individual, attachment.share, angle) : 0.0});
+             lies > 0.0 ? lies * ground.dents.stem(attachment.share, angle) : 0.0});
     }
     // The veil tears off level with its edge, which is thicker.
     Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
@@ -427,7 +425,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
             const double rise = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.16, share) - sunk;
             const double off = half + rise + std::max(loose, -0.8 * at.clear);
             double r = std::max(at.r + off * at.normal_r, thickness + half);
-            if (lies > 0.0) r = std::max(r + lies * stem_dent(individual, at.share, angle), 0.0);
+            if (lies > 0.0) r = std::max(r + lies * ground.dents.stem(at.share, angle), 0.0);
             const auto turn = sine_cosine(angle);
             glm::dvec3 place = ground.skin.azimuth().moved(
                 {r * turn.cosine, at.y + off * at.normal_y, r * turn.sine});

@@ -18,6 +18,7 @@ struct Ground {
     bool keep_absent;  ///< whether what has no size keeps its triangles
     const Cuts& cuts;  ///< of the margin
     const Curl& curl;  ///< of what is left of it
+    const Dents& dents;
     const Individual& individual;
 };
 

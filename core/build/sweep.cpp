@@ -252,9 +252,10 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const Curl curl = weather(mesh, body, individual, cuts, lod, options.keep_absent);
     // Ring and sac have as many columns beside a species with relief as without: torn edges would turn out otherwise.
     const Detail& plain = details[static_cast<std::size_t>(lod)];
+    const Dents dents(individual);
     const Ground ground{
-        outline, deformer, skin,      plain, seed, options.textured, options.keep_absent,
-        cuts,    curl,     individual};
+        outline, deformer, skin,  plain,     seed, options.textured, options.keep_absent,
+        cuts,    curl,     dents, individual};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);
     add_sac(mesh, individual, ground);

@@ -69,18 +69,6 @@ double stem_freedom(double share) {
     return smooth_step(0.0, 0.06, share) * (1.0 - smooth_step(0.93, 0.995, share));
 }
 
-// Depth of the furrows that run on over a club, metres.
-double club_furrow(const Individual& individual, double share, double angle) {
-    const double radius = mean_radius(individual.outline.stem);
-    const double fades = club_carried * individual.wear.clubs * club_fade(share);
-    double deepest = 0.0;
-    for (const Furrow& furrow : furrows(individual.effective.seed))
-        deepest = std::max(deepest, furrow_deep * radius * fades * furrow.depth *
-                                        grown(furrow.onset, individual.wear.amounts.creases) *
-                                        furrow_valley(furrow_angle(furrow, 1.0 + share), angle));
-    return deepest;
-}
-
 /// Works on the vertices of a swept body.
 class Weatherer {
   public:
@@ -797,59 +785,67 @@ Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual, co
     return Weatherer(mesh, body, individual, cuts, lod, keep_absent).all();
 }
 
-double stem_dent(const Individual& individual, double sigma, double angle) {
-    const WeatheringOf<Plain>& amounts = individual.wear.amounts;
-    const SubCurve& stem = individual.outline.stem;
-    double height = 0.0;
-    if (amounts.bumps > 0.0) {
-        const double length = stem.length(), girth = whole_turn * mean_radius(stem);
-        const double ring = stem.at(sigma).r;
-        for (const Mark& mark : marks(MarkKind::lump, CurveName::stem, individual.effective.seed)) {
-            const double scale = grown(mark.onset, amounts.bumps);
-            const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * girth;
-            const double a = (sigma - mark.sigma) * length / (size * mark.elongation);
-            if (scale <= 0.0 || a < -1.0 || a > 1.0) continue;
-            const double r = std::max(stem.at(mark.sigma).r, 1e-4);
-            const double chord = 2.0 * sine(0.5 * turn_between(mark.theta, angle));
-            const double square = a * a + r * ring * chord * chord / (size * size);
-            if (square < 1.0)
-                height += lump_height(mark) * scale * girth * (1.0 - square) * (1.0 - square);
-        }
+Dents::Dents(const Individual& individual)
+    : outline_(individual.outline),
+      bumps_(individual.wear.amounts.bumps),
+      creases_(individual.wear.amounts.creases),
+      clubs_(individual.wear.clubs) {
+    const std::uint32_t seed = individual.effective.seed;
+    if (bumps_ > 0.0) {
+        cap_lumps_ = marks(MarkKind::lump, CurveName::cap, seed);
+        stem_lumps_ = marks(MarkKind::lump, CurveName::stem, seed);
     }
-    if (amounts.creases > 0.0) {
-        const double radius = mean_radius(stem);
-        double deepest = 0.0;
-        for (const Furrow& furrow : furrows(individual.effective.seed)) {
-            const double scale = grown(furrow.onset, amounts.creases);
-            if (scale <= 0.0) continue;
-            deepest = std::max(deepest, furrow_deep * radius * scale * furrow_depth(furrow, sigma) *
-                                            furrow_valley(furrow_angle(furrow, sigma), angle));
-        }
-        height = std::min(height, -deepest);
-    }
-    return height * stem_freedom(sigma);
+    if (creases_ > 0.0) furrows_ = furrows(seed);
+    if (bumps_ > 0.0 || creases_ > 0.0) radius_ = mean_radius(outline_.stem);
 }
 
-double cap_dent(const Individual& individual, double sigma, double angle) {
-    const double amount = individual.wear.amounts.bumps;
-    const SubCurve& cap = individual.outline.cap;
-    const double length = cap.length(), ring = cap.at(1.0 - sigma).r;
+double Dents::lumps(const SubCurve& curve, const std::vector<Mark>& marks, double unit, bool stem,
+                    double sigma, double angle) const {
+    const double length = curve.length(), ring = curve.at(stem ? sigma : 1.0 - sigma).r;
     double height = 0.0;
-    if (individual.wear.clubs > 0.0 && individual.wear.amounts.creases > 0.0)
-        height -= club_furrow(individual, 1.0 - sigma, angle) * smooth_step(0.0, 0.08, 1.0 - sigma);
-    if (amount <= 0.0) return height;
-    for (const Mark& mark : marks(MarkKind::lump, CurveName::cap, individual.effective.seed)) {
-        const double scale = grown(mark.onset, amount);
-        const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * length;
+    for (const Mark& mark : marks) {
+        const double scale = grown(mark.onset, bumps_);
+        const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * unit;
         const double a = (sigma - mark.sigma) * length / (size * mark.elongation);
         if (scale <= 0.0 || a < -1.0 || a > 1.0) continue;
-        const double r = std::max(cap.at(1.0 - mark.sigma).r, 1e-4);
+        const double r = std::max(curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r, 1e-4);
         const double chord = 2.0 * sine(0.5 * turn_between(mark.theta, angle));
         const double square = a * a + r * ring * chord * chord / (size * size);
         if (square < 1.0)
-            height += lump_height(mark) * scale * length * (1.0 - square) * (1.0 - square);
+            height += lump_height(mark) * scale * unit * (1.0 - square) * (1.0 - square);
     }
     return height;
+}
+
+double Dents::furrow(double sigma, double angle, bool on_stem) const {
+    double deepest = 0.0;
+    for (const Furrow& furrow : furrows_) {
+        const double scale = grown(furrow.onset, creases_);
+        if (scale <= 0.0) continue;
+        deepest = std::max(deepest, (on_stem ? furrow_depth(furrow, sigma) : furrow.depth) * scale *
+                                        furrow_valley(furrow_angle(furrow, sigma), angle));
+    }
+    return furrow_deep * radius_ * deepest;
+}
+
+double Dents::cap(double sigma, double angle) const {
+    double height = 0.0;
+    if (bumps_ > 0.0)
+        height = lumps(outline_.cap, cap_lumps_, outline_.cap.length(), false, sigma, angle);
+    if (creases_ > 0.0 && clubs_ > 0.0) {
+        const double share = 1.0 - sigma;
+        height -= club_carried * clubs_ * club_fade(share) * smooth_step(0.0, 0.08, share) *
+                  furrow(1.0 + share, angle, false);
+    }
+    return height;
+}
+
+double Dents::stem(double sigma, double angle) const {
+    double height = 0.0;
+    if (bumps_ > 0.0)
+        height = lumps(outline_.stem, stem_lumps_, whole_turn * radius_, true, sigma, angle);
+    if (creases_ > 0.0) height = std::min(height, -furrow(sigma, angle, true));
+    return height * stem_freedom(sigma);
 }
 
 }  // namespace sporeprint

@@ -7,6 +7,7 @@
 #include "core/build/cuts.h"
 #include "core/mesh/mesh.h"
 #include "core/model/individual.h"
+#include "core/model/marks.h"
 #include "core/surface/charts.h"
 
 namespace sporeprint {
@@ -67,10 +68,24 @@ struct WeatheringCount {
 Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual, const Cuts& cuts,
              int lod, bool keep_absent);
 
-/// Height of lumps and furrows at a place of the stem (sigma 0 at the ground), metres: what is all but gone lies on it.
-[[nodiscard]] double stem_dent(const Individual& individual, double sigma, double angle);
+/// Lumps and furrows of the skin: what stands on it, or is all but gone, goes with them.
+class Dents {
+  public:
+    explicit Dents(const Individual& individual);
 
-/// Height of lumps, and of a club's furrows, at a place of the cap (sigma 0 at the apex), metres: what stands on the skin goes with it.
-[[nodiscard]] double cap_dent(const Individual& individual, double sigma, double angle);
+    /// Height at a place of the cap (sigma 0 at the apex) or the stem (sigma 0 at the ground), metres.
+    [[nodiscard]] double cap(double sigma, double angle) const;
+    [[nodiscard]] double stem(double sigma, double angle) const;
+
+  private:
+    [[nodiscard]] double lumps(const SubCurve& curve, const std::vector<Mark>& marks, double unit,
+                               bool stem, double sigma, double angle) const;
+    [[nodiscard]] double furrow(double sigma, double angle, bool on_stem) const;
+
+    const Outline& outline_;
+    std::vector<Mark> cap_lumps_, stem_lumps_;
+    std::vector<Furrow> furrows_;
+    double bumps_, creases_, clubs_, radius_ = 0.0;
+};
 
 }  // namespace sporeprint

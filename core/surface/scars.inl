@@ -44,8 +44,9 @@ HWY_INLINE void lay_line(const Scar& scar, VF x, VF y, ScarTexel& texel) {
     const VF along = clamped(dx * ax + dy * ay, 0.0F, scar.length);
     const VF ex = dx - along * ax, ey = dy - along * ay;
     const VF width = set(scar.width) + set((scar.width_end - scar.width) / scar.length) * along;
-    const VF ragged = noise2(x * set(37.0F), y * set(37.0F), scar.seed);
     const VF far = hn::Sqrt(ex * ex + ey * ey) / width;
+    // Nothing of it reaches further, so that no texel changes by whether its neighbours are passed over too.
+    if (hn::AllTrue(Floats(), far >= set(crack_window + 0.5F))) return;
     const VF shown = set(scar.strength);
     if (scar.kind == ScarKind::furrow) {
         const VF valley = hn::Max(one - far * set(0.42F), zero);
@@ -55,6 +56,7 @@ HWY_INLINE void lay_line(const Scar& scar, VF x, VF y, ScarTexel& texel) {
             hn::Max(texel.plane[scar_shade], valley * valley * valley * shown * set(0.8F));
         return;
     }
+    const VF ragged = noise2(x * set(37.0F), y * set(37.0F), scar.seed);
     // Pieces of one crack overlap: what it looks like is worked out once, from the nearest of them.
     const VF near = hn::Max(set(crack_window) - far - ragged * set(0.30F), zero) * shown;
     texel.plane[scar_near] = hn::Max(texel.plane[scar_near], near);
@@ -86,6 +88,9 @@ HWY_INLINE void lay_oval(const Scar& scar, VF x, VF y, ScarTexel& texel) {
     const VF a = (dx * set(scar.along_x) + dy * set(scar.along_y)) * set(scar.per_length);
     const VF b = (dy * set(scar.along_x) - dx * set(scar.along_y)) * set(scar.per_width);
     const VF square = a * a + b * b;
+    // Beyond these nothing of an oval is left; a stain's cloud reaches furthest.
+    const float end = scar.kind == ScarKind::bruise ? 2.3F : 1.6F;
+    if (hn::AllTrue(Floats(), square >= set(end))) return;
     const VF shown = set(scar.strength);
     switch (scar.kind) {
         case ScarKind::pit: {
