@@ -283,6 +283,18 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
     }
 }
 
+TEST(Weathering, WhateverASpeciesWearsItKeepsTheTrianglesOfItsLevel) {
+    constexpr std::array<std::size_t, 4> most = {60000, 6000, 1200, 200};
+    for (const std::string& id : species_ids())
+        for (int lod = 0; lod < 4; ++lod) {
+            MushroomOrder order = order_of(id, 0.8, 2, lod);
+            for (const Effect& effect : shaping)
+                if (can(id, effect)) order.params.weathering.*effect.amount = 1.0;
+            EXPECT_LE(mesh_of(order).triangles(), most[static_cast<std::size_t>(lod)])
+                << id << " lod " << lod;
+        }
+}
+
 TEST(Weathering, AClipHasOneTopologyWhateverTheAgeTakes) {
     for (const std::string& id : species_ids()) {
         const auto mesh_at = [&](double age) { return mesh_of(growing(order_of(id, age, 2))); };
