@@ -54,9 +54,10 @@ Notch notch_at(double u, double sharpness) {
 }  // namespace
 
 AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(individual.azimuth) {
-    has_lobes_ = azimuth_.lobes > 0 && azimuth_.lobe_depth > 0.0;
+    for (const Azimuth& form : individual.lobes)
+        if (form.lobes > 0 && form.lobe_depth > 0.0)
+            layers_.push_back({form, 0.0, columns >= least_columns_per_lobe * form.lobes});
     has_fan_ = azimuth_.lateral > 0.0;
-    carried_ = columns >= least_columns_per_lobe * azimuth_.lobes;
     radius_ = 0.0;
     double low = individual.stem_base, high = low;
     for (const CurveName name : curve_names) {
@@ -69,41 +70,44 @@ AzimuthMap::AzimuthMap(const Individual& individual, int columns) : azimuth_(ind
             high = std::max(high, y);
         }
     }
-    root_ = low + azimuth_.lobe_root * (high - low);
     Random random(individual.effective.seed, purposes::lobes);
     phase_ = random.uniform(0.0, 2.0 * pi);
     first_ = random.uniform(0.0, 2.0 * pi);
     second_ = random.uniform(0.0, 2.0 * pi);
     third_ = random.uniform(0.0, 2.0 * pi);
-    if (!has_lobes_ || carried_) return;
-    constexpr int samples = 64;
-    const double less = 0.3 * azimuth_.lobe_uneven;
-    double square = 0.0;
-    for (int i = 0; i < samples; ++i) {
-        const double notch =
-            notch_at(cosine(2.0 * pi * i / samples), azimuth_.lobe_sharpness).value;
-        const double reach = 1.0 - azimuth_.lobe_depth * (notch + less * (1.0 - notch));
-        square += reach * reach / samples;
+    for (Layer& layer : layers_) {
+        const Azimuth& form = layer.form;
+        layer.root = low + form.lobe_root * (high - low);
+        if (layer.carried) continue;
+        constexpr int samples = 64;
+        const double less = 0.3 * form.lobe_uneven;
+        double square = 0.0;
+        for (int i = 0; i < samples; ++i) {
+            const double notch =
+                notch_at(cosine(2.0 * pi * i / samples), form.lobe_sharpness).value;
+            const double reach = 1.0 - form.lobe_depth * (notch + less * (1.0 - notch));
+            square += reach * reach / samples;
+        }
+        layer.mean_reach = std::sqrt(square);
     }
-    mean_reach_ = std::sqrt(square);
 }
 
-AzimuthMap::Reach AzimuthMap::lobe_at(double angle) const {
-    if (!has_lobes_) return {};
-    if (!carried_) return {mean_reach_, 0.0};
-    const double n = azimuth_.lobes, uneven = n * azimuth_.lobe_uneven;
+AzimuthMap::Reach AzimuthMap::lobe_at(const Layer& layer, double angle) const {
+    if (!layer.carried) return {layer.mean_reach, 0.0};
+    const Azimuth& form = layer.form;
+    const double n = form.lobes, uneven = n * form.lobe_uneven;
     const auto one = sine_cosine(angle + first_), two = sine_cosine(2.0 * angle + second_),
                low = sine_cosine(2.0 * angle + third_);
     // The phase rises with the angle: its derivative is at least 0.35 n.
     const double phase = n * angle + phase_ + uneven * (0.25 * one.sine + 0.2 * two.sine);
     const double phase_by = n + uneven * (0.25 * one.cosine + 0.4 * two.cosine);
     const auto turn = sine_cosine(phase);
-    const Notch notch = notch_at(turn.cosine, azimuth_.lobe_sharpness);
+    const Notch notch = notch_at(turn.cosine, form.lobe_sharpness);
     const double notch_by = -notch.by_cosine * turn.sine * phase_by;
-    const double mean = 0.3 * azimuth_.lobe_uneven;
+    const double mean = 0.3 * form.lobe_uneven;
     const double less = mean * (1.0 + low.sine), less_by = 2.0 * mean * low.cosine;
-    return {1.0 - azimuth_.lobe_depth * (notch.value + less * (1.0 - notch.value)),
-            -azimuth_.lobe_depth * (notch_by * (1.0 - less) + less_by * (1.0 - notch.value))};
+    return {1.0 - form.lobe_depth * (notch.value + less * (1.0 - notch.value)),
+            -form.lobe_depth * (notch_by * (1.0 - less) + less_by * (1.0 - notch.value))};
 }
 
 AzimuthMap::Reach AzimuthMap::fan_at(const SineCosine& direction, double turning) const {
@@ -145,28 +149,35 @@ AzimuthMap::Column AzimuthMap::column(double angle) const {
         column.turning = (1.0 - turn * column.from.sine) * (1.0 - 2.0 * beside * twice.cosine) *
                          (1.0 + back * azimuth_.lateral * at_side.sine);
     }
-    column.lobe = lobe_at(to);
-    column.lobe.by_angle *= column.turning;
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+        column.lobes[k] = lobe_at(layers_[k], to);
+        column.lobes[k].by_angle *= column.turning;
+    }
     column.fan = fan_at(column.to, column.turning);
     return column;
 }
 
 AzimuthMap::Place AzimuthMap::placed(double r, double y, const Column& column) const {
     Place place{r, y};
-    if (has_lobes_) {
-        const double core = azimuth_.lobe_from * radius_, width = radius_ - core;
-        const double out = r - core;
-        const Pull pull = pull_at(out / width, column.lobe.value);
-        if (out > 0.0) {
-            place.r = core + out * pull.value;
-            place.r_by_r = pull.slope;
-            place.r_by_angle = out * pull.by_reach * column.lobe.by_angle;
-            const double up = y - root_, share = azimuth_.lobe_pull;
-            place.y_by_y = 1.0 + share * (pull.value - 1.0);
-            place.y = root_ + up * place.y_by_y;
-            place.y_by_r = up * share * pull.by_share / width;
-            place.y_by_angle = up * share * pull.by_reach * column.lobe.by_angle;
-        }
+    for (std::size_t k = 0; k < layers_.size(); ++k) {
+        const Azimuth& form = layers_[k].form;
+        const Reach& reach = column.lobes[k];
+        const double core = form.lobe_from * radius_, width = radius_ - core;
+        const double out = place.r - core;
+        if (out <= 0.0) continue;
+        const Pull pull = pull_at(out / width, reach.value);
+        // How m changes with the place that the layers before have moved to, and with the angle.
+        const double by_out = pull.by_share / width, by_angle = pull.by_reach * reach.by_angle;
+        const double up = place.y - layers_[k].root, share = form.lobe_pull;
+        const double pulled = 1.0 + share * (pull.value - 1.0);
+        place.y = layers_[k].root + up * pulled;
+        place.y_by_y *= pulled;
+        place.y_by_r = pulled * place.y_by_r + up * share * by_out * place.r_by_r;
+        place.y_by_angle =
+            pulled * place.y_by_angle + up * share * (by_out * place.r_by_angle + by_angle);
+        place.r = core + out * pull.value;
+        place.r_by_angle = pull.slope * place.r_by_angle + out * by_angle;
+        place.r_by_r *= pull.slope;
     }
     if (has_fan_) {
         const double core = azimuth_.core * radius_, width = radius_ - core;

@@ -4,8 +4,12 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <utility>
+#include <vector>
 
+#include "core/build/cells.h"
 #include "core/build/directions.h"
+#include "core/build/weathering.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/purposes.h"
@@ -147,7 +151,7 @@ void Builder::row(const Plan& plan, double rooted) {
             ground_.deformer.station(root.share == 1.0 ? ground_.deformer.top() : root.y);
         root.r -= deep * root.tangent_y;
         root.y += deep * root.tangent_r;
-        row.root = roots_.place(Part::stem, root, plan.angle, station);
+        row.root = roots_.place(Part::stem, root, plan.angle, station, true);
     } else {
         const double whole = plan.along / std::max(face_.length(), 1e-12);
         // Where the margin is cut back, blades end with it.
@@ -158,7 +162,7 @@ void Builder::row(const Plan& plan, double rooted) {
             plan.height + deep * std::min(1.0, plan.height / (0.01 * face_.length() + 1e-12));
         row.stray = plan.stray;
         row.root = roots_.place(Part::hymenium, roots_.at(share, rooted), plan.angle,
-                                ground_.deformer.frozen_station(ground_.deformer.top()));
+                                ground_.deformer.frozen_station(ground_.deformer.top()), true);
     }
     rows_.push_back(row);
 }
@@ -189,23 +193,35 @@ void Builder::append(double shoulder, double waist, bool drawn) {
         roots_.vertex(middle + waist * half * thick, other, along, u, shoulder, 1.0F);
         roots_.vertex(root + half * thick, -side, along, u, 0.0, 1.0F);
     }
-    if (drawn) {
-        const auto add = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
-            roots_.mesh.indices.insert(roots_.mesh.indices.end(),
-                                       {first + a, first + b, first + c});
-        };
-        const auto last = static_cast<std::uint32_t>(rows_.size()) - 2;
-        for (std::uint32_t j = 0; j <= last; ++j) {
-            const auto here = static_cast<std::uint32_t>(row_corners) * j;
-            const auto next = here + static_cast<std::uint32_t>(row_corners);
-            for (const std::uint32_t k : {0U, 1U, 3U, 4U}) {
-                add(here + k, next + k, here + k + 1);
-                add(here + k + 1, next + k, next + k + 1);
-            }
-            if (j > 0) add(here + 5, next, here);
-            if (j < last) add(here + 5, next + 5, next);
+    std::vector<std::array<std::uint32_t, 3>> faces;
+    const auto last = static_cast<std::uint32_t>(rows_.size()) - 2;
+    for (std::uint32_t j = 0; j <= last; ++j) {
+        const auto here = first + static_cast<std::uint32_t>(row_corners) * j;
+        const auto next = here + static_cast<std::uint32_t>(row_corners);
+        for (const std::uint32_t k : {0U, 1U, 3U, 4U}) {
+            faces.push_back({here + k, next + k, here + k + 1});
+            faces.push_back({here + k + 1, next + k, next + k + 1});
         }
+        if (j > 0) faces.push_back({here + 5, next, here});
+        if (j < last) faces.push_back({here + 5, next + 5, next});
     }
+    // Where a fan turns back to its wall, a blade may run the other way round the axis than its thickness points.
+    Mesh& mesh = roots_.mesh;
+    double volume = 0.0;
+    const glm::dvec3 origin(mesh.positions[first]);
+    for (const auto& [a, b, c] : faces)
+        volume += glm::dot(glm::dvec3(mesh.positions[a]) - origin,
+                           glm::cross(glm::dvec3(mesh.positions[b]) - origin,
+                                      glm::dvec3(mesh.positions[c]) - origin));
+    if (volume < 0.0)
+        for (std::uint32_t row = first; row < mesh.positions.size(); row += row_corners)
+            for (std::uint32_t k = 0; k < row_corners / 2; ++k) {
+                std::swap(mesh.positions[row + k], mesh.positions[row + row_corners - 1 - k]);
+                std::swap(mesh.normals[row + k], mesh.normals[row + row_corners - 1 - k]);
+            }
+    if (drawn)
+        for (const auto& face : faces)
+            mesh.indices.insert(mesh.indices.end(), face.begin(), face.end());
     rows_.clear();
 }
 
@@ -365,13 +381,31 @@ void Builder::veins(const BladeBudget& shares) {
             for (std::size_t j = 0; j < rows_.size(); ++j) {
                 const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
                                          rows_[j == 0 ? 0 : j - 1].root.position;
-                // A vein is thick along the meridian.
+                // A vein is thick along the meridian; its image runs along itself.
+                rows_[j].share = vein.share + 0.06 * (static_cast<double>(j) / vein_segments - 0.5);
                 rows_[j].root.azimuth =
                     unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
             }
             append(0.7, 0.85, most > 0.0 || ground_.keep_absent);
         }
     }
+}
+
+/// Triangles that are left for blades beside a body with relief and all that stands on it; no age and no weight changes it.
+int blade_room(const Individual& individual, int veins) {
+    constexpr int all = 59900, least = 12000;
+    const Detail& fine = detail_of(true, 0);
+    const int rings =
+        fine.stem_rings + fine.hymenium_rings + flesh_rings(individual, 0) + fine.cap_rings;
+    const WeatheringCount weathered = weathering_count(individual, 0);
+    int taken = 2 * static_cast<int>(weathered.columns) * rings +
+                2 * details[0].columns * shell_rings(individual, fine) +
+                static_cast<int>(weathered.triangles) +
+                static_cast<int>(solid_count(cell_budget(individual)).triangles) +
+                veins * triangles_of(vein_segments);
+    for (const PatchLayer& layer : individual.layers)
+        taken += piece_count(layer) * (4 * fine.patch_sides - 2);
+    return std::clamp(all - taken, least, most_blade_triangles);
 }
 
 }  // namespace
@@ -381,14 +415,17 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     while (built_vein_count(individual, shares.vein_stride) > most_veins) ++shares.vein_stride;
     shares.veins = built_vein_count(individual, shares.vein_stride);
     const Comb& comb = individual.comb;
-    // A body with relief has as many triangles more.
-    const int most = individual.has_relief ? most_blade_triangles * 2 / 3 : most_blade_triangles;
+    const int most =
+        individual.has_relief ? blade_room(individual, shares.veins) : most_blade_triangles;
     const int budget = beside_pores ? most / 6 : most;
     shares.tiers = individual.blade_tiers;
     shares.below = individual.runs_down ? stem_segments : 0;
-    while (shares.tiers > 0 &&
-           (comb.blades << shares.tiers) * triangles_of(least_segments + shares.below) > budget)
-        --shares.tiers;
+    // Rows down the stem go first, then the shortest blades.
+    const auto too_many = [&] {
+        return (comb.blades << shares.tiers) * triangles_of(least_segments + shares.below) > budget;
+    };
+    while (shares.below > 1 && too_many()) --shares.below;
+    while (shares.tiers > 0 && too_many()) --shares.tiers;
     const int blades = std::max(comb.blades << shares.tiers, 1);
     shares.segments =
         std::clamp((budget / blades + 2) / 10 - shares.below, least_segments, most_segments);

@@ -28,7 +28,7 @@ SurfacePoint cell_root(const Roots& roots, const CellPlace& cell, double rooted,
     const double angle = rest.angle + rooted * (own - rest.angle);
     const double share =
         roots.ground.cuts.lower(rest.share + rooted * (cell.share - rest.share), angle);
-    return roots.place(Part::hymenium, roots.at(share, rooted), angle, station);
+    return roots.place(Part::hymenium, roots.at(share, rooted), angle, station, false);
 }
 
 void add_spines(const Roots& roots) {

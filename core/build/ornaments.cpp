@@ -126,6 +126,12 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
     const std::vector<double> segments = on_stem ? curve.segment_shares() : std::vector<double>{};
     const double length = ground.outline.cap.length();
+    const Part part = on_stem ? Part::stem : Part::cap;
+    const bool meshed = ground.individual.has_relief;
+    const int columns = fine_details[static_cast<std::size_t>(ground.lod)].columns;
+    const std::vector<OutlineSample> rings =
+        meshed ? ground.outline.rings(on_stem ? CurveName::stem : CurveName::cap, ground.lod)
+               : std::vector<OutlineSample>{};
     const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
     // An outline with fewer corners stands wider, so that it covers as much.
     // Low pieces are cushions, tall ones spines.
@@ -139,8 +145,10 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         const OutlineSample at =
             curve.at(on_stem ? grown_share(layer.segments, segments, patch.sigma)
                              : 1.0 - ground.cuts.cap(patch.sigma, patch.theta));
+        // On the mesh itself where its chords stand off from the skin: nothing is left under it, or in the air.
         const SurfacePoint place =
-            ground.skin.at(on_stem ? Part::stem : Part::cap, at, ground.skin.column(patch.theta));
+            rings.empty() ? ground.skin.at(part, at, ground.skin.column(patch.theta))
+                          : ground.skin.meshed(part, rings, columns, at.share, patch.theta);
         glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
         if (!ground.skin.plain()) {
             normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));
@@ -193,15 +201,33 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     }
 }
 
-/// Where the stem has a height; its outline may swell, but rises as a whole.
-OutlineSample stem_at(const SubCurve& stem, double height) {
-    double low = 0.0, high = 1.0;
-    for (int i = 0; i < 40; ++i) {
-        const double middle = 0.5 * (low + high);
-        (stem.at(middle).y < height ? low : high) = middle;
+/// How far a stem has risen along its way, metres: what is flatter than `least` counts as rising so much of its length, so that a
+/// place by its rise never leaps along rays that lie flat or bend down to the ground.
+class Rise {
+  public:
+    Rise(const SubCurve& stem, double least) : stem_(stem) {
+        OutlineSample last = stem.at(0.0);
+        for (int i = 1; i <= looks; ++i) {
+            const OutlineSample here = stem.at(static_cast<double>(i) / looks);
+            risen_[static_cast<std::size_t>(i)] =
+                risen_[static_cast<std::size_t>(i - 1)] +
+                std::max(here.y - last.y, least * stem.length() / looks);
+            last = here;
+        }
     }
-    return stem.at(0.5 * (low + high));
-}
+    [[nodiscard]] double whole() const { return risen_.back(); }
+    [[nodiscard]] OutlineSample at(double rise) const {
+        const auto above = std::upper_bound(risen_.begin() + 1, risen_.end() - 1, rise);
+        const double from = *(above - 1), to = *above;
+        const double t = to > from ? std::clamp((rise - from) / (to - from), 0.0, 1.0) : 0.0;
+        return stem_.at((static_cast<double>(above - 1 - risen_.begin()) + t) / looks);
+    }
+
+  private:
+    static constexpr int looks = 96;
+    const SubCurve& stem_;
+    std::array<double, looks + 1> risen_{};
+};
 
 /// How far a shell of a size lies on what dents the stem inside it: wholly when all but gone, no more when it is a third as large as
 /// the stem is thick.
@@ -247,9 +273,9 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     const RingStyle& style = individual.ring;
     const int rings = ground.detail.veil_rings;
     if (rings == 0 || !individual.has_ring) return;
-    const double height =
-        ground.deformer.base() + style.height * (ground.deformer.top() - ground.deformer.base());
-    const OutlineSample attachment = stem_at(ground.outline.stem, height);
+    const Rise rise(ground.outline.stem, 0.2);
+    const OutlineSample attachment = rise.at(style.height * rise.whole());
+    const double height = attachment.y;
     const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);
     Random groove_stream(ground.seed, purposes::ring_grooves),
@@ -270,7 +296,7 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
     // A little inside the stem; a ring that comes or goes no deeper than it is wide.
     const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
     const double clear = style.gap * std::min(attachment.r, width);
-    double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = height;
+    double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = attachment.y;
     for (int i = 0; i <= rings; ++i) {
         const double share = static_cast<double>(i) / rings;
         const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - style.hang * share));
@@ -339,8 +365,10 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     const double thickness = std::min(style.thickness, 0.2 * height);
     // From under the bulb, or where a stem ends that grows from a wall above or below it; a low one holds the bulb too, but what is all
     // but gone holds nothing.
-    const double level = std::min(std::max(ground.deformer.base(), 0.0), ground.deformer.top());
-    const double buried = std::min(std::max(level - ground.deformer.base(), 0.0), 8.0 * height);
+    const double base = ground.deformer.base();
+    const double level =
+        std::min(std::max(base, 0.0), std::max(base, ground.outline.stem.at(1.0).y));
+    const double buried = std::min(std::max(level - base, 0.0), 8.0 * height);
     Random random(ground.seed, purposes::sac);
     const Rents rents(random, 3, 5);
     Random fold_stream(ground.seed, purposes::sac_folds);
@@ -351,6 +379,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
 
     // The way of its skin: along the stem up to where that is widest, and on from there by itself.
     constexpr int samples = 48;
+    const Rise way_up(ground.outline.stem, 0.2);
     struct Way {
         double r, y, normal_r, normal_y;
         double clear;  // how far it is from the stem
@@ -364,7 +393,7 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
         const double share = static_cast<double>(i) / samples;
         const double climb = share * (0.12 + 0.88 * share);
         const double y = level - buried + (buried + height) * climb;
-        const OutlineSample stem = stem_at(ground.outline.stem, y);
+        const OutlineSample stem = way_up.at(y - base);
         const double above = height > 0.0 ? std::clamp((y - level) / height, 0.0, 1.0) : 0.0;
         widest = std::max(widest, stem.r);
         const double held = style.hold * (widest - stem.r);

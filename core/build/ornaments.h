@@ -13,6 +13,7 @@ struct Ground {
     const Deformer& deformer;
     const Skin& skin;
     const Detail& detail;
+    int lod;
     std::uint32_t seed;
     bool textured;
     bool keep_absent;  ///< whether what has no size keeps its triangles

@@ -175,7 +175,12 @@ double Relief::room(const Outline& outline) const {
         const double depth = deepest * window_at(sigma).value;
         if (depth <= 0.0) continue;
         const OutlineSample at = outline.cap.at(1.0 - sigma);
-        double clear = at.curvature > 0.0 ? 1.0 / at.curvature : depth;
+        // Curvature over a stretch of the meridian: at a point it differs between a species' own nodes and those of a set, and so
+        // would all depths.
+        const OutlineSample before = outline.cap.at(1.0 - sigma - 1.0 / 48.0),
+                            after = outline.cap.at(1.0 - sigma + 1.0 / 48.0);
+        const double turn = before.tangent_r * after.tangent_y - before.tangent_y * after.tangent_r;
+        double clear = turn > 0.0 ? meridian_ / (24.0 * turn) : depth;
         if (at.tangent_y > 0.0) clear = std::min(clear, at.r / at.tangent_y);
         for (const glm::dvec2& other : others) {
             const double dr = other.x - at.r, dy = other.y - at.y;

@@ -59,13 +59,20 @@ Roots::Spot Roots::vertex_near(double share, double angle) const {
     for (std::size_t i = 1; i + 1 < flesh_.size(); ++i)
         if (std::abs(flesh_[i].share - share) < std::abs(nearest - share))
             nearest = flesh_[i].share;
-    const double column = 2.0 * pi / ground.detail.columns;
+    const double column = 2.0 * pi / detail_of(individual.has_relief, ground.lod).columns;
     return {nearest, column * std::floor(angle / column + 0.5)};
 }
 
 SurfacePoint Roots::place(Part part, const OutlineSample& sample, double angle,
-                          const AxisStation& station) const {
-    SurfacePoint point = ground.skin.at(part, sample, ground.skin.column(angle));
+                          const AxisStation& station, bool hangs) const {
+    const Skin::Column column = ground.skin.column(angle);
+    SurfacePoint point = ground.skin.at(part, sample, column);
+    if (hangs) {
+        // However the face waves or turns to its wall: else gills would lean over one another there.
+        const auto [s, c] = column.azimuth.to;
+        const glm::dvec3 round(-s, 0.0, c);
+        point.azimuth = glm::dot(point.azimuth, round) * round;
+    }
     // Where a fan squeezes or stretches the face, what stands on it is as much thinner or thicker, and no deeper.
     const double along = std::sqrt(glm::dot(point.meridian, point.meridian));
     ground.deformer.apply({&point, 1}, station);

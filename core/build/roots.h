@@ -30,8 +30,9 @@ class Roots {
     [[nodiscard]] OutlineSample at(double share, double rooted) const;
 
     /// Where a sample of a sub-curve comes to lie: its meridian becomes the way out of the skin.
+    /// hangs  in its own half-plane, as gills do; else it stands upright on the face
     [[nodiscard]] SurfacePoint place(Part part, const OutlineSample& sample, double angle,
-                                     const AxisStation& station) const;
+                                     const AxisStation& station, bool hangs) const;
 
     /// The vertex of the body nearest to a place: between vertices its chords lie off the skin, so that what is left of a solid that
     /// is all but gone would stand off there.

@@ -1,5 +1,8 @@
 #include "core/build/skin.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "core/model/proportion.h"
 
 namespace sporeprint {
@@ -59,6 +62,31 @@ SurfacePoint Skin::at(Part part, const OutlineSample& sample, const Column& colu
 
 SurfacePoint Skin::at(Part part, double share, double angle) const {
     return at(part, curve(part).at(share), column(angle));
+}
+
+SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, int columns,
+                          double share, double angle) const {
+    SurfacePoint point = at(part, share, angle);
+    const auto above =
+        std::upper_bound(rings.begin() + 1, rings.end() - 1, share,
+                         [](double s, const OutlineSample& ring) { return s < ring.share; });
+    const OutlineSample &low = *(above - 1), &high = *above;
+    const double width = high.share - low.share;
+    const double up = width > 0.0 ? std::clamp((share - low.share) / width, 0.0, 1.0) : 0.0;
+    const double turn = angle / (2.0 * pi) * columns, first = std::floor(turn);
+    const double round = turn - first;
+    const Column left = column(2.0 * pi * first / columns),
+                 right = column(2.0 * pi * (first + 1.0) / columns);
+    // A quad's diagonal runs from the right of its lower ring to the left of its upper one.
+    const glm::dvec3 b = at(part, low, right).position, c = at(part, high, left).position;
+    if (round + up <= 1.0) {
+        const glm::dvec3 a = at(part, low, left).position;
+        point.position = a + round * (b - a) + up * (c - a);
+    } else {
+        const glm::dvec3 d = at(part, high, right).position;
+        point.position = d + (1.0 - round) * (c - d) + (1.0 - up) * (b - d);
+    }
+    return point;
 }
 
 }  // namespace sporeprint

@@ -34,6 +34,11 @@ class Skin {
                                   const Column& column) const;
     [[nodiscard]] SurfacePoint at(Part part, double share, double angle) const;
 
+    /// The place of a mesh over this skin with these rings and so many even columns: between its vertices lie chords, which relief,
+    /// fans and lobes stand off from. Directions are those of the skin itself.
+    [[nodiscard]] SurfacePoint meshed(Part part, const std::vector<OutlineSample>& rings,
+                                      int columns, double share, double angle) const;
+
     [[nodiscard]] const SubCurve& curve(Part part) const;
     [[nodiscard]] const AzimuthMap& azimuth() const { return azimuth_; }
 

@@ -240,10 +240,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     body.stem = sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
     const LowerFace lower(individual, lod);
     body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, lod));
-    // A finer cap has rings between those of the set.
-    const bool denser = detail.cap_rings > details[static_cast<std::size_t>(lod)].cap_rings;
-    body.cap = sweeper.face(Part::cap, denser ? outline.denser_rings(CurveName::cap, lod)
-                                              : outline.rings(CurveName::cap, lod));
+    body.cap = sweeper.face(Part::cap, outline.rings(CurveName::cap, lod));
     // A sheet a metre wide and thinner than its dents are drawn by the mesh: no species is one.
     if (individual.parts.front().id.empty() && volume(mesh) <= 0.0)
         throw Impossible("/model/silhouette",
@@ -254,7 +251,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const Detail& plain = details[static_cast<std::size_t>(lod)];
     const Dents dents(individual);
     const Ground ground{
-        outline, deformer, skin,  plain,     seed, options.textured, options.keep_absent,
+        outline, deformer, skin,  plain,     lod, seed, options.textured, options.keep_absent,
         cuts,    curl,     dents, individual};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);

@@ -310,27 +310,29 @@ const Azimuth& azimuth_of(const Source& source) {
     return std::get<Swept>(source.now.shape).azimuth;
 }
 
-/// Amounts by weight; the form of fan and lobes by how much of them each species brings.
-Azimuth azimuth_of(const std::vector<Source>& sources) {
-    const auto by = [&](double Azimuth::*amount) {
-        double sum = 0.0;
-        for (const Source& source : sources) sum += source.weight * azimuth_of(source).*amount;
-        Shares<Azimuth> shares;
-        for (const Source& source : sources) {
-            const Azimuth& one = azimuth_of(source);
-            shares.add(one, sum > 0.0 ? source.weight * (one.*amount) / sum : source.weight);
-        }
-        Azimuth form = blend(shares);
-        form.*amount = sum;
-        return form;
-    };
-    Azimuth azimuth = by(&Azimuth::lobe_depth);
-    const Azimuth fan = by(&Azimuth::lateral);
-    azimuth.lateral = fan.lateral;
-    azimuth.fan_deg = fan.fan_deg;
-    azimuth.width = fan.width;
-    azimuth.core = fan.core;
-    return azimuth;
+/// The fan: how lateral by weight, its form by how much of it each species brings.
+Azimuth fan_of(const std::vector<Source>& sources) {
+    double lateral = 0.0;
+    for (const Source& source : sources) lateral += source.weight * azimuth_of(source).lateral;
+    Shares<Azimuth> shares;
+    for (const Source& source : sources) {
+        const Azimuth& one = azimuth_of(source);
+        shares.add(one, lateral > 0.0 ? source.weight * one.lateral / lateral : source.weight);
+    }
+    Azimuth fan = blend(shares);
+    fan.lateral = lateral;
+    return fan;
+}
+
+/// The lobes of each species that has any, as deep as it weighs: each keeps its own number.
+std::vector<Azimuth> lobes_of(const std::vector<Source>& sources) {
+    std::vector<Azimuth> lobes;
+    for (const Source& source : sources) {
+        Azimuth one = azimuth_of(source);
+        one.lobe_depth *= source.weight;
+        if (one.lobes > 0 && one.lobe_depth > 0.0) lobes.push_back(one);
+    }
+    return lobes;
 }
 
 /// The relief of each species that has any, as deep as it weighs; equal forms share one, so that a set grows no slower than it must.
@@ -362,7 +364,8 @@ std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
 
 bool has_relief(const Source& source) {
     return std::any_of(source.stages.begin(), source.stages.end(), [](const Model* stage) {
-        return std::get<Swept>(stage->shape).relief.any();
+        const Swept& shape = std::get<Swept>(stage->shape);
+        return shape.relief.any() || shape.azimuth.lateral > 0.0 || shape.azimuth.lobe_depth > 0.0;
     });
 }
 
@@ -442,10 +445,11 @@ Style shell_of(const std::vector<Source>& sources, Style Model::*shell, double S
 /// The outline in an individual's own proportions; in those nearest to them with which no level of detail touches itself, where they
 /// would: on the way from the template to them, up to the first touch. That place moves with age and weights, without jumps.
 Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingPlaces>& places,
-                    const std::function<Proportions(double)>& own, double open, double size) {
+                    const std::function<Proportions(double)>& own, double open, double size,
+                    bool fine) {
     constexpr int looks = 8, halvings = 20;
     const auto at = [&](double share) {
-        return Outline(scaled(proportioned(nodes, own(share), open), size), places);
+        return Outline(scaled(proportioned(nodes, own(share), open), size), places, fine);
     };
     const auto is_simple = [](const Outline& outline) {
         for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
@@ -761,13 +765,15 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
            factor(draws.size, spread.size, variation);
     individual.set = morph_set(sources, arcs, asked.age, morphs);
+    individual.has_relief = std::any_of(sources.begin(), sources.end(), has_relief);
     const auto own = [&](double share) {
         return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
                            factor(draws.stem_width, spread.stem_width, share * variation),
                            factor(draws.cap_height, spread.cap_height, share * variation)};
     };
-    individual.outline = own_outline(individual.set->nodes(shape_weights(sources)),
-                                     individual.set->places(), own, open, size);
+    individual.outline =
+        own_outline(individual.set->nodes(shape_weights(sources)), individual.set->places(), own,
+                    open, size, individual.has_relief);
     if (const auto fault = fault_of(individual.outline, asked.lod))
         throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
                          "the outline crosses itself at this level of detail, near the " +
@@ -782,9 +788,9 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
                            greatest_radius(individual.outline.stem);
     individual.axis = axis_of(sources);
-    individual.azimuth = azimuth_of(sources);
+    individual.azimuth = fan_of(sources);
+    individual.lobes = lobes_of(sources);
     individual.reliefs = reliefs_of(sources);
-    individual.has_relief = std::any_of(sources.begin(), sources.end(), has_relief);
     DeformationOf<Plain>& deformation = model.deformation;
     if (!order.model) {
         const double fold = individual.axis.greatest_turn() / slender;

@@ -14,11 +14,24 @@ namespace sporeprint {
 namespace {
 
 constexpr int deepest_piece = 9;
+constexpr int bud_steps = 4096, coarse_steps = 32;  // of the way from a mix to the bud
 
 std::vector<double> between(std::span<const double> from, std::span<const double> to, double t) {
     std::vector<double> weights(from.size());
     for (std::size_t s = 0; s < weights.size(); ++s) weights[s] = (1.0 - t) * from[s] + t * to[s];
     return weights;
+}
+
+OutlineNodes blended(const OutlineNodes& from, const OutlineNodes& to, double t) {
+    OutlineNodes out = from;
+    for (const CurveName curve : curve_names)
+        for (std::size_t i = 0; i < out.of(curve).size(); ++i) {
+            OutlineNode& node = out.of(curve)[i];
+            const OutlineNode& end = to.of(curve)[i];
+            node.position += t * (end.position - node.position);
+            node.velocity += t * (end.velocity - node.velocity);
+        }
+    return out;
 }
 
 std::shared_ptr<const RingPlaces> even_places(bool hymenium) {
@@ -174,13 +187,27 @@ void MorphSet::choose_detours(std::size_t i, std::size_t j) {
 
 OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
     OutlineNodes mix = unchecked(weights);
-    if (for_any_weights_) return mix;
+    if (for_any_weights_ || is_simple_at_all_levels(mix)) return mix;
+    // The least that is simple: nothing where the mix begins to touch itself, so that no drag of the weights jumps there.
+    const OutlineNodes bud = bud_.cap.empty() ? bud_of(nodes_) : bud_;
+    const auto towards = [&](int steps) {
+        return blended(mix, bud, static_cast<double>(steps) / bud_steps);
+    };
+    int above = bud_steps / coarse_steps;
+    while (above < bud_steps && !is_simple_at_all_levels(towards(above)))
+        above += bud_steps / coarse_steps;
+    int below = above - bud_steps / coarse_steps;
+    while (above - below > 1) {
+        const int middle = (above + below) / 2;
+        (is_simple_at_all_levels(towards(middle)) ? above : below) = middle;
+    }
+    return towards(above);
+}
+
+bool MorphSet::is_simple_at_all_levels(const OutlineNodes& nodes) const {
     for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
-        if (const auto contact = contact_at_rest(polyline(mix, lod)))
-            throw Impossible("mix", std::string("at these weights the outlines have no mean that "
-                                                "does not touch itself, near the ") +
-                                        name(curve_of(*contact, lod)));
-    return mix;
+        if (contact_at_rest(polyline(nodes, lod))) return false;
+    return true;
 }
 
 CurveName MorphSet::curve_of(const Contact& contact, int lod) const {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/build/detail.h"
 #include "core/params/problems.h"
 #include "core/silhouette/proof.h"
 
@@ -20,6 +21,24 @@ std::string number(double value) {
     while (text.back() == '0') text.pop_back();
     if (text.back() == '.') text.pop_back();
     return text;
+}
+
+/// A share that runs a fifth as fast at 0, where margins, tips and feet are round, and evenly further on.
+double slow_at_first(double t) {
+    constexpr double at_first = 0.2, round = 0.1;
+    return at_first * t + (1.0 - at_first) * (1.0 + round) * t * t / (t + round);
+}
+
+/// Shares of a sub-curve's arc length at which fine rings stand: closer at its ends, but for the apex, where a face is flat.
+std::vector<double> fine_shares(CurveName curve, int count) {
+    std::vector<double> shares;
+    for (int i = 0; i < count; ++i) {
+        const double t = static_cast<double>(i) / (count - 1);
+        shares.push_back(curve == CurveName::cap ? slow_at_first(t)
+                         : t < 0.5               ? 0.5 * slow_at_first(2.0 * t)
+                                                 : 1.0 - 0.5 * slow_at_first(2.0 - 2.0 * t));
+    }
+    return shares;
 }
 
 /// Where a control point is told of: "/cap/" and its number.
@@ -169,7 +188,21 @@ std::vector<OutlineSample> SubCurve::placed(std::span<const double> u) const {
             std::clamp((parameter - a.parameter) / (b.parameter - a.parameter), 0.0, 1.0);
         samples.push_back(sample(parameter, a.arc + t * (b.arc - a.arc)));
     }
-    // The ends are the nodes themselves, so that neighbouring sub-curves weld bit for bit.
+    pin_ends(samples);
+    return samples;
+}
+
+std::vector<OutlineSample> SubCurve::shared(std::span<const double> shares) const {
+    std::vector<OutlineSample> samples;
+    if (empty()) return samples;
+    samples.reserve(shares.size());
+    for (const double share : shares) samples.push_back(at(share));
+    pin_ends(samples);
+    return samples;
+}
+
+// The ends are the nodes themselves, so that neighbouring sub-curves weld bit for bit.
+void SubCurve::pin_ends(std::vector<OutlineSample>& samples) const {
     const auto pin = [](OutlineSample& sample, const glm::dvec2& position, double share) {
         sample.r = position.x;
         sample.y = position.y;
@@ -177,7 +210,6 @@ std::vector<OutlineSample> SubCurve::placed(std::span<const double> u) const {
     };
     pin(samples.front(), segments_.front().from, 0.0);
     pin(samples.back(), segments_.back().to, 1.0);
-    return samples;
 }
 
 std::vector<double> SubCurve::segment_shares() const {
@@ -230,8 +262,8 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     return samples;
 }
 
-Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places)
-    : stem(nodes.stem, {0.0, 1.0}), places_(std::move(places)) {
+Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places, bool fine)
+    : stem(nodes.stem, {0.0, 1.0}), places_(std::move(places)), fine_(fine) {
     const OutlineSample end = stem.at(1.0);
     const glm::dvec2 onwards(end.tangent_r, end.tangent_y);
     hymenium = SubCurve(nodes.hymenium, onwards);
@@ -239,17 +271,16 @@ Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> pl
 }
 
 std::vector<OutlineSample> Outline::rings(CurveName curve, int lod) const {
-    return of(curve).placed(places_->of(curve, lod));
-}
-
-std::vector<OutlineSample> Outline::denser_rings(CurveName curve, int lod) const {
     const std::vector<double>& places = places_->of(curve, lod);
-    std::vector<double> denser;
-    for (std::size_t i = 0; i < places.size(); ++i) {
-        if (i > 0) denser.push_back(0.5 * (places[i - 1] + places[i]));
-        denser.push_back(places[i]);
-    }
-    return of(curve).placed(denser);
+    const auto count = [&](const Detail& detail) {
+        return curve == CurveName::stem       ? detail.stem_rings
+               : curve == CurveName::hymenium ? detail.hymenium_rings
+                                              : detail.cap_rings;
+    };
+    const int fine = count(detail_of(fine_, lod));
+    if (places.empty() || fine == count(details[static_cast<std::size_t>(lod)]))
+        return of(curve).placed(places);
+    return of(curve).shared(fine_shares(curve, fine));
 }
 
 Outline Outline::unproven(const Silhouette& silhouette, const std::string& path) {

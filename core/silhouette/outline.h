@@ -82,6 +82,9 @@ class SubCurve {
     /// The point at a share of the arc length, 0..1.
     [[nodiscard]] OutlineSample at(double share) const;
 
+    /// The points at shares of the arc length, 0 to 1, rising. The ends are the first and last node bit for bit.
+    [[nodiscard]] std::vector<OutlineSample> shared(std::span<const double> shares) const;
+
     /// The points at values of the parameter u, 0..1, rising. The ends are the first and last node bit for bit.
     [[nodiscard]] std::vector<OutlineSample> placed(std::span<const double> u) const;
 
@@ -99,6 +102,7 @@ class SubCurve {
         double arc = 0.0, turn = 0.0, parameter = 0.0;  // parameter: segment index + t
     };
     void tabulate(int knots_per_segment);
+    void pin_ends(std::vector<OutlineSample>& samples) const;
     [[nodiscard]] OutlineSample sample(double parameter, double arc) const;
 
     std::vector<SplineSegment<glm::dvec2>> segments_;
@@ -114,8 +118,11 @@ struct Outline {
     Outline() = default;
 
     /// The outline of nodes and the rings of its set; every count as `places` was made for.
+    ///
+    /// fine  whether it has the rings of fine_details where these are more: at shares of each sub-curve's own arc length that are
+    ///       equal for all sets, so that what is finer than the rings is cut by them in a mix as in each species alone
     /// cost  about 10 us
-    Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places);
+    Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places, bool fine = false);
 
     /// The outline through an author's own control points.
     ///
@@ -136,11 +143,12 @@ struct Outline {
     /// Empty where the set has no such sub-curve. pre: made of nodes and places
     [[nodiscard]] std::vector<OutlineSample> rings(CurveName curve, int lod) const;
 
-    /// The same with one more ring between each two.
-    [[nodiscard]] std::vector<OutlineSample> denser_rings(CurveName curve, int lod) const;
+    /// Whether it has fine rings from here on.
+    void refine(bool fine) { fine_ = fine; }
 
   private:
     std::shared_ptr<const RingPlaces> places_;
+    bool fine_ = false;
 };
 
 }  // namespace sporeprint

@@ -34,6 +34,7 @@ Azimuth arbitrary_azimuth(Random& random) {
 /// An individual of a species with an azimuth of its own.
 Individual with(Individual individual, const Azimuth& azimuth) {
     individual.azimuth = azimuth;
+    individual.lobes = {azimuth};
     individual.wear = {};
     return individual;
 }
@@ -155,21 +156,23 @@ TEST(Azimuth, AFanLiesBeforeItsWallAndReachesItsWidth) {
 
 TEST(Azimuth, LobesThatColumnsCannotCarryLeaveACircleOfTheirArea) {
     Individual star = resolve(order_of("disciotis_venosa"), atlas());
-    star.azimuth.lobes = 6;
-    star.azimuth.lobe_depth = 0.6;
-    star.azimuth.lobe_sharpness = 1.0;
+    Azimuth form;
+    form.lobes = 6;
+    form.lobe_depth = 0.6;
+    form.lobe_sharpness = 1.0;
+    star.lobes = {form};
     const AzimuthMap fine(star, 64), coarse(star, 8);
     double sum = 0.0, least = 1.0, most = 0.0;
     for (int i = 0; i < 360; ++i) {
-        const double reach = fine.column(radians(i)).lobe.value;
+        const double reach = fine.column(radians(i)).lobes[0].value;
         sum += reach * reach / 360.0;
         least = std::min(least, reach);
         most = std::max(most, reach);
-        EXPECT_EQ(coarse.column(radians(i)).lobe.value, coarse.column(0.0).lobe.value);
+        EXPECT_EQ(coarse.column(radians(i)).lobes[0].value, coarse.column(0.0).lobes[0].value);
     }
     EXPECT_NEAR(least, 0.4, 0.02);
     EXPECT_GT(most, 0.85);
-    EXPECT_NEAR(coarse.column(0.0).lobe.value, std::sqrt(sum), 0.03);
+    EXPECT_NEAR(coarse.column(0.0).lobes[0].value, std::sqrt(sum), 0.03);
 }
 
 TEST(Azimuth, LevelsOfDetailShowTheSameFanAndTheSameLobes) {
@@ -216,14 +219,61 @@ TEST(Azimuth, AmountsMixByWeightAndFormsByWhatEachSpeciesBrings) {
         const MushroomOrder order =
             mix_of({{"boletus_edulis", 1000 - weight}, {"fan", weight / 2 + 1}, {"star", weight}});
         const auto weights = eased_weights({1000.0 - weight, weight / 2 + 1.0, 1.0 * weight});
-        const Azimuth azimuth = resolve(order, forms).azimuth;
-        EXPECT_NEAR(azimuth.lateral, 0.8 * weights[1], 1e-12);
-        EXPECT_NEAR(azimuth.lobe_depth, 0.6 * weights[2], 1e-12);
-        EXPECT_EQ(azimuth.fan_deg, 70.0);
-        EXPECT_EQ(azimuth.width, 1.4);
-        EXPECT_EQ(azimuth.lobe_sharpness, 1.0);
-        EXPECT_EQ(azimuth.lobes, 6) << "the count is that of the set";
+        const Individual individual = resolve(order, forms);
+        EXPECT_NEAR(individual.azimuth.lateral, 0.8 * weights[1], 1e-12);
+        EXPECT_EQ(individual.azimuth.fan_deg, 70.0);
+        EXPECT_EQ(individual.azimuth.width, 1.4);
+        ASSERT_EQ(individual.lobes.size(), 1U);
+        EXPECT_NEAR(individual.lobes[0].lobe_depth, 0.6 * weights[2], 1e-12);
+        EXPECT_EQ(individual.lobes[0].lobe_sharpness, 1.0);
+        EXPECT_EQ(individual.lobes[0].lobes, 6);
         expect_valid(swept_mesh(resolve(order, forms), 1));
+    }
+}
+
+TEST(Azimuth, EachSpeciesKeepsItsOwnNumberOfLobes) {
+    Azimuth few, many;
+    few.lobes = 5;
+    few.lobe_depth = 0.6;
+    few.lobe_sharpness = 1.0;
+    many.lobes = 9;
+    many.lobe_depth = 0.4;
+    const Atlas forms(
+        {renamed("disciotis_venosa", "few", few), renamed("disciotis_venosa", "many", many)});
+    const auto reach = [](const Individual& individual, double angle) {
+        const AzimuthMap map(individual, fine_details[0].columns);
+        double product = 1.0;
+        for (std::size_t k = 0; k < individual.lobes.size(); ++k)
+            product *= map.column(angle).lobes[k].value;
+        return product;
+    };
+    for (const auto& [id, weight] : {std::pair{"few", 999}, std::pair{"many", 1}}) {
+        const Individual alone = resolve(mix_of({{id, 1000}}), forms),
+                         beside =
+                             resolve(mix_of({{"few", weight}, {"many", 1000 - weight}}), forms);
+        ASSERT_EQ(beside.lobes.size(), 2U);
+        for (int i = 0; i < 360; ++i)
+            EXPECT_NEAR(reach(beside, radians(i)), reach(alone, radians(i)), 1e-3) << id << i;
+    }
+    // Two maps of space, one after the other: their derivatives by the chain rule.
+    const AzimuthMap both(resolve(mix_of({{"few", 500}, {"many", 500}}), forms), 96);
+    Random random(9, 1);
+    for (int i = 0; i < 200; ++i) {
+        const double angle = random.uniform(0.0, 2.0 * pi), r = random.uniform(0.01, 0.05),
+                     y = random.uniform(0.0, 0.05);
+        const auto at = [&](double radius, double turn) {
+            const auto [s, c] = sine_cosine(turn);
+            return both.moved({radius * c, y, radius * s});
+        };
+        const auto [s, c] = sine_cosine(angle);
+        SurfacePoint point{{r * c, y, r * s}, {c, 0.0, s}, {-s, 0.0, c}};
+        both.apply(point, both.column(angle));
+        constexpr double h = 1e-7;
+        EXPECT_LT(glm::distance((at(r + h, angle) - at(r - h, angle)) / (2.0 * h), point.meridian),
+                  1e-5);
+        EXPECT_LT(
+            glm::distance((at(r, angle + h) - at(r, angle - h)) / (2.0 * h * r), point.azimuth),
+            1e-4);
     }
 }
 

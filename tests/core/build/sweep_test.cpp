@@ -182,14 +182,17 @@ Individual body_of(const MushroomOrder& order) {
     individual.layers.clear();
     individual.has_ring = false;
     individual.azimuth = {};
+    individual.lobes.clear();
     individual.reliefs.clear();
     individual.has_relief = false;
+    individual.outline.refine(false);
     individual.has_sac = false;
     individual.wear = {};
     individual.comb = {};
     for (SpeciesShare& part : individual.parts) {
         part.cells = {};
         part.model.hymenium.depth = 0.0;
+        part.model.surface.hymenium.pattern = HymeniumPattern::gills;  // no cross veins
     }
     return individual;
 }
@@ -391,6 +394,7 @@ TEST(Sweep, TheSeamColumnRepeatsColumnZeroBitForBit) {
             order.params.variation = 1.0;
             const Individual individual = body_of(order);
             const Mesh mesh = swept(individual, lod, true);
+            SCOPED_TRACE(id + " lod " + std::to_string(lod));
             const Detail& detail = detail_of(individual.has_relief, lod);
             const auto row = static_cast<std::size_t>(detail.columns) + 1;
             for (std::size_t i = 0; i + row <= mesh.positions.size(); i += row) {
