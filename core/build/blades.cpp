@@ -218,6 +218,8 @@ void Builder::append(double shoulder, double waist, bool drawn) {
             for (std::uint32_t k = 0; k < row_corners / 2; ++k) {
                 std::swap(mesh.positions[row + k], mesh.positions[row + row_corners - 1 - k]);
                 std::swap(mesh.normals[row + k], mesh.normals[row + row_corners - 1 - k]);
+                if (!mesh.tangents.empty())
+                    std::swap(mesh.tangents[row + k], mesh.tangents[row + row_corners - 1 - k]);
             }
     if (drawn)
         for (const auto& face : faces)
