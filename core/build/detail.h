@@ -25,7 +25,7 @@ inline constexpr std::array<Detail, 4> details = {{
 /// By LOD, of a set of species that has relief, fans or lobes: rings where every set has them, see Outline::rings, and more
 /// columns.
 inline constexpr std::array<Detail, 4> fine_details = {{
-    {34, 25, 50, 128, 7, 1, 6, 11},
+    {26, 18, 42, 128, 7, 1, 6, 11},
     {13, 9, 22, 40, 4, 0, 3, 7},
     {7, 5, 7, 16, 0, 0, 1, 4},
     {4, 3, 4, 8, 0, 0, 0, 1},

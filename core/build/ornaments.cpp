@@ -363,12 +363,12 @@ void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
     if (rings == 0 || !individual.has_sac) return;
     const double height = style.height;
     const double thickness = std::min(style.thickness, 0.2 * height);
-    // From under the bulb, or where a stem ends that grows from a wall above or below it; a low one holds the bulb too, but what is all
-    // but gone holds nothing.
+    // From under the bulb, or where a stem ends that grows from a wall above or below it; a low one holds as much of the bulb as it is
+    // high, or it would run in under a flat foot faster than it grows.
     const double base = ground.deformer.base();
     const double level =
         std::min(std::max(base, 0.0), std::max(base, ground.outline.stem.at(1.0).y));
-    const double buried = std::min(std::max(level - base, 0.0), 8.0 * height);
+    const double buried = std::min(std::max(level - base, 0.0), 0.6 * height);
     Random random(ground.seed, purposes::sac);
     const Rents rents(random, 3, 5);
     Random fold_stream(ground.seed, purposes::sac_folds);
