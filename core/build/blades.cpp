@@ -7,9 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/build/cells.h"
 #include "core/build/directions.h"
-#include "core/build/weathering.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/purposes.h"
@@ -19,7 +17,8 @@ namespace sporeprint {
 namespace {
 
 // As many rows to each blade in nearly every set of species: chords of other rows would lie off.
-constexpr int most_segments = 8, least_segments = 2, stem_segments = 3;
+// Rows of a blade on the face: equal in every set, or a mix would not end where its species begin.
+constexpr int face_segments = 6, stem_segments = 3;
 constexpr std::size_t row_corners = 6;
 constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from ridge to ridge
 constexpr int vein_segments = 3, most_veins = 400;
@@ -393,23 +392,6 @@ void Builder::veins(const BladeBudget& shares) {
     }
 }
 
-/// Triangles that are left for blades beside a body with relief and all that stands on it; no age and no weight changes it.
-int blade_room(const Individual& individual, int veins) {
-    constexpr int all = 59900, least = 12000;
-    const Detail& fine = detail_of(true, 0);
-    const int rings =
-        fine.stem_rings + fine.hymenium_rings + flesh_rings(individual, 0) + fine.cap_rings;
-    const WeatheringCount weathered = weathering_count(individual, 0);
-    int taken = 2 * static_cast<int>(weathered.columns) * rings +
-                2 * details[0].columns * shell_rings(individual, fine) +
-                static_cast<int>(weathered.triangles) +
-                static_cast<int>(solid_count(cell_budget(individual)).triangles) +
-                veins * triangles_of(vein_segments);
-    for (const PatchLayer& layer : individual.layers)
-        taken += piece_count(layer) * (4 * fine.patch_sides - 2);
-    return std::clamp(all - taken, least, most_blade_triangles);
-}
-
 }  // namespace
 
 BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
@@ -417,20 +399,16 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     while (built_vein_count(individual, shares.vein_stride) > most_veins) ++shares.vein_stride;
     shares.veins = built_vein_count(individual, shares.vein_stride);
     const Comb& comb = individual.comb;
-    const int most =
-        individual.has_relief ? blade_room(individual, shares.veins) : most_blade_triangles;
-    const int budget = beside_pores ? most / 6 : most;
+    const int budget = beside_pores ? most_blade_triangles / 6 : most_blade_triangles;
     shares.tiers = individual.blade_tiers;
     shares.below = individual.runs_down ? stem_segments : 0;
     // Rows down the stem go first, then the shortest blades.
     const auto too_many = [&] {
-        return (comb.blades << shares.tiers) * triangles_of(least_segments + shares.below) > budget;
+        return (comb.blades << shares.tiers) * triangles_of(face_segments + shares.below) > budget;
     };
     while (shares.below > 1 && too_many()) --shares.below;
     while (shares.tiers > 0 && too_many()) --shares.tiers;
-    const int blades = std::max(comb.blades << shares.tiers, 1);
-    shares.segments =
-        std::clamp((budget / blades + 2) / 10 - shares.below, least_segments, most_segments);
+    shares.segments = face_segments;
     return shares;
 }
 

@@ -10,7 +10,7 @@
 
 namespace sporeprint {
 
-/// Triangles that the blades of a lower face may have, where the body is smooth.
+/// Triangles that the blades of a lower face may have.
 inline constexpr int most_blade_triangles = 36000;
 
 /// What the solids of an individual come to; no age and no weight changes it.
