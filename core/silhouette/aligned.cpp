@@ -12,6 +12,7 @@
 
 #include "core/math/elementary.h"
 #include "core/params/problems.h"
+#include "core/silhouette/correspondence.h"
 
 namespace sporeprint {
 

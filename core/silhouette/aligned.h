@@ -5,7 +5,6 @@
 #include <span>
 #include <vector>
 
-#include "core/silhouette/correspondence.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint {

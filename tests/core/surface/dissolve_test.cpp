@@ -17,6 +17,7 @@
 #include "core/math/noise.h"
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/orders.h"
 #include "tests/support/paintings.h"
 
@@ -242,12 +243,8 @@ TEST_F(Dissolve, GivesEqualBytesWithEveryInstructionSetAndHoweverTheWorkIsShared
     for (const int side : {16, 32, 64, 128, 512}) {
         const std::vector<RawImages> p = unlike(side);
         const std::vector<double> weights = {0.296875, 0.21875, 0.484375};
-        force_simd("scalar");
-        const RawImages expected = dissolved(p, weights);
-        for (const std::string& name : simd_names()) {
-            force_simd(name);
-            EXPECT_TRUE(dissolved(p, weights).rgb == expected.rgb) << name << ' ' << side;
-        }
+        const RawImages expected = expect_equal_with_every_instruction_set(
+            [&] { return dissolved(p, weights); }, std::to_string(side));
         EXPECT_TRUE(dissolved(p, weights, all_at_once).rgb == expected.rgb) << side;
     }
 }

@@ -14,6 +14,7 @@
 #include "core/params/problems.h"
 #include "core/surface/charts.h"
 #include "core/surface/codecs.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/paintings.h"
 
 namespace sporeprint {
@@ -61,30 +62,19 @@ void for_each_colour(T& value, const std::string& path, const Visit& visit) {
     });
 }
 
-class Paint : public ::testing::Test {
-  protected:
-    void TearDown() override { force_simd("auto"); }
-};
-
-TEST_F(Paint, GivesEqualBytesWithEveryInstructionSet) {
+TEST(Paint, GivesEqualBytesWithEveryInstructionSet) {
     for (const HymeniumPattern pattern : all_patterns) {
         for (const int side : {16, 128, 512}) {
             if (side == 512 && pattern != HymeniumPattern::gills) continue;
             PaintParams params = motley(pattern, side);
             params.comb = side == 128 ? 23 : side == 16 ? 64 : 0;
-            force_simd("scalar");
-            const RawImages expected = paint_raw(params);
-            for (const std::string& name : simd_names()) {
-                force_simd(name);
-                const RawImages found = paint_raw(params);
-                for (std::size_t i = 0; i < 3; ++i)
-                    EXPECT_TRUE(found.rgb[i] == expected.rgb[i]) << name << ' ' << side;
-            }
+            expect_equal_with_every_instruction_set([&] { return paint_raw(params); },
+                                                    std::to_string(side));
         }
     }
 }
 
-TEST_F(Paint, GivesEqualFilesHoweverTheWorkIsShared) {
+TEST(Paint, GivesEqualFilesHoweverTheWorkIsShared) {
     const PaintParams params = motley(HymeniumPattern::gills);
     const ImageSet alone = paint(params);
     const ImageSet again = paint(params);
@@ -95,7 +85,7 @@ TEST_F(Paint, GivesEqualFilesHoweverTheWorkIsShared) {
     }
 }
 
-TEST_F(Paint, WritesThreeJpegFilesOfTheAtlas) {
+TEST(Paint, WritesThreeJpegFilesOfTheAtlas) {
     for (const int side : {16, 64, 256}) {
         const ImageSet files = paint(motley(HymeniumPattern::pores, side));
         for (const Slice& file : files.files) {
@@ -106,7 +96,7 @@ TEST_F(Paint, WritesThreeJpegFilesOfTheAtlas) {
     }
 }
 
-TEST_F(Paint, RefusesASideThatIsNoPowerOfTwo) {
+TEST(Paint, RefusesASideThatIsNoPowerOfTwo) {
     for (const int side : {0, 8, 100, 4096}) {
         PaintParams params;
         params.side = side;
@@ -114,7 +104,7 @@ TEST_F(Paint, RefusesASideThatIsNoPowerOfTwo) {
     }
 }
 
-TEST_F(Paint, WithoutReliefTheNormalsAreFlat) {
+TEST(Paint, WithoutReliefTheNormalsAreFlat) {
     PaintParams params;
     params.side = 256;
     params.surface.cap.bumps = 0.0;
@@ -137,7 +127,7 @@ TEST_F(Paint, WithoutReliefTheNormalsAreFlat) {
         }
 }
 
-TEST_F(Paint, NormalsAreUnitVectorsThatPointOutwards) {
+TEST(Paint, NormalsAreUnitVectorsThatPointOutwards) {
     const RawImages images = paint_raw(motley(HymeniumPattern::gills));
     for (int y = 0; y < images.side; ++y)
         for (int x = 0; x < images.side; ++x) {
@@ -148,7 +138,7 @@ TEST_F(Paint, NormalsAreUnitVectorsThatPointOutwards) {
         }
 }
 
-TEST_F(Paint, ABumpFacesAwayFromItsMiddle) {
+TEST(Paint, ABumpFacesAwayFromItsMiddle) {
     // One great wart: to its right the normal points right, above it (smaller v) the normal points
     // up.
     PaintParams params;
@@ -176,7 +166,7 @@ TEST_F(Paint, ABumpFacesAwayFromItsMiddle) {
     EXPECT_GT(up, 0.0);
 }
 
-TEST_F(Paint, OrmHasNoMetal) {
+TEST(Paint, OrmHasNoMetal) {
     const RawImages images = paint_raw(motley(HymeniumPattern::ridges));
     for (std::size_t i = 2; i < images.rgb[2].size(); i += 3) ASSERT_EQ(images.rgb[2][i], 0);
 }
@@ -192,7 +182,7 @@ PaintParams worn(HymeniumPattern pattern) {
     return params;
 }
 
-TEST_F(Paint, EveryNumberChangesThePicture) {
+TEST(Paint, EveryNumberChangesThePicture) {
     std::vector<RawImages> before;
     for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(worn(pattern)));
     PaintParams walked = worn(HymeniumPattern::smooth);
@@ -228,7 +218,7 @@ TEST_F(Paint, EveryNumberChangesThePicture) {
     }
 }
 
-TEST_F(Paint, EveryColourChangesThePicture) {
+TEST(Paint, EveryColourChangesThePicture) {
     std::vector<RawImages> before;
     for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(worn(pattern)));
     PaintParams walked = worn(HymeniumPattern::smooth);
@@ -248,7 +238,7 @@ TEST_F(Paint, EveryColourChangesThePicture) {
     }
 }
 
-TEST_F(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
+TEST(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
     for (const HymeniumPattern pattern : {HymeniumPattern::gills, HymeniumPattern::ridges}) {
         const PaintParams start = motley(pattern);
         const RawImages before = paint_raw(start);
@@ -272,7 +262,7 @@ TEST_F(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
     }
 }
 
-TEST_F(Paint, TheAgesOfTheRampGoFromApexToMargin) {
+TEST(Paint, TheAgesOfTheRampGoFromApexToMargin) {
     PaintParams params;
     params.side = 512;
     params.surface.cap.ramp = {{255, 0, 0}, {0, 0, 255}};
@@ -286,7 +276,7 @@ TEST_F(Paint, TheAgesOfTheRampGoFromApexToMargin) {
     EXPECT_LT(margin.r, 40);
 }
 
-TEST_F(Paint, ABladeWearsItsFaceAndItsEdgeAndFleshItsOwnColour) {
+TEST(Paint, ABladeWearsItsFaceAndItsEdgeAndFleshItsOwnColour) {
     PaintParams params;
     params.side = 256;
     params.surface.hymenium.colour = {0, 180, 0};
@@ -314,7 +304,7 @@ TEST_F(Paint, ABladeWearsItsFaceAndItsEdgeAndFleshItsOwnColour) {
     }
 }
 
-TEST_F(Paint, TheStemClosesWithoutASeam) {
+TEST(Paint, TheStemClosesWithoutASeam) {
     // Once round the stem the picture goes on as anywhere else: the step over the seam is no
     // larger than its neighbours.
     PaintParams params = motley(HymeniumPattern::gills, 512);
@@ -339,7 +329,7 @@ TEST_F(Paint, TheStemClosesWithoutASeam) {
     EXPECT_LE(step(first - 2, first - 2 + rows), 2.0 * usual);
 }
 
-TEST_F(Paint, BleedsBeyondEveryRim) {
+TEST(Paint, BleedsBeyondEveryRim) {
     PaintParams params;
     params.side = 512;
     params.surface.cap.ramp = {{255, 255, 255}, {30, 60, 200}};
@@ -403,11 +393,11 @@ int slots_of(const std::vector<int>& occlusion) {
     return slots;
 }
 
-TEST_F(Paint, GillsAreAsManyAsAsked) {
+TEST(Paint, GillsAreAsManyAsAsked) {
     EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(40, 0, 0)), 0.8)), 40, 1);
 }
 
-TEST_F(Paint, OnTheCombOfASetGillsAreAsManyAsTheirOwn) {
+TEST(Paint, OnTheCombOfASetGillsAreAsManyAsTheirOwn) {
     // Fewer than reach the stem in the comb; as many as fill it and half of its first tier.
     EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(40, 0, 64)), 0.8)), 40, 1);
     const RawImages tiered = paint_raw(combed(60, 0, 40));
@@ -416,7 +406,7 @@ TEST_F(Paint, OnTheCombOfASetGillsAreAsManyAsTheirOwn) {
     EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(22, 1, 60)), 0.95)), 44, 1);
 }
 
-TEST_F(Paint, BladesOfASetStandOnOneComb) {
+TEST(Paint, BladesOfASetStandOnOneComb) {
     // A slot is 120 places wide; the unevenness of the face moves a blade by a tenth of that.
     const auto lightest = [](const std::vector<int>& occlusion, int slot) {
         int most = 0;
@@ -436,7 +426,7 @@ TEST_F(Paint, BladesOfASetStandOnOneComb) {
     }
 }
 
-TEST_F(Paint, OnItsOwnCombASpeciesIsPaintedAsIfItWereAlone) {
+TEST(Paint, OnItsOwnCombASpeciesIsPaintedAsIfItWereAlone) {
     EXPECT_EQ(paint_raw(combed(60, 2, 60)).rgb, paint_raw(combed(60, 2, 0)).rgb);
     EXPECT_EQ(paint_raw(combed(34, 1, 34, HymeniumPattern::ridges)).rgb,
               paint_raw(combed(34, 1, 0, HymeniumPattern::ridges)).rgb);
@@ -446,7 +436,7 @@ TEST_F(Paint, OnItsOwnCombASpeciesIsPaintedAsIfItWereAlone) {
               paint_raw(combed(34, 1, 0, HymeniumPattern::ridges)).rgb);
 }
 
-TEST_F(Paint, DeeperGillsAreDarkerBetween) {
+TEST(Paint, DeeperGillsAreDarkerBetween) {
     double last = 256.0;
     for (const double relief : {0.0, 0.5, 1.0}) {
         PaintParams params = motley(HymeniumPattern::gills);
@@ -461,7 +451,7 @@ TEST_F(Paint, DeeperGillsAreDarkerBetween) {
     }
 }
 
-TEST_F(Paint, GillsRunDownTheStemAsFarAsTheyReach) {
+TEST(Paint, GillsRunDownTheStemAsFarAsTheyReach) {
     PaintParams params = motley(HymeniumPattern::gills, 512);
     params.surface.stem.net = params.surface.stem.bands = params.surface.stem.bumps = 0.0;
     params.surface.hymenium.edge = {255, 0, 0};
@@ -495,7 +485,7 @@ TEST_F(Paint, GillsRunDownTheStemAsFarAsTheyReach) {
     }
 }
 
-TEST_F(Paint, WaterDarkensAndSmooths) {
+TEST(Paint, WaterDarkensAndSmooths) {
     PaintParams params = motley(HymeniumPattern::gills);
     params.weathering.wetness = 0.0;
     const RawImages dry = paint_raw(params);
@@ -523,7 +513,7 @@ Upload quarters(int side) {
     return uploaded(jpeg(rgb, side, side, 95, Chroma::full));
 }
 
-TEST_F(Paint, AGivenImageIsMappedOnTheDiscInsteadOfThePainting) {
+TEST(Paint, AGivenImageIsMappedOnTheDiscInsteadOfThePainting) {
     for (const int side : {64, 2048}) {
         PaintParams params;
         params.side = 512;
@@ -539,7 +529,7 @@ TEST_F(Paint, AGivenImageIsMappedOnTheDiscInsteadOfThePainting) {
     }
 }
 
-TEST_F(Paint, AGivenImageIsStretchedOverTheStem) {
+TEST(Paint, AGivenImageIsStretchedOverTheStem) {
     PaintParams params;
     params.side = 512;
     params.surface.stem.image = quarters(128);
@@ -552,7 +542,7 @@ TEST_F(Paint, AGivenImageIsStretchedOverTheStem) {
     }
 }
 
-TEST_F(Paint, AnUnreadableImageIsRefusedByItsPlace) {
+TEST(Paint, AnUnreadableImageIsRefusedByItsPlace) {
     PaintParams params;
     params.surface.stem.image = uploaded({1, 2, 3, 4});
     try {

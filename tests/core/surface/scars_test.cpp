@@ -8,9 +8,9 @@
 #include <string>
 #include <utility>
 
-#include "core/math/noise.h"
 #include "core/surface/charts.h"
 #include "core/surface/paint.h"
+#include "tests/support/instruction_sets.h"
 #include "tests/support/paintings.h"
 
 namespace sporeprint {
@@ -95,12 +95,7 @@ TEST(Scars, AllAtOnceAndOnTheSmallestAtlasIsStillAnImage) {
 }
 
 /// Vectors differ in how many texels they hold, so what a scar does beside another may not depend on which of them share one.
-class ScarsOfEveryInstructionSet : public ::testing::Test {
-  protected:
-    void TearDown() override { force_simd("auto"); }
-};
-
-TEST_F(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
+TEST(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
     for (std::size_t first = 0; first < effects.size(); ++first)
         for (std::size_t second = first; second < effects.size(); ++second)
             for (const int side : {32, 128}) {
@@ -110,16 +105,10 @@ TEST_F(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
                 params.weathering.*effects[first].amount = 0.7;
                 // Little of the second: small scars cross few texels of a vector.
                 params.weathering.*effects[second].amount = 0.08;
-                force_simd("scalar");
-                const RawImages expected = paint_raw(params);
-                for (const std::string& name : simd_names()) {
-                    force_simd(name);
-                    const RawImages found = paint_raw(params);
-                    for (std::size_t i = 0; i < 3; ++i)
-                        EXPECT_TRUE(found.rgb[i] == expected.rgb[i])
-                            << name << ' ' << effects[first].name << ' ' << effects[second].name
-                            << ' ' << side;
-                }
+                expect_equal_with_every_instruction_set([&] { return paint_raw(params); },
+                                                        std::string(effects[first].name) + ' ' +
+                                                            effects[second].name + ' ' +
+                                                            std::to_string(side));
             }
 }
 
