@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <glm/vec2.hpp>
 
 namespace sporeprint {
@@ -180,7 +181,8 @@ double Relief::room(const Outline& outline) const {
         const OutlineSample before = outline.cap.at(1.0 - sigma - 1.0 / 48.0),
                             after = outline.cap.at(1.0 - sigma + 1.0 / 48.0);
         const double turn = before.tangent_r * after.tangent_y - before.tangent_y * after.tangent_r;
-        double clear = turn > 0.0 ? meridian_ / (24.0 * turn) : depth;
+        double clear =
+            turn > 0.0 ? meridian_ / (24.0 * turn) : std::numeric_limits<double>::infinity();
         if (at.tangent_y > 0.0) clear = std::min(clear, at.r / at.tangent_y);
         for (const glm::dvec2& other : others) {
             const double dr = other.x - at.r, dy = other.y - at.y;

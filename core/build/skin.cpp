@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/build/directions.h"
 #include "core/model/proportion.h"
 
 namespace sporeprint {
@@ -86,6 +87,16 @@ SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, in
         const glm::dvec3 d = at(part, high, right).position;
         point.position = d + (1.0 - round) * (c - d) + (1.0 - up) * (b - d);
     }
+    // As steep as the mesh is: where an outline bends between two rings, its own tangent swings round as the bend passes by.
+    const Column here = column(angle);
+    const auto last = rings.end() - 1;
+    const auto chord = [&](std::vector<OutlineSample>::const_iterator ring) {
+        const auto& before = ring == rings.begin() ? *ring : *(ring - 1);
+        const auto& after = ring == last ? *ring : *(ring + 1);
+        return at(part, after, here).position - at(part, before, here).position;
+    };
+    const glm::dvec3 steep = (1.0 - up) * chord(above - 1) + up * chord(above);
+    point.meridian = unit_or(steep, point.meridian);
     return point;
 }
 

@@ -35,7 +35,7 @@ class Skin {
     [[nodiscard]] SurfacePoint at(Part part, double share, double angle) const;
 
     /// The place of a mesh over this skin with these rings and so many even columns: between its vertices lie chords, which relief,
-    /// fans and lobes stand off from. Directions are those of the skin itself.
+    /// fans and lobes stand off from. Its meridian is that of the mesh, of length 1.
     [[nodiscard]] SurfacePoint meshed(Part part, const std::vector<OutlineSample>& rings,
                                       int columns, double share, double angle) const;
 
