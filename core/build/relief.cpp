@@ -2,8 +2,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <glm/vec2.hpp>
+#include <limits>
 
 namespace sporeprint {
 
