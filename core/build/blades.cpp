@@ -16,12 +16,11 @@ namespace sporeprint {
 
 namespace {
 
-// As many rows to each blade in nearly every set of species: chords of other rows would lie off.
-// Rows of a blade on the face: equal in every set, or a mix would not end where its species begin.
-constexpr int face_segments = 6, stem_segments = 3;
+// Rows of a blade on the face: equal in all but crowded sets, or a mix would not end where its species begin.
+constexpr int face_segments = 6, least_segments = 3, stem_segments = 3;
 constexpr std::size_t row_corners = 6;
 constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from ridge to ridge
-constexpr int vein_segments = 3, most_veins = 400;
+constexpr int vein_segments = 3, least_veins = 100, most_veins = 400;
 
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
@@ -412,8 +411,20 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     return shares;
 }
 
-HymeniumCount solid_count(const Individual& individual, const BladeBudget& budget) {
-    HymeniumCount count;
+bool coarsen(const Individual& individual, BladeBudget& budget) {
+    if (budget.tiers > 0)
+        --budget.tiers;
+    else if (budget.veins > least_veins)
+        budget.veins = built_vein_count(individual, ++budget.vein_stride);
+    else if (budget.segments > least_segments)
+        --budget.segments;
+    else
+        return false;
+    return true;
+}
+
+MeshCount solid_count(const Individual& individual, const BladeBudget& budget) {
+    MeshCount count;
     const int segments = budget.segments + budget.below;
     for_each_blade(individual, budget, [&](int) {
         count.vertices += row_corners * static_cast<std::uint64_t>(segments + 1);

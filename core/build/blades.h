@@ -5,6 +5,9 @@
 
 namespace sporeprint {
 
+/// Triangles that the blades of a lower face may have.
+inline constexpr int most_blade_triangles = 36000;
+
 /// How blades share the triangles there are. What there is of one kind does not change how another looks, as far as the budget
 /// allows: else no mix would end where its species begin.
 struct BladeBudget {
@@ -18,8 +21,11 @@ struct BladeBudget {
 /// beside_pores  whether the set has solid pores, which leave blades a sixth of the triangles
 [[nodiscard]] BladeBudget blade_budget(const Individual& individual, bool beside_pores);
 
+/// Gives up a tier of blades, or cross veins, or a row of each blade; false when there is nothing left to give up.
+bool coarsen(const Individual& individual, BladeBudget& budget);
+
 /// What the blades and veins of an individual come to.
-[[nodiscard]] HymeniumCount solid_count(const Individual& individual, const BladeBudget& budget);
+[[nodiscard]] MeshCount solid_count(const Individual& individual, const BladeBudget& budget);
 
 /// Appends them, each a closed solid.
 void add_blades(const Roots& roots, const BladeBudget& budget);

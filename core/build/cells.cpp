@@ -159,7 +159,7 @@ CellBudget cell_budget(const Individual& individual) {
     return shares;
 }
 
-HymeniumCount solid_count(const CellBudget& budget) {
+MeshCount solid_count(const CellBudget& budget) {
     return {static_cast<std::uint64_t>(budget.spines * 2 * (spine_sides + 1)) +
                 static_cast<std::uint64_t>(budget.pores * (pore_rings + 1) * (budget.corners + 1)),
             static_cast<std::uint64_t>(budget.spines * spine_triangles) +

@@ -16,7 +16,7 @@ struct CellBudget {
 [[nodiscard]] CellBudget cell_budget(const Individual& individual);
 
 /// What the spines and pores of an individual come to.
-[[nodiscard]] HymeniumCount solid_count(const CellBudget& budget);
+[[nodiscard]] MeshCount solid_count(const CellBudget& budget);
 
 /// Appends them, each a closed solid.
 void add_cells(const Roots& roots, const CellBudget& budget);

@@ -3,8 +3,14 @@
 
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 namespace sporeprint {
+
+/// What a part of a mesh comes to.
+struct MeshCount {
+    std::uint64_t vertices = 0, triangles = 0;
+};
 
 struct Detail {
     int stem_rings, hymenium_rings, cap_rings, columns;

@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "core/build/blades.h"
-#include "core/build/cells.h"
+#include "core/build/budget.h"
 #include "core/math/elementary.h"
 
 namespace sporeprint {
@@ -34,14 +33,6 @@ double distance_to(const std::vector<OutlineSample>& line, double r, double y, d
 }
 
 }  // namespace
-
-HymeniumCount hymenium_count(const Individual& individual, int lod) {
-    if (!has_solids(lod) || individual.outline.hymenium.empty()) return {};
-    const CellBudget cells = cell_budget(individual);
-    const HymeniumCount blades = solid_count(individual, blade_budget(individual, cells.pores > 0)),
-                        others = solid_count(cells);
-    return {blades.vertices + others.vertices, blades.triangles + others.triangles};
-}
 
 int flesh_rings(const Individual& individual, int lod) {
     const bool carries =
@@ -165,12 +156,11 @@ std::vector<OutlineSample> LowerFace::flesh(const Outline& outline, int lod) con
 }
 
 void add_hymenium(Mesh& mesh, const Individual& individual, const LowerFace& face,
-                  const Ground& ground) {
+                  const Ground& ground, const Budget& budget) {
     if (face.empty()) return;
     const Roots roots(mesh, individual, face, ground);
-    const CellBudget cells = cell_budget(individual);
-    add_blades(roots, blade_budget(individual, cells.pores > 0));
-    add_cells(roots, cells);
+    add_blades(roots, budget.blades);
+    add_cells(roots, budget.cells);
 }
 
 }  // namespace sporeprint

@@ -1,7 +1,6 @@
 // The lower face as it is built: gills, ridges and spines as solids, and the flesh between them.
 #pragma once
 
-#include <cstdint>
 #include <vector>
 
 #include "core/build/ornaments.h"
@@ -10,15 +9,7 @@
 
 namespace sporeprint {
 
-/// Triangles that the blades of a lower face may have.
-inline constexpr int most_blade_triangles = 36000;
-
-/// What the solids of an individual come to; no age and no weight changes it.
-struct HymeniumCount {
-    std::uint64_t vertices = 0;
-    std::uint64_t triangles = 0;  ///< when all are there
-};
-[[nodiscard]] HymeniumCount hymenium_count(const Individual& individual, int lod);
+struct Budget;
 
 /// Whether a level of detail carries the hymenium as solids; farther ones wear it in their images alone.
 [[nodiscard]] constexpr bool has_solids(int lod) { return lod == 0; }
@@ -60,6 +51,6 @@ class LowerFace {
 ///
 /// source  algorithms of fine structure: profiles by attachment (free, adnexed, adnate, sinuate, decurrent), lamellulae in tiers
 void add_hymenium(Mesh& mesh, const Individual& individual, const LowerFace& face,
-                  const Ground& ground);
+                  const Ground& ground, const Budget& budget);
 
 }  // namespace sporeprint

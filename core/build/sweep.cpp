@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "core/build/budget.h"
 #include "core/build/hymenium.h"
 #include "core/build/ornaments.h"
 #include "core/build/weathering.h"
@@ -217,17 +218,8 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const Skin skin(individual, detail);
     const Cuts cuts(individual, lod);
     Mesh mesh;
-    const int rings = detail.stem_rings + detail.hymenium_rings + flesh_rings(individual, lod) +
-                      detail.cap_rings + 2 * (detail.veil_rings + 1) + 2 * (detail.sac_rings + 1);
-    int pieces = 0;
-    for (const PatchLayer& layer : individual.layers)
-        pieces += detail.patch_sides > 0 ? piece_count(layer) : 0;
-    const HymeniumCount solids = hymenium_count(individual, lod);
-    const auto vertices =
-        static_cast<std::size_t>(solids.vertices) +
-        static_cast<std::size_t>(
-            rings * static_cast<int>(cuts.turns().size() + 1) +
-            pieces * ((detail.patch_rings + 2) * (detail.patch_sides + 1) + detail.patch_sides));
+    const Budget budget = budget_of(individual, lod);
+    const auto vertices = static_cast<std::size_t>(budget.count.vertices);
     mesh.positions.reserve(vertices);
     mesh.normals.reserve(vertices);
     mesh.indices.reserve(vertices * 6);
@@ -247,16 +239,23 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
                          "so thin for its width that dents turn it inside out at level of detail " +
                              std::to_string(lod));
     const Curl curl = weather(mesh, body, individual, cuts, lod, options.keep_absent);
-    // Ring and sac have as many columns beside a species with relief as without: torn edges would turn out otherwise.
-    const Detail& plain = details[static_cast<std::size_t>(lod)];
     const Dents dents(individual);
-    const Ground ground{
-        outline, deformer, skin,  plain,     lod, seed, options.textured, options.keep_absent,
-        cuts,    curl,     dents, individual};
+    const Ground ground{outline,
+                        deformer,
+                        skin,
+                        budget.ornaments,
+                        lod,
+                        seed,
+                        options.textured,
+                        options.keep_absent,
+                        cuts,
+                        curl,
+                        dents,
+                        individual};
     add_patches(mesh, individual, ground);
     add_ring(mesh, individual, ground);
     add_sac(mesh, individual, ground);
-    if (has_solids(lod)) add_hymenium(mesh, individual, lower, ground);
+    if (has_solids(lod)) add_hymenium(mesh, individual, lower, ground, budget);
     return mesh;
 }
 

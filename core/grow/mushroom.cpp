@@ -1,9 +1,7 @@
 #include "core/grow/mushroom.h"
 
-#include "core/build/hymenium.h"
-#include "core/build/ornaments.h"
+#include "core/build/budget.h"
 #include "core/build/sweep.h"
-#include "core/build/weathering.h"
 #include "core/gltf/glb.h"
 #include "core/grow/growth.h"
 #include "core/grow/painting.h"
@@ -73,33 +71,10 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& me
 }
 
 Estimate estimate(const MushroomOrder& order, const Individual& individual) {
-    const Detail& detail = detail_of(individual.has_relief, order.params.lod);
-    const WeatheringCount weathered = weathering_count(individual, order.params.lod);
-    const std::uint64_t columns = weathered.columns + 1;
-    const bool lower_face = !individual.outline.hymenium.empty();
-    const auto rings =
-        static_cast<std::uint64_t>(detail.stem_rings + (lower_face ? detail.hymenium_rings : 0) +
-                                   flesh_rings(individual, order.params.lod) + detail.cap_rings);
-    const std::uint64_t faces = lower_face ? 3 : 2;
-    const auto sides = static_cast<std::uint64_t>(detail.patch_sides),
-               rows = static_cast<std::uint64_t>(detail.patch_rings) + 2;
-    std::uint64_t pieces = 0;
-    for (const PatchLayer& layer : individual.layers)
-        pieces += static_cast<std::uint64_t>(piece_count(layer));
-    const auto loop = static_cast<std::uint64_t>(shell_rings(individual, detail));
+    const MeshCount mesh = budget_of(individual, order.params.lod).count;
     Estimate e;
-    const auto loop_columns =
-        static_cast<std::uint64_t>(details[static_cast<std::size_t>(order.params.lod)].columns);
-    e.vertices = rings * columns + loop * (loop_columns + 1) + weathered.vertices;
-    e.triangles =
-        2 * (rings - faces) * (columns - 1) + 2 * loop * loop_columns + weathered.triangles;
-    if (sides > 0) {
-        e.vertices += pieces * (rows * (sides + 1) + sides);
-        e.triangles += pieces * (2 * (rows - 1) * sides - sides + sides - 2);
-    }
-    const HymeniumCount solids = hymenium_count(individual, order.params.lod);
-    e.vertices += solids.vertices;
-    e.triangles += solids.triangles;
+    e.vertices = mesh.vertices;
+    e.triangles = mesh.triangles;
     const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
     const std::uint64_t images = textured(order) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(order));

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "core/build/budget.h"
 #include "tests/support/meshes.h"
 #include "tests/support/mixes.h"
 #include "tests/support/surfaces.h"
@@ -40,11 +41,31 @@ double allowance(const MushroomOrder& alone, const MushroomOrder& beside, const 
     return chords * (is_folded(one) ? 0.0055 : 0.003) * height(pure);
 }
 
+/// Whether a set comes to so many triangles that its patches have fewer corners than those of the lone species.
+bool is_crowded(const MushroomOrder& order) {
+    return budget_of(resolved(order), order.params.lod).ornaments.patch_sides <
+           details[static_cast<std::size_t>(order.params.lod)].patch_sides;
+}
+
+/// The same order without warts and scales, as far as its species can have any.
+MushroomOrder without_patches(MushroomOrder order) {
+    const auto& has = resolved(order).effective.ornaments;
+    auto& asked = order.params.ornaments;
+    for (const auto amount :
+         {&OrnamentsOf<Maybe>::warts, &OrnamentsOf<Maybe>::scales, &OrnamentsOf<Maybe>::volva})
+        if (has.*amount) asked.*amount = 0.0;
+    return order;
+}
+
 /// "Done when" 2: beside a thousandth of another a species is within 0.3 % of its height of itself. At the finest level of detail:
 /// rings of others stand elsewhere along a meridian, and their chords with them.
 void expect_convergence(MushroomOrder alone, MushroomOrder beside) {
     // Without its gills, which follow: the chords of long thin blades are another matter, see expect_solids_converge.
     alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
+    if (is_crowded(beside)) {
+        alone = without_patches(alone);
+        beside = without_patches(beside);
+    }
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), allowance(alone, beside, pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
@@ -220,6 +241,10 @@ TEST(Morph, TowardsACornerOfEightSpeciesTheSurfaceConverges) {
         const std::string& id = ids[corner];
         MushroomOrder alone = order_of(id, 0.6, 3, 0), beside = mix_of(mix, 0.6, 3, 0);
         alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
+        if (is_crowded(beside)) {
+            alone = without_patches(alone);
+            beside = without_patches(beside);
+        }
         const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
         // Seven thousandths are not one: twice what one may do.
         const bool flat = height(pure) < 0.35 * diagonal(bounds(pure));  // as above
