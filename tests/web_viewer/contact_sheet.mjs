@@ -121,13 +121,21 @@ async function pageSheets() {
             const file = await downloaded(page, `/?species=${mix}${rest}&sheet=growth`, "#sheet-png");
             strips.push((await readFile(await file.path())).toString("base64"));
         }
-        const all = await browser.newPage({ viewport: { width: 1644, height: 600 } });
-        await all.setContent(`<!doctype html><style>body { margin: 0; background: #f5efe2; } img { display: block; }</style>${
-            strips.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}`);
+        const [width, height] = [1644, 407];
+        const columns = inColumns(strips, height);
+        const all = await browser.newPage({ viewport: { width: width * columns.length, height: 600 } });
+        await all.setContent(`<!doctype html><style>body { display: flex; margin: 0; background: #f5efe2; } img { display: block; }</style>${
+            columns.map((column) => `<div>${column.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}</div>`).join("")}`);
         await writeFile(options.out, await all.screenshot({ fullPage: true }));
     }
     for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
     for (const file of [options.out, options.mixes && options.glb].filter(Boolean)) console.log(file);
+}
+
+/** Things of a height in as many columns as a picture needs: Chromium repeats itself in one taller than 8192 pixels. */
+function inColumns(things, height) {
+    const columns = Math.ceil((things.length * height) / 8000), each = Math.ceil(things.length / columns);
+    return Array.from({ length: columns }, (_, column) => things.slice(column * each, (column + 1) * each));
 }
 
 async function ownSheet() {
@@ -163,14 +171,16 @@ async function ownSheet() {
     for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
 
     const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
+    const columns = inColumns(rows, options.cell + 40);
     const html = `<!doctype html><meta charset="utf-8"><style>
-body { margin: 0; background: #f5efe2; color: #2b211a; font: 12px/1.3 sans-serif; }
+body { display: flex; align-items: flex-start; margin: 0; background: #f5efe2; color: #2b211a; font: 12px/1.3 sans-serif; }
 table { border-collapse: collapse; } th { font: italic 600 15px serif; width: 130px; padding: 4px; overflow-wrap: anywhere; }
 td { border: 1px solid #d8ccb6; padding: 0; width: ${options.cell}px; } img { display: block; width: ${options.cell}px; }
 p { margin: 2px 5px; min-height: 2.6em; }</style>
-<table>${rows.map(({ title, cells }) => `<tr><th>${escaped(title)}</th>${cells.map(({ png, label }) =>
-        `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`).join("")}</tr>`).join("")}</table>`;
-    const sheet = await browser.newPage({ viewport: { width: 140 + Math.max(...rows.map(({ cells }) => cells.length)) * (options.cell + 1), height: 600 } });
+${columns.map((column) => `<table>${column.map(({ title, cells }) => `<tr><th>${escaped(title)}</th>${cells.map(({ png, label }) =>
+        `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`).join("")}</tr>`).join("")}</table>`).join("")}`;
+    const width = 140 + Math.max(...rows.map(({ cells }) => cells.length)) * (options.cell + 1);
+    const sheet = await browser.newPage({ viewport: { width: width * columns.length, height: 600 } });
     await sheet.setContent(html);
     await mkdir(path.dirname(options.out), { recursive: true });
     await writeFile(options.out, await sheet.screenshot({ fullPage: true }));
