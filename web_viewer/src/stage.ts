@@ -63,7 +63,7 @@ export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
     sun.shadow.mapSize.set(1024, 1024);
     sun.shadow.radius = 5;
     // Light that the paper throws back: gills and pores are seen by it.
-    const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 0.7);
+    const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 1.5);
     scene.add(sun, sun.target, bounce);
     return { renderer, scene, sun };
 }
