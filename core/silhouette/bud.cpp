@@ -1,6 +1,7 @@
 #include "core/silhouette/bud.h"
 
 #include <algorithm>
+#include <cmath>
 #include <glm/geometric.hpp>
 
 #include "core/math/elementary.h"
@@ -11,6 +12,7 @@ namespace {
 
 // Half its width over its height; the lower face's middle and half its breadth, as shares of a quarter turn.
 constexpr double bud_width = 0.175, bud_middle = -0.1, bud_band = 0.1;
+constexpr double least_height = 0.01;  // of the shapes' size
 
 }  // namespace
 
@@ -22,7 +24,9 @@ OutlineNodes bud_of(const std::vector<OutlineNodes>& shapes) {
         high += shape.cap.back().position.y / count_of_shapes;
     }
     const glm::dvec2 centre(0.0, 0.5 * (low + high));
-    const glm::dvec2 half(bud_width * (high - low), 0.5 * (high - low));
+    // Shapes may hang from their stems, or end where they begin; their bud hangs too, and never is flat.
+    const double height = std::copysign(std::max(std::abs(high - low), least_height), high - low);
+    const glm::dvec2 half(bud_width * std::abs(height), 0.5 * height);
     const double junction = (bud_middle - bud_band) * 0.5 * pi;
     const double margin =
         shapes.front().hymenium.empty() ? junction : (bud_middle + bud_band) * 0.5 * pi;
