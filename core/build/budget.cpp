@@ -34,10 +34,10 @@ MeshCount ornament_count(const Individual& individual, const Detail& detail) {
     const auto loop = static_cast<std::uint64_t>(shell_rings(individual, detail)),
                columns = static_cast<std::uint64_t>(detail.columns);
     count += {loop * (columns + 1), 2 * loop * columns};
-    if (detail.patch_sides == 0) return count;
     std::uint64_t pieces = 0;
     for (const PatchLayer& layer : individual.layers)
-        pieces += static_cast<std::uint64_t>(piece_count(layer));
+        pieces += static_cast<std::uint64_t>(piece_count(layer, detail));
+    if (pieces == 0) return count;
     const auto sides = static_cast<std::uint64_t>(detail.patch_sides),
                rows = static_cast<std::uint64_t>(detail.patch_rings) + 2;
     count += {pieces * (rows * (sides + 1) + sides), pieces * (2 * (rows - 1) * sides - 2)};
@@ -54,18 +54,17 @@ bool coarsen(Detail& detail, int lod) {
                                                   {&Detail::patch_rings, 0},
                                                   {&Detail::sac_rings, 7},
                                                   {&Detail::patch_sides, 3}}};
-    static constexpr std::array<Step, 3> middle = {
-        {{&Detail::patch_sides, 3}, {&Detail::sac_rings, 4}, {&Detail::patch_sides, 0}}};
-    const auto take = [&](std::span<const Step> steps) {
-        for (const Step& step : steps)
-            if (detail.*step.count > step.least) {
-                // A patch of fewer than three corners is painted.
-                detail.*step.count = step.least == 0 ? 0 : detail.*step.count - 1;
-                return true;
-            }
-        return false;
-    };
-    return lod == 0 ? take(near) : lod == 1 && take(middle);
+    static constexpr std::array<Step, 2> middle = {
+        {{&Detail::patch_sides, 3}, {&Detail::sac_rings, 4}}};
+    if (lod > 1) return false;
+    for (const Step& step : lod == 0 ? std::span<const Step>(near) : std::span<const Step>(middle))
+        if (detail.*step.count > step.least) {
+            --(detail.*step.count);
+            return true;
+        }
+    if (lod == 0 || detail.patches <= 0.0) return false;
+    detail.patches -= 0.125;
+    return true;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Budget {
 
 /// The shares of an individual at a level of detail. A set that comes to more than `most_triangles` gives up what is seen least, as
 /// far as it must: corners and rings of patches, rows of shells, blades in the grooves between others, cross veins, rows of blades; at the next
-/// level patches themselves, which are painted then.
+/// level the smaller patches themselves, which are painted then.
 ///
 /// cost  about 10 us
 [[nodiscard]] Budget budget_of(const Individual& individual, int lod);

@@ -18,6 +18,8 @@ struct Detail {
     int patch_rings;  ///< rings between its base and its tip
     int veil_rings;   ///< rings from a ring's attachment to its edge; 0: none
     int sac_rings;    ///< rings from a sac's foot to its edge; 0: none
+    double patches =
+        1.0;  ///< share of a layer's warts or scales that is built, those drawn largest; the others are painted only
 };
 
 /// By LOD. The same individual in each: counts change, draws do not.

@@ -139,7 +139,14 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
     const double wider = std::sqrt(covered(details[0].patch_sides) / covered(sides));
     Solid solid;
-    for (const Patch& patch : patches(style, ground.seed, layer.purpose)) {
+    std::vector<Patch> built = patches(style, ground.seed, layer.purpose);
+    if (ground.detail.patches < 1.0) {
+        std::stable_sort(built.begin(), built.end(),
+                         [](const Patch& a, const Patch& b) { return a.drawn > b.drawn; });
+        built.resize(
+            std::min(built.size(), static_cast<std::size_t>(piece_count(layer, ground.detail))));
+    }
+    for (const Patch& patch : built) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
         // What stood where the margin is cut has moved inwards with it.
         const OutlineSample at =
@@ -261,8 +268,10 @@ int shell_rings(const Individual& individual, const Detail& detail) {
     return (ring ? 2 * (detail.veil_rings + 1) : 0) + (sac ? 2 * (detail.sac_rings + 1) : 0);
 }
 
-int piece_count(const PatchLayer& layer) {
-    return std::abs(layer.style.to - layer.style.from) < least_window ? 0 : layer.style.count;
+int piece_count(const PatchLayer& layer, const Detail& detail) {
+    if (detail.patch_sides == 0 || std::abs(layer.style.to - layer.style.from) < least_window)
+        return 0;
+    return static_cast<int>(std::ceil(detail.patches * layer.style.count));
 }
 
 void add_patches(Mesh& mesh, const Individual& individual, const Ground& ground) {

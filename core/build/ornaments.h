@@ -24,7 +24,7 @@ struct Ground {
 };
 
 /// Pieces of a layer: those that are gone too, so that no amount changes the number of vertices.
-[[nodiscard]] int piece_count(const PatchLayer& layer);
+[[nodiscard]] int piece_count(const PatchLayer& layer, const Detail& detail);
 
 /// Appends warts, scales and bulb scales, each a closed solid a little sunk into the surface. A piece of which nothing is left
 /// is a point on the surface, with unit normals.

@@ -98,6 +98,7 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             const double reach = (tilt - from) / (to - from);
             patch.radius =
                 style.size * (0.62 + 0.5 * small + 0.35 * large * large) * (1.15 - 0.4 * reach);
+            patch.drawn = 0.5 * small + 0.35 * large * large;
             patch.spin = spin;
             patch.height = style.height * height;
             // Rain takes the margin first.

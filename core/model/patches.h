@@ -14,6 +14,8 @@ struct Patch {
     double sigma = 0.0;   ///< along the meridian, 0 at the apex (or the ground)
     double theta = 0.0;   ///< round the axis, 0..2 pi
     double radius = 0.0;  ///< before the amount is applied
+    double drawn =
+        0.0;  ///< what was drawn for its size, 0..0.85: no age and no neighbour changes it
     double spin = 0.0;    ///< turn of its outline
     double height = 0.0;  ///< in its own radii
     double survival =
