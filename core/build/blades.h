@@ -5,9 +5,6 @@
 
 namespace sporeprint {
 
-/// Triangles that the blades of a lower face may have.
-inline constexpr int most_blade_triangles = 36000;
-
 /// How blades share the triangles there are. What there is of one kind does not change how another looks, as far as the budget
 /// allows: else no mix would end where its species begin.
 struct BladeBudget {

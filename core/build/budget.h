@@ -26,7 +26,7 @@ struct Budget {
 /// far as it must: corners and rings of patches, rows of shells, blades in the grooves between others, cross veins, rows of blades; at the next
 /// level the smaller patches themselves, which are painted then.
 ///
-/// cost  about 10 us
+/// cost  a few us, a tenth of a millisecond at LOD 0, where blades are counted one by one
 [[nodiscard]] Budget budget_of(const Individual& individual, int lod);
 
 }  // namespace sporeprint

@@ -67,7 +67,8 @@ SurfacePoint Skin::at(Part part, double share, double angle) const {
 
 SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, int columns,
                           double share, double angle) const {
-    SurfacePoint point = at(part, share, angle);
+    const Column here = column(angle);
+    SurfacePoint point = at(part, curve(part).at(share), here);
     const auto above =
         std::upper_bound(rings.begin() + 1, rings.end() - 1, share,
                          [](double s, const OutlineSample& ring) { return s < ring.share; });
@@ -88,7 +89,6 @@ SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, in
         point.position = d + (1.0 - round) * (c - d) + (1.0 - up) * (b - d);
     }
     // As steep as the mesh is: where an outline bends between two rings, its own tangent swings round as the bend passes by.
-    const Column here = column(angle);
     const auto last = rings.end() - 1;
     const auto chord = [&](std::vector<OutlineSample>::const_iterator ring) {
         const auto& before = ring == rings.begin() ? *ring : *(ring - 1);

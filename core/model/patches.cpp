@@ -96,9 +96,8 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             patch.theta = theta;
             // The veil tears finer towards the margin, where the cap grows most.
             const double reach = (tilt - from) / (to - from);
-            patch.radius =
-                style.size * (0.62 + 0.5 * small + 0.35 * large * large) * (1.15 - 0.4 * reach);
-            patch.drawn = 0.5 * small + 0.35 * large * large;
+            patch.drawn = 0.62 + 0.5 * small + 0.35 * large * large;
+            patch.radius = style.size * patch.drawn * (1.15 - 0.4 * reach);
             patch.spin = spin;
             patch.height = style.height * height;
             // Rain takes the margin first.

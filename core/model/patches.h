@@ -15,7 +15,7 @@ struct Patch {
     double theta = 0.0;   ///< round the axis, 0..2 pi
     double radius = 0.0;  ///< before the amount is applied
     double drawn =
-        0.0;  ///< what was drawn for its size, 0..0.85: no age and no neighbour changes it
+        0.0;  ///< factor drawn for its size, 0.62..1.47: no age and no neighbour changes it
     double spin = 0.0;    ///< turn of its outline
     double height = 0.0;  ///< in its own radii
     double survival =

@@ -121,8 +121,9 @@ async function pageSheets() {
             const file = await downloaded(page, `/?species=${mix}${rest}&sheet=growth`, "#sheet-png");
             strips.push((await readFile(await file.path())).toString("base64"));
         }
-        const [width, height] = [1644, 407];
-        const columns = inColumns(strips, height);
+        const size = (png) => [16, 20].map((at) => Buffer.from(png, "base64").readUInt32BE(at)); // of a PNG's first chunk
+        const width = Math.max(...strips.map((png) => size(png)[0]));
+        const columns = inColumns(strips, Math.max(...strips.map((png) => size(png)[1])));
         const all = await browser.newPage({ viewport: { width: width * columns.length, height: 600 } });
         await all.setContent(`<!doctype html><style>body { display: flex; margin: 0; background: #f5efe2; } img { display: block; }</style>${
             columns.map((column) => `<div>${column.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}</div>`).join("")}`);

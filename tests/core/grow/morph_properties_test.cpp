@@ -27,15 +27,16 @@ bool is_folded(const Individual& individual) {
                        [](const ReliefStyle& style) { return style.folds > 0.02; });
 }
 
+/// Whether a mushroom lies flat (a bracket, a star, a brain, a cup, all withered ones): it is as large as it is wide, and its chords are
+/// off by shares of that. Its outlines keep to the bound: morph_set_test.cpp.
+bool is_flat(const Mesh& mesh) { return height(mesh) < 0.35 * diagonal(bounds(mesh)); }
+
 /// How far a surface may lie from that of the lone species, metres: 0.3 % of its height, and more where the two have other chords.
 double allowance(const MushroomOrder& alone, const MushroomOrder& beside, const Mesh& pure) {
     const Individual one = resolved(alone), two = resolved(beside);
     // A lone species has half as many columns as a set with relief: a ruffled margin between them lies half as far off again.
     const double chords = one.has_relief == two.has_relief ? 1.0 : 1.5;
-    // What lies flat (a bracket, a star, a brain, a cup, all withered ones) is as large as it is wide, and its chords are off by shares
-    // of that. Its outlines keep to the bound: morph_set_test.cpp.
-    if (height(pure) < 0.35 * diagonal(bounds(pure)))
-        return chords * (is_folded(one) ? 0.0025 : 0.0016) * diagonal(bounds(pure));
+    if (is_flat(pure)) return chords * (is_folded(one) ? 0.0025 : 0.0016) * diagonal(bounds(pure));
     // What is left of a cap that has melted away lies between few rings.
     if (one.wear.amounts.deliquescence > 0.3) return 0.01 * height(pure);
     return chords * (is_folded(one) ? 0.0055 : 0.003) * height(pure);
@@ -57,15 +58,19 @@ MushroomOrder without_patches(MushroomOrder order) {
     return order;
 }
 
+/// A crowded set is compared with the lone species without patches, whose corners differ.
+void leave_patches_of_crowds(MushroomOrder& alone, MushroomOrder& beside) {
+    if (!is_crowded(beside)) return;
+    alone = without_patches(alone);
+    beside = without_patches(beside);
+}
+
 /// "Done when" 2: beside a thousandth of another a species is within 0.3 % of its height of itself. At the finest level of detail:
 /// rings of others stand elsewhere along a meridian, and their chords with them.
 void expect_convergence(MushroomOrder alone, MushroomOrder beside) {
     // Without its gills, which follow: the chords of long thin blades are another matter, see expect_solids_converge.
     alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
-    if (is_crowded(beside)) {
-        alone = without_patches(alone);
-        beside = without_patches(beside);
-    }
+    leave_patches_of_crowds(alone, beside);
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), allowance(alone, beside, pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
@@ -77,13 +82,10 @@ void expect_convergence(MushroomOrder alone, MushroomOrder beside) {
 /// The same with gills, pores and spines. Where pearls, scales and gills share one budget, blades have fewer rows, and their chords lie
 /// off by 0.55 % (parasol beside a puffball).
 void expect_solids_converge(MushroomOrder alone, MushroomOrder beside) {
-    if (is_crowded(beside)) {
-        alone = without_patches(alone);
-        beside = without_patches(beside);
-    }
+    leave_patches_of_crowds(alone, beside);
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
-    const bool flat = height(pure) < 0.35 * diagonal(bounds(pure));
-    EXPECT_LT(hausdorff(pure, mixed), flat ? allowance(alone, beside, pure) : 0.0055 * height(pure))
+    EXPECT_LT(hausdorff(pure, mixed),
+              is_flat(pure) ? allowance(alone, beside, pure) : 0.0055 * height(pure))
         << text_of(beside.mix);
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << text_of(beside.mix);
 }
@@ -245,15 +247,11 @@ TEST(Morph, TowardsACornerOfEightSpeciesTheSurfaceConverges) {
         const std::string& id = ids[corner];
         MushroomOrder alone = order_of(id, 0.6, 3, 0), beside = mix_of(mix, 0.6, 3, 0);
         alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
-        if (is_crowded(beside)) {
-            alone = without_patches(alone);
-            beside = without_patches(beside);
-        }
+        leave_patches_of_crowds(alone, beside);
         const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
         // Seven thousandths are not one: twice what one may do.
-        const bool flat = height(pure) < 0.35 * diagonal(bounds(pure));  // as above
         EXPECT_LT(hausdorff(pure, mixed),
-                  2 * (flat ? 0.0016 * diagonal(bounds(pure)) : 0.003 * height(pure)))
+                  2 * (is_flat(pure) ? 0.0016 * diagonal(bounds(pure)) : 0.003 * height(pure)))
             << id;
     }
 }
