@@ -1,8 +1,10 @@
 // What stands on the surface as solids of its own: warts, scales, bulb scales, the ring and the sac.
 #pragma once
 
+#include "core/build/curl.h"
+#include "core/build/cuts.h"
+#include "core/build/dents.h"
 #include "core/build/sweep.h"
-#include "core/build/weathering.h"
 #include "core/model/individual.h"
 
 namespace sporeprint {

@@ -6,6 +6,8 @@
 #include <string>
 
 #include "core/build/budget.h"
+#include "core/build/curl.h"
+#include "core/build/dents.h"
 #include "core/build/hymenium.h"
 #include "core/build/ornaments.h"
 #include "core/build/weathering.h"
