@@ -6,20 +6,21 @@
 #include "core/build/detail.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/anatomy.h"
 #include "core/model/marks.h"
+#include "core/model/ornaments.h"
 #include "core/model/proportion.h"
 #include "core/model/purposes.h"
+#include "core/model/sources.h"
 #include "core/params/blend.h"
 #include "core/params/canonical.h"
-#include "core/silhouette/weights.h"
 #include "core/version.h"
 
 namespace sporeprint {
 
 namespace {
 
-constexpr int most_pores = 3000;    // as solids; of more, all live in the images alone
-constexpr double mature_age = 0.6;  // of recorded sizes, for every species
+constexpr int most_pores = 3000;  // as solids; of more, all live in the images alone
 constexpr double most_natural_fold =
     0.6;  // curvature of the axis times the radius of the stem; it folds at 1
 
@@ -40,171 +41,6 @@ Draws draws_of(std::uint32_t seed) {
     d.imperfection = random.uniform();
     d.lightness = random.symmetric();
     return d;
-}
-
-/// One species of the order, or the client's own Model as a species of a single stage.
-struct Source {
-    std::string id, who;
-    double weight = 1.0;
-    std::uint64_t hash = 0;
-    Spread spread{0, 0, 0, 0, 0, 0, 0, 0};
-    std::vector<const Model*> stages;
-    std::vector<double> ages;    ///< of the stages
-    std::vector<double> growth;  ///< of each stage at this age; at most two are not 0
-    std::vector<double> mature;  ///< of each stage at maturity
-    double size = 1.0;           ///< of its mature shape, metres
-    Model now;                   ///< at this age
-
-    [[nodiscard]] const Model& first() const { return *stages.front(); }
-    [[nodiscard]] HymeniumPattern pattern() const { return first().surface.hymenium.pattern; }
-    [[nodiscard]] bool has_blades() const {
-        return pattern() == HymeniumPattern::gills || pattern() == HymeniumPattern::ridges;
-    }
-    /// Pores or teeth.
-    [[nodiscard]] bool has_cells() const {
-        return pattern() == HymeniumPattern::pores || pattern() == HymeniumPattern::teeth;
-    }
-    [[nodiscard]] bool has_ring() const {
-        return std::any_of(stages.begin(), stages.end(),
-                           [](const Model* stage) { return stage->ring.width > 0.0; });
-    }
-    [[nodiscard]] bool has_sac() const {
-        return std::any_of(stages.begin(), stages.end(),
-                           [](const Model* stage) { return stage->sac.height > 0.0; });
-    }
-    [[nodiscard]] bool has_volva() const { return has_sac() || first().volva.count > 0; }
-    [[nodiscard]] bool melts() const {
-        return std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
-            return stage->weathering.deliquescence > 0.0;
-        });
-    }
-    [[nodiscard]] bool peels() const {
-        return has_margin() && std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
-                   return stage->surface.scars.peel_reach > 0.0;
-               });
-    }
-    [[nodiscard]] bool has_margin() const {
-        return !std::get<Swept>(first().shape).silhouette.hymenium.empty();
-    }
-};
-
-std::vector<double> growth_weights(const std::vector<Stage>& stages, double age) {
-    std::vector<double> weights(stages.size(), 0.0);
-    if (age <= stages.front().age) {
-        weights.front() = 1.0;
-        return weights;
-    }
-    for (std::size_t i = 1; i < stages.size(); ++i)
-        if (age <= stages[i].age) {
-            weights[i] = (age - stages[i - 1].age) / (stages[i].age - stages[i - 1].age);
-            weights[i - 1] = 1.0 - weights[i];
-            return weights;
-        }
-    weights.back() = 1.0;
-    return weights;
-}
-
-/// Overall size of a shape: the half diagonal of the box round its control points turned about the axis.
-double size_of(const Silhouette& s) {
-    double radius = 0.0, low = s.stem.front().y, high = low;
-    for (const auto* part : {&s.stem, &s.hymenium, &s.cap})
-        for (const OutlinePoint& p : *part) {
-            radius = std::max(radius, p.r);
-            low = std::min(low, p.y);
-            high = std::max(high, p.y);
-        }
-    return std::sqrt(radius * radius + 0.25 * (high - low) * (high - low));
-}
-
-const Silhouette& silhouette_of(const Model& model) {
-    return std::get<Swept>(model.shape).silhouette;
-}
-
-Source source_of(const AtlasEntry& entry, double weight, double age) {
-    const Species& species = entry.species;
-    Source source;
-    source.id = species.id.string();
-    source.who = species.facts.scientific_name.string();
-    source.weight = weight;
-    source.hash = entry.hash;
-    source.spread = species.spread;
-    source.growth = growth_weights(species.stages, age);
-    source.mature = growth_weights(species.stages, mature_age);
-    Shares<Model> stages;
-    double size = 0.0;
-    for (std::size_t i = 0; i < species.stages.size(); ++i) {
-        const Model& model = species.stages[i].model;
-        source.stages.push_back(&model);
-        source.ages.push_back(species.stages[i].age);
-        stages.add(model, source.growth[i]);
-        size += source.mature[i] * size_of(silhouette_of(model));
-    }
-    source.size = size;
-    source.now = blend(stages);
-    // A comb is one thing: the tiers of one stage do not go with the blades of another.
-    Comb most;
-    for (const Model* stage : source.stages) {
-        const Comb comb{stage->hymenium.blades, stage->hymenium.tiers};
-        if (comb.at_margin() > most.at_margin()) most = comb;
-    }
-    source.now.hymenium.blades = most.blades;
-    source.now.hymenium.tiers = most.tiers;
-    return source;
-}
-
-std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
-    std::vector<Source> sources;
-    if (order.model) {
-        Source own;
-        own.who = "this model";
-        own.stages = {&*order.model};
-        own.ages = {mature_age};
-        own.growth = {1.0};
-        own.mature = {1.0};
-        own.size = size_of(silhouette_of(*order.model));
-        own.now = *order.model;
-        sources.push_back(std::move(own));
-        return sources;
-    }
-    std::vector<Problem> problems;
-    if (order.mix.empty() || order.mix.size() > most_blended)
-        report(problems, "mix",
-               std::to_string(order.mix.size()) + " species; a mix has 1 to " +
-                   std::to_string(most_blended));
-    double sum = 0.0;
-    for (const MixPart& part : order.mix) {
-        if (!atlas.find(part.id))
-            report(problems, "mix", "'" + part.id + "' is no species of the atlas");
-        if (part.weight <= 0)
-            report(problems, "mix", "the weight of '" + part.id + "' is not positive");
-        for (const MixPart& other : order.mix)
-            if (&other < &part && other.id == part.id)
-                report(problems, "mix", "'" + part.id + "' is named twice");
-        sum += part.weight;
-    }
-    if (!problems.empty()) throw InvalidInput(std::move(problems));
-    Mix mix = order.mix;
-    std::sort(mix.begin(), mix.end(),
-              [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
-    std::vector<double> weights;
-    for (const MixPart& part : mix) weights.push_back(part.weight / sum);
-    weights = eased_weights(std::move(weights));
-    for (std::size_t i = 0; i < mix.size(); ++i)
-        sources.push_back(source_of(*atlas.find(mix[i].id), weights[i], order.params.age));
-    return sources;
-}
-
-/// What the sources have together; `counts` says which of them count, the rest weigh nothing.
-template <class Counts, class Of>
-auto among(const std::vector<Source>& sources, Counts counts, Of of) {
-    Shares<std::remove_cvref_t<decltype(of(sources[0]))>> shares;
-    double sum = 0.0;
-    for (const Source& source : sources)
-        if (counts(source)) sum += source.weight;
-    for (const Source& source : sources)
-        if (counts(source) || sum == 0.0)
-            shares.add(of(source), sum > 0.0 ? source.weight / sum : source.weight);
-    return blend(shares);
 }
 
 double factor(double draw, double spread, double variation) {
@@ -369,79 +205,6 @@ bool has_relief(const Source& source) {
     });
 }
 
-/// One layer for each kind of piece of each species; species whose pieces have equal places share theirs.
-std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const MorphSet& set) {
-    std::vector<PatchLayer> layers;
-    const auto segments_of = [&](std::size_t species) {
-        std::vector<double> weights;
-        for (std::size_t i = 0; i < sources.size(); ++i)
-            for (const double mature : sources[i].mature)
-                weights.push_back(i == species ? mature : 0.0);
-        return Outline(set.nodes(weights), set.places()).stem.segment_shares();
-    };
-    const auto lay = [&](std::uint32_t purpose, PatchStyle Model::*style, auto amount) {
-        std::vector<bool> merged(sources.size(), false);
-        for (std::size_t i = 0; i < sources.size(); ++i) {
-            const PatchStyle& one = sources[i].now.*style;
-            if (one.count == 0 || merged[i]) continue;
-            const auto alike = [&](const Source& other) {
-                const PatchStyle& two = other.now.*style;
-                return two.count == one.count && two.from == one.from && two.to == one.to &&
-                       two.elongation == one.elongation;
-            };
-            double weight = 0.0;
-            for (std::size_t j = i; j < sources.size(); ++j)
-                if (alike(sources[j])) {
-                    merged[j] = true;
-                    weight += sources[j].weight;
-                }
-            layers.push_back(
-                {purpose,
-                 among(sources, alike,
-                       [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
-                 among(sources, alike, amount), weight,
-                 purpose == purposes::bulb_scales ? segments_of(i) : std::vector<double>{}});
-        }
-    };
-    lay(purposes::warts, &Model::warts,
-        [](const Source& s) -> const double& { return s.now.ornaments.warts; });
-    lay(purposes::scales, &Model::scales,
-        [](const Source& s) -> const double& { return s.now.ornaments.scales; });
-    lay(purposes::bulb_scales, &Model::volva,
-        [](const Source& s) -> const double& { return s.now.ornaments.volva; });
-    return layers;
-}
-
-/// A ring or sac this wide, as a share of its species' size, has half a say in the shape of that of a mix.
-constexpr double half_a_say = 0.01;
-
-/// One ring or sac from those of all species: its extent is the sum of theirs, as shares of each one's size; the rest goes by weight,
-/// and what is hardly there has hardly a say. By extent alone a thousandth of a wide ring would pull a narrow one up the stem.
-/// In metres for an individual of this size.
-template <class Style>
-Style shell_of(const std::vector<Source>& sources, Style Model::*shell, double Style::*extent,
-               double OrnamentsOf<Plain>::*amount, double size) {
-    std::vector<Style> styles;
-    std::vector<double> says;
-    double whole = 0.0, said = 0.0;
-    for (const Source& source : sources) {
-        Style style = source.now.*shell;
-        style.thickness /= source.size;
-        const double wide = source.now.ornaments.*amount * style.*extent / source.size;
-        whole += source.weight * wide;
-        says.push_back(source.weight * wide / (wide + half_a_say));
-        said += says.back();
-        styles.push_back(style);
-    }
-    Shares<Style> shares;
-    for (std::size_t i = 0; i < styles.size(); ++i)
-        shares.add(styles[i], said > 0.0 ? says[i] / said : sources[i].weight);
-    Style one = blend(shares);
-    one.*extent = whole * size;
-    one.thickness *= size;
-    return one;
-}
-
 /// The outline in an individual's own proportions; in those nearest to them with which no level of detail touches itself, where they
 /// would: on the way from the template to them, up to the first touch. That place moves with age and weights, without jumps.
 Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingPlaces>& places,
@@ -472,210 +235,6 @@ Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingP
         (is_simple(at(middle)) ? simple : touching) = middle;
     }
     return at(simple);
-}
-
-/// What a lower face carries, in words.
-const char* carried(HymeniumPattern pattern) {
-    return pattern == HymeniumPattern::smooth ? "a smooth face" : name(pattern);
-}
-
-/// One rule of anatomy: an override that asks for something, whether a source can have it, and why not if none can.
-struct AnatomyRule {
-    const char* path;
-    bool asked;
-    bool (*can)(const Source&);
-    const char* wants;  ///< "gills or ridges": what a mix lacks
-    std::string (*why)(const Source&);
-};
-
-/// Why a lone species carries no `wanted`.
-std::string carries_instead(const Source& s, const std::string& wanted) {
-    if (s.pattern() != HymeniumPattern::smooth)
-        return s.who + " carries " + carried(s.pattern()) + ", not " + wanted;
-    return s.has_margin()
-               ? s.who + " has a smooth lower face, without " + wanted
-               : s.who + " is smooth all over; it has no lower face that could carry " + wanted;
-}
-
-/// Whether an optional amount asks for more than nothing.
-bool wished(const std::optional<double>& amount) { return amount && *amount > 0.0; }
-
-/// What no species of the order can have, in words.
-void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sources) {
-    using S = const Source&;
-    using Pattern = HymeniumPattern;
-    const HymeniumOf<Maybe>& h = asked.hymenium;
-    const auto bladed = [](S s) { return s.has_blades(); };
-    const auto no_gills = [](S s) { return carries_instead(s, "gills"); };
-    const auto carrying = [](S s) { return s.pattern() != Pattern::smooth; };
-    const auto nothing_deep = [](S s) { return carries_instead(s, "gills, pores or teeth"); };
-    const AnatomyRule rules[] = {
-        {"/hymenium/blades", h.blades.has_value(), bladed, "carries gills or ridges", no_gills},
-        {"/hymenium/tiers", h.tiers.has_value(), bladed, "carries gills or ridges", no_gills},
-        {"/hymenium/edge_waves", wished(h.edge_waves), bladed, "carries gills or ridges", no_gills},
-        {"/hymenium/thickness", h.thickness.has_value(),
-         [](S s) { return s.has_blades() || s.pattern() == Pattern::teeth; },
-         "carries gills, ridges or teeth", no_gills},
-        {"/hymenium/forking", wished(h.forking), [](S s) { return s.pattern() == Pattern::ridges; },
-         "carries ridges, which fork",
-         [](S s) {
-             return s.pattern() == Pattern::gills
-                        ? s.who + " carries gills, which do not fork; ridges do"
-                        : carries_instead(s, "ridges");
-         }},
-        {"/hymenium/pores_per_mm", h.pores_per_mm.has_value(), [](S s) { return s.has_cells(); },
-         "carries pores or teeth", [](S s) { return carries_instead(s, "pores"); }},
-        {"/hymenium/elongation", h.elongation.has_value(),
-         [](S s) { return s.pattern() == Pattern::pores; }, "carries pores",
-         [](S s) { return carries_instead(s, "pores"); }},
-        {"/hymenium/depth", wished(h.depth), carrying, "carries gills, pores or teeth",
-         nothing_deep},
-        {"/hymenium/inner_gap", wished(h.inner_gap), carrying, "carries gills, pores or teeth",
-         nothing_deep},
-        {"/hymenium/inner_depth", h.inner_depth.has_value(), carrying,
-         "carries gills, pores or teeth", nothing_deep},
-        {"/hymenium/notch", wished(h.notch), carrying, "carries gills, pores or teeth",
-         nothing_deep},
-        {"/hymenium/decurrent", wished(h.decurrent), carrying, "carries gills, pores or teeth",
-         nothing_deep},
-        {"/ornaments/warts", wished(asked.ornaments.warts),
-         [](S s) { return s.first().warts.count > 0; },
-         "has a universal veil that could leave warts",
-         [](S s) {
-             return s.who + (s.has_margin() ? " has no universal veil that could leave warts"
-                                            : " has no cap skin that could carry warts, and no "
-                                              "universal veil that could leave them");
-         }},
-        {"/ornaments/scales", wished(asked.ornaments.scales),
-         [](S s) { return s.first().scales.count > 0; }, "has a skin that tears into scales",
-         [](S s) {
-             return s.who + (s.has_margin() ? " has a skin that does not tear into scales"
-                                            : " has no cap skin that could tear into scales");
-         }},
-        {"/ornaments/ring", wished(asked.ornaments.ring), [](S s) { return s.has_ring(); },
-         "has a partial veil that could leave a ring",
-         [](S s) { return s.who + " has no partial veil that could leave a ring"; }},
-        {"/ornaments/volva", wished(asked.ornaments.volva), [](S s) { return s.has_volva(); },
-         "has a universal veil that could leave a volva",
-         [](S s) { return s.who + " has no universal veil that could leave a volva"; }},
-        {"/weathering/waves", wished(asked.weathering.waves), [](S s) { return s.has_margin(); },
-         "has a margin that could wave",
-         [](S s) { return s.who + " has no margin that could wave"; }},
-        {"/weathering/deliquescence", wished(asked.weathering.deliquescence),
-         [](S s) { return s.melts(); }, "is an inkcap, whose cap melts into ink",
-         [](S s) { return s.who + " is no inkcap; only their caps melt into ink"; }},
-        {"/weathering/splits", wished(asked.weathering.splits), [](S s) { return s.has_margin(); },
-         "has a margin that could split",
-         [](S s) { return s.who + " has no margin that could split"; }},
-        {"/weathering/peel", wished(asked.weathering.peel), [](S s) { return s.peels(); },
-         "has a skin that peels off",
-         [](S s) {
-             return s.who + (s.has_margin() ? " has a skin that does not peel off"
-                                            : " has no margin from which a skin could peel off");
-         }},
-    };
-    std::vector<Problem> problems;
-    for (const AnatomyRule& rule : rules)
-        if (rule.asked && std::none_of(sources.begin(), sources.end(), rule.can))
-            report(problems, rule.path,
-                   sources.size() > 1 ? std::string("no species of this mix ") + rule.wants
-                                      : rule.why(sources.front()));
-    if (!problems.empty()) throw Impossible(std::move(problems));
-}
-
-/// Amounts that only some species of a mix can have: those of these species alone.
-void blend_amounts(Model& model, const std::vector<Source>& sources) {
-    const auto blend_among = [&](auto counts, auto of, double& to) {
-        to = among(sources, counts, of);
-    };
-    using S = const Source&;
-    using D = const double&;
-    blend_among([](S s) { return s.first().warts.count > 0; },
-                [](S s) -> D { return s.now.ornaments.warts; }, model.ornaments.warts);
-    blend_among([](S s) { return s.first().scales.count > 0; },
-                [](S s) -> D { return s.now.ornaments.scales; }, model.ornaments.scales);
-    blend_among([](S s) { return s.has_ring(); }, [](S s) -> D { return s.now.ornaments.ring; },
-                model.ornaments.ring);
-    blend_among([](S s) { return s.has_volva(); }, [](S s) -> D { return s.now.ornaments.volva; },
-                model.ornaments.volva);
-    blend_among([](S s) { return s.pattern() == HymeniumPattern::ridges; },
-                [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
-    blend_among([](S s) { return s.has_cells(); },
-                [](S s) -> D { return s.now.hymenium.pores_per_mm; }, model.hymenium.pores_per_mm);
-    blend_among([](S s) { return s.melts(); },
-                [](S s) -> D { return s.now.weathering.deliquescence; },
-                model.weathering.deliquescence);
-    blend_among([](S s) { return s.has_margin(); },
-                [](S s) -> D { return s.now.weathering.splits; }, model.weathering.splits);
-    blend_among([](S s) { return s.peels(); }, [](S s) -> D { return s.now.weathering.peel; },
-                model.weathering.peel);
-    blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
-                [](S s) -> D { return s.now.hymenium.elongation; }, model.hymenium.elongation);
-    blend_among([](S s) { return s.has_blades(); },
-                [](S s) -> D { return s.now.hymenium.edge_waves; }, model.hymenium.edge_waves);
-    blend_among([](S s) { return s.has_blades() || s.pattern() == HymeniumPattern::teeth; },
-                [](S s) -> D { return s.now.hymenium.thickness; }, model.hymenium.thickness);
-    using H = HymeniumOf<Plain>;
-    for (double H::*const part :
-         {&H::depth, &H::inner_gap, &H::inner_depth, &H::notch, &H::decurrent})
-        blend_among([](S s) { return s.pattern() != HymeniumPattern::smooth; },
-                    [part](S s) -> D { return s.now.hymenium.*part; }, model.hymenium.*part);
-}
-
-/// The same amounts as overrides: what the individual really has.
-void report_effective(MushroomParams& effective, const Model& model,
-                      const std::vector<Source>& sources) {
-    const auto set = [](auto& to, const auto& from) {
-        using To = std::remove_cvref_t<decltype(to)>;
-        using From = std::remove_cvref_t<decltype(from)>;
-        std::size_t i = 0;
-        To::fields([&](auto to_member, const Info&) {
-            std::size_t j = 0;
-            From::fields([&](auto from_member, const Info&) {
-                if constexpr (requires { to.*to_member = from.*from_member; })
-                    if (i == j) to.*to_member = from.*from_member;
-                ++j;
-            });
-            ++i;
-        });
-    };
-    set(effective.deformation, model.deformation);
-    set(effective.ornaments, model.ornaments);
-    set(effective.hymenium, model.hymenium);
-    set(effective.weathering, model.weathering);
-    const auto none = [&](auto has) { return std::none_of(sources.begin(), sources.end(), has); };
-    HymeniumOf<Maybe>& hymenium = effective.hymenium;
-    if (none([](const Source& s) { return s.has_cells(); })) hymenium.pores_per_mm.reset();
-    if (none([](const Source& s) { return s.pattern() == HymeniumPattern::pores; }))
-        hymenium.elongation.reset();
-    if (none([](const Source& s) { return s.has_blades(); })) {
-        hymenium.blades.reset();
-        hymenium.tiers.reset();
-        hymenium.edge_waves.reset();
-    }
-    if (none([](const Source& s) {
-            return s.has_blades() || s.pattern() == HymeniumPattern::teeth;
-        }))
-        hymenium.thickness.reset();
-    if (none([](const Source& s) { return s.pattern() != HymeniumPattern::smooth; })) {
-        hymenium.depth.reset();
-        hymenium.inner_gap.reset();
-        hymenium.inner_depth.reset();
-        hymenium.notch.reset();
-        hymenium.decurrent.reset();
-    }
-    if (none([](const Source& s) { return s.has_margin(); })) effective.weathering.waves.reset();
-    if (none([](const Source& s) { return s.pattern() == HymeniumPattern::ridges; }))
-        effective.hymenium.forking.reset();
-    if (none([](const Source& s) { return s.first().warts.count > 0; }))
-        effective.ornaments.warts.reset();
-    if (none([](const Source& s) { return s.first().scales.count > 0; }))
-        effective.ornaments.scales.reset();
-    if (none([](const Source& s) { return s.has_ring(); })) effective.ornaments.ring.reset();
-    if (none([](const Source& s) { return s.has_volva(); })) effective.ornaments.volva.reset();
-    if (none([](const Source& s) { return s.melts(); })) effective.weathering.deliquescence.reset();
-    if (none([](const Source& s) { return s.has_margin(); })) effective.weathering.splits.reset();
-    if (none([](const Source& s) { return s.peels(); })) effective.weathering.peel.reset();
 }
 
 /// Rows of a species' spines, or of pores so coarse that they are solids: by its template when it is mature, so that no age has
@@ -818,9 +377,8 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
         individual.radial_strain = strain_of(*individual.set, sources);
     individual.wear = wear_of(sources, asked.weathering);
     individual.layers = layers_of(sources, *individual.set);
-    using Amounts = OrnamentsOf<Plain>;
-    individual.ring = shell_of(sources, &Model::ring, &RingStyle::width, &Amounts::ring, size);
-    individual.sac = shell_of(sources, &Model::sac, &SacStyle::height, &Amounts::volva, size);
+    individual.ring = ring_of(sources, size);
+    individual.sac = sac_of(sources, size);
     for (const Source& source : sources) {
         individual.has_ring = individual.has_ring || source.has_ring();
         individual.has_sac = individual.has_sac || source.has_sac();
