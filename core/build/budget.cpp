@@ -18,7 +18,7 @@ MeshCount& operator+=(MeshCount& sum, const MeshCount& more) {
 }
 
 MeshCount body_count(const Individual& individual, int lod) {
-    const Detail& detail = detail_of(individual.has_relief, lod);
+    const Detail& detail = detail_of(lod);
     const WeatheringCount weathered = weathering_count(individual, lod);
     const bool lower_face = !individual.outline.hymenium.empty();
     const auto rings =
@@ -71,8 +71,7 @@ bool coarsen(Detail& detail, int lod) {
 
 Budget budget_of(const Individual& individual, int lod) {
     Budget budget;
-    // Ring and sac have as many columns beside a species with relief as without: torn edges would turn out otherwise.
-    budget.ornaments = details[static_cast<std::size_t>(lod)];
+    budget.ornaments = detail_of(lod);
     const bool solids = has_solids(lod) && !individual.outline.hymenium.empty();
     if (solids) {
         budget.cells = cell_budget(individual);

@@ -29,10 +29,7 @@ constexpr double opens_until = 0.12;
 struct Carried {
     int bites, inside, splits;
 };
-constexpr std::array<Carried, 4> carried = {{{4, 2, 9}, {3, 1, 4}, {2, 0, 0}, {0, 0, 0}}};
-// Beside a species with relief there are more even columns and rings; the first level keeps its cuts, else a mix would not end where
-// its species begin.
-constexpr std::array<Carried, 4> fine_carried = {{{4, 2, 9}, {2, 0, 0}, {2, 0, 0}, {0, 0, 0}}};
+constexpr std::array<Carried, 4> carried = {{{4, 2, 9}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0}}};
 // Shares of a bite's half width: its arc is steepest at its edges, even columns stand in its middle.
 constexpr std::array<double, 2> inside_at = {0.95, 0.78};
 
@@ -56,7 +53,7 @@ std::vector<Notch> notches_of(const Individual& individual, const Carried& carri
 }
 
 double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
-    return grown(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
+    return begun(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
 }
 
 }  // namespace
@@ -64,8 +61,7 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
 Cuts::Cuts(const Individual& individual, int lod) {
     const Outline& outline = individual.outline;
     const WeatheringOf<Plain>& amounts = individual.wear.amounts;
-    const auto level = static_cast<std::size_t>(lod);
-    const Carried& carries = (individual.has_relief ? fine_carried : carried)[level];
+    const Carried& carries = carried[static_cast<std::size_t>(lod)];
     std::vector<Notch> notches;
     if (!outline.hymenium.empty()) {
         notches = notches_of(individual, carries);
@@ -85,8 +81,7 @@ Cuts::Cuts(const Individual& individual, int lod) {
         melted_ = melted(amounts.deliquescence) * cap_length_;
         phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
     }
-    place_columns(notches, amounts, carries.inside, details[level].columns,
-                  detail_of(individual.has_relief, lod).columns);
+    place_columns(notches, amounts, carries.inside, detail_of(lod).columns);
     if (none()) return;
     for (const double turn : turns_) depths_.push_back(cut_at(whole_turn * turn));
     depths_.push_back(depths_.front());
@@ -100,21 +95,11 @@ Cuts::Cuts(const Individual& individual, int lod) {
 }
 
 void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
-                         int inside, int plain, int all) {
+                         int inside, int even) {
     struct Own {
         double turn, open;
     };
     std::vector<Own> own;
-    // Those that relief adds half-way between the others count only where nothing is cut: a margin bends there as a lone species' does.
-    const int even = all == 2 * plain ? plain : all;
-    for (int j = 0; even < all && j < even; ++j) {
-        const double turn = (j + 0.5) / even;
-        double open = 0.0;
-        for (const Notch& notch : notches)
-            if (std::abs(turn_between(notch.theta, whole_turn * turn)) < notch.half_width)
-                open = std::max(open, smooth_step(0.0, opens_until, share_of(notch, amounts)));
-        own.push_back({turn, 1.0 - open});
-    }
     for (const Notch& notch : notches) {
         const double open = smooth_step(0.0, opens_until, share_of(notch, amounts));
         const auto add = [&](double angle) {

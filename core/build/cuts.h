@@ -77,9 +77,8 @@ class Cuts {
         double depth;  // metres, at present
     };
     [[nodiscard]] double cut_at(double angle) const;
-    // plain, all: even columns without and with those that relief adds
     void place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
-                       int inside, int plain, int all);
+                       int inside, int even);
 
     std::vector<Open> open_;
     std::vector<double> turns_;

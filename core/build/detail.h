@@ -22,25 +22,17 @@ struct Detail {
         1.0;  ///< share of a layer's warts or scales that is built, those drawn largest; the others are painted only
 };
 
-/// By LOD. The same individual in each: counts change, draws do not.
+/// By LOD. The same individual in each: counts change, draws do not. One table for every species: a mix has the rings and columns of
+/// each species alone, so that it ends where these begin.
 inline constexpr std::array<Detail, 4> details = {{
-    {26, 18, 28, 64, 7, 1, 6, 11},
-    {13, 9, 14, 32, 4, 0, 3, 7},
+    {26, 18, 38, 96, 7, 1, 6, 11},
+    {11, 9, 20, 40, 4, 0, 3, 7},
     {7, 5, 7, 16, 0, 0, 1, 4},
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
-/// By LOD, of a set of species that has relief, fans or lobes: rings where every set has them, see Outline::rings, and more
-/// columns.
-inline constexpr std::array<Detail, 4> fine_details = {{
-    {26, 18, 42, 128, 7, 1, 6, 11},
-    {13, 9, 22, 40, 4, 0, 3, 7},
-    {7, 5, 7, 16, 0, 0, 1, 4},
-    {4, 3, 4, 8, 0, 0, 0, 1},
-}};
-
-[[nodiscard]] constexpr const Detail& detail_of(bool has_relief, int lod) {
-    return (has_relief ? fine_details : details)[static_cast<std::size_t>(lod)];
+[[nodiscard]] constexpr const Detail& detail_of(int lod) {
+    return details[static_cast<std::size_t>(lod)];
 }
 
 }  // namespace sporeprint

@@ -127,11 +127,9 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
     const std::vector<double> segments = on_stem ? curve.segment_shares() : std::vector<double>{};
     const double length = ground.outline.cap.length();
     const Part part = on_stem ? Part::stem : Part::cap;
-    const bool meshed = ground.individual.has_relief;
-    const int columns = fine_details[static_cast<std::size_t>(ground.lod)].columns;
+    const int columns = detail_of(ground.lod).columns;
     const std::vector<OutlineSample> rings =
-        meshed ? ground.outline.rings(on_stem ? CurveName::stem : CurveName::cap, ground.lod)
-               : std::vector<OutlineSample>{};
+        ground.outline.rings(on_stem ? CurveName::stem : CurveName::cap, ground.lod);
     const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
     // An outline with fewer corners stands wider, so that it covers as much.
     // Low pieces are cushions, tall ones spines.
@@ -152,10 +150,8 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
         const OutlineSample at =
             curve.at(on_stem ? grown_share(layer.segments, segments, patch.sigma)
                              : 1.0 - ground.cuts.cap(patch.sigma, patch.theta));
-        // On the mesh itself where its chords stand off from the skin: nothing is left under it, or in the air.
-        const SurfacePoint place =
-            rings.empty() ? ground.skin.at(part, at, ground.skin.column(patch.theta))
-                          : ground.skin.meshed(part, rings, columns, at.share, patch.theta);
+        // On the mesh itself, whose chords stand off from the skin: nothing is left under it, or in the air.
+        const SurfacePoint place = ground.skin.meshed(part, rings, columns, at.share, patch.theta);
         glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
         if (!ground.skin.plain()) {
             normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));

@@ -59,7 +59,7 @@ Roots::Spot Roots::vertex_near(double share, double angle) const {
     for (std::size_t i = 1; i + 1 < flesh_.size(); ++i)
         if (std::abs(flesh_[i].share - share) < std::abs(nearest - share))
             nearest = flesh_[i].share;
-    const double column = 2.0 * pi / detail_of(individual.has_relief, ground.lod).columns;
+    const double column = 2.0 * pi / detail_of(ground.lod).columns;
     return {nearest, column * std::floor(angle / column + 0.5)};
 }
 

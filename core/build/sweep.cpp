@@ -214,7 +214,7 @@ void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) c
 
 Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& options) {
     const Outline& outline = individual.outline;
-    const Detail& detail = detail_of(individual.has_relief, lod);
+    const Detail& detail = detail_of(lod);
     const std::uint32_t seed = individual.effective.seed;
     const Deformer deformer(individual);
     const Skin skin(individual, detail);

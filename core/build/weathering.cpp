@@ -252,10 +252,10 @@ class Weatherer {
     // A pit narrower than a few rings and columns is painted only: it would be as deep as a vertex happens to stand in it.
     [[nodiscard]] double carried_pit(double size, double length, const Mark& mark,
                                      const SubCurve& curve, bool stem) const {
-        const Detail& plain = details[static_cast<std::size_t>(lod_)];
-        const double ring = length / ((stem ? plain.stem_rings : plain.cap_rings) - 1);
+        const Detail& detail = detail_of(lod_);
+        const double ring = length / ((stem ? detail.stem_rings : detail.cap_rings) - 1);
         const double round =
-            whole_turn * curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r / plain.columns;
+            whole_turn * curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r / detail.columns;
         return smooth_step(2.0, 6.0, size / std::max({ring, round, 1e-6}));
     }
 

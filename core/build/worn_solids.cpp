@@ -140,7 +140,7 @@ void WornSolids::rolls() {
     int left = carries_.rolls;
     for (const Tongue& tongue : tongues(individual_.effective.seed)) {
         if (left-- <= 0) break;
-        const double scale = grown(tongue.onset, amounts_.peel) * (most > 0.0 ? 1.0 : 0.0);
+        const double scale = begun(tongue.onset, amounts_.peel) * (most > 0.0 ? 1.0 : 0.0);
         const double deep = std::min(tongue.reach * most * scale, 0.95);
         const double wide = tongue.half_width * (0.6 + 0.4 * scale);
         const auto sides = static_cast<std::size_t>(roll_sides);
@@ -219,7 +219,7 @@ void WornSolids::drops() {
     int left = carries_.drops;
     for (const Mark& mark : marks(MarkKind::dew, CurveName::cap, individual_.effective.seed)) {
         if (left-- <= 0) break;
-        const double scale = grown(mark.onset, amounts_.dew);
+        const double scale = begun(mark.onset, amounts_.dew);
         const double radius = std::max(mark.radius * 1.15 * scale * length, 0.0);
         const double sigma = std::min(mark.sigma, cuts_.cap_end(mark.theta) - 0.02);
         const Spot here = spot(1.0 - sigma, mark.theta / whole_turn);

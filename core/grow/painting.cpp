@@ -181,7 +181,7 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.warts = model.warts;
         painting.scales = model.scales;
         painting.relief = std::get<Swept>(model.shape).relief;
-        const Detail& detail = detail_of(true, order.params.lod);  // of any set with relief
+        const Detail& detail = detail_of(order.params.lod);
         painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
         painting.ornaments = {model.ornaments.warts, model.ornaments.scales};
         painting.slime = model.material.slime;

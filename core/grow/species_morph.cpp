@@ -33,7 +33,7 @@ SpeciesMorph species_morph(const std::array<std::string, 2>& species, double age
     SpeciesMorph morph;
     morph.arcs = shapes.set->arcs(age, arcs_per_curve);
     for (std::size_t side = 0; side < 2; ++side) {
-        const Outline outline(shapes.set->nodes(shapes.weights[side]), shapes.set->places());
+        const Outline outline(shapes.set->nodes(shapes.weights[side]));
         for (const CurveName curve : curve_names)
             morph.outlines[side][static_cast<std::size_t>(curve)] =
                 scaled(outline.rings(curve, 0), shapes.sizes[side]);

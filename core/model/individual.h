@@ -62,9 +62,7 @@ struct Individual {
     Azimuth azimuth;             ///< its fan; what it says of lobes does not count
     std::vector<Azimuth> lobes;  ///< those of each species, as deep as it weighs
     std::vector<ReliefStyle>
-        reliefs;              ///< of the upper face, that of each species as deep as it weighs
-    bool has_relief = false;  ///< whether a species of the mix has any at some age, on its skin or
-                              ///< as a fan or lobes: then the mesh is finer
+        reliefs;  ///< of the upper face, that of each species as deep as it weighs
     std::vector<PatchLayer>
         layers;    ///< warts, scales and volvas of all species, also those of which nothing is left
     SacStyle sac;  ///< its height holds amounts and weights; metres

@@ -150,6 +150,11 @@ double grown(double onset, double amount) {
     return t * (2.0 - t);
 }
 
+double begun(double onset, double amount) {
+    constexpr double least = 0.01;
+    return std::max(0.0, grown(onset, amount) - least) / (1.0 - least);
+}
+
 std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed) {
     const Habit habit = habit_of(kind, part);
     const auto purpose =

@@ -32,6 +32,10 @@ struct Mark {
 /// How much of a mark is there, 0..1, when `amount` of its kind has come; continuous, 0 for amount 0, 1 for amount 1.
 [[nodiscard]] double grown(double onset, double amount);
 
+/// The same for what cuts the mesh or stands on it: nothing until a hundredth of it has come, so that a species of next to no weight
+/// divides no quad of the others and leaves no thread on them.
+[[nodiscard]] double begun(double onset, double amount);
+
 /// Height of a lump when full, in the unit of its radius; every third is a hollow.
 [[nodiscard]] constexpr double lump_height(const Mark& lump) {
     return (lump.id % 3 == 2 ? -0.8 : 1.0) * 0.16 * lump.radius;

@@ -46,7 +46,7 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const Morp
         for (std::size_t i = 0; i < sources.size(); ++i)
             for (const double mature : sources[i].mature)
                 weights.push_back(i == species ? mature : 0.0);
-        return Outline(set.nodes(weights), set.places()).stem.segment_shares();
+        return Outline(set.nodes(weights)).stem.segment_shares();
     };
     const auto lay = [&](std::uint32_t purpose, PatchStyle Model::*style, auto amount) {
         std::vector<bool> merged(sources.size(), false);

@@ -198,21 +198,13 @@ std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
     return reliefs;
 }
 
-bool has_relief(const Source& source) {
-    return std::any_of(source.stages.begin(), source.stages.end(), [](const Model* stage) {
-        const Swept& shape = std::get<Swept>(stage->shape);
-        return shape.relief.any() || shape.azimuth.lateral > 0.0 || shape.azimuth.lobe_depth > 0.0;
-    });
-}
-
 /// The outline in an individual's own proportions; in those nearest to them with which no level of detail touches itself, where they
 /// would: on the way from the template to them, up to the first touch. That place moves with age and weights, without jumps.
-Outline own_outline(const OutlineNodes& nodes, const std::shared_ptr<const RingPlaces>& places,
-                    const std::function<Proportions(double)>& own, double open, double size,
-                    bool fine) {
+Outline own_outline(const OutlineNodes& nodes, const std::function<Proportions(double)>& own,
+                    double open, double size) {
     constexpr int looks = 8, halvings = 20;
     const auto at = [&](double share) {
-        return Outline(scaled(proportioned(nodes, own(share), open), size), places, fine);
+        return Outline(scaled(proportioned(nodes, own(share), open), size));
     };
     const auto is_simple = [](const Outline& outline) {
         for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
@@ -324,15 +316,13 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
            factor(draws.size, spread.size, variation);
     individual.set = morph_set(sources, arcs, asked.age, morphs);
-    individual.has_relief = std::any_of(sources.begin(), sources.end(), has_relief);
     const auto own = [&](double share) {
         return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
                            factor(draws.stem_width, spread.stem_width, share * variation),
                            factor(draws.cap_height, spread.cap_height, share * variation)};
     };
     individual.outline =
-        own_outline(individual.set->nodes(shape_weights(sources)), individual.set->places(), own,
-                    open, size, individual.has_relief);
+        own_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
     if (const auto fault = fault_of(individual.outline, asked.lod))
         throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
                          "the outline crosses itself at this level of detail, near the " +

@@ -34,19 +34,6 @@ OutlineNodes blended(const OutlineNodes& from, const OutlineNodes& to, double t)
     return out;
 }
 
-std::shared_ptr<const RingPlaces> even_places(bool hymenium) {
-    auto places = std::make_shared<RingPlaces>();
-    for (std::size_t lod = 0; lod < details.size(); ++lod) {
-        const std::array<int, 3> rings = {details[lod].stem_rings,
-                                          hymenium ? details[lod].hymenium_rings : 0,
-                                          details[lod].cap_rings};
-        for (std::size_t c = 0; c < 3; ++c)
-            for (int i = 0; i < rings[c]; ++i)
-                places->by_lod[lod][c].push_back(static_cast<double>(i) / (rings[c] - 1));
-    }
-    return places;
-}
-
 }  // namespace
 
 Polyline polyline(const Outline& outline, int lod) {
@@ -74,11 +61,13 @@ MorphSet::MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common
     : kins_(std::move(common.kins)),
       detours_(kins_),
       ages_(std::move(common.ages)),
-      nodes_(std::move(common.nodes)),
-      places_(even_places(common.hymenium)) {
-    for (std::size_t s = 0; s < shapes.size(); ++s)
-        for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
-            if (const auto contact = contact_at_rest(polyline(nodes_[s], lod))) {
+      nodes_(std::move(common.nodes)) {
+    for (std::size_t s = 0; s < shapes.size(); ++s) {
+        const Outline outline(nodes_[s]);
+        for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
+            auto contact = contact_at_rest(polyline(nodes_[s], lod));
+            if (!contact) contact = contact_at_rest(sporeprint::polyline(outline, lod));
+            if (contact) {
                 (void)Outline(shapes[s].silhouette);  // names the control points if it can
                 const std::string curve = name(curve_of(*contact, lod));
                 throw Impossible("/model/silhouette/" + curve,
@@ -86,6 +75,8 @@ MorphSet::MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common
                                      std::to_string(lod) + ": there the " + curve +
                                      " touches itself, its neighbour or the axis");
             }
+        }
+    }
     certify();
 }
 
@@ -116,9 +107,9 @@ Polyline MorphSet::polyline(const OutlineNodes& nodes, int lod) const {
         if (line.empty()) line.push_back(own.front().position);
         const auto last = static_cast<double>(own.size() - 1);
         const double step = 1.0 / last;
-        const std::vector<double>& places = places_->of(curve, lod);
-        for (std::size_t i = 1; i + 1 < places.size(); ++i) {
-            const double place = places[i] * last;
+        const int rings = ring_count(curve, lod);
+        for (int i = 1; i + 1 < rings; ++i) {
+            const double place = last * i / (rings - 1);
             const auto k = std::min(static_cast<std::size_t>(place), own.size() - 2);
             line.push_back(SplineSegment<glm::dvec2>{own[k].position, own[k + 1].position,
                                                      own[k].velocity * step,
@@ -187,32 +178,44 @@ void MorphSet::choose_detours(std::size_t i, std::size_t j) {
 
 OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
     OutlineNodes mix = unchecked(weights);
-    if (for_any_weights_ || is_simple_at_all_levels(mix)) return mix;
+    if ((for_any_weights_ || moves_simply(mix)) && is_swept_simply(mix)) return mix;
+    const auto is_simple = [this](const OutlineNodes& nodes) {
+        return moves_simply(nodes) && is_swept_simply(nodes);
+    };
     // The least that is simple: nothing where the mix begins to touch itself, so that no drag of the weights jumps there.
     const OutlineNodes bud = bud_.cap.empty() ? bud_of(nodes_) : bud_;
     const auto towards = [&](int steps) {
         return blended(mix, bud, static_cast<double>(steps) / bud_steps);
     };
     int above = bud_steps / coarse_steps;
-    while (above < bud_steps && !is_simple_at_all_levels(towards(above)))
-        above += bud_steps / coarse_steps;
+    while (above < bud_steps && !is_simple(towards(above))) above += bud_steps / coarse_steps;
     int below = above - bud_steps / coarse_steps;
     while (above - below > 1) {
         const int middle = (above + below) / 2;
-        (is_simple_at_all_levels(towards(middle)) ? above : below) = middle;
+        (is_simple(towards(middle)) ? above : below) = middle;
     }
     return towards(above);
 }
 
-bool MorphSet::is_simple_at_all_levels(const OutlineNodes& nodes) const {
+bool MorphSet::moves_simply(const OutlineNodes& nodes) const {
     for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
         if (contact_at_rest(polyline(nodes, lod))) return false;
     return true;
 }
 
+bool MorphSet::is_swept_simply(const OutlineNodes& nodes) const {
+    const Outline outline(nodes);
+    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+        if (contact_at_rest(sporeprint::polyline(outline, lod))) return false;
+    return true;
+}
+
 CurveName MorphSet::curve_of(const Contact& contact, int lod) const {
-    return sporeprint::curve_of(contact, places_->of(CurveName::stem, lod).size(),
-                                places_->of(CurveName::hymenium, lod).size());
+    const auto rings = [&](CurveName curve) {
+        return nodes_.front().of(curve).empty() ? 0
+                                                : static_cast<std::size_t>(ring_count(curve, lod));
+    };
+    return sporeprint::curve_of(contact, rings(CurveName::stem), rings(CurveName::hymenium));
 }
 
 Certificate MorphSet::certificate() const {
@@ -303,7 +306,7 @@ std::vector<Arc> MorphSet::arcs(double age, int count) const {
     }
     std::vector<double> u;
     for (int i = 0; i <= count + 1; ++i) u.push_back(static_cast<double>(i) / (count + 1));
-    const Outline a(own[0], places_), b(own[1], places_);
+    const Outline a(own[0]), b(own[1]);
     for (const CurveName curve : curve_names) {
         if (a.of(curve).empty() || a.of(curve).length() == 0.0 || b.of(curve).length() == 0.0)
             continue;
@@ -315,12 +318,10 @@ std::vector<Arc> MorphSet::arcs(double age, int count) const {
 }
 
 std::size_t MorphSet::bytes() const {
-    std::size_t bytes = sizeof(MorphSet) + sizeof(RingPlaces) + detours_.bytes();
+    std::size_t bytes = sizeof(MorphSet) + detours_.bytes();
     for (std::size_t s = 0; s <= nodes_.size(); ++s)
         for (const CurveName curve : curve_names)
             bytes += shape(s).of(curve).size() * sizeof(OutlineNode);
-    for (const auto& lod : places_->by_lod)
-        for (const auto& u : lod) bytes += u.size() * sizeof(double);
     return bytes + ages_.size() * (sizeof(double) + sizeof(OutlineNodes)) +
            kins_.size() * sizeof(Kin);
 }

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstddef>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -71,11 +70,8 @@ class MorphSet {
     /// thousand random mixes of the atlas do.
     ///
     /// weights  one per control shape, >= 0, sum 1
-    /// cost     about 5 us, 10 us of checks where no certificate covers all mixes, a millisecond or two where a mix gives way
+    /// cost     about 25 us, 10 us more where no certificate covers all mixes, a few milliseconds where a mix gives way
     [[nodiscard]] OutlineNodes nodes(std::span<const double> weights) const;
-
-    /// The rings of every level of detail; the same for all mixes of the set.
-    [[nodiscard]] std::shared_ptr<const RingPlaces> places() const { return places_; }
 
     /// What is known about all mixes of the set in which every kin has the same age.
     ///
@@ -105,8 +101,11 @@ class MorphSet {
         return s < nodes_.size() ? nodes_[s] : bud_;
     }
     [[nodiscard]] OutlineNodes unchecked(std::span<const double> weights) const;
+    /// As many points as the outline has rings, at even steps of u: linear in the weights, so that roots and certificates tell of
+    /// every moment. Rings follow the outline's own bends instead, and are looked at one by one.
     [[nodiscard]] Polyline polyline(const OutlineNodes& nodes, int lod) const;
-    [[nodiscard]] bool is_simple_at_all_levels(const OutlineNodes& nodes) const;
+    [[nodiscard]] bool moves_simply(const OutlineNodes& nodes) const;
+    [[nodiscard]] bool is_swept_simply(const OutlineNodes& nodes) const;
     [[nodiscard]] CurveName curve_of(const Contact& contact, int lod) const;
     [[nodiscard]] bool certified(std::span<const std::size_t> shapes) const;
     [[nodiscard]] bool curved_way_is_simple(std::span<const double> from,
@@ -120,7 +119,6 @@ class MorphSet {
     bool for_any_weights_ = false;
     std::vector<double> ages_;
     std::vector<OutlineNodes> nodes_;
-    std::shared_ptr<const RingPlaces> places_;
 };
 
 }  // namespace sporeprint

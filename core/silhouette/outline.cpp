@@ -16,29 +16,17 @@ constexpr int knots_between_controls = 24;  // a few long cubics between an auth
 constexpr int knots_between_nodes =
     8;  // many short ones between the nodes of a set; waves lean on their speed
 
+// Radians that draw as many rings as a whole sub-curve's length does. By no share of the whole turning: on a stem that is all but
+// straight the rings would follow its least waver.
+constexpr double turn_per_length = 7.0;
+// A bend draws so many times as many rings as its length alone, at most: one that shrinks to a point goes without leaving them there.
+constexpr double most_per_length = 9.0;
+
 std::string number(double value) {
     std::string text = std::to_string(value);
     while (text.back() == '0') text.pop_back();
     if (text.back() == '.') text.pop_back();
     return text;
-}
-
-/// A share that runs a fifth as fast at 0, where margins, tips and feet are round, and evenly further on.
-double slow_at_first(double t) {
-    constexpr double at_first = 0.2, round = 0.1;
-    return at_first * t + (1.0 - at_first) * (1.0 + round) * t * t / (t + round);
-}
-
-/// Shares of a sub-curve's arc length at which fine rings stand: closer at its ends, but for the apex, where a face is flat.
-std::vector<double> fine_shares(CurveName curve, int count) {
-    std::vector<double> shares;
-    for (int i = 0; i < count; ++i) {
-        const double t = static_cast<double>(i) / (count - 1);
-        shares.push_back(curve == CurveName::cap ? slow_at_first(t)
-                         : t < 0.5               ? 0.5 * slow_at_first(2.0 * t)
-                                                 : 1.0 - 0.5 * slow_at_first(2.0 - 2.0 * t));
-    }
-    return shares;
 }
 
 /// Where a control point is told of: "/cap/" and its number.
@@ -62,6 +50,13 @@ double least_turning_r(const SplineSegment<glm::dvec2>& s) {
 }
 
 }  // namespace
+
+int ring_count(CurveName curve, int lod) {
+    const Detail& detail = detail_of(lod);
+    return curve == CurveName::stem       ? detail.stem_rings
+           : curve == CurveName::hymenium ? detail.hymenium_rings
+                                          : detail.cap_rings;
+}
 
 void Silhouette::check(const std::string& path, std::vector<Problem>& problems) const {
     const auto bad = [&](const std::string& at, std::string message) {
@@ -138,6 +133,13 @@ void SubCurve::tabulate(int knots_per_segment) {
             last = point;
         }
     length_ = knots_.back().arc;
+    const double whole = std::max(length_, 1e-12);
+    for (std::size_t k = 1; k < knots_.size(); ++k) {
+        const Knot& before = knots_[k - 1];
+        const double length = (knots_[k].arc - before.arc) / whole;
+        const double turn = (knots_[k].turn - before.turn) / turn_per_length;
+        knots_[k].rings = before.rings + length + std::min(turn, most_per_length * length);
+    }
 }
 
 OutlineSample SubCurve::sample(double parameter, double arc) const {
@@ -235,35 +237,22 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     std::vector<OutlineSample> samples;
     if (empty()) return samples;
     samples.reserve(static_cast<std::size_t>(count));
-    const double whole_turn = std::max(knots_.back().turn, 1e-9);
-    const double whole_arc = std::max(length_, 1e-12);
-    const auto measure = [&](const Knot& k) {
-        return 0.5 * k.arc / whole_arc + 0.5 * k.turn / whole_turn;
-    };
-    const double whole = measure(knots_.back());
+    const double whole = knots_.back().rings;
     std::size_t k = 1;
     for (int i = 0; i < count; ++i) {
         const double wanted = whole * i / (count - 1);
-        while (k + 1 < knots_.size() && measure(knots_[k]) < wanted) ++k;
-        const double from = measure(knots_[k - 1]), to = measure(knots_[k]);
+        while (k + 1 < knots_.size() && knots_[k].rings < wanted) ++k;
+        const double from = knots_[k - 1].rings, to = knots_[k].rings;
         const double t = to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0;
         const Knot &a = knots_[k - 1], &b = knots_[k];
         samples.push_back(
             sample(a.parameter + t * (b.parameter - a.parameter), a.arc + t * (b.arc - a.arc)));
     }
-    // The ends are the control points themselves, so that neighbouring sub-curves weld bit for bit.
-    samples.front() = sample(0.0, 0.0);
-    samples.back() = sample(static_cast<double>(segments_.size()), length_);
-    samples.front().share = 0.0;
-    samples.back().share = 1.0;
-    const glm::dvec2 end = segments_.back().to;
-    samples.back().r = end.x;
-    samples.back().y = end.y;
+    pin_ends(samples);
     return samples;
 }
 
-Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places, bool fine)
-    : stem(nodes.stem, {0.0, 1.0}), places_(std::move(places)), fine_(fine) {
+Outline::Outline(const OutlineNodes& nodes) : stem(nodes.stem, {0.0, 1.0}) {
     const OutlineSample end = stem.at(1.0);
     const glm::dvec2 onwards(end.tangent_r, end.tangent_y);
     hymenium = SubCurve(nodes.hymenium, onwards);
@@ -271,16 +260,7 @@ Outline::Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> pl
 }
 
 std::vector<OutlineSample> Outline::rings(CurveName curve, int lod) const {
-    const std::vector<double>& places = places_->of(curve, lod);
-    const auto count = [&](const Detail& detail) {
-        return curve == CurveName::stem       ? detail.stem_rings
-               : curve == CurveName::hymenium ? detail.hymenium_rings
-                                              : detail.cap_rings;
-    };
-    const int fine = count(detail_of(fine_, lod));
-    if (places.empty() || fine == count(details[static_cast<std::size_t>(lod)]))
-        return of(curve).placed(places);
-    return of(curve).shared(fine_shares(curve, fine));
+    return of(curve).sampled(ring_count(curve, lod));
 }
 
 Outline Outline::unproven(const Silhouette& silhouette, const std::string& path) {

@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <span>
 #include <vector>
 
@@ -38,6 +37,9 @@ constexpr const char* name(CurveName curve) {
 inline constexpr std::array<CurveName, 3> curve_names = {CurveName::stem, CurveName::hymenium,
                                                          CurveName::cap};
 
+/// Rings of a sub-curve at a level of detail.
+[[nodiscard]] int ring_count(CurveName curve, int lod);
+
 /// A node of a sub-curve: nodes stand at equal steps of a parameter u, 0..1, that all shapes of a set have in common.
 struct OutlineNode {
     glm::dvec2 position{0.0};  ///< (r, y)
@@ -55,15 +57,6 @@ struct OutlineNodes {
     }
     [[nodiscard]] std::vector<OutlineNode>& of(CurveName curve) {
         return curve == CurveName::stem ? stem : curve == CurveName::hymenium ? hymenium : cap;
-    }
-};
-
-/// Where the rings of each level of detail stand: values of u from 0 to 1, rising; fixed for a whole set, so that no weight moves a ring along it.
-struct RingPlaces {
-    std::array<std::array<std::vector<double>, 3>, 4> by_lod;  ///< [lod][curve]
-
-    [[nodiscard]] const std::vector<double>& of(CurveName curve, int lod) const {
-        return by_lod[static_cast<std::size_t>(lod)][static_cast<std::size_t>(curve)];
     }
 };
 
@@ -94,12 +87,13 @@ class SubCurve {
     /// How far the tangent has turned up to a share of the arc length, to and fro added up, radians.
     [[nodiscard]] double turning(double share) const;
 
-    /// `count` >= 2 points from start to end, spaced half by length and half by turning, so that thin margins stay round.
+    /// `count` >= 2 points from start to end, spaced by length and by turning, so that thin margins stay round.
     [[nodiscard]] std::vector<OutlineSample> sampled(int count) const;
 
   private:
     struct Knot {
         double arc = 0.0, turn = 0.0, parameter = 0.0;  // parameter: segment index + t
+        double rings = 0.0;  // share of the rings that stand before it, times a constant
     };
     void tabulate(int knots_per_segment);
     void pin_ends(std::vector<OutlineSample>& samples) const;
@@ -117,12 +111,8 @@ struct Outline {
 
     Outline() = default;
 
-    /// The outline of nodes and the rings of its set; every count as `places` was made for.
-    ///
-    /// fine  whether it has the rings of fine_details where these are more: at shares of each sub-curve's own arc length that are
-    ///       equal for all sets, so that what is finer than the rings is cut by them in a mix as in each species alone
     /// cost  about 10 us
-    Outline(const OutlineNodes& nodes, std::shared_ptr<const RingPlaces> places, bool fine = false);
+    explicit Outline(const OutlineNodes& nodes);
 
     /// The outline through an author's own control points.
     ///
@@ -139,16 +129,10 @@ struct Outline {
         return curve == CurveName::stem ? stem : curve == CurveName::hymenium ? hymenium : cap;
     }
 
-    /// The rings of a sub-curve at a level of detail, first to last: the very polyline that is swept and that the proofs are about.
-    /// Empty where the set has no such sub-curve. pre: made of nodes and places
+    /// The rings of a sub-curve at a level of detail, first to last: the very polyline that is swept. They follow from this outline
+    /// alone, whatever set it was blended in: a mix has its rings where each of its species alone has them, more and more the nearer it
+    /// comes to it. Empty where there is no such sub-curve.
     [[nodiscard]] std::vector<OutlineSample> rings(CurveName curve, int lod) const;
-
-    /// Whether it has fine rings from here on.
-    void refine(bool fine) { fine_ = fine; }
-
-  private:
-    std::shared_ptr<const RingPlaces> places_;
-    bool fine_ = false;
 };
 
 }  // namespace sporeprint

@@ -41,7 +41,7 @@ void mixed_outline(benchmark::State& state, const std::vector<std::string>& ids)
     const auto atlas = built_in_atlas();
     const MorphSet set(shapes_of(ids, *atlas));
     const std::vector<double> weights(set.size(), 1.0 / static_cast<double>(set.size()));
-    for (auto _ : state) benchmark::DoNotOptimize(Outline(set.nodes(weights), set.places()));
+    for (auto _ : state) benchmark::DoNotOptimize(Outline(set.nodes(weights)));
 }
 
 MushroomOrder pair_of(const std::string& a, const std::string& b, int lod) {

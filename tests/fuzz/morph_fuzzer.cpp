@@ -93,7 +93,7 @@ std::vector<double> weights_from(Numbers& in, std::size_t count) {
 
 /// Expects the outline that is served for these weights to be finite, on its side of the axis, and simple.
 void expect_simple(const MorphSet& set, const std::vector<double>& weights, const char* promise) {
-    const Outline outline(set.nodes(weights), set.places());
+    const Outline outline(set.nodes(weights));
     for (int lod = 0; lod < 4; ++lod) {
         const Polyline line = polyline(outline, lod);
         expect(line.size() > 1, "an outline has points");

@@ -182,7 +182,7 @@ double one_way(const Mesh& from, const Mesh& to) {
     };
     std::vector<bool> seen(from.positions.size());
     // A piece in the last step of its vanishing is a point beside the surface: nobody sees it.
-    const double whole = extent(from), speck = 1e-12 * whole * whole;
+    const double whole = extent(from), speck = 1e-10 * whole * whole;
     for (std::size_t t = 0; t < from.triangles(); ++t) {
         const auto [a, b, c] = corners_of(from, t);
         if (squared(b - a) < speck && squared(c - b) < speck) continue;

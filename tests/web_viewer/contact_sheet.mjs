@@ -175,10 +175,10 @@ async function ownSheet() {
     const columns = inColumns(rows, options.cell + 40);
     const html = `<!doctype html><meta charset="utf-8"><style>
 body { display: flex; align-items: flex-start; margin: 0; background: #f5efe2; color: #2b211a; font: 12px/1.3 sans-serif; }
-table { border-collapse: collapse; } th { font: italic 600 15px serif; width: 130px; padding: 4px; overflow-wrap: anywhere; }
+table { border-collapse: collapse; } th { font: italic 600 15px serif; min-width: 130px; padding: 4px; }
 td { border: 1px solid #d8ccb6; padding: 0; width: ${options.cell}px; } img { display: block; width: ${options.cell}px; }
 p { margin: 2px 5px; min-height: 2.6em; }</style>
-${columns.map((column) => `<table>${column.map(({ title, cells }) => `<tr><th>${escaped(title)}</th>${cells.map(({ png, label }) =>
+${columns.map((column) => `<table>${column.map(({ title, cells }) => `<tr><th>${escaped(title).replaceAll(".", ".<wbr>")}</th>${cells.map(({ png, label }) =>
         `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`).join("")}</tr>`).join("")}</table>`).join("")}`;
     const width = 140 + Math.max(...rows.map(({ cells }) => cells.length)) * (options.cell + 1);
     const sheet = await browser.newPage({ viewport: { width: width * columns.length, height: 600 } });

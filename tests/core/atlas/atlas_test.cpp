@@ -135,7 +135,7 @@ TEST(Atlas, NoOutlineTouchesItselfAtAnyMomentOfALife) {
         const auto line = [&](std::size_t stage, int lod) {
             std::vector<double> weights(shapes.size());
             weights[stage] = 1.0;
-            const Outline outline(set.nodes(weights), set.places());
+            const Outline outline(set.nodes(weights));
             Polyline points;
             for (const CurveName curve : {CurveName::stem, CurveName::hymenium, CurveName::cap})
                 for (const OutlineSample& ring : outline.rings(curve, lod))

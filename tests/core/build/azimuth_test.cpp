@@ -124,8 +124,7 @@ TEST(Azimuth, AnyFanAndAnyLobesAreValidMeshesAtEveryDetail) {
             for (const std::string& defect : defects(mesh)) ADD_FAILURE() << id << ": " << defect;
             EXPECT_GT(volume(mesh), 0.0);
             // The seam repeats the first column.
-            const auto row =
-                static_cast<std::size_t>(detail_of(individual.has_relief, lod).columns + 1);
+            const auto row = static_cast<std::size_t>(detail_of(lod).columns + 1);
             for (std::size_t ring = 0; ring < 7; ++ring)
                 EXPECT_TRUE(
                     same_bits(mesh.positions[ring * row], mesh.positions[ring * row + row - 1]));
@@ -241,7 +240,7 @@ TEST(Azimuth, EachSpeciesKeepsItsOwnNumberOfLobes) {
     const Atlas forms(
         {renamed("disciotis_venosa", "few", few), renamed("disciotis_venosa", "many", many)});
     const auto reach = [](const Individual& individual, double angle) {
-        const AzimuthMap map(individual, fine_details[0].columns);
+        const AzimuthMap map(individual, details[0].columns);
         double product = 1.0;
         for (std::size_t k = 0; k < individual.lobes.size(); ++k)
             product *= map.column(angle).lobes[k].value;

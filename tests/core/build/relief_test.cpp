@@ -36,8 +36,6 @@ std::vector<ReliefStyle> kinds() {
 
 Individual with(Individual individual, const ReliefStyle& relief) {
     individual.reliefs = {relief};
-    individual.has_relief = true;
-    individual.outline.refine(true);
     return individual;
 }
 
@@ -75,7 +73,7 @@ TEST(Relief, NoiseIsThatOfPaintingAndHasTheDerivativesItSays) {
 TEST(Relief, HeightsHaveTheDerivativesTheySayAndFadeAtApexAndMargin) {
     for (const ReliefStyle& style : kinds()) {
         const Individual individual = with(cep(), style);
-        const Relief relief(individual, fine_details[0]);
+        const Relief relief(individual, details[0]);
         const auto height = [&](double share, double angle) {
             return relief.at(Part::cap, share, angle, sine_cosine(angle));
         };
@@ -129,7 +127,7 @@ TEST(Relief, NormalsAgreeWithDifferencesOfTheSkin) {
             individual.lobes.emplace_back();
             individual.lobes[0].lobes = 5;
             individual.lobes[0].lobe_depth = 0.2;
-            const Skin skin(individual, fine_details[0]);
+            const Skin skin(individual, details[0]);
             Random random(3, 1);
             double sum = 0.0;
             constexpr int count = 400;
@@ -202,7 +200,7 @@ TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
             const Individual individual =
                 with(resolve(order_of(id, 0.4 * seed - 0.3, seed), atlas()), deep);
-            const Skin skin(individual, fine_details[0]);
+            const Skin skin(individual, details[0]);
             for (int j = 0; j < 12; ++j) {
                 const Skin::Column column = skin.column(2.0 * pi * j / 12.0);
                 std::vector<glm::dvec2> section;
@@ -222,7 +220,7 @@ TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
 TEST(Relief, PaintingIsDarkWhereTheMeshIsDeep) {
     for (const ReliefStyle& style : kinds()) {
         const Individual individual = with(cep(), style);
-        const Relief relief(individual, fine_details[0]);
+        const Relief relief(individual, details[0]);
         PaintParams params;
         params.seed = individual.effective.seed;
         params.side = 512;

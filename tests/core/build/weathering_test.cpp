@@ -258,7 +258,7 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
         EXPECT_GT(worn.positions.size(), clean.positions.size());
         const Bounds box = bounds(clean);
         const Cuts cuts(individual, lod);
-        const Detail& detail = detail_of(individual.has_relief, lod);
+        const Detail& detail = detail_of(lod);
         const std::size_t row = cuts.turns().size() + 1;
         const auto rings =
             static_cast<std::size_t>(detail.stem_rings + detail.hymenium_rings +

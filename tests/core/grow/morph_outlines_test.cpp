@@ -39,7 +39,7 @@ std::vector<double> weights_of(const MorphSet& set, const std::vector<std::strin
 
 /// What is wrong with an outline at any level of detail; empty when nothing is.
 std::string fault_of(const MorphSet& set, const std::vector<double>& weights) {
-    const Outline outline(set.nodes(weights), set.places());
+    const Outline outline(set.nodes(weights));
     for (int lod = 0; lod < 4; ++lod) {
         const Polyline line = polyline(outline, lod);
         for (const glm::dvec2& p : line)

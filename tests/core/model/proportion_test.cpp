@@ -133,15 +133,15 @@ TEST(Proportion, EveryWidthOfASpreadKeepsRadiiInOrder) {
 
 TEST(Proportion, FaultsOfThePolylineAreFoundAndNamed) {
     const Drawn d = drawn("russula_vinosa");
-    const Outline sound(d.nodes, d.set.places());
+    const Outline sound(d.nodes);
     for (int lod = 0; lod < 4; ++lod) EXPECT_FALSE(fault_of(sound, lod)) << lod;
     OutlineNodes crossed = d.nodes;
     for (OutlineNode& node : crossed.cap) node.position.y -= 2.0 * (node.position.y - 0.03);
     crossed.cap.front().position = crossed.hymenium.back().position;
-    EXPECT_TRUE(fault_of(Outline(crossed, d.set.places()), 0));
+    EXPECT_TRUE(fault_of(Outline(crossed), 0));
     OutlineNodes pierced = d.nodes;
     for (std::size_t i = 0; i < 3; ++i) pierced.cap[pierced.cap.size() / 2 + i].position.x = -0.001;
-    EXPECT_EQ(fault_of(Outline(pierced, d.set.places()), 0), CurveName::cap);
+    EXPECT_EQ(fault_of(Outline(pierced), 0), CurveName::cap);
     // A lower face that has shrunk to a point crosses nothing.
     OutlineNodes closed = d.nodes;
     for (OutlineNode& node : closed.hymenium) node = {closed.stem.back().position, {0.0, 0.0}};
@@ -150,7 +150,7 @@ TEST(Proportion, FaultsOfThePolylineAreFoundAndNamed) {
         node.position.x *= closed.stem.back().position.x / d.nodes.cap.front().position.x;
     for (OutlineNode& node : closed.cap) node.position.y += gap.y;
     closed.cap.front().position = closed.stem.back().position;
-    EXPECT_FALSE(fault_of(Outline(closed, d.set.places()), 1));
+    EXPECT_FALSE(fault_of(Outline(closed), 1));
 }
 
 }  // namespace

@@ -76,10 +76,18 @@ TEST(Resolve, AtTheAgeOfAStageAnUnvariedIndividualIsTheTemplate) {
 TEST(Resolve, BetweenStagesAgesBlendLinearly) {
     const auto& stages = atlas().find("boletus_edulis")->species.stages;
     ASSERT_GE(stages.size(), 3u);
+    // Rings follow the outline's bends; what moves along straight lines are places at equal values of the parameter.
     const auto at = [](double age) {
         MushroomOrder order = order_of("boletus_edulis", age);
         order.params.variation = 0.0;
-        return places_of(resolve(order, atlas()));
+        const Outline outline = resolve(order, atlas()).outline;
+        std::vector<double> even;
+        for (int i = 0; i <= 20; ++i) even.push_back(i / 20.0);
+        std::vector<glm::dvec2> places;
+        for (const CurveName curve : curve_names)
+            for (const OutlineSample& place : outline.of(curve).placed(even))
+                places.emplace_back(place.r, place.y);
+        return places;
     };
     const auto a = at(stages[0].age), b = at(stages[1].age);
     const auto found = at(0.25 * stages[0].age + 0.75 * stages[1].age);

@@ -146,7 +146,7 @@ TEST(MorphSet, EndpointsAreTheControlShapes) {
         const auto shapes = shapes_of(entry, 0);
         const MorphSet set(shapes);
         for (std::size_t s = 0; s < shapes.size(); ++s) {
-            const Outline outline(set.nodes(only(set, s)), set.places());
+            const Outline outline(set.nodes(only(set, s)));
             const Outline own(shapes[s].silhouette);
             for (const CurveName curve : curve_names) {
                 const auto truth = own.of(curve).empty() ? std::vector<OutlineSample>{}
@@ -168,7 +168,7 @@ TEST(MorphSet, EndpointsAreTheControlShapes) {
 
 TEST(MorphSet, CountsAndPlacesAreThoseOfTheLevelsOfDetail) {
     const MorphSet set = set_of({fly_agaric, cep});
-    const Outline outline(set.nodes(only(set, 0)), set.places());
+    const Outline outline(set.nodes(only(set, 0)));
     for (int lod = 0; lod < 4; ++lod) {
         const Detail& detail = details[static_cast<std::size_t>(lod)];
         EXPECT_EQ(outline.rings(CurveName::stem, lod).size(),
@@ -183,7 +183,7 @@ TEST(MorphSet, CountsAndPlacesAreThoseOfTheLevelsOfDetail) {
 TEST(MorphSet, SubCurvesMeetBitForBitAndEndOnTheAxis) {
     const MorphSet set = set_of({fly_agaric, chanterelle, club, cup});
     std::vector<double> weights(set.size(), 1.0 / static_cast<double>(set.size()));
-    const Outline outline(set.nodes(weights), set.places());
+    const Outline outline(set.nodes(weights));
     for (int lod = 0; lod < 4; ++lod) {
         const auto stem = outline.rings(CurveName::stem, lod);
         const auto hymenium = outline.rings(CurveName::hymenium, lod);
@@ -209,7 +209,7 @@ TEST(MorphSet, AMissingHymeniumIsAPoint) {
     const MorphSet alone = set_of({club});
     EXPECT_TRUE(alone.nodes(only(alone, 0)).hymenium.empty());
     const MorphSet mixed = set_of({fly_agaric, club});
-    const Outline outline(mixed.nodes(only(mixed, mixed.size() - 1)), mixed.places());
+    const Outline outline(mixed.nodes(only(mixed, mixed.size() - 1)));
     EXPECT_EQ(outline.hymenium.length(), 0.0);
     const OutlineSample end = outline.stem.at(1.0);
     for (const OutlineSample& ring : outline.rings(CurveName::hymenium, 0)) {
@@ -279,7 +279,7 @@ TEST(MorphSet, RingsSpendTheirChordsWell) {
                 if (!own.of(curve).empty())
                     for (const OutlineSample& p : own.of(curve).sampled(1500))
                         truth.push_back(glm::dvec2(p.r, p.y) / shapes[s].size);
-            const Polyline rings = polyline(Outline(set.nodes(only(set, s)), set.places()), 0);
+            const Polyline rings = polyline(Outline(set.nodes(only(set, s))), 0);
             // One row of 72 rings serves all stages; 72 chords round a circle would be 0.05 % off.
             EXPECT_LT(deviation(rings, truth), 1.2e-3 * diagonal(truth))
                 << entry.species.id.string() << " stage " << s;
@@ -343,12 +343,11 @@ TEST(MorphSet, OutlinesConvergeTowardsACorner) {
             const auto at = [&](double t, double age) {
                 const auto shares = eased_weights(first ? std::vector<double>{1.0 - t, t}
                                                         : std::vector<double>{t, 1.0 - t});
-                return polyline(Outline(set.nodes(mix_of(set, kins, shares, age)), set.places()),
-                                0);
+                return polyline(Outline(set.nodes(mix_of(set, kins, shares, age))), 0);
             };
             for (const double age : {0.0, 0.3, 0.6, 1.0}) {
                 const Polyline corner =
-                    polyline(Outline(alone.nodes(alone.growth_weights(age)), alone.places()), 0);
+                    polyline(Outline(alone.nodes(alone.growth_weights(age))), 0);
                 EXPECT_LT(hausdorff(corner, at(0.001, age)), 3e-3 * extent(corner))
                     << a << " with " << b << " at " << age;
             }
@@ -386,14 +385,10 @@ TEST(MorphSet, TheOrderOfTwoKinMovesNothingVisible) {
         const MorphSet one = set_of({a, b}), two = set_of({b, a});
         for (const double age : {0.0, 0.6, 1.0})
             for (const double t : {0.25, 0.5, 0.75}) {
-                const Polyline p =
-                    polyline(Outline(one.nodes(mix_of(one, kins_of({a, b}), {1.0 - t, t}, age)),
-                                     one.places()),
-                             0);
-                const Polyline q =
-                    polyline(Outline(two.nodes(mix_of(two, kins_of({b, a}), {t, 1.0 - t}, age)),
-                                     two.places()),
-                             0);
+                const Polyline p = polyline(
+                    Outline(one.nodes(mix_of(one, kins_of({a, b}), {1.0 - t, t}, age))), 0);
+                const Polyline q = polyline(
+                    Outline(two.nodes(mix_of(two, kins_of({b, a}), {t, 1.0 - t}, age))), 0);
                 EXPECT_LT(hausdorff(p, q), 0.01 * diagonal(p)) << a << ' ' << b << " at " << age;
             }
     }
@@ -406,8 +401,7 @@ TEST(MorphSet, NothingJumpsAlongAMorph) {
         const auto kins = kins_of({a, b});
         for (const double age : {0.0, 0.3, 0.6, 1.0}) {
             const auto at = [&](double t) {
-                return polyline(
-                    Outline(set.nodes(mix_of(set, kins, {1.0 - t, t}, age)), set.places()), 1);
+                return polyline(Outline(set.nodes(mix_of(set, kins, {1.0 - t, t}, age))), 1);
             };
             // Outlines of unit size: an egg of what shoots up is a third of another one, and they meet at the way's end.
             const double larger = std::max(diagonal(at(0.0)), diagonal(at(1.0)));
@@ -433,9 +427,8 @@ TEST(MorphSet, ADetourLeavesEveryShapeItself) {
               (Certificate{true, ProofMethod::certificate, 0.0}));
     for (const double age : {0.0, 0.1, 0.6}) {
         const auto weights = mix_of(set, kins_of({fly_agaric, cup}), {1.0, 0.0}, age);
-        const Polyline in_set = polyline(Outline(set.nodes(weights), set.places()), 0);
-        const Polyline by_itself =
-            polyline(Outline(alone.nodes(alone.growth_weights(age)), alone.places()), 0);
+        const Polyline in_set = polyline(Outline(set.nodes(weights)), 0);
+        const Polyline by_itself = polyline(Outline(alone.nodes(alone.growth_weights(age))), 0);
         EXPECT_LT(hausdorff(in_set, by_itself), 2e-3 * diagonal(in_set));
     }
 }
@@ -446,13 +439,14 @@ TEST(MorphSet, FeetOfStemsBelongTogether) {
     for (std::size_t kin = 0; kin < 2; ++kin) {
         std::vector<double> shares(2, 0.0);
         shares[kin] = 1.0;
-        const Outline mature(set.nodes(mix_of(set, kins_of({cup, bonnet}), shares, 0.6)),
-                             set.places());
+        const Outline mature(set.nodes(mix_of(set, kins_of({cup, bonnet}), shares, 0.6)));
         flat.push_back(0);
-        for (const OutlineSample& ring : mature.rings(CurveName::stem, 0))
-            flat.back() += ring.tangent_y < ring.tangent_r ? 1 : 0;
+        std::vector<double> even;
+        for (int i = 0; i <= 25; ++i) even.push_back(i / 25.0);
+        for (const OutlineSample& place : mature.stem.placed(even))
+            flat.back() += place.tangent_y < place.tangent_r ? 1 : 0;
     }
-    EXPECT_NEAR(flat[0], flat[1], 1) << "rings under ground";
+    EXPECT_NEAR(flat[0], flat[1], 1) << "what belongs together under ground";
     EXPECT_GE(flat[0], 2);
 }
 
@@ -513,7 +507,7 @@ TEST(MorphSet, FormsWithLittleInCommonMix) {
             }
             for (std::size_t s = 0; s < weights.size(); ++s)
                 weights[s] *= shares[shapes[s].kin] / sum;
-            EXPECT_TRUE(is_simple(Outline(set.nodes(weights), set.places()))) << "trial " << trial;
+            EXPECT_TRUE(is_simple(Outline(set.nodes(weights)))) << "trial " << trial;
         }
     }
 }
@@ -550,8 +544,7 @@ TEST(MorphSet, ShapesOfStrangersAreRefusedOrNeverCross) {
                     sum += weights.back();
                 }
                 for (double& w : weights) w /= sum;
-                ASSERT_TRUE(is_simple(Outline(set.nodes(weights), set.places())))
-                    << "trial " << trial;
+                ASSERT_TRUE(is_simple(Outline(set.nodes(weights)))) << "trial " << trial;
             }
         } catch (const Impossible&) {
             ++refused;
