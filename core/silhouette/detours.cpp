@@ -4,6 +4,43 @@
 
 namespace sporeprint {
 
+namespace {
+
+/// A polynomial on [0, 1] by its degree + 1 Bernstein coefficients.
+struct Polynomial {
+    std::size_t degree = 0;
+    Detours::Weight at{};
+};
+
+/// n over k at [n][k]
+constexpr auto ways_to_choose = [] {
+    std::array<Detours::Weight, Detours::way_degree + 1> ways{};
+    for (std::size_t n = 0; n < ways.size(); ++n) {
+        ways[n][0] = 1.0;
+        for (std::size_t k = 1; k <= n; ++k) ways[n][k] = ways[n - 1][k - 1] + ways[n - 1][k];
+    }
+    return ways;
+}();
+
+Polynomial product(const Polynomial& a, const Polynomial& b) {
+    Polynomial out{a.degree + b.degree};
+    const Detours::Weight &of_a = ways_to_choose[a.degree], &of_b = ways_to_choose[b.degree];
+    for (std::size_t i = 0; i <= a.degree; ++i)
+        for (std::size_t j = 0; j <= b.degree; ++j)
+            out.at[i + j] +=
+                of_a[i] * of_b[j] / ways_to_choose[out.degree][i + j] * a.at[i] * b.at[j];
+    return out;
+}
+
+/// The same polynomial as one of the highest degree.
+Polynomial raised(const Polynomial& p) {
+    Polynomial one{Detours::way_degree - p.degree};
+    for (std::size_t i = 0; i <= one.degree; ++i) one.at[i] = 1.0;
+    return product(p, one);
+}
+
+}  // namespace
+
 Detours::Detours(std::span<const Kin> kins) {
     for (const Kin& kin : kins) mature_.insert(mature_.end(), kin.count, kin.mature);
 }
@@ -36,48 +73,33 @@ std::vector<double> Detours::moved(std::span<const double> weights) const {
     return moved;
 }
 
-std::vector<std::vector<double>> Detours::moved(std::span<const double> from,
-                                                std::span<const double> to) const {
-    using Polynomial = std::vector<double>;
-    const auto product = [](const Polynomial& a, const Polynomial& b) {
-        const auto choose = [](std::size_t n, std::size_t k) {
-            double ways = 1.0;
-            for (std::size_t i = 0; i < k; ++i)
-                ways = ways * static_cast<double>(n - i) / static_cast<double>(i + 1);
-            return ways;
-        };
-        const std::size_t m = a.size() - 1, n = b.size() - 1;
-        Polynomial out(m + n + 1, 0.0);
-        for (std::size_t i = 0; i <= m; ++i)
-            for (std::size_t j = 0; j <= n; ++j)
-                out[i + j] += choose(m, i) * choose(n, j) / choose(m + n, i + j) * a[i] * b[j];
-        return out;
-    };
-    const auto raised = [&](const Polynomial& p, std::size_t degree) {
-        return product(p, Polynomial(degree - p.size() + 2, 1.0));
-    };
-    std::vector<Polynomial> moved(from.size() + 1, Polynomial(way_degree + 1, 0.0));
-    for (std::size_t s = 0; s < from.size(); ++s) moved[s] = raised({from[s], to[s]}, way_degree);
+std::vector<Detours::Weight> Detours::moved(std::span<const double> from,
+                                            std::span<const double> to) const {
+    std::vector<Weight> moved(from.size() + 1, Weight{});
     const auto add = [&](std::size_t s, const Polynomial& what, double factor) {
-        for (std::size_t i = 0; i < what.size(); ++i) moved[s][i] += factor * what[i];
+        for (std::size_t i = 0; i <= what.degree; ++i) moved[s][i] += factor * what.at[i];
     };
+    const auto taken = [&](std::size_t s) { return from[s] != 0.0 || to[s] != 0.0; };
+    for (std::size_t s = 0; s < from.size(); ++s)
+        if (taken(s)) moved[s] = raised({1, {from[s], to[s]}}).at;
     for (std::size_t s = 0; s < from.size(); ++s) {
-        if (from[s] == 0.0 && to[s] == 0.0) continue;
-        Polynomial by_mature{0.0, 0.0}, by_bud{0.0, 0.0};
+        if (!taken(s)) continue;
+        Polynomial by_mature{1, {}}, by_bud{1, {}};
         for (std::size_t other = 0; other < from.size(); ++other) {
             const Via by = via(s, other);
             if (by == Via::none) continue;
             Polynomial& met = by == Via::mature ? by_mature : by_bud;
-            met[0] += from[other];
-            met[1] += to[other];
+            met.at[0] += from[other];
+            met.at[1] += to[other];
         }
-        const Polynomial x{1.0 - by_mature[0] - by_bud[0], 1.0 - by_mature[1] - by_bud[1]};
-        Polynomial rate{1.0 - 7.0 * x[0], 1.0 - 7.0 * x[1]};
+        const Polynomial x{
+            1, {1.0 - by_mature.at[0] - by_bud.at[0], 1.0 - by_mature.at[1] - by_bud.at[1]}};
+        Polynomial rate{1, {1.0 - 7.0 * x.at[0], 1.0 - 7.0 * x.at[1]}};
         for (int i = 0; i < 6; ++i) {
             rate = product(x, rate);
-            for (double& coefficient : rate) coefficient += 1.0;
+            for (std::size_t k = 0; k <= rate.degree; ++k) rate.at[k] += 1.0;
         }
-        rate = product(rate, {from[s], to[s]});
+        rate = product(rate, {1, {from[s], to[s]}});
         for (const auto& [met, target] :
              {std::pair{by_mature, mature_[s]}, std::pair{by_bud, from.size()}}) {
             const Polynomial over = product(rate, met);

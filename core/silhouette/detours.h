@@ -1,6 +1,7 @@
 // Detours of mixes whose straight way would fold: what of their weights goes over to mature stages, or to a bud.
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -17,6 +18,8 @@ class Detours {
   public:
     /// Degree in t of the weights of a mix along a way with detours.
     static constexpr std::size_t way_degree = 9;
+    /// A weight along such a way by its Bernstein coefficients.
+    using Weight = std::array<double, way_degree + 1>;
 
     explicit Detours(std::span<const Kin> kins);
 
@@ -36,9 +39,9 @@ class Detours {
     /// With x = 1 - w it is w (1 + x + ... + x^6 - 7 x^7), so that each of those it folds with moves its part by the way of their own.
     [[nodiscard]] std::vector<double> moved(std::span<const double> weights) const;
 
-    /// The same for the mixes from one to another, each weight as a polynomial of the way by its way_degree + 1 Bernstein coefficients.
-    [[nodiscard]] std::vector<std::vector<double>> moved(std::span<const double> from,
-                                                         std::span<const double> to) const;
+    /// The same for the mixes from one to another, each weight as a polynomial of the way.
+    [[nodiscard]] std::vector<Weight> moved(std::span<const double> from,
+                                            std::span<const double> to) const;
 
     [[nodiscard]] std::size_t bytes() const {
         return mature_.size() * sizeof(std::size_t) + vias_.size() * sizeof(Via);

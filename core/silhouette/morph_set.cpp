@@ -5,7 +5,6 @@
 #include <string>
 #include <utility>
 
-#include "core/build/detail.h"
 #include "core/params/problems.h"
 #include "core/silhouette/bud.h"
 
@@ -20,6 +19,12 @@ std::vector<double> between(std::span<const double> from, std::span<const double
     std::vector<double> weights(from.size());
     for (std::size_t s = 0; s < weights.size(); ++s) weights[s] = (1.0 - t) * from[s] + t * to[s];
     return weights;
+}
+
+/// Adds a shape with its weight to a sum of shapes.
+void add(Polyline& sum, double weight, const Polyline& shape) {
+    if (weight == 0.0) return;
+    for (std::size_t i = 0; i < sum.size(); ++i) sum[i] += weight * shape[i];
 }
 
 OutlineNodes blended(const OutlineNodes& from, const OutlineNodes& to, double t) {
@@ -62,10 +67,11 @@ MorphSet::MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common
       detours_(kins_),
       ages_(std::move(common.ages)),
       nodes_(std::move(common.nodes)) {
+    const Lines own = lines();
     for (std::size_t s = 0; s < shapes.size(); ++s) {
         const Outline outline(nodes_[s]);
         for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
-            auto contact = contact_at_rest(polyline(nodes_[s], lod));
+            auto contact = contact_at_rest(own[static_cast<std::size_t>(lod)][s]);
             if (!contact) contact = contact_at_rest(sporeprint::polyline(outline, lod));
             if (contact) {
                 (void)Outline(shapes[s].silhouette);  // names the control points if it can
@@ -77,7 +83,7 @@ MorphSet::MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common
             }
         }
     }
-    certify();
+    certify(own);
 }
 
 OutlineNodes MorphSet::unchecked(std::span<const double> weights) const {
@@ -122,6 +128,14 @@ Polyline MorphSet::polyline(const OutlineNodes& nodes, int lod) const {
     return line;
 }
 
+MorphSet::Lines MorphSet::lines() const {
+    Lines lines;
+    for (std::size_t lod = 0; lod < lines.size(); ++lod)
+        for (std::size_t s = 0; s < nodes_.size() + (bud_.cap.empty() ? 0 : 1); ++s)
+            lines[lod].push_back(polyline(shape(s), static_cast<int>(lod)));
+    return lines;
+}
+
 /// Whether a certificate covers all mixes of some shapes, at every level of detail.
 bool MorphSet::certified(std::span<const std::size_t> shapes) const {
     for (int lod = static_cast<int>(details.size()) - 1; lod >= 0; --lod) {  // the cheap ones first
@@ -132,48 +146,60 @@ bool MorphSet::certified(std::span<const std::size_t> shapes) const {
     return true;
 }
 
-void MorphSet::certify() {
-    std::vector<std::size_t> all;
-    for (std::size_t s = 0; s < nodes_.size(); ++s) all.push_back(s);
-    for_any_weights_ = certified(all);
+void MorphSet::certify(const Lines& lines) {
+    for_any_weights_ = std::none_of(lines.rbegin(), lines.rend(), first_doubt);
     for (std::size_t i = 0; i < kins_.size() && !for_any_weights_; ++i)
-        for (std::size_t j = i + 1; j < kins_.size(); ++j) choose_detours(i, j);
+        for (std::size_t j = i + 1; j < kins_.size(); ++j) choose_detours(lines, i, j);
 }
 
-/// Finds the straight ways between stages of two kin that fold, and gives them a detour. Coarse levels of detail are cheap and come
-/// first: what folds there needs no second look.
-void MorphSet::choose_detours(std::size_t i, std::size_t j) {
-    const std::size_t count = nodes_.size();
-    std::vector<std::array<std::size_t, 2>> folding;
-    const auto folds = [&](std::size_t a, std::size_t b) {
-        return std::find(folding.begin(), folding.end(), std::array{a, b}) != folding.end();
-    };
-    for (int lod = static_cast<int>(details.size()) - 1; lod >= 0; --lod) {
-        std::vector<Polyline> lines(count);
-        for (const std::size_t k : {i, j})
-            for (std::size_t s = kins_[k].first; s < kins_[k].first + kins_[k].count; ++s)
-                lines[s] = polyline(nodes_[s], lod);
-        for (std::size_t a = kins_[i].first; a < kins_[i].first + kins_[i].count; ++a)
-            for (std::size_t b = kins_[j].first; b < kins_[j].first + kins_[j].count; ++b)
-                if (!folds(a, b) && contact_on_the_way(lines[a], lines[b]))
+/// The stages of two kin whose straight way folds. Coarse levels of detail are cheap and come first: what folds there needs no second
+/// look.
+std::vector<MorphSet::Way> MorphSet::folding(const Lines& lines, const Kin& i, const Kin& j) const {
+    std::vector<Way> folding;
+    for (auto lod = lines.rbegin(); lod != lines.rend(); ++lod)
+        for (std::size_t a = i.first; a < i.first + i.count; ++a)
+            for (std::size_t b = j.first; b < j.first + j.count; ++b)
+                if (std::find(folding.begin(), folding.end(), Way{a, b}) == folding.end() &&
+                    contact_on_the_way((*lod)[a], (*lod)[b]))
                     folding.push_back({a, b});
-    }
+    return folding;
+}
+
+/// Finds the straight ways between stages of two kin that fold, and gives them a detour.
+void MorphSet::choose_detours(const Lines& lines, std::size_t i, std::size_t j) {
+    const std::vector<Way> folding = this->folding(lines, kins_[i], kins_[j]);
     if (folding.empty()) return;
     const auto lead = [&](Via by) {
         for (const auto& [a, b] : folding) detours_.lead(a, b, by);
     };
-    lead(Via::mature);
-    const auto is_simple = [&](const auto& pair) {
-        std::vector<double> from(count, 0.0), to(count, 0.0);
-        from[pair[0]] = to[pair[1]] = 1.0;
-        return curved_way_is_simple(from, to);
-    };
     // One kind of way for the whole pair: a mix of stages takes a mix of their ways.
-    if (!folds(kins_[i].mature, kins_[j].mature) &&
-        std::all_of(folding.begin(), folding.end(), is_simple))
+    lead(Via::mature);
+    const Way mature = {kins_[i].mature, kins_[j].mature};
+    if (std::find(folding.begin(), folding.end(), mature) == folding.end() &&
+        curved_ways_are_simple(lines, folding))
         return;
     if (bud_.cap.empty()) bud_ = bud_of(nodes_);
     lead(Via::bud);
+}
+
+/// Whether the ways between some stages stay simple. A look at each half way comes first: where a way folds it mostly shows there, and
+/// proofs would be made in vain of all that is before it.
+bool MorphSet::curved_ways_are_simple(const Lines& lines, std::span<const Way> ways) const {
+    std::vector<double> from(nodes_.size()), to(nodes_.size());
+    const auto all = [&](const auto& is_simple) {
+        for (auto lod = lines.rbegin(); lod != lines.rend(); ++lod)
+            for (const auto& [a, b] : ways) {
+                from[a] = to[b] = 1.0;
+                const bool simple = is_simple(*lod);
+                from[a] = to[b] = 0.0;
+                if (!simple) return false;
+            }
+        return true;
+    };
+    return all([&](const auto& shapes) {
+               return !curved_way_touches_half_way(shapes, from, to);
+           }) &&
+           all([&](const auto& shapes) { return curved_way_is_simple(shapes, from, to); });
 }
 
 OutlineNodes MorphSet::nodes(std::span<const double> weights) const {
@@ -252,36 +278,51 @@ Certificate MorphSet::certificate(std::span<const double> from, std::span<const 
         return known;
     }
     known.method = ProofMethod::certificate;
-    known.simple = curved_way_is_simple(from, to);
+    const Lines own = lines();
+    known.simple = std::all_of(own.rbegin(), own.rend(), [&](const std::vector<Polyline>& shapes) {
+        return curved_way_is_simple(shapes, from, to);
+    });
     return known;
 }
 
-/// Detours make the way from one mix to another a curve; each piece of it lies among the means of the piece's Bezier polygons.
-bool MorphSet::curved_way_is_simple(std::span<const double> from,
+/// Whether the way touches itself half way; shapes as in curved_way_is_simple().
+bool MorphSet::curved_way_touches_half_way(const std::vector<Polyline>& shapes,
+                                           std::span<const double> from,
+                                           std::span<const double> to) const {
+    const std::vector<double> weights = detours_.moved(between(from, to, 0.5));
+    Polyline line(shapes.front().size(), glm::dvec2(0.0));
+    for (std::size_t s = 0; s < shapes.size(); ++s) add(line, weights[s], shapes[s]);
+    return contact_at_rest(line).has_value();
+}
+
+/// Detours make the way from one mix to another a curve; each piece of it lies among the means of the piece's Bezier polygons. Those
+/// of a part of a piece are means of the piece's own, so that only its doubts are looked at again.
+///
+/// shapes  the polylines of all shapes at one level of detail; the bud's may be left out where no way leads by it
+bool MorphSet::curved_way_is_simple(const std::vector<Polyline>& shapes,
+                                    std::span<const double> from,
                                     std::span<const double> to) const {
-    std::vector<Polyline> shapes(nodes_.size() + (bud_.cap.empty() ? 0 : 1));
     std::vector<Polyline> bezier(Detours::way_degree + 1);
-    const auto is_simple = [&](const auto& self, double t0, double t1, int depth) -> bool {
+    const auto take_piece = [&](double t0, double t1) {
         const auto way = detours_.moved(between(from, to, t0), between(from, to, t1));
         for (std::size_t i = 0; i < bezier.size(); ++i) {
             bezier[i].assign(shapes.front().size(), glm::dvec2(0.0));
-            for (std::size_t s = 0; s < shapes.size(); ++s)
-                if (way[s][i] != 0.0)
-                    for (std::size_t p = 0; p < bezier[i].size(); ++p)
-                        bezier[i][p] += way[s][i] * shapes[s][p];
+            for (std::size_t s = 0; s < shapes.size(); ++s) add(bezier[i], way[s][i], shapes[s]);
         }
-        if (!first_doubt(bezier)) return true;
-        if (depth == deepest_piece || contact_at_rest(bezier.front()) ||
-            contact_at_rest(bezier.back()))
-            return false;
-        const double middle = 0.5 * (t0 + t1);
-        return self(self, t0, middle, depth + 1) && self(self, middle, t1, depth + 1);
     };
-    for (int lod = 0; lod < static_cast<int>(details.size()); ++lod) {
-        for (std::size_t s = 0; s < shapes.size(); ++s) shapes[s] = polyline(shape(s), lod);
-        if (!is_simple(is_simple, 0.0, 1.0, 0)) return false;
-    }
-    return true;
+    // A detour is too long a way to be certified at once: its halves come first.
+    const auto parts_are_simple = [&](const auto& self, double t0, double t1, int depth,
+                                      const std::vector<Doubt>& known) -> bool {
+        if (depth == deepest_piece) return false;
+        const double middle = 0.5 * (t0 + t1);
+        for (const auto& [start, end] : {std::pair{t0, middle}, std::pair{middle, t1}}) {
+            take_piece(start, end);
+            const std::vector<Doubt> left = depth == 0 ? doubts(bezier) : doubts(bezier, known);
+            if (!left.empty() && !self(self, start, end, depth + 1, left)) return false;
+        }
+        return true;
+    };
+    return parts_are_simple(parts_are_simple, 0.0, 1.0, 0, {});
 }
 
 std::vector<double> MorphSet::growth_weights(double age) const {

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "core/build/detail.h"
 #include "core/silhouette/aligned.h"
 #include "core/silhouette/detours.h"
 #include "core/silhouette/outline.h"
@@ -57,7 +58,7 @@ class MorphSet {
     /// arcs      only for two kin, a for kin 0 and b for kin 1; `arcs_age` is the age at which the shares are counted
     /// throws    Impossible for a shape that crosses itself or its rings (path below "/model/silhouette"), for arcs that cross one another or
     ///           leave their curve (path "/arcs/<i>")
-    /// cost      about 1 ms for two kin of four shapes; some ms more where ways fold
+    /// cost      about 0.7 ms for two kin of five shapes; up to 2 ms more where many ways fold
     /// source    [Desbenoit2004] sec. 4; [SederbergGreenwood1992]
     explicit MorphSet(const std::vector<ControlShape>& shapes, std::span<const Arc> arcs = {},
                       double arcs_age = 0.6);
@@ -81,7 +82,7 @@ class MorphSet {
     /// What is known about the way from one mix to another, for every moment on it: exact where it is straight; where it makes a
     /// detour it is a polynomial, and certified piece by piece.
     ///
-    /// cost  0.05 ms straight, some ms with a detour
+    /// cost  0.05 ms straight, 0.2 ms with a detour
     [[nodiscard]] Certificate certificate(std::span<const double> from,
                                           std::span<const double> to) const;
 
@@ -95,6 +96,11 @@ class MorphSet {
     [[nodiscard]] std::size_t bytes() const;
 
   private:
+    /// The polylines of all shapes, the bud's last if there is one, [lod][shape].
+    using Lines = std::array<std::vector<Polyline>, details.size()>;
+    /// From one shape to another.
+    using Way = std::array<std::size_t, 2>;
+
     MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common);
 
     [[nodiscard]] const OutlineNodes& shape(std::size_t s) const {
@@ -108,10 +114,17 @@ class MorphSet {
     [[nodiscard]] bool is_swept_simply(const OutlineNodes& nodes) const;
     [[nodiscard]] CurveName curve_of(const Contact& contact, int lod) const;
     [[nodiscard]] bool certified(std::span<const std::size_t> shapes) const;
-    [[nodiscard]] bool curved_way_is_simple(std::span<const double> from,
+    [[nodiscard]] Lines lines() const;
+    [[nodiscard]] std::vector<Way> folding(const Lines& lines, const Kin& i, const Kin& j) const;
+    [[nodiscard]] bool curved_ways_are_simple(const Lines& lines, std::span<const Way> ways) const;
+    [[nodiscard]] bool curved_way_touches_half_way(const std::vector<Polyline>& shapes,
+                                                   std::span<const double> from,
+                                                   std::span<const double> to) const;
+    [[nodiscard]] bool curved_way_is_simple(const std::vector<Polyline>& shapes,
+                                            std::span<const double> from,
                                             std::span<const double> to) const;
-    void certify();
-    void choose_detours(std::size_t i, std::size_t j);
+    void certify(const Lines& lines);
+    void choose_detours(const Lines& lines, std::size_t i, std::size_t j);
 
     std::vector<Kin> kins_;
     Detours detours_;

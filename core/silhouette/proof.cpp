@@ -1,10 +1,14 @@
 #include "core/silhouette/proof.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <cmath>
+#include <cstdint>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <iterator>
+#include <limits>
 
 namespace sporeprint {
 
@@ -109,12 +113,77 @@ double first_touch(const Moving& x, const Moving& y, const Moving& z) {
 }
 
 struct Box {
-    glm::dvec2 low, high;
+    static constexpr double none = std::numeric_limits<double>::infinity();
+    glm::dvec2 low{none, none}, high{-none, -none};
 
-    [[nodiscard]] bool apart(const Box& other) const {
-        return high.x < other.low.x || other.high.x < low.x || high.y < other.low.y ||
-               other.high.y < low.y;
+    void add(const glm::dvec2& p) {
+        low = glm::min(low, p);
+        high = glm::max(high, p);
     }
+    void add(const Box& other) {
+        low = glm::min(low, other.low);
+        high = glm::max(high, other.high);
+    }
+};
+
+/// Which segments of some shapes come near each other: all but those that lie apart in one direction along an axis in every shape, and
+/// so in all their means. Far rows of segments are passed over at once.
+class Neighbours {
+  public:
+    explicit Neighbours(std::span<const std::span<const glm::dvec2>> shapes)
+        : shapes_(shapes.size()),
+          segments_(std::max<std::size_t>(shapes.front().size(), 1) - 1),
+          rows_(segments_ / row + 1),
+          of_segments_(segments_ * shapes_),
+          of_rows_(rows_ * shapes_),
+          far_(rows_ * rows_) {
+        for (std::size_t i = 0; i < segments_; ++i)
+            for (std::size_t s = 0; s < shapes_; ++s) {
+                Box& box = of_segments_[i * shapes_ + s];
+                box.add(shapes[s][i]);
+                box.add(shapes[s][i + 1]);
+                of_rows_[i / row * shapes_ + s].add(box);
+            }
+        for (std::size_t i = 0; i < rows_; ++i)
+            for (std::size_t j = i + 1; j < rows_; ++j)
+                far_[i * rows_ + j] = apart(&of_rows_[i * shapes_], &of_rows_[j * shapes_]);
+    }
+
+    /// The first segment from `j` on that comes near segment `i`; how many segments there are if none does.
+    [[nodiscard]] std::size_t next(std::size_t i, std::size_t j) const {
+        const Box* own = &of_segments_[i * shapes_];
+        const auto far_row = [&](std::size_t other) {
+            return far_[i / row * rows_ + other] || apart(own, &of_rows_[other * shapes_]);
+        };
+        while (j < segments_) {
+            if (j % row == 0 && far_row(j / row))
+                j += row;
+            else if (apart(own, &of_segments_[j * shapes_]))
+                ++j;
+            else
+                return j;
+        }
+        return segments_;
+    }
+
+  private:
+    static constexpr std::size_t row = 8;
+
+    [[nodiscard]] bool apart(const Box* a, const Box* b) const {
+        for (const int axis : {0, 1}) {
+            bool before = true, after = true;
+            for (std::size_t s = 0; s < shapes_ && (before || after); ++s) {
+                before = before && a[s].high[axis] < b[s].low[axis];
+                after = after && b[s].high[axis] < a[s].low[axis];
+            }
+            if (before || after) return true;
+        }
+        return false;
+    }
+
+    std::size_t shapes_, segments_, rows_;
+    std::vector<Box> of_segments_, of_rows_;  // of shape s at [segment or row * shapes + s]
+    std::vector<std::uint8_t> far_;           // of row i and a later j at [i * rows + j]
 };
 
 /// The open half plane that holds all vectors seen so far, kept as the two that are furthest apart; exact up to rounding.
@@ -145,16 +214,152 @@ class HalfPlane {
         return false;
     }
 
+    /// A direction with which all vectors seen so far make a sharp angle, unless they are all in one line.
+    [[nodiscard]] glm::dvec2 direction() const { return {left_.y - right_.y, right_.x - left_.x}; }
+
   private:
     glm::dvec2 right_{0.0}, left_{0.0};
     bool empty_ = true;
 };
 
+/// What can be said of all weighted means of some polylines.
+class Means {
+  public:
+    explicit Means(std::span<const Polyline> shapes)
+        : shapes_(shapes.begin(), shapes.end()), vertices_(shapes.front().size()) {
+        // The first and the last are the least alike, of a way they are its ends: what fails mostly fails with them.
+        std::swap(shapes_[shapes_.size() > 1 ? 1 : 0], shapes_.back());
+    }
+
+    [[nodiscard]] std::size_t vertices() const { return vertices_; }
+
+    /// The segments that no simple direction keeps apart; the others are certified.
+    [[nodiscard]] Neighbours neighbours() const { return Neighbours(shapes_); }
+
+    [[nodiscard]] bool certified(const Doubt& doubt) const {
+        if (doubt.i == doubt.j) return beside_axis(doubt.i);
+        return doubt.j == doubt.i + 1 ? forwards(doubt.i) : apart(doubt.i, doubt.j);
+    }
+
+  private:
+    [[nodiscard]] bool beside_axis(std::size_t i) const {
+        const bool end = i == 0 || i + 1 == vertices_;
+        return std::all_of(shapes_.begin(), shapes_.end(), [&](std::span<const glm::dvec2> p) {
+            return end ? p[i].x >= 0.0 : p[i].x > 0.0;
+        });
+    }
+
+    /// Whether segment i + 1 never folds back on segment i.
+    [[nodiscard]] bool forwards(std::size_t i) const {
+        return fit_in_a_half_plane([&](std::size_t s, const auto& fits) {
+                   const auto p = shapes_[s];
+                   return fits(p[i + 1] - p[i]) && fits(p[i + 2] - p[i + 1]);
+               }) ||
+               side(i, i + 1, i + 2) != 0;
+    }
+
+    [[nodiscard]] bool apart(std::size_t i, std::size_t j) const {
+        return fit_in_a_half_plane([&](std::size_t s, const auto& fits) {
+                   const auto p = shapes_[s];
+                   const auto differs = [&](std::size_t x, std::size_t y) {
+                       const glm::dvec2 v = p[y] - p[x];
+                       return (v != glm::dvec2(0.0) || are_one(p, x, y)) && fits(v);
+                   };
+                   return differs(i, j) && differs(i + 1, j) && differs(i, j + 1) &&
+                          differs(i + 1, j + 1);
+               }) ||
+               line_between(i, j);
+    }
+
+    /// Whether an open half plane holds some vectors of every shape. The direction that suits the first two shapes mostly suits all, and
+    /// is quickly tried.
+    ///
+    /// all_fit  whether a test holds for all vectors of a shape
+    template <class AllFit>
+    [[nodiscard]] bool fit_in_a_half_plane(const AllFit& all_fit) const {
+        HalfPlane plane;
+        const auto added = [&](const glm::dvec2& v) { return plane.add(v); };
+        std::size_t s = 0;
+        for (; s < std::min<std::size_t>(shapes_.size(), 2); ++s)
+            if (!all_fit(s, added)) return false;
+        const glm::dvec2 direction = plane.direction();
+        const auto along = [&](const glm::dvec2& v) { return glm::dot(direction, v) > 0.0; };
+        while (s < shapes_.size() && all_fit(s, along)) ++s;
+        if (s == shapes_.size()) return true;
+        for (s = 2; s < shapes_.size(); ++s)
+            if (!all_fit(s, added)) return false;
+        return true;
+    }
+
+    [[nodiscard]] bool line_between(std::size_t i, std::size_t j) const {
+        const int p = side(i, j, j + 1);
+        if (p != 0 && p == side(i + 1, j, j + 1)) return true;
+        const int r = side(j, i, i + 1);
+        return r != 0 && r == side(j + 1, i, i + 1);
+    }
+
+    /// Twice the area of X, Y, Z, the bilinear form of two shapes: its sign over all pairs of shapes, 0 if it has none.
+    [[nodiscard]] int side(std::size_t x, std::size_t y, std::size_t z) const {
+        int sign = 0;
+        for (std::size_t s = 0; s < shapes_.size(); ++s) {
+            const auto p = shapes_[s];
+            const auto meets = [&](std::size_t v) { return p[v] == p[x] && !are_one(p, x, v); };
+            if (meets(y) || meets(z)) return 0;
+            const glm::dvec2 a = p[y] - p[x], b = p[z] - p[x];
+            for (std::size_t t = s; t < shapes_.size(); ++t) {
+                const auto q = shapes_[t];
+                const glm::dvec2 c = q[y] - q[x], d = q[z] - q[x];
+                const double area = cross(a, d) + cross(c, b);
+                if (area == 0.0) {
+                    // Nothing to say where the same two points are one in both shapes: a sub-curve that both lack.
+                    constexpr glm::dvec2 none(0.0);
+                    if ((a == b && c == d) || (a == none && (b == none || c == none)) ||
+                        (d == none && (c == none || b == none)))
+                        continue;
+                    return 0;
+                }
+                const int own = area > 0.0 ? 1 : -1;
+                if (sign == 0) sign = own;
+                if (sign != own) return 0;
+            }
+        }
+        return sign;
+    }
+
+    /// Whether two vertices are one because all edges between them have no length: a sub-curve that is a point. Others must not meet.
+    [[nodiscard]] static bool are_one(std::span<const glm::dvec2> p, std::size_t x, std::size_t y) {
+        const auto [from, to] = std::minmax(x, y);
+        return std::all_of(p.begin() + static_cast<std::ptrdiff_t>(from),
+                           p.begin() + static_cast<std::ptrdiff_t>(to) + 1,
+                           [&](const glm::dvec2& q) { return q == p[x]; });
+    }
+
+    std::vector<std::span<const glm::dvec2>> shapes_;
+    std::size_t vertices_;
+};
+
+/// Visits what is not certified, in order: the axis, then each segment with those after it; until `visit` wants no more.
+template <class Visit>
+void each_doubt(const Means& means, const Visit& visit) {
+    const std::size_t n = means.vertices();
+    const auto goes_on = [&](const Doubt& doubt) { return means.certified(doubt) || visit(doubt); };
+    for (std::size_t i = 0; i < n; ++i)
+        if (!goes_on({i, i})) return;
+    const Neighbours neighbours = means.neighbours();
+    for (std::size_t i = 0; i + 1 < n; ++i) {
+        if (i + 2 < n && !goes_on({i, i + 1})) return;
+        for (std::size_t j = neighbours.next(i, i + 2); j + 1 < n; j = neighbours.next(i, j + 1))
+            if (!goes_on({i, j})) return;
+    }
+}
+
 }  // namespace
 
 std::optional<std::array<std::size_t, 2>> first_crossing(std::span<const glm::dvec2> polyline) {
-    for (std::size_t i = 0; i + 1 < polyline.size(); ++i)
-        for (std::size_t j = i + 2; j + 1 < polyline.size(); ++j)
+    const std::size_t n = polyline.size();
+    const Neighbours neighbours({&polyline, 1});
+    for (std::size_t i = 0; i + 1 < n; ++i)
+        for (std::size_t j = neighbours.next(i, i + 2); j + 1 < n; j = neighbours.next(i, j + 1))
             if (touch(polyline[i], polyline[i + 1], polyline[j], polyline[j + 1])) return {{i, j}};
     return std::nullopt;
 }
@@ -193,10 +398,8 @@ std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
     const std::size_t n = a.size();
     std::vector<Moving> points(n);
     for (std::size_t i = 0; i < n; ++i) points[i] = {a[i], b[i] - a[i]};
-    std::vector<Box> boxes;
-    for (std::size_t i = 0; i + 1 < n; ++i)
-        boxes.push_back({glm::min(glm::min(a[i], a[i + 1]), glm::min(b[i], b[i + 1])),
-                         glm::max(glm::max(a[i], a[i + 1]), glm::max(b[i], b[i + 1]))});
+    const std::array<std::span<const glm::dvec2>, 2> ends = {a, b};
+    const Neighbours neighbours(ends);
     // Between t = 0 and 1 r is positive as soon as it is at one of them, and not negative at the other.
     std::optional<Contact> first;
     const auto consider = [&](double t, std::size_t i, std::size_t j) {
@@ -216,8 +419,7 @@ std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
             turn.roots(folds);
     }
     for (std::size_t i = 0; i + 1 < n; ++i)
-        for (std::size_t j = i + 2; j + 1 < n; ++j) {
-            if (boxes[i].apart(boxes[j])) continue;
+        for (std::size_t j = neighbours.next(i, i + 2); j + 1 < n; j = neighbours.next(i, j + 1)) {
             HalfPlane
                 differences;  // a direction that keeps them apart at both ends does so all the way
             bool apart = true;
@@ -238,81 +440,30 @@ std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
 
 std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
     assert(!shapes.empty());
-    const std::size_t n = shapes.front().size(), count = shapes.size();
-    // Vertices that are one because all edges between them have no length: a sub-curve that is a point. Others must not meet.
-    std::vector<std::size_t> runs(n * count);
-    for (std::size_t s = 0; s < count; ++s)
-        for (std::size_t i = 0; i < n; ++i) {
-            const Polyline& p = shapes[s];
-            if (i > 0 && i + 1 < n ? p[i].x <= 0.0 : p[i].x < 0.0) return Doubt{i, i};
-            runs[s * n + i] = i > 0 && p[i] == p[i - 1] ? runs[s * n + i - 1] : i;
-        }
-    // Twice the area of X, Y, Z, the bilinear form of two shapes: its sign over all pairs of shapes, 0 if it has none.
-    const auto side = [&](std::size_t x, std::size_t y, std::size_t z) {
-        int sign = 0;
-        for (std::size_t s = 0; s < count; ++s) {
-            const auto meets = [&](std::size_t v) {
-                return shapes[s][v] == shapes[s][x] && runs[s * n + v] != runs[s * n + x];
-            };
-            if (meets(y) || meets(z)) return 0;
-            const glm::dvec2 a = shapes[s][y] - shapes[s][x], b = shapes[s][z] - shapes[s][x];
-            for (std::size_t t = s; t < count; ++t) {
-                const glm::dvec2 c = shapes[t][y] - shapes[t][x], d = shapes[t][z] - shapes[t][x];
-                const double area = cross(a, d) + cross(c, b);
-                if (area == 0.0) {
-                    // Nothing to say where the same two points are one in both shapes: a sub-curve that both lack.
-                    constexpr glm::dvec2 none(0.0);
-                    if ((a == b && c == d) || (a == none && (b == none || c == none)) ||
-                        (d == none && (c == none || b == none)))
-                        continue;
-                    return 0;
-                }
-                const int own = area > 0.0 ? 1 : -1;
-                if (sign == 0) sign = own;
-                if (sign != own) return 0;
-            }
-        }
-        return sign;
-    };
-    const auto line_between = [&](std::size_t i, std::size_t j) {
-        const int p = side(i, j, j + 1);
-        if (p != 0 && p == side(i + 1, j, j + 1)) return true;
-        const int r = side(j, i, i + 1);
-        return r != 0 && r == side(j + 1, i, i + 1);
-    };
-    std::vector<Box> boxes;  // segments in boxes that lie apart are apart in all means
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-        Box box{shapes[0][i], shapes[0][i]};
-        for (const Polyline& p : shapes)
-            box = {glm::min(box.low, glm::min(p[i], p[i + 1])),
-                   glm::max(box.high, glm::max(p[i], p[i + 1]))};
-        boxes.push_back(box);
-    }
-    for (std::size_t i = 0; i + 1 < n; ++i) {
-        if (i + 2 < n) {
-            HalfPlane directions;
-            bool forwards = true;
-            for (std::size_t s = 0; s < count && forwards; ++s)
-                forwards = directions.add(shapes[s][i + 1] - shapes[s][i]) &&
-                           directions.add(shapes[s][i + 2] - shapes[s][i + 1]);
-            if (!forwards && side(i, i + 1, i + 2) == 0) return Doubt{i, i + 1};
-        }
-        for (std::size_t j = i + 2; j + 1 < n; ++j) {
-            if (boxes[i].apart(boxes[j])) continue;
-            HalfPlane differences;
-            bool apart = true;
-            for (std::size_t s = 0; s < count && apart; ++s) {
-                const auto add = [&](std::size_t x, std::size_t y) {
-                    const glm::dvec2 v = shapes[s][y] - shapes[s][x];
-                    return (v != glm::dvec2(0.0) || runs[s * n + x] == runs[s * n + y]) &&
-                           differences.add(v);
-                };
-                apart = add(i, j) && add(i + 1, j) && add(i, j + 1) && add(i + 1, j + 1);
-            }
-            if (!apart && !line_between(i, j)) return Doubt{i, j};
-        }
-    }
-    return std::nullopt;
+    std::optional<Doubt> first;
+    each_doubt(Means(shapes), [&](const Doubt& doubt) {
+        first = doubt;
+        return false;
+    });
+    return first;
+}
+
+std::vector<Doubt> doubts(std::span<const Polyline> shapes) {
+    assert(!shapes.empty());
+    std::vector<Doubt> all;
+    each_doubt(Means(shapes), [&](const Doubt& doubt) {
+        all.push_back(doubt);
+        return true;
+    });
+    return all;
+}
+
+std::vector<Doubt> doubts(std::span<const Polyline> shapes, std::span<const Doubt> among) {
+    const Means means(shapes);
+    std::vector<Doubt> left;
+    std::copy_if(among.begin(), among.end(), std::back_inserter(left),
+                 [&](const Doubt& doubt) { return !means.certified(doubt); });
+    return left;
 }
 
 }  // namespace sporeprint

@@ -34,6 +34,21 @@ bool meets(const std::array<std::int64_t, 8>& s) {
            (cdb == 0 && within(cx, dx, bx) && within(cy, dy, by));
 }
 
+/// First pair of segments of a polyline of whole numbers that meet without being neighbours: every pair is looked at.
+std::optional<std::array<std::size_t, 2>> first_meeting(const Polyline& line) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i)
+        for (std::size_t j = i + 2; j + 1 < line.size(); ++j) {
+            std::array<std::int64_t, 8> s{};
+            const glm::dvec2 ends[] = {line[i], line[i + 1], line[j], line[j + 1]};
+            for (std::size_t k = 0; k < 4; ++k) {
+                s[2 * k] = static_cast<std::int64_t>(ends[k].x);
+                s[2 * k + 1] = static_cast<std::int64_t>(ends[k].y);
+            }
+            if (meets(s)) return {{i, j}};
+        }
+    return std::nullopt;
+}
+
 TEST(Proof, FirstCrossingAgreesWithExactArithmetic) {
     Random random(23, 0);
     int crossed = 0;
@@ -47,22 +62,29 @@ TEST(Proof, FirstCrossingAgreesWithExactArithmetic) {
             const auto y = static_cast<double>(random.bits() % grid);
             line.emplace_back(x, y);
         }
-        std::optional<std::array<std::size_t, 2>> expected;
-        for (std::size_t i = 0; i + 1 < count && !expected; ++i)
-            for (std::size_t j = i + 2; j + 1 < count && !expected; ++j) {
-                std::array<std::int64_t, 8> s{};
-                const glm::dvec2 ends[] = {line[i], line[i + 1], line[j], line[j + 1]};
-                for (std::size_t k = 0; k < 4; ++k) {
-                    s[2 * k] = static_cast<std::int64_t>(ends[k].x);
-                    s[2 * k + 1] = static_cast<std::int64_t>(ends[k].y);
-                }
-                if (meets(s)) expected = {{i, j}};
-            }
+        const auto expected = first_meeting(line);
         EXPECT_EQ(first_crossing(line), expected) << "trial " << trial;
         crossed += expected ? 1 : 0;
     }
     EXPECT_GT(crossed, 400);
     EXPECT_LT(crossed, 3600);
+}
+
+TEST(Proof, OfALongWalkTheFirstCrossingIsFoundAsWell) {
+    Random random(29, 0);
+    int crossed = 0;
+    for (int trial = 0; trial < 600; ++trial) {
+        // Mostly upwards, so that it crosses itself here and there or not at all, and its far parts lie apart.
+        Polyline line = {{0.0, 0.0}};
+        for (std::size_t i = 0; i < 40 + random.bits() % 40; ++i)
+            line.push_back(line.back() + glm::dvec2(static_cast<double>(random.bits() % 9) - 4.0,
+                                                    static_cast<double>(random.bits() % 50) - 1.0));
+        const auto expected = first_meeting(line);
+        EXPECT_EQ(first_crossing(line), expected) << "trial " << trial;
+        crossed += expected ? 1 : 0;
+    }
+    EXPECT_GT(crossed, 50);
+    EXPECT_LT(crossed, 500);
 }
 
 TEST(Proof, FewPointsNeverCross) {
@@ -230,6 +252,113 @@ TEST(Proof, AgreesWithFineSampling) {
     }
     EXPECT_GT(contacts, 50);
     EXPECT_GT(none, 50);
+}
+
+/// Earliest moment at which one of the ends of two segments is on the other, every pair looked at; 2 if never. By the roots of the
+/// parabola through three moments.
+double first_touch_of_all(const Polyline& a, const Polyline& b) {
+    double first = 2.0;
+    const auto consider = [&](std::size_t x, std::size_t y, std::size_t z) {
+        const auto sides = [&](double t) {
+            const glm::dvec2 o = a[x] + t * (b[x] - a[x]);
+            return std::array{a[y] + t * (b[y] - a[y]) - o, a[z] + t * (b[z] - a[z]) - o};
+        };
+        const auto area = [&](double t) {
+            const auto [u, v] = sides(t);
+            return u.x * v.y - u.y * v.x;
+        };
+        const double c = area(0.0), half = area(0.5), end = area(1.0);
+        const double p = 2.0 * c - 4.0 * half + 2.0 * end, q = 4.0 * half - 3.0 * c - end;
+        const double root = q * q - 4.0 * p * c;
+        if (root < 0.0) return;
+        for (const double sign : {-1.0, 1.0}) {
+            const double t = (-q + sign * std::sqrt(root)) / (2.0 * p);
+            if (!(t > 0.0 && t < first && t < 1.0)) continue;
+            const auto [u, v] = sides(t);
+            if (glm::dot(u, v) <= 0.0) first = t;
+        }
+    };
+    for (std::size_t i = 0; i + 1 < a.size(); ++i)
+        for (std::size_t j = i + 2; j + 1 < a.size(); ++j) {
+            consider(i, j, j + 1);
+            consider(i + 1, j, j + 1);
+            consider(j, i, i + 1);
+            consider(j + 1, i, i + 1);
+        }
+    return first;
+}
+
+TEST(Proof, NoTouchOfLongOutlinesIsPassedOver) {
+    Random random(43, 0);
+    int touched = 0, none = 0;
+    for (int trial = 0; trial < 300; ++trial) {
+        const std::size_t count = 20 + random.bits() % 50;
+        const double wildness = 0.9 / static_cast<double>(count) * (1 + trial % 3);
+        Polyline a = random_outline(random, count, wildness),
+                 b = random_outline(random, count, wildness);
+        for (glm::dvec2& p : b) p.y *= 2.0;
+        if (trial % 2) {  // a vertex that runs through the far side
+            const std::size_t i = 1 + random.bits() % (count - 2);
+            b[i] = {random.uniform(0.1, 2.0), random.uniform(0.0, 2.0)};
+        }
+        const double expected = first_touch_of_all(a, b);
+        const auto contact = contact_on_the_way(a, b);
+        ASSERT_EQ(contact.has_value() && contact->j > contact->i + 1,
+                  expected < 1.0 && !(contact && contact->j == contact->i + 1))
+            << "trial " << trial;
+        (expected < 1.0 ? touched : none)++;
+        if (contact && contact->j > contact->i + 1) {
+            EXPECT_NEAR(contact->t, expected, 1e-7);
+        }
+    }
+    EXPECT_GT(touched, 50);
+    EXPECT_GT(none, 50);
+}
+
+TEST(Proof, WhatDoubtsNameHoldsEveryCrossingOfEveryMean) {
+    Random random(47, 0);
+    int crossings = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<Polyline> shapes(2 + static_cast<std::size_t>(trial) % 4);
+        for (Polyline& shape : shapes) shape = random_outline(random, 30, 0.03 * (1 + trial % 5));
+        const std::vector<Doubt> all = doubts(shapes);
+        const auto first = first_doubt(shapes);
+        ASSERT_EQ(first.has_value(), !all.empty());
+        if (first) {
+            EXPECT_EQ(*first, all.front());
+        }
+        for (int draw = 0; draw < 20; ++draw) {
+            const auto pair = first_crossing(mixed(shapes, random_weights(random, shapes.size())));
+            if (!pair) continue;
+            ++crossings;
+            EXPECT_NE(std::find(all.begin(), all.end(), Doubt{(*pair)[0], (*pair)[1]}), all.end())
+                << "trial " << trial;
+        }
+    }
+    EXPECT_GT(crossings, 200);
+}
+
+TEST(Proof, DoubtsOfMeansAreAmongTheDoubtsOfWhatTheyAreMeansOf) {
+    Random random(53, 0);
+    std::size_t dispelled = 0, left = 0;
+    for (int trial = 0; trial < 200; ++trial) {
+        std::vector<Polyline> shapes(2 + static_cast<std::size_t>(trial) % 9);
+        const std::size_t count = 10 + random.bits() % 40;
+        for (Polyline& shape : shapes) {
+            shape = random_outline(random, count, 0.02 * (1 + trial % 6));
+            if (trial % 3 == 0)  // a sub-curve that is a point
+                for (std::size_t i = 4; i < 8; ++i) shape[i] = shape[3];
+        }
+        std::vector<Polyline> means;
+        for (std::size_t s = 0; s < shapes.size(); ++s)
+            means.push_back(mixed(shapes, random_weights(random, shapes.size())));
+        const std::vector<Doubt> known = doubts(shapes), own = doubts(means);
+        EXPECT_EQ(doubts(means, known), own) << "trial " << trial;
+        dispelled += known.size() - own.size();
+        left += own.size();
+    }
+    EXPECT_GT(dispelled, 1000u);
+    EXPECT_GT(left, 100u);
 }
 
 TEST(Proof, CertificatesHoldOnRandomConvexCombinations) {
