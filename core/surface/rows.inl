@@ -8,7 +8,9 @@
 #endif
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
+#include <span>
 
 #include "core/surface/cap.inl"
 #include "core/surface/hymenium.inl"
@@ -20,10 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-inline constexpr int widest = 2048;
 inline constexpr int margin = 8;  // of each row of heights, for the neighbours of its ends
-inline constexpr int padded =
-    widest + 32;  // else the planes of a row would compete for the same lines of the cache
 
 /// One row of painted texels.
 struct Row {
@@ -46,7 +45,7 @@ struct Workbench {
     SparseRow sparse[2];
     HWY_ALIGN float field[most_fields][padded];
     HWY_ALIGN float spare[padded];
-    HWY_ALIGN float scar[scar_planes][padded];
+    HWY_ALIGN ScarRow scars;
     HWY_ALIGN std::uint8_t bytes[9][padded];
 };
 
@@ -218,6 +217,11 @@ Stretch painted_stretch(const PaintPlan& plan, int part, int y) {
     return {first, width - first};
 }
 
+HWY_INLINE void clear(ScarRow& row, std::size_t width) {
+    for (float* const plane : row.plane) std::memset(plane, 0, width * sizeof(float));
+    std::memset(row.ragged, 0, width * sizeof(float));
+}
+
 HWY_INLINE void clear(VF* fields) {
     for (std::size_t k = 0; k < most_fields; ++k) fields[k] = set(0.0F);
 }
@@ -333,22 +337,12 @@ void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& 
     const float reach = (0.5F - frame.inset) * static_cast<float>(frame.width);
     for (const int index : plan.patches_by_row[static_cast<std::size_t>(y)]) {
         const PatchPlan& patch = plan.patches[static_cast<std::size_t>(index)];
-        // The chord of the patch's ellipse along this row.
         const float dy = down - patch.y;
-        const float l = patch.per_length * patch.per_length;
-        const float w = patch.per_width * patch.per_width;
-        const float ax = patch.along_x;
-        const float ay = patch.along_y;
-        const float square = ax * ax * l + ay * ay * w;
-        const float cross = dy * ax * ay * (l - w);
-        const float rest = dy * dy * (ay * ay * l + ax * ax * w) - patch_window * patch_window;
-        const float inside = cross * cross - square * rest;
-        if (inside <= 0.0F) continue;
-        HWY_ALIGN float root[8] = {};
-        hn::Store(hn::Sqrt(set(inside)), Floats(), root);
+        const Chord chord = chord_of(patch, dy, patch_window * patch_window);
+        if (chord.half <= 0.0F) continue;
         const float middle =
-            (patch.x - cross / square) * reach + 0.5F * static_cast<float>(frame.width);
-        const float half = root[0] / square * reach + 1.0F;
+            (patch.x + chord.middle) * reach + 0.5F * static_cast<float>(frame.width);
+        const float half = chord.half * reach + 1.0F;
         const float begin = middle - half < 0.0F ? 0.0F : middle - half;
         const float end = middle + half > static_cast<float>(frame.width)
                               ? static_cast<float>(frame.width)
@@ -371,94 +365,164 @@ float scar_row_place(const Frame& frame, int part, int y) {
                      : (v - 0.5F) / (0.5F - frame.inset);
 }
 
-// Lays the scars that cross one row over its texels, then ink and dust.
-void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
-    const ScarsPlan& scars = plan.scars;
-    const bool disc = part < 2;
-    const std::size_t place = static_cast<std::size_t>(part);
-    const bool scarred = part < 3 && !scars.scars[place].empty();
-    const bool inked = (disc || part >= 4) && scars.melted > 0.0F;
-    const bool dusted = (part == 0 || part == 2 || part == 3) && scars.dust > 0.0F;
-    if (!scarred && !inked && !dusted) return;
-    const Floats f;
-    const std::size_t lanes = hn::Lanes(f);
-    const Frame& frame = plan.frames[place];
-    const VF down = set(scar_row_place(frame, part, y));
-    const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
-    const float aspect = part == 2
-                             ? plan.stem.aspect
-                             : 1.0F / plan.veil.texel / static_cast<float>(frame.width) * inner;
-    const auto across = [&](std::size_t x) {
+/// How the rows of a chart lie for what is laid on them.
+struct ScarSheet {
+    const Frame& frame;
+    bool is_disc;
+    float inner, aspect;  ///< of a strip: one over the share inside its insets, and its length
+
+    [[nodiscard]] HWY_INLINE VF across(std::size_t x) const {
         const VF texel = lane_numbers() + set(static_cast<float>(x));
-        if (disc) return disc_place(frame, texel);
+        if (is_disc) return disc_place(frame, texel);
         const VF along =
             ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) *
             set(inner);
         return unit(along) * set(aspect);
-    };
-    const Stretch painted = painted_stretch(plan, part, y);
-    if (scarred) {
-        bool any = false;
-        const float per_unit = disc ? (0.5F - frame.inset) * static_cast<float>(frame.width)
-                                    : static_cast<float>(frame.width) / (inner * aspect);
-        const float first = disc ? 0.5F * static_cast<float>(frame.width)
-                                 : frame.inset * static_cast<float>(frame.width);
-        for (const int index : scars.by_row[place][static_cast<std::size_t>(y + 1)]) {
-            const Scar& scar = scars.scars[place][static_cast<std::size_t>(index)];
-            if (!any) std::memset(bench.scar, 0, sizeof(bench.scar));
-            any = true;
-            const float begin = first + (scar.middle_x - scar.reach) * per_unit - 1.0F;
-            const float end = first + (scar.middle_x + scar.reach) * per_unit + 1.0F;
-            std::size_t x = begin < 0.0F ? 0 : static_cast<std::size_t>(begin) / 8 * 8;
-            x = std::max(x, painted.from);
-            // Whole eights, however many texels a vector has: a stain's rim may reach a little beyond.
-            const float rest = std::max(end - static_cast<float>(x), 0.0F);
-            const std::size_t stop = x + (static_cast<std::size_t>(std::ceil(rest)) + 7) / 8 * 8;
-            for (; x < std::min(painted.until, stop); x += lanes) {
-                ScarTexel texel;
-                for (std::size_t k = 0; k < scar_planes; ++k)
-                    texel.plane[k] = hn::Load(f, bench.scar[k] + x);
-                switch (scar.shape) {
-                    case ScarShape::line:
-                        lay_line(scar, across(x), down, texel);
-                        break;
-                    case ScarShape::oval:
-                        lay_oval(scar, across(x), down, texel);
-                        break;
-                    case ScarShape::margin: {
-                        const VF u = across(x);
-                        lay_margin(scar, hn::Load(f, row.cosine + x), hn::Load(f, row.sine + x),
-                                   set(1.0F) - hn::Sqrt(u * u + down * down), texel);
-                        break;
-                    }
-                }
-                for (std::size_t k = 0; k < scar_planes; ++k)
-                    hn::Store(texel.plane[k], f, bench.scar[k] + x);
-            }
-        }
-        for (std::size_t x = painted.from; any && x < painted.until; x += lanes) {
-            ScarTexel laid;
-            VF most = set(0.0F);
-            for (std::size_t k = 0; k < scar_planes; ++k) {
-                laid.plane[k] = hn::Load(f, bench.scar[k] + x);
-                most = hn::Max(most, hn::Abs(laid.plane[k]));
-            }
-            if (hn::AllTrue(f, most <= set(0.0F))) continue;
-            if (!hn::AllTrue(f, laid.plane[scar_near] <= set(0.0F))) open_cracks(laid);
-            Texel texel = load_texel(row, x);
-            show_scars(scars, laid, across(x), down, texel);
-            store_texel(texel, row, x);
-        }
     }
+    [[nodiscard]] ScarSpan whole() const {
+        return is_disc ? ScarSpan{-1e9F, 1e9F} : ScarSpan{0.0F, aspect};
+    }
+    // Texels in the chart's length, and from the first to place 0.
+    [[nodiscard]] float per_unit() const {
+        return is_disc ? (0.5F - frame.inset) * static_cast<float>(frame.width)
+                       : static_cast<float>(frame.width) / (inner * aspect);
+    }
+    [[nodiscard]] float first() const {
+        return (is_disc ? 0.5F : frame.inset) * static_cast<float>(frame.width);
+    }
+};
+
+ScarSheet scar_sheet(const PaintPlan& plan, int part) {
+    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
+    const float aspect = part == 2
+                             ? plan.stem.aspect
+                             : 1.0F / plan.veil.texel / static_cast<float>(frame.width) * inner;
+    return {frame, part < 2, inner, aspect};
+}
+
+// Lays a scar over texels `from` to `until` of a row; one loop for each kind, because most scars cross few texels.
+// The scar is a copy, which no texel written can change: so its numbers stay in registers.
+HWY_INLINE void lay_scar(Scar scar, VF down, const Row& row, const Stretch& stretch,
+                         ScarRow& marked) {
+    const Floats f;
+    NoisePair noise;
+    const auto each = [&](auto lay) {
+        for (std::size_t x = stretch.from; x < stretch.until; x += hn::Lanes(f))
+            lay(hn::Load(f, marked.place + x), ScarPlace{marked, x});
+    };
+    switch (scar.kind) {
+        case ScarKind::crack:
+            each([&](VF across, const ScarPlace& at) { lay_crack(scar, across, down, at); });
+            return;
+        case ScarKind::furrow:
+            each([&](VF across, const ScarPlace& at) { lay_furrow(scar, across, down, at); });
+            return;
+        case ScarKind::pit:
+            each([&](VF across, const ScarPlace& at) { lay_pit(scar, across, down, at); });
+            return;
+        case ScarKind::bruise:
+            noise.begin();
+            each(
+                [&](VF across, const ScarPlace& at) { lay_bruise(scar, across, down, at, noise); });
+            return;
+        case ScarKind::drop:
+            each([&](VF across, const ScarPlace& at) { lay_drop(scar, across, down, at); });
+            return;
+        case ScarKind::lump:
+            each([&](VF across, const ScarPlace& at) { lay_lump(scar, across, down, at); });
+            return;
+        case ScarKind::bite:
+        case ScarKind::split:
+        case ScarKind::tongue:
+            each([&](VF across, const ScarPlace& at) {
+                lay_margin(scar, hn::Load(f, row.cosine + at.x), hn::Load(f, row.sine + at.x),
+                           set(1.0F) - hn::Sqrt(across * across + down * down), at);
+            });
+            return;
+    }
+}
+
+// Lays the scars that cross one row into the planes; whether there are any.
+bool mark_scars(const PaintPlan& plan, int part, int y, const Row& row, ScarRow& marked) {
+    const ScarsPlan& scars = plan.scars;
+    const std::size_t place = static_cast<std::size_t>(part);
+    if (part > 2 || scars.scars[place].empty()) return false;
+    const std::span<const std::uint32_t> crossing = scars.by_row[place].of(y);
+    if (crossing.empty()) return false;
+    const Floats f;
+    const std::size_t lanes = hn::Lanes(f);
+    const ScarSheet sheet = scar_sheet(plan, part);
+    const Stretch painted = painted_stretch(plan, part, y);
+    const float down_place = scar_row_place(sheet.frame, part, y);
+    const VF down = set(down_place);
+    clear(marked, static_cast<std::size_t>(sheet.frame.width));
+    for (std::size_t x = painted.from; x < painted.until; x += lanes)
+        hn::Store(sheet.across(x), f, marked.place + x);
+    const ScarSpan whole = sheet.whole();
+    const float per_unit = sheet.per_unit();
+    const float first = sheet.first();
+    for (const std::uint32_t index : crossing) {
+        const Scar& scar = scars.scars[place][index];
+        const ScarSpan span = scar_span(scar, down_place, whole);
+        if (span.to <= span.from) continue;
+        const float begin = first + span.from * per_unit - 1.0F;
+        const float end = first + span.to * per_unit + 1.0F;
+        // Whole eights, however many texels a vector has: a stain's rim may reach a little beyond.
+        const std::size_t from = std::max(
+            begin < 0.0F ? std::size_t{0} : static_cast<std::size_t>(begin) / 8 * 8, painted.from);
+        const float rest = std::max(end - static_cast<float>(from), 0.0F);
+        const std::size_t until =
+            std::min(painted.until, from + (static_cast<std::size_t>(std::ceil(rest)) + 7) / 8 * 8);
+        lay_scar(scar, down, row, {from, until}, marked);
+    }
+    return true;
+}
+
+// Changes the texels of a row by what has been laid into the planes.
+void show_marked(const PaintPlan& plan, int part, int y, const ScarRow& marked, Row& row) {
+    const Floats f;
+    const std::size_t lanes = hn::Lanes(f);
+    const VF down = set(scar_row_place(plan.frames[static_cast<std::size_t>(part)], part, y));
+    const Stretch painted = painted_stretch(plan, part, y);
+    NoisePair noise;
+    noise.begin();
+    for (std::size_t x = painted.from; x < painted.until; x += lanes) {
+        ScarTexel laid;
+        VF most = set(0.0F);
+        for (std::size_t k = 0; k < scar_planes; ++k) {
+            laid.plane[k] = hn::Load(f, marked.plane[k] + x);
+            most = hn::Max(most, hn::Abs(laid.plane[k]));
+        }
+        if (hn::AllTrue(f, most <= set(0.0F))) continue;
+        if (!hn::AllTrue(f, laid.plane[scar_near] <= set(0.0F))) open_cracks(laid);
+        Texel texel = load_texel(row, x);
+        show_scars(plan.scars, laid, hn::Load(f, marked.place + x), down, noise, texel);
+        store_texel(texel, row, x);
+    }
+}
+
+// Lays ink and dust over the texels of a row.
+void lay_ink_and_dust(const PaintPlan& plan, int part, int y, Row& row) {
+    const ScarsPlan& scars = plan.scars;
+    const bool inked = (part < 2 || part >= 4) && scars.melted > 0.0F;
+    const bool dusted = (part == 0 || part == 2 || part == 3) && scars.dust > 0.0F;
     if (!inked && !dusted) return;
+    const Floats f;
+    const std::size_t lanes = hn::Lanes(f);
+    const ScarSheet sheet = scar_sheet(plan, part);
+    const VF down = set(scar_row_place(sheet.frame, part, y));
+    const DiscPlan& shape = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+    const Stretch painted = painted_stretch(plan, part, y);
+    NoisePair noise;
+    noise.begin();
     for (std::size_t x = painted.from; x < painted.until; x += lanes) {
         Texel texel = load_texel(row, x);
-        const VF u = across(x);
+        const VF u = sheet.across(x);
         if (inked) {
-            const DiscPlan& shape = part == 0 ? plan.cap.disc : plan.hymenium.disc;
             // Flesh lies open where the margin has melted: all of it is ink.
-            VF share = part == 5 ? set(1.0F) : u * set(1.0F / aspect);
-            if (disc)
+            VF share = part == 5 ? set(1.0F) : u * set(1.0F / sheet.aspect);
+            if (sheet.is_disc)
                 share = (hn::Sqrt(u * u + down * down) - set(shape.inner)) *
                         set(1.0F / (1.0F - shape.inner));
             show_ink(scars, part == 0 ? scars.ink_front : scars.ink_lower, share,
@@ -466,13 +530,19 @@ void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         }
         if (dusted) {
             // Most falls from the own gills onto the stem below them and onto the ring; the cap has what a neighbour sheds.
-            const VF exposure = part == 2   ? smooth(u * set(1.0F / aspect), 0.12F, 1.3F)
+            const VF exposure = part == 2   ? smooth(u * set(1.0F / sheet.aspect), 0.12F, 1.3F)
                                 : part == 3 ? set(0.8F)
                                             : set(0.30F) + hn::Load(f, row.uneven + x) * set(0.3F);
-            show_dust(scars, u, down, hn::Max(exposure, set(0.0F)), texel);
+            show_dust(scars, u, down, hn::Max(exposure, set(0.0F)), noise, texel);
         }
         store_texel(texel, row, x);
     }
+}
+
+// Lays the scars that cross one row over its texels, then ink and dust.
+void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
+    if (mark_scars(plan, part, y, row, bench.scars)) show_marked(plan, part, y, bench.scars, row);
+    lay_ink_and_dust(plan, part, y, row);
 }
 
 // Paints the texels of one row; y may lie one row outside of the chart.

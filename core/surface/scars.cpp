@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
@@ -16,6 +17,8 @@ namespace sporeprint {
 namespace {
 
 constexpr float single(double value) { return static_cast<float>(value); }
+
+double diagonal(double a, double b) { return std::sqrt(a * a + b * b); }
 
 std::array<float, 3> light_of(Colour colour) {
     const std::array<float, 256>& table = linear_table();
@@ -143,7 +146,9 @@ class Planner {
             scar.per_width = single(1.0 / width);
             scar.middle_x = scar.x;
             scar.middle_y = scar.y;
-            scar.reach = scar_window * single(std::max(length, width));
+            scar.reach = 1.5F * single(std::max(length, width));
+            scar.rows = single(std::sqrt(static_cast<double>(oval_window(kind))) *
+                               diagonal(length * at.along_y, width * at.along_x));
             scar.seed = Random(params_.seed, purposes::scars + static_cast<std::uint32_t>(part),
                                static_cast<std::uint32_t>(kind) * 1000U + mark.id)
                             .bits();
@@ -196,13 +201,22 @@ class Planner {
         scar.along_y = single(dy / length);
         scar.length = single(length);
         scar.width = single(std::max(width_a * stretch, texel));
-        scar.width_end = single(std::max(width_b * stretch, texel));
+        const float width_end = single(std::max(width_b * stretch, texel));
+        scar.width_grow = (width_end - scar.width) / scar.length;
         // What is thinner than a texel shows by its share of it.
         scar.strength = single(strength * std::min(1.0, mean / texel));
         scar.height = single(mean);
         scar.middle_x = single(0.5 * (ax + bx));
         scar.middle_y = single(0.5 * (ay + by));
-        scar.reach = single(0.5 * length) + 2.6F * std::max(scar.width, scar.width_end);
+        const float widest = std::max(scar.width, width_end);
+        const float rise = std::abs(scar.along_y);
+        scar.reach = single(0.5 * length) + 2.6F * widest;
+        scar.cover = 1.02F * line_window(kind) * widest;
+        scar.rows = std::min(scar.reach, rise * scar.length * 0.5F + scar.cover);
+        // A line that runs along the rows is in each of them as far as it reaches.
+        const bool crosses = rise > 0.05F;
+        scar.lean = crosses ? scar.along_x / scar.along_y : 0.0F;
+        scar.breadth = crosses ? scar.cover / rise : 1e9F;
         scar.seed = seed;
         add(part, scar);
     }
@@ -335,7 +349,8 @@ class Planner {
         const double middle = 1.0 - 0.5 * out + 0.03;
         scar.middle_x = single(middle * turn.cosine);
         scar.middle_y = single(middle * turn.sine);
-        scar.reach = single(std::max(1.35 * half_width + 2.0 * rim, 0.5 * out + 0.08) + 0.06);
+        scar.reach = scar.rows =
+            single(std::max(1.35 * half_width + 2.0 * rim, 0.5 * out + 0.08) + 0.06);
         scar.seed = Random(params_.seed, purposes::scars + 7U, id).bits();
         add(part, scar);
     }
@@ -349,21 +364,31 @@ void sort_into_rows(PaintPlan& plan, int part) {
     auto& by_row = plan.scars.by_row[static_cast<std::size_t>(part)];
     if (scars.empty()) return;
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
-    // One row more at each side, whose heights give the slopes of the first and the last.
-    by_row.resize(static_cast<std::size_t>(frame.height) + 2);
     const double inset = frame.inset;
-    for (std::size_t i = 0; i < scars.size(); ++i) {
-        const double per = part == 2 ? 1.0 - 2.0 * inset : 0.5 - inset;
-        const double middle = (part == 2 ? inset + per * static_cast<double>(scars[i].middle_y)
-                                         : 0.5 + per * static_cast<double>(scars[i].middle_y)) *
+    const double per = part == 2 ? 1.0 - 2.0 * inset : 0.5 - inset;
+    const double last = frame.height + 1.0;
+    struct Rows {
+        std::size_t from, to;
+    };
+    std::vector<Rows> crossed;
+    crossed.reserve(scars.size());
+    by_row.first.assign(static_cast<std::size_t>(frame.height) + 3, 0);
+    for (const Scar& scar : scars) {
+        const double middle = (part == 2 ? inset + per * static_cast<double>(scar.middle_y)
+                                         : 0.5 + per * static_cast<double>(scar.middle_y)) *
                               frame.height;
-        const double half = static_cast<double>(scars[i].reach) * per * frame.height + 1.0;
-        const double last = frame.height + 1.0;
-        const int from = static_cast<int>(std::clamp(middle - half + 1.0, 0.0, last));
-        const int to = static_cast<int>(std::clamp(middle + half + 2.0, 0.0, last));
-        for (int y = from; y < to; ++y)
-            by_row[static_cast<std::size_t>(y)].push_back(static_cast<int>(i));
+        const double half = static_cast<double>(scar.rows) * per * frame.height + 1.0;
+        const Rows rows{static_cast<std::size_t>(std::clamp(middle - half + 1.0, 0.0, last)),
+                        static_cast<std::size_t>(std::clamp(middle + half + 2.0, 0.0, last))};
+        crossed.push_back(rows);
+        for (std::size_t y = rows.from; y < rows.to; ++y) ++by_row.first[y + 1];
     }
+    std::partial_sum(by_row.first.begin(), by_row.first.end(), by_row.first.begin());
+    by_row.scar.resize(by_row.first.back());
+    std::vector<std::uint32_t> next = by_row.first;
+    for (std::size_t i = 0; i < crossed.size(); ++i)
+        for (std::size_t y = crossed[i].from; y < crossed[i].to; ++y)
+            by_row.scar[next[y]++] = static_cast<std::uint32_t>(i);
 }
 
 }  // namespace

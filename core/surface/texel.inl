@@ -14,6 +14,10 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
+inline constexpr int widest = 2048;
+inline constexpr int padded =
+    widest + 32;  // else the planes of a row would compete for the same lines of the cache
+
 struct Rgb {
     VF r, g, b;
 };
@@ -73,6 +77,30 @@ HWY_INLINE DiscPoint disc_point_of(const DiscPlan& plan, VF x, VF y) {
     }
     p.widening = p.radius * hn::Max(inverse, set(1.0F));
     return p;
+}
+
+/// Where a row crosses an ellipse: middle from the ellipse's own, and half length; 0 when it passes by.
+struct Chord {
+    float middle = 0.0F, half = 0.0F;
+};
+
+/// oval    along_x, along_y, per_length, per_width: the way of one axis, and one over the half axes
+/// dy      of the row from the oval's middle
+/// window  square of the ellipse's size, in those half axes
+template <class Oval>
+HWY_INLINE Chord chord_of(const Oval& oval, float dy, float window) {
+    const float l = oval.per_length * oval.per_length;
+    const float w = oval.per_width * oval.per_width;
+    const float ax = oval.along_x;
+    const float ay = oval.along_y;
+    const float square = ax * ax * l + ay * ay * w;
+    const float cross = dy * ax * ay * (l - w);
+    const float rest = dy * dy * (ay * ay * l + ax * ax * w) - window;
+    const float inside = cross * cross - square * rest;
+    if (inside <= 0.0F) return {};
+    HWY_ALIGN float root[8] = {};
+    hn::Store(hn::Sqrt(set(inside)), Floats(), root);
+    return {0.0F - cross / square, root[0] / square};
 }
 
 /// Angle of a unit vector in turns, 0..1.

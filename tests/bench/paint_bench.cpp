@@ -1,10 +1,11 @@
-// How long painting takes: plain and with every feature, by side, and with each instruction set.
+// How long painting takes: plain and with every feature, by side, clean and worn, and with each instruction set.
 #include <benchmark/benchmark.h>
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
+#include "core/grow/painting.h"
 #include "core/math/noise.h"
 #include "core/surface/codecs.h"
 #include "core/surface/dissolve.h"
@@ -113,7 +114,27 @@ void paint_pixels_with(benchmark::State& state, const std::string& simd) {
     force_simd("auto");
 }
 
+// A species of the atlas with every effect of weathering at one amount, painted and encoded.
+void paint_weathered(benchmark::State& state, const std::string& id, double amount) {
+    MushroomOrder order;
+    order.mix.push_back({id});
+    order.params.texture_size.value = 512;
+    PaintParams params = paint_recipe(order, *built_in_atlas()).front().painting;
+    PaintedWeathering<Plain>::fields(
+        [&](auto effect, const Info&) { params.weathering.*effect = amount; });
+    for (auto _ : state) benchmark::DoNotOptimize(paint(params).bytes());
+}
+
 const int registered = [] {
+    const auto atlas = built_in_atlas();
+    for (const AtlasEntry& entry : atlas->entries()) {
+        const std::string id = entry.species.id.string();
+        for (const double amount : {0.0, 1.0})
+            benchmark::RegisterBenchmark(
+                ("paint_" + std::string(amount > 0.0 ? "worn" : "clean") + "/" + id).c_str(),
+                [id, amount](benchmark::State& state) { paint_weathered(state, id, amount); })
+                ->Unit(benchmark::kMillisecond);
+    }
     for (const std::string& name : simd_names())
         if (name != "auto")
             benchmark::RegisterBenchmark(("paint_pixels_512/" + name).c_str(), paint_pixels_with,
