@@ -55,8 +55,8 @@ Fork fork_of(const std::array<glm::dvec3, 3>& limbs, double factor) {
             half < 0.5 * pi
                 ? cosine(half) * fork.cone / std::sqrt(std::max(1e-9, 1.0 - fork.cone * fork.cone))
                 : 0.0;
-        fork.crotch[k] = distance * (middle.cosine * first + middle.sine * second +
-                                     rise * fork.pole);
+        fork.crotch[k] =
+            distance * (middle.cosine * first + middle.sine * second + rise * fork.pole);
     }
     return fork;
 }

@@ -14,8 +14,8 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffU;
 
-// Distances from where a fork or a bend ends to the rings beyond, in radii: the second ring, so that what the skin makes of the fork
-// has faded there.
+// Distances from where a fork or a bend ends to the rings beyond, in radii: the second ring of a fork, so that what
+// the skin makes of its crotches has faded there.
 constexpr double first_ring = 0.7, second_ring = 1.45;
 // Rings nearer to each other than this are one, in radii.
 constexpr double ring_gap = 0.7;
@@ -178,10 +178,10 @@ class Builder {
         std::vector<double> places;
         if (!gentle(step.from)) {
             places.push_back(low + first_ring * a.radius);
-            places.push_back(low + second_ring * a.radius);
+            if (forks_[step.from] != none) places.push_back(low + second_ring * a.radius);
         }
         if (!gentle(step.to)) {
-            places.push_back(high - second_ring * b.radius);
+            if (forks_[step.to] != none) places.push_back(high - second_ring * b.radius);
             places.push_back(high - first_ring * b.radius);
         }
         const double least = low + 0.5 * ring_gap * a.radius;
