@@ -4,13 +4,12 @@
 
 #include <array>
 #include <glm/vec3.hpp>
-#include <span>
 
 namespace sporeprint {
 
 /// Control points of a fork of three limbs about the origin, in radii of its node: two poles that are equally far from all three
 /// limbs, and a crotch between each two.
-/// source algorithms of scaffolds by spherical Voronoi cells: each limb owns the lune between its crotches
+/// Each limb owns the lune between its crotches: the poles are where the cells of the three meet on a sphere.
 struct Fork {
     std::array<std::size_t, 3> order{};  ///< limbs, counter-clockwise about the pole
     glm::dvec3 pole{0.0};                ///< unit

@@ -1,6 +1,5 @@
 #include "core/skeleton/skin.h"
 
-#include <opensubdiv/far/primvarRefiner.h>
 #include <opensubdiv/far/topologyDescriptor.h>
 #include <opensubdiv/far/topologyRefinerFactory.h>
 
@@ -17,39 +16,81 @@ namespace {
 namespace Far = OpenSubdiv::Far;
 namespace Sdc = OpenSubdiv::Sdc;
 
-// What OpenSubdiv adds up. In double, so that the float of a vertex is rounded once.
-struct Point {
-    glm::dvec3 place{0.0};
-    void Clear() { place = glm::dvec3(0.0); }
-    void AddWithWeight(const Point& other, double weight) { place += weight * other.place; }
-};
-
 struct Fine {
-    std::vector<Point> points;
+    std::vector<glm::dvec3> points;
     std::vector<std::array<std::uint32_t, 4>>
         quads;  ///< 4^levels to each of the scaffold, in order
-    std::vector<std::array<Scaffold::Place, 4>> places;
 };
 
-// Corner places of the four children of a quad: each keeps its own corner, then goes on round the middle.
-void add_children(const std::array<Scaffold::Place, 4>& parent,
-                  std::vector<std::array<Scaffold::Place, 4>>& out) {
-    const Scaffold::Place middle = 0.25 * (parent[0] + parent[1] + parent[2] + parent[3]);
-    for (std::size_t i = 0; i < 4; ++i) {
-        std::array<Scaffold::Place, 4> child;
-        child[i] = parent[i];
-        child[(i + 1) % 4] = 0.5 * (parent[i] + parent[(i + 1) % 4]);
-        child[(i + 2) % 4] = middle;
-        child[(i + 3) % 4] = 0.5 * (parent[i] + parent[(i + 3) % 4]);
-        out.push_back(child);
+// Where the corners of its descendants lie in a quad whose corners are (0, 0), (1, 0), (1, 1), (0, 1): of its four children each
+// keeps a corner, then goes on round the middle.
+std::vector<std::array<glm::dvec2, 4>> descendants(int levels) {
+    std::vector<std::array<glm::dvec2, 4>> places = {{{{0, 0}, {1, 0}, {1, 1}, {0, 1}}}};
+    for (int level = 0; level < levels; ++level) {
+        std::vector<std::array<glm::dvec2, 4>> children;
+        for (const std::array<glm::dvec2, 4>& parent : places) {
+            const glm::dvec2 middle = 0.25 * (parent[0] + parent[1] + parent[2] + parent[3]);
+            for (std::size_t i = 0; i < 4; ++i) {
+                std::array<glm::dvec2, 4> child;
+                child[i] = parent[i];
+                child[(i + 1) % 4] = 0.5 * (parent[i] + parent[(i + 1) % 4]);
+                child[(i + 2) % 4] = middle;
+                child[(i + 3) % 4] = 0.5 * (parent[i] + parent[(i + 3) % 4]);
+                children.push_back(child);
+            }
+        }
+        places = std::move(children);
     }
+    return places;
+}
+
+Scaffold::Place placed(const std::array<Scaffold::Place, 4>& quad, const glm::dvec2& at) {
+    const Scaffold::Place low = quad[0] + at.x * (quad[1] - quad[0]);
+    const Scaffold::Place high = quad[3] + at.x * (quad[2] - quad[3]);
+    return low + at.y * (high - low);
+}
+
+// Points of the next level of a closed mesh: middles of faces, of edges with their faces, and vertices drawn in by their
+// neighbours. OpenSubdiv's own masks would be the same, but their headers call libm for tangents that nobody asks for.
+// source [CatmullClark1978]
+std::vector<glm::dvec3> refined(const Far::TopologyLevel& level,
+                                const std::vector<glm::dvec3>& points) {
+    const auto at = [](int index) { return static_cast<std::size_t>(index); };
+    std::vector<glm::dvec3> next(
+        at(level.GetNumVertices() + level.GetNumEdges() + level.GetNumFaces()));
+    for (int face = 0; face < level.GetNumFaces(); ++face) {
+        const Far::ConstIndexArray v = level.GetFaceVertices(face);
+        next[at(level.GetFaceChildVertex(face))] =
+            0.25 * (points[at(v[0])] + points[at(v[1])] + points[at(v[2])] + points[at(v[3])]);
+    }
+    for (int edge = 0; edge < level.GetNumEdges(); ++edge) {
+        const Far::ConstIndexArray v = level.GetEdgeVertices(edge);
+        const Far::ConstIndexArray f = level.GetEdgeFaces(edge);
+        next[at(level.GetEdgeChildVertex(edge))] =
+            0.25 * (points[at(v[0])] + points[at(v[1])] + next[at(level.GetFaceChildVertex(f[0]))] +
+                    next[at(level.GetFaceChildVertex(f[1]))]);
+    }
+    for (int vertex = 0; vertex < level.GetNumVertices(); ++vertex) {
+        const Far::ConstIndexArray edges = level.GetVertexEdges(vertex);
+        glm::dvec3 around(0.0);
+        for (int i = 0; i < edges.size(); ++i) {
+            const Far::ConstIndexArray v = level.GetEdgeVertices(edges[i]);
+            around += points[at(v[0] == vertex ? v[1] : v[0])];
+        }
+        const Far::ConstIndexArray faces = level.GetVertexFaces(vertex);
+        for (int i = 0; i < faces.size(); ++i)
+            around += next[at(level.GetFaceChildVertex(faces[i]))];
+        const double valence = edges.size();
+        next[at(level.GetVertexChildVertex(vertex))] =
+            ((valence - 2.0) / valence) * points[at(vertex)] + around / (valence * valence);
+    }
+    return next;
 }
 
 Fine subdivided(const Scaffold& coarse, int levels) {
     Fine fine;
-    fine.places = coarse.places;
     if (levels == 0 || coarse.quads.empty()) {
-        for (const glm::dvec3& point : coarse.points) fine.points.push_back({point});
+        fine.points = coarse.points;
         fine.quads = coarse.quads;
         return fine;
     }
@@ -67,21 +108,10 @@ Fine subdivided(const Scaffold& coarse, int levels) {
         Factory::Create(descriptor, Factory::Options(Sdc::SCHEME_CATMARK)));
     if (!refiner) throw GenerationError("the scaffold of a skeleton is no mesh");
     refiner->RefineUniform(Far::TopologyRefiner::UniformOptions(levels));
-    const Far::PrimvarRefiner interpolate(*refiner);
-    std::vector<Point> points;
-    points.reserve(coarse.points.size());
-    for (const glm::dvec3& point : coarse.points) points.push_back({point});
+    fine.points = coarse.points;
     for (int level = 1; level <= levels; ++level) {
-        std::vector<Point> next(
-            static_cast<std::size_t>(refiner->GetLevel(level).GetNumVertices()));
-        interpolate.Interpolate(level, points, next);
-        points = std::move(next);
-        std::vector<std::array<Scaffold::Place, 4>> children;
-        children.reserve(4 * fine.places.size());
-        for (const auto& parent : fine.places) add_children(parent, children);
-        fine.places = std::move(children);
+        fine.points = refined(refiner->GetLevel(level - 1), fine.points);
     }
-    fine.points = std::move(points);
     const Far::TopologyLevel& last = refiner->GetLevel(levels);
     fine.quads.reserve(static_cast<std::size_t>(last.GetNumFaces()));
     for (int face = 0; face < last.GetNumFaces(); ++face) {
@@ -100,9 +130,8 @@ SkinnedSkeleton skinned(const Skeleton& clean, int levels) {
     const Fine fine = subdivided(coarse, levels);
     std::vector<glm::dvec3> normals(fine.points.size(), glm::dvec3(0.0));
     for (const auto& quad : fine.quads) {
-        const glm::dvec3 across =
-            glm::cross(fine.points[quad[2]].place - fine.points[quad[0]].place,
-                       fine.points[quad[3]].place - fine.points[quad[1]].place);
+        const glm::dvec3 across = glm::cross(fine.points[quad[2]] - fine.points[quad[0]],
+                                             fine.points[quad[3]] - fine.points[quad[1]]);
         for (const std::uint32_t corner : quad) normals[corner] += across;
     }
     for (glm::dvec3& normal : normals) {
@@ -119,22 +148,29 @@ SkinnedSkeleton skinned(const Skeleton& clean, int levels) {
     std::array<std::vector<std::uint32_t>, 4> copy;
     for (auto& one : copy) one.assign(fine.points.size(), unused);
     std::vector<std::pair<std::size_t, std::uint32_t>> touched;
-    const std::size_t share = std::size_t{1} << static_cast<std::size_t>(2 * levels);
+    const std::vector<std::array<glm::dvec2, 4>> inner = descendants(levels);
+    const std::size_t share = inner.size();
     mesh.indices.reserve(6 * fine.quads.size());
+    // The seam adds a vertex to every ring.
+    const std::size_t about = fine.points.size() + fine.points.size() / 8;
+    mesh.positions.reserve(about);
+    mesh.normals.reserve(about);
+    made.places.reserve(about);
+    made.strip_of.reserve(about);
     for (std::uint32_t s = 0; s < coarse.strips.size(); ++s) {
         const Scaffold::Strip& strip = coarse.strips[s];
         for (std::size_t q = strip.first * share; q < (strip.first + strip.quads) * share; ++q) {
             std::array<std::uint32_t, 4> out{};
             for (std::size_t k = 0; k < 4; ++k) {
                 const std::uint32_t point = fine.quads[q][k];
-                const Scaffold::Place& place = fine.places[q][k];
+                const Scaffold::Place place = placed(coarse.places[q / share], inner[q % share][k]);
                 const std::size_t side =
                     (place.x > 0.5 ? 1U : 0U) + (place.y > 0.5 * strip.length ? 2U : 0U);
                 std::uint32_t& vertex = copy[side][point];
                 if (vertex == unused) {
                     vertex = static_cast<std::uint32_t>(mesh.positions.size());
                     touched.emplace_back(side, point);
-                    mesh.positions.emplace_back(fine.points[point].place);
+                    mesh.positions.emplace_back(fine.points[point]);
                     mesh.normals.emplace_back(normals[point]);
                     made.places.push_back(place);
                     made.strip_of.push_back(s);

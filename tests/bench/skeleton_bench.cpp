@@ -1,0 +1,58 @@
+// Skins of branching shapes: a wandering root system with side branches, as many nodes as the argument says.
+
+#include <benchmark/benchmark.h>
+
+#include <cmath>
+#include <vector>
+
+#include "core/math/random.h"
+#include "core/plant/ramification.h"
+#include "core/skeleton/skin.h"
+
+namespace {
+
+using namespace sporeprint;
+
+Skeleton roots(std::uint32_t nodes) {
+    Random random(5, 1);
+    Skeleton skeleton{{{{0, 0, 0}, 0.01}}, {}};
+    std::vector<double> headings = {0.0};
+    for (std::uint32_t i = 1; i < nodes; ++i) {
+        const double goes_on = random.uniform(), from = random.uniform(), turn = random.symmetric();
+        const auto parent = goes_on < 0.8 ? i - 1 : static_cast<std::uint32_t>(from * i);
+        headings.push_back(headings[parent] + (goes_on < 0.8 ? 0.4 : 3.1) * turn);
+        skeleton.nodes.push_back(
+            {skeleton.nodes[parent].place +
+                 0.08 * glm::dvec3(std::cos(headings.back()), 0.0, std::sin(headings.back())),
+             0.01});
+        skeleton.limbs.push_back({parent, i});
+    }
+    return skeleton;
+}
+
+void skin_of_roots(benchmark::State& state) {
+    const Skeleton skeleton = roots(static_cast<std::uint32_t>(state.range(0)));
+    std::size_t triangles = 0;
+    for (auto _ : state) {
+        const SkinnedSkeleton made = skinned(cleaned(skeleton).skeleton, 2);
+        triangles = made.mesh.triangles();
+        benchmark::DoNotOptimize(made.mesh.positions.data());
+    }
+    state.counters["triangles"] = static_cast<double>(triangles);
+    state.SetComplexityN(state.range(0));
+}
+BENCHMARK(skin_of_roots)
+    ->Arg(1000)
+    ->Arg(5000)
+    ->Arg(10000)
+    ->Unit(benchmark::kMillisecond)
+    ->Complexity();
+
+void dealt_tree(benchmark::State& state) {
+    const RamificationMatrix matrix = random_binary_matrix(7);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(dealt_ramification(matrix, 7, 1, 100'000).nodes.data());
+}
+BENCHMARK(dealt_tree)->Unit(benchmark::kMicrosecond);
+
+}  // namespace
