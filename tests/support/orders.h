@@ -16,6 +16,7 @@
 #include "core/grow/mushroom.h"
 #include "core/params/problems.h"
 #include "tests/core/params/arbitrary.h"
+#include "tests/support/refusals.h"
 
 namespace sporeprint {
 
@@ -123,29 +124,6 @@ inline Bytes joined(const Body& body) {
     for (const Slice& slice : body)
         bytes.insert(bytes.end(), slice.data(), slice.data() + slice.size);
     return bytes;
-}
-
-/// The problems that `work` is refused with; none when it goes through.
-template <class Work>
-std::vector<Problem> refusal(const Work& work) {
-    try {
-        work();
-    } catch (const InvalidInput& refused) {
-        return refused.problems();
-    }
-    return {};
-}
-
-/// Whether `problems` has one with this path, and words of its message.
-inline ::testing::AssertionResult names(const std::vector<Problem>& problems,
-                                        const std::string& path, const std::string& words = "") {
-    auto result = ::testing::AssertionFailure() << "no problem \"" << path << ": " << words << "\"";
-    for (const Problem& problem : problems) {
-        if (problem.path == path && problem.message.find(words) != std::string::npos)
-            return ::testing::AssertionSuccess();
-        result << "\n  " << problem.path << ": " << problem.message;
-    }
-    return result;
 }
 
 /// Random parameters inside their ranges, for RapidCheck. Cross-field rules are kept.

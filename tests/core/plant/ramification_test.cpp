@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "tests/support/effort.h"
-#include "tests/support/orders.h"
+#include "tests/support/refusals.h"
 
 namespace sporeprint {
 namespace {

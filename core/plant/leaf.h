@@ -1,0 +1,124 @@
+// A leaf as a closed thin shell, cut out without alpha, with its petiole.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "core/mesh/mesh.h"
+#include "core/plant/leaf_colour.h"
+#include "core/plant/venation.h"
+
+namespace sporeprint {
+
+/// What a leaf is made from.
+struct LeafShape {
+    Venation venation;
+    double length = 0.08;
+    double petiole = 0.35;
+    double thickness = 0.006;
+    double relief = 0.6;
+    double curl_deg = 25.0;
+    double fold_deg = 10.0;
+    double wave = 0.2;
+    double waves = 2.0;
+
+    static constexpr void fields(auto visit) {
+        using L = LeafShape;
+        visit(&L::venation, Info{.name = ""});
+        visit(&L::length, Info{.name = "length",
+                               .unit = "m",
+                               .min = 0.004,
+                               .max = 1,
+                               .doc = "From the root of the limb to its tip."});
+        visit(&L::petiole, Info{.name = "petiole",
+                                .min = 0.02,
+                                .max = 2,
+                                .doc = "Length of the petiole, in lengths of the limb."});
+        visit(&L::thickness, Info{.name = "thickness",
+                                  .min = 0.002,
+                                  .max = 0.05,
+                                  .doc = "Of the limb in its middle, in lengths of it; its border "
+                                         "is sharp."});
+        visit(&L::relief, Info{.name = "relief",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "How far veins lie in the upper face and stand out of the "
+                                      "lower one."});
+        visit(&L::curl_deg, Info{.name = "curl_deg",
+                                 .unit = "deg",
+                                 .min = -180,
+                                 .max = 180,
+                                 .doc = "Bend along the middle vein, downwards from root to tip."});
+        visit(&L::fold_deg, Info{.name = "fold_deg",
+                                 .unit = "deg",
+                                 .min = -50,
+                                 .max = 60,
+                                 .doc = "How far both sides stand up from the middle vein."});
+        visit(
+            &L::wave,
+            Info{
+                .name = "wave", .min = 0, .max = 1, .doc = "How far the border goes up and down."});
+        visit(&L::waves, Info{.name = "waves",
+                              .min = 0.5,
+                              .max = 6,
+                              .doc = "Ups and downs from the root to the tip."});
+    }
+    bool operator==(const LeafShape&) const = default;
+};
+static_assert(well_described<LeafShape>());
+
+/// A leaf to begin with.
+struct LeafPreset {
+    const char* id;
+    const char* name;
+    LeafShape shape;
+    LeafPalette palette;
+};
+
+/// maple, oak, birch, ivy, fern, needle.
+[[nodiscard]] std::span<const LeafPreset> leaf_presets();
+/// nullptr if there is none.
+[[nodiscard]] const LeafPreset* leaf_preset(std::string_view id);
+
+/// Where a leaf lies on its image: the upper face in the left half, the lower one in the right half, both from above,
+/// and under them a strip for the petiole.
+struct LeafChart {
+    glm::dvec2 corner{0.0};  ///< of the limb's box, in its plane
+    double scale = 1.0;      ///< texture lengths per length of the limb
+
+    [[nodiscard]] glm::dvec2 texture_point(const glm::dvec2& place, bool upper) const;
+    /// The way back; whether a texture point is on either face at all is for a LimbReader to say.
+    [[nodiscard]] glm::dvec2 place(const glm::dvec2& texture_point, bool& upper) const;
+};
+/// Top of the petiole's strip; v goes down as in glTF.
+inline constexpr double petiole_strip = 0.94;
+[[nodiscard]] LeafChart chart_of(const Limb& limb);
+
+/// Levels of detail of a lone leaf; foliage_leaf() is the level beyond.
+inline constexpr int leaf_lods = 3;
+
+/// Steps that limb_of() takes for a leaf at a level of detail.
+[[nodiscard]] int leaf_steps(const Venation& venation, int lod);
+
+/// The whole leaf: pivot at the far end of the petiole, the limb along +z, its upper face up.
+///
+/// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source
+/// returns  two closed pieces: limb, its veins as relief, and petiole
+/// throws   InvalidInput with all that check() finds
+[[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod);
+
+/// Most triangles of foliage_leaf().
+inline constexpr std::size_t most_foliage_triangles = 16;
+
+/// The leaf of a tree: one closed piece of a few triangles with the area of the limb, seen from above, without a petiole
+/// (root of the limb at the origin).
+///
+/// triangles  even, 6..16
+[[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
+                                std::size_t triangles = most_foliage_triangles);
+
+/// Area of the limb in its plane, square metres.
+[[nodiscard]] double limb_area(const LeafShape& shape);
+
+}  // namespace sporeprint

@@ -1,0 +1,489 @@
+#include "core/plant/venation.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <utility>
+
+#include "core/math/elementary.h"
+#include "core/params/messages.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr double most_turn_deg = 165.0;                // of the outermost main vein
+constexpr double behind_deg = 177.0, clear_deg = 3.0;  // nothing comes nearer to the petiole's line
+constexpr double least_reach_deg = 5.0;  // side veins rise by this over the ray to the neighbour
+constexpr double web = 0.08;             // neighbours are joined so far at least
+constexpr double blade = 0.02;           // half as wide is a lobe at least
+constexpr double apart = 0.97;           // what is not joined keeps from the ray between
+constexpr double least_gap = 1e-3;       // between two feet of a border
+
+double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
+
+double edge_length(const Venation& venation, int d) {
+    switch (venation.law) {
+        case LengthLaw::constant:
+            return 1.0;
+        case LengthLaw::linear:
+            return 1.0 + venation.rise * d;
+        case LengthLaw::logarithmic:
+            return 1.0 + venation.rise * logarithm(1.0 + d);
+    }
+    return 1.0;
+}
+
+// A place of the border over the main vein: its foot and its height.
+using Rise = glm::dvec2;
+
+// The corners of a half's border: the ends of veins lifted by the border factor, and what lies between two of them.
+struct Corner {
+    Rise at{0.0};
+    bool end = false;  ///< of a vein
+};
+
+// Half the width of a lobe that has nothing but its main vein.
+double bare(const Lobe& lobe, double foot) {
+    const double share = foot / lobe.reach;
+    return blade * lobe.reach * 4.0 * share * (1.0 - share);
+}
+
+std::vector<Corner> corners_of(const Venation& venation, const Lobe& lobe, const HalfLobe& half) {
+    std::vector<Corner> ends = {{{0.0, 0.0}, true}};
+    for (const HalfLobe::SideVein& vein : half.side_veins)
+        ends.push_back({{vein.foot, venation.border * vein.length}, true});
+    if (half.side_veins.empty())
+        ends.push_back({{0.5 * lobe.reach, bare(lobe, 0.5 * lobe.reach)}, true});
+    ends.push_back({{lobe.reach, 0.0}, true});
+    if (venation.sinus == 0.0) return ends;
+    std::vector<Corner> corners = {ends[0], ends[1]};
+    for (std::size_t i = 2; i < ends.size(); ++i) {
+        Rise between = 0.5 * (ends[i - 1].at + ends[i].at);
+        between.y *= 1.0 - venation.sinus;
+        corners.push_back({between, false});
+        corners.push_back(ends[i]);
+    }
+    return corners;
+}
+
+// Tangents of a cubic may not carry its feet beyond its middle, nor its heights below the main vein: then it stays a function.
+Rise held(const Rise& from, const Rise& tangent, double sign, const Rise& other) {
+    const Rise handle = from + (sign / 3.0) * tangent;
+    const double middle = 0.5 * (from.x + other.x);
+    return {
+        sign > 0.0 ? std::clamp(handle.x, from.x, middle) : std::clamp(handle.x, middle, from.x),
+        std::max(handle.y, 0.0)};
+}
+
+std::vector<Rise> drawn_border(const Venation& venation, const Lobe& lobe, std::size_t which,
+                               int steps) {
+    const HalfLobe& half = lobe.halves[which];
+    const std::vector<Corner> corners = corners_of(venation, lobe, half);
+    std::vector<Rise> border = {corners.front().at};
+    const int teeth = steps == 1 || venation.teeth == 0.0 ? 0
+                      : venation.sinus == 0.0             ? venation.teeth_per_vein
+                                                          : (venation.teeth_per_vein + 1) / 2;
+    for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
+        const Rise from = corners[i].at, to = corners[i + 1].at, chord = to - from;
+        const auto tangent = [&](std::size_t k) {
+            Rise turned = chord;
+            if (k == 0) {
+                turned = {0.25 * chord.x, 1.25 * chord.y};
+            } else if (k + 1 == corners.size()) {
+                const SineCosine side = sine_cosine(lobe.side_angle[which]);
+                const double size = 1.2 * std::abs(chord.y) + 0.2 * chord.x;
+                turned = {size * std::max(0.0, side.cosine), -size};
+            } else {
+                turned = 0.5 * (corners[k + 1].at - corners[k - 1].at);
+            }
+            if (corners[k].end && k > 0) turned += venation.pointed * (chord - turned);
+            return chord + venation.smooth * (turned - chord);
+        };
+        const Rise leaving = held(from, tangent(i), 1.0, to);
+        const Rise arriving = held(to, tangent(i + 1), -1.0, from);
+        const double tooth = teeth == 0 ? 0.0 : venation.teeth * 0.5 * glm::length(chord) / teeth;
+        // A tooth leans to the tip: it rises slowly and falls at once.
+        const int count = teeth > 0 ? 2 * teeth : steps;
+        for (int step = 1; step <= count; ++step) {
+            double t = static_cast<double>(step) / count;
+            double lift = 0.0;
+            if (teeth > 0 && step % 2 == 1) {
+                t = (step - 1 + 1.55) / count;
+                lift = tooth;
+            }
+            const double s = 1.0 - t;
+            border.push_back(s * s * s * from + 3.0 * s * s * t * leaving +
+                             3.0 * s * t * t * arriving + t * t * t * to + Rise(0.0, lift));
+        }
+    }
+    for (Rise& place : border) place.y = std::max(place.y, bare(lobe, place.x));
+    border.front().y = border.back().y = 0.0;
+    return border;
+}
+
+// Height at which the ray of side veins from a foot meets the ray from the root at `limit`; huge where it never does.
+double limit_at(const Lobe& lobe, std::size_t side, double limit, double foot) {
+    const double between = lobe.angle(side, foot) - limit;
+    return between <= 1e-6 ? 1e9 : foot * sine(limit) / sine(between);
+}
+
+// Foot at which a border crosses the ray at `limit` for the last time; 0 if it never reaches it. Inner halves only: there the
+// ray is a straight line over the feet.
+double last_crossing(const Lobe& lobe, std::size_t side, double limit,
+                     const std::vector<Rise>& border) {
+    const double slope = limit_at(lobe, side, limit, 1.0);
+    for (std::size_t i = border.size() - 1; i > 0; --i) {
+        const double after = border[i].y - slope * border[i].x;
+        const double before = border[i - 1].y - slope * border[i - 1].x;
+        if (before >= 0.0 && after < 0.0)
+            return border[i - 1].x + (border[i].x - border[i - 1].x) * before / (before - after);
+    }
+    return 0.0;
+}
+
+// Distance from the root, along the ray at `limit`, of the ray of side veins from a foot of 1.
+double along_limit(const Lobe& lobe, std::size_t side, double limit) {
+    return sine(lobe.side_angle[side]) / sine(lobe.side_angle[side] - limit);
+}
+
+// Cuts a border to its wedge and joins it to its neighbour; `joined` and `own` are feet, the first not beyond the second.
+void settle(const Lobe& lobe, std::size_t side, double joined, double own,
+            const std::vector<Rise>& border, HalfLobe& half) {
+    half.joined = joined;
+    half.feet = {0.0};
+    half.heights = {0.0};
+    const auto put = [&](double foot, double height, double share) {
+        if (foot - half.feet.back() < least_gap * lobe.reach) return;
+        half.feet.push_back(foot);
+        half.heights.push_back(std::min(std::max(height, bare(lobe, foot)),
+                                        share * limit_at(lobe, side, half.limit, foot)));
+    };
+    if (joined > 0.0) {
+        half.feet.push_back(joined);
+        half.heights.push_back(limit_at(lobe, side, half.limit, joined));
+        put(own, 1e9, 1.0);
+    }
+    const double last = half.feet.back(), high = half.heights.back();
+    std::vector<Rise> places = border;
+    // From a web wider than the border the way down is a slope.
+    const double run = 0.6 * high;
+    const auto over = [&](double foot) {
+        return joined > 0.0 ? high - (foot - last) * (high / run) : 0.0;
+    };
+    if (joined > 0.0)
+        for (const double share : {0.5, 1.0}) {
+            const double foot = last + share * run;
+            const auto after =
+                std::upper_bound(places.begin(), places.end(), foot,
+                                 [](double x, const Rise& place) { return x < place.x; });
+            if (after == places.begin() || after == places.end()) continue;
+            const Rise a = *(after - 1), b = *after;
+            const double t = (foot - a.x) / (b.x - a.x);
+            places.insert(after, {foot, a.y + t * (b.y - a.y)});
+        }
+    for (const Rise& place : places)
+        if (place.x > last && place.x < (1.0 - least_gap) * lobe.reach)
+            put(place.x, std::max(place.y, over(place.x)), apart);
+    half.feet.push_back(lobe.reach);
+    half.heights.push_back(0.0);
+}
+
+bool crossing(const Vein& a, const Vein& b) {
+    const glm::dvec2 along = a.to - a.from, other = b.to - b.from;
+    const double sides = cross(along, b.from - a.from) * cross(along, b.to - a.from);
+    const double others = cross(other, a.from - b.from) * cross(other, a.to - b.from);
+    return sides < 0.0 && others < 0.0;
+}
+
+Vein side_vein(const Limb& limb, std::size_t lobe, std::size_t side,
+               const HalfLobe::SideVein& vein) {
+    const Lobe& one = limb.lobes[lobe];
+    return {lobe, false, side, one.place(side, vein.foot, 0.0),
+            one.place(side, vein.foot, vein.length)};
+}
+
+Vein main_vein(const Limb& limb, std::size_t lobe) {
+    return {lobe, true, 0, glm::dvec2(0.0),
+            limb.lobes[lobe].place(0, limb.lobes[lobe].nodes.back(), 0.0)};
+}
+
+// Goes through the lobes from the middle out; what crosses anything that stays is deleted.
+void delete_crossings(Limb& limb) {
+    const std::size_t count = limb.lobes.size(), middle = count / 2;
+    std::vector<Vein> kept;
+    for (std::size_t lobe = 0; lobe < count; ++lobe) kept.push_back(main_vein(limb, lobe));
+    for (std::size_t out = 0; out <= middle; ++out)
+        for (const std::size_t lobe : {middle - out, middle + out}) {
+            if (out == 0 && lobe != middle) continue;
+            const std::size_t before = kept.size();
+            for (std::size_t side = 0; side < 2; ++side) {
+                std::vector<HalfLobe::SideVein>& veins = limb.lobes[lobe].halves[side].side_veins;
+                std::vector<HalfLobe::SideVein> stay;
+                for (const HalfLobe::SideVein& vein : veins) {
+                    const Vein line = side_vein(limb, lobe, side, vein);
+                    // Veins of one lobe do not cross: their rays part.
+                    const bool crosses =
+                        std::any_of(kept.begin(), kept.begin() + static_cast<long>(before),
+                                    [&](const Vein& other) {
+                                        return other.lobe != lobe && crossing(line, other);
+                                    });
+                    if (!crosses) {
+                        stay.push_back(vein);
+                        kept.push_back(line);
+                    }
+                }
+                veins = std::move(stay);
+            }
+            if (out == 0) break;
+        }
+}
+
+}  // namespace
+
+void Venation::check(const std::string& path, std::vector<Problem>& problems) const {
+    const int pairs = lobes.value / 2;
+    if (pairs * vein_deg > most_turn_deg)
+        report(problems, path + "/vein_deg",
+               number_text(vein_deg) + " would turn the outermost of " +
+                   std::to_string(lobes.value) + " lobes onto the petiole; at most " +
+                   number_text(std::floor(most_turn_deg / pairs)));
+    if (pairs > 0 && side_deg < 0.5 * vein_deg + least_reach_deg)
+        report(problems, path + "/side_deg",
+               number_text(side_deg) +
+                   " is too flat for side veins to reach the next lobe; at "
+                   "least half of vein_deg and " +
+                   number_text(least_reach_deg));
+}
+
+double HalfLobe::height(double foot) const {
+    const auto after = std::upper_bound(feet.begin(), feet.end(), foot);
+    if (after == feet.begin() || after == feet.end()) return 0.0;
+    const auto i = static_cast<std::size_t>(after - feet.begin());
+    const double t = (foot - feet[i - 1]) / (feet[i] - feet[i - 1]);
+    return heights[i - 1] + t * (heights[i] - heights[i - 1]);
+}
+
+double Lobe::angle(std::size_t side, double foot) const {
+    const double left = 1.0 - foot / reach;
+    return side_angle[side] + (base_angle[side] - side_angle[side]) * left * left;
+}
+
+glm::dvec2 Lobe::place(std::size_t side, double foot, double height) const {
+    const SineCosine at = sine_cosine(angle(side, foot)), turned = sine_cosine(turn);
+    const double along = foot + height * at.cosine;
+    const double left = (side == 0 ? height : -height) * at.sine;
+    return {-turned.sine * along - turned.cosine * left,
+            turned.cosine * along - turned.sine * left};
+}
+
+Limb limb_of(const Venation& venation, int steps) {
+    std::vector<Problem> problems;
+    sporeprint::check(venation, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    const int pairs = venation.lobes.value / 2;
+    const double between = radians(venation.vein_deg), rim = radians(behind_deg);
+    Limb limb;
+    double unit = 1.0;
+    // The middle lobe is laid out first: its reach is the unit.
+    for (int j = 0; j <= pairs; ++j) {
+        Lobe lobe;
+        const int nodes = std::max(
+            2, venation.nodes - static_cast<int>(std::floor(venation.node_loss * j + 0.5)));
+        double along = 0.0, edge = 0.0;
+        std::vector<HalfLobe::SideVein> side_veins;
+        for (int q = 0; q < nodes; ++q) {
+            edge = edge_length(venation, nodes - q);
+            if (q > 0) {
+                const double on = static_cast<double>(q) / nodes, back = 1.0 - on;
+                side_veins.push_back({along, edge * venation.side_length *
+                                                 (1.0 - venation.narrow_base * back * back) *
+                                                 (1.0 - venation.narrow_tip * on * on)});
+            }
+            along += edge;
+            lobe.nodes.push_back(along);
+        }
+        lobe.reach = along + (venation.border - 1.0) * edge;
+        if (j == 0) unit = 1.0 / lobe.reach;
+        for (double& node : lobe.nodes) node *= unit;
+        for (HalfLobe::SideVein& vein : side_veins) vein = {vein.foot * unit, vein.length * unit};
+        lobe.reach *= unit;
+        lobe.turn = j * between;
+        const double side = radians(venation.side_deg);
+        lobe.side_angle = {side, side};
+        if (j == pairs) {
+            // Rays that stay ahead of the petiole's line never meet it.
+            const double room = rim - lobe.turn - radians(clear_deg);
+            lobe.side_angle[0] = std::min(side, room);
+            lobe.base_angle[0] = std::min(side + radians(venation.base_deg), room);
+            if (pairs > 0) lobe.base_angle[1] = side;
+        } else {
+            lobe.base_angle = lobe.side_angle;
+        }
+        if (pairs == 0) {
+            lobe.side_angle[1] = lobe.side_angle[0];
+            lobe.base_angle[1] = lobe.base_angle[0];
+        }
+        for (HalfLobe& half : lobe.halves) half.side_veins = side_veins;
+        limb.lobes.push_back(lobe);
+        if (j == 0) continue;
+        std::swap(lobe.side_angle[0], lobe.side_angle[1]);
+        std::swap(lobe.base_angle[0], lobe.base_angle[1]);
+        lobe.turn = -lobe.turn;
+        limb.lobes.insert(limb.lobes.begin(), lobe);
+    }
+    delete_crossings(limb);
+
+    const std::size_t count = limb.lobes.size();
+    std::vector<std::array<std::vector<Rise>, 2>> drawn(count);
+    for (std::size_t i = 0; i < count; ++i)
+        for (std::size_t side = 0; side < 2; ++side)
+            drawn[i][side] = drawn_border(venation, limb.lobes[i], side, steps);
+    Lobe& first = limb.lobes.front();
+    Lobe& last = limb.lobes.back();
+    first.halves[1].limit = rim + first.turn;
+    last.halves[0].limit = rim - last.turn;
+    settle(first, 1, 0.0, 0.0, drawn.front()[1], first.halves[1]);
+    settle(last, 0, 0.0, 0.0, drawn.back()[0], last.halves[0]);
+    for (std::size_t i = 0; i + 1 < count; ++i) {
+        Lobe& right = limb.lobes[i];
+        Lobe& left = limb.lobes[i + 1];
+        // Where both borders cross the ray last at one distance from the root, they meet there.
+        const auto reach = [&](const Lobe& lobe, std::size_t side, double limit,
+                               const std::vector<Rise>& border) {
+            return last_crossing(lobe, side, limit, border) * along_limit(lobe, side, limit);
+        };
+        const double flat = radians(venation.side_deg - clear_deg);
+        double low = std::max(0.3 * between, between - flat), high = std::min(0.7 * between, flat);
+        for (int halving = 0; halving < 40; ++halving) {
+            const double limit = 0.5 * (low + high);
+            const double gap = reach(right, 0, limit, drawn[i][0]) -
+                               reach(left, 1, between - limit, drawn[i + 1][1]);
+            (gap > 0.0 ? low : high) = limit;
+        }
+        const double limit = 0.5 * (low + high);
+        right.halves[0].limit = limit;
+        left.halves[1].limit = between - limit;
+        const double from_right = reach(right, 0, limit, drawn[i][0]);
+        const double from_left = reach(left, 1, between - limit, drawn[i + 1][1]);
+        const double least = web * std::min(right.reach, left.reach);
+        const double shared = std::max(std::min(from_right, from_left), least);
+        const double scale_right = along_limit(right, 0, limit);
+        const double scale_left = along_limit(left, 1, between - limit);
+        settle(right, 0, shared / scale_right, std::max(shared, from_right) / scale_right,
+               drawn[i][0], right.halves[0]);
+        settle(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left,
+               drawn[i + 1][1], left.halves[1]);
+    }
+    for (Lobe& lobe : limb.lobes)
+        for (HalfLobe& half : lobe.halves)
+            for (HalfLobe::SideVein& vein : half.side_veins)
+                vein.length = std::min(vein.length, half.height(vein.foot));
+    return limb;
+}
+
+std::vector<Vein> veins_of(const Limb& limb) {
+    std::vector<Vein> veins;
+    for (std::size_t lobe = 0; lobe < limb.lobes.size(); ++lobe)
+        veins.push_back(main_vein(limb, lobe));
+    for (std::size_t lobe = 0; lobe < limb.lobes.size(); ++lobe)
+        for (std::size_t side = 0; side < 2; ++side)
+            for (const HalfLobe::SideVein& vein : limb.lobes[lobe].halves[side].side_veins)
+                veins.push_back(side_vein(limb, lobe, side, vein));
+    return veins;
+}
+
+std::vector<glm::dvec2> border_of(const Limb& limb) {
+    std::vector<glm::dvec2> border = {glm::dvec2(0.0)};
+    for (const Lobe& lobe : limb.lobes) {
+        const HalfLobe& right = lobe.halves[1];
+        for (std::size_t i = 1; i < right.feet.size(); ++i)
+            if (right.feet[i] > right.joined)
+                border.push_back(lobe.place(1, right.feet[i], right.heights[i]));
+        const HalfLobe& left = lobe.halves[0];
+        for (std::size_t i = left.feet.size() - 1; i > 1; --i)
+            if (left.feet[i - 1] >= left.joined)
+                border.push_back(lobe.place(0, left.feet[i - 1], left.heights[i - 1]));
+    }
+    return border;
+}
+
+namespace {
+
+constexpr std::size_t directions = 2048;
+
+}  // namespace
+
+LimbReader::LimbReader(Limb limb) : limb_(std::move(limb)), reach_(directions + 1, 0.0) {
+    const std::vector<glm::dvec2> border = border_of(limb_);
+    const double scale = static_cast<double>(directions) / (2.0 * pi);
+    // Directions are turns to the left of the middle main vein.
+    const auto direction = [&](const glm::dvec2& p) {
+        return (arc_tangent(-p.x, p.y) + pi) * scale;
+    };
+    for (std::size_t i = 1; i + 1 < border.size(); ++i) {
+        const glm::dvec2 a = border[i], b = border[i + 1];
+        const double from = direction(a), to = direction(b);
+        if (std::abs(from - to) > 0.5 * directions) continue;
+        const double low = std::min(from, to), high = std::max(from, to);
+        for (auto k = static_cast<std::size_t>(std::max(0.0, std::floor(low)));
+             k <= directions && static_cast<double>(k) <= high + 1.0; ++k) {
+            const SineCosine ray = sine_cosine(static_cast<double>(k) / scale - pi);
+            const glm::dvec2 along(-ray.sine, ray.cosine);
+            const double across = cross(along, b - a);
+            if (std::abs(across) < 1e-12) continue;
+            const double t = std::clamp(-cross(along, a) / across, 0.0, 1.0);
+            reach_[k] = std::max(reach_[k], glm::dot(along, a + t * (b - a)));
+        }
+    }
+}
+
+LimbPlace LimbReader::at(const glm::dvec2& point) const {
+    LimbPlace place;
+    const double turn = arc_tangent(-point.x, point.y);
+    while (place.lobe + 1 < limb_.lobes.size() &&
+           turn > limb_.lobes[place.lobe].turn + limb_.lobes[place.lobe].halves[0].limit)
+        ++place.lobe;
+    const Lobe& lobe = limb_.lobes[place.lobe];
+    const SineCosine turned = sine_cosine(lobe.turn);
+    const double along = -turned.sine * point.x + turned.cosine * point.y;
+    const double left = -turned.cosine * point.x - turned.sine * point.y;
+    place.side = left >= 0.0 ? 0 : 1;
+    const HalfLobe& half = lobe.halves[place.side];
+    place.from_main = std::abs(left);
+    // The foot whose ray goes through the point: rays part, so there is one at most.
+    const auto excess = [&](double foot) {
+        const SineCosine at = sine_cosine(lobe.angle(place.side, foot));
+        return foot + place.from_main * at.cosine / at.sine - along;
+    };
+    double low = 0.0, high = lobe.reach;
+    if (lobe.base_angle[place.side] == lobe.side_angle[place.side]) {
+        low = high = -excess(0.0);
+    } else {
+        for (int halving = 0; halving < 32; ++halving) {
+            const double middle = 0.5 * (low + high);
+            (excess(middle) < 0.0 ? low : high) = middle;
+        }
+    }
+    place.foot = 0.5 * (low + high);
+    const SineCosine at = sine_cosine(lobe.angle(place.side, place.foot));
+    place.height = place.from_main / at.sine;
+    const double border = half.height(place.foot);
+    place.inside = place.foot >= 0.0 && place.foot <= lobe.reach && place.height <= border &&
+                   excess(0.0) <= 0.0;
+    place.affinity = border > 0.0 ? place.height / border : 1.0;
+    const double where = (turn + pi) * (static_cast<double>(directions) / (2.0 * pi));
+    const auto k = std::min(static_cast<std::size_t>(std::max(where, 0.0)), directions - 1);
+    const double t = where - static_cast<double>(k);
+    const double reach = reach_[k] + t * (reach_[k + 1] - reach_[k]);
+    place.homothety = reach > 0.0 ? std::min(glm::length(point) / reach, 1.0) : 1.0;
+    for (const HalfLobe::SideVein& vein : half.side_veins) {
+        const double from = std::abs(place.foot - vein.foot) * at.sine;
+        if (from >= place.from_side) continue;
+        place.from_side = from;
+        place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
+    }
+    return place;
+}
+
+}  // namespace sporeprint

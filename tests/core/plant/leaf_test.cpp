@@ -1,0 +1,152 @@
+#include "core/plant/leaf.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+
+#include "core/math/elementary.h"
+#include "core/params/corners.h"
+#include "tests/support/draws.h"
+#include "tests/support/effort.h"
+#include "tests/support/meshes.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint {
+namespace {
+
+// The same leaf, flat.
+LeafShape pressed(LeafShape shape) {
+    shape.curl_deg = shape.fold_deg = shape.wave = shape.relief = 0.0;
+    return shape;
+}
+
+// Area of what is seen from above: half of that of both faces, looked at along y.
+double seen_area(const Mesh& mesh) {
+    double twice = 0.0;
+    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
+        const glm::dvec3 a = mesh.positions[mesh.indices[i]];
+        const glm::dvec3 b = mesh.positions[mesh.indices[i + 1]];
+        const glm::dvec3 c = mesh.positions[mesh.indices[i + 2]];
+        twice += std::max(0.0, glm::cross(b - a, c - a).y);
+    }
+    return 0.5 * twice;
+}
+
+TEST(Leaf, PresetsAreClosedShellsAtEveryLevelOfDetail) {
+    ASSERT_EQ(leaf_presets().size(), 6U);
+    for (const LeafPreset& preset : leaf_presets()) {
+        SCOPED_TRACE(preset.id);
+        EXPECT_EQ(leaf_preset(preset.id), &preset);
+        std::size_t before = 2'600;  // about 2,000 triangles at the finest
+        for (int lod = 0; lod < leaf_lods; ++lod) {
+            const Mesh mesh = leaf_mesh(preset.shape, lod);
+            expect_valid(mesh);
+            EXPECT_EQ(pieces(mesh).size(), 2U);
+            EXPECT_LT(mesh.triangles(), before);
+            before = mesh.triangles();
+        }
+        expect_valid(foliage_leaf(preset.shape));
+        EXPECT_LE(foliage_leaf(preset.shape).triangles(), most_foliage_triangles);
+    }
+    EXPECT_EQ(leaf_preset("elm"), nullptr);
+}
+
+TEST(Leaf, AnyLeafIsClosed) {
+    Random random(5, 1);
+    const std::size_t draws = effort(300, 40);
+    for (std::size_t i = 0; i < draws; ++i) {
+        const auto shape = drawn<LeafShape>(random);
+        const auto lod = static_cast<int>(i % 4);
+        const Mesh mesh = lod < leaf_lods ? leaf_mesh(shape, lod) : foliage_leaf(shape);
+        const std::vector<std::string> found = defects(mesh);
+        ASSERT_TRUE(found.empty()) << i << ": " << found.front();
+        ASSERT_GT(volume(mesh), 0.0) << i;
+    }
+}
+
+TEST(Leaf, LeavesAtTheEndsOfTheirRangesAreClosed) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        LeafShape shape = preset.shape;
+        walk_corners(shape, Info{.name = ""}, "", [&](const std::string& path) {
+            std::vector<Problem> problems;
+            check(shape, Info{.name = ""}, "", problems);
+            if (!problems.empty()) return;
+            for (const int lod : {0, 2})
+                EXPECT_TRUE(defects(leaf_mesh(shape, lod)).empty()) << preset.id << path << lod;
+        });
+    }
+}
+
+TEST(Leaf, FoliageKeepsTheAreaOfTheLimb) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        const LeafShape flat = pressed(preset.shape);
+        for (const std::size_t triangles : {8U, 12U, 16U}) {
+            const Mesh mesh = foliage_leaf(flat, triangles);
+            EXPECT_LE(mesh.triangles(), triangles) << preset.id;
+            EXPECT_NEAR(seen_area(mesh) / limb_area(flat), 1.0, 1e-4) << preset.id;
+        }
+    }
+}
+
+// Levels of detail cut teeth and curves, not lobes.
+TEST(Leaf, LevelsOfDetailHaveNearlyOneArea) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        if (std::string(preset.id) == "needle") continue;  // its petiole is as wide as it
+        const LeafShape flat = pressed(preset.shape);
+        const double finest = seen_area(leaf_mesh(flat, 0));
+        for (int lod = 1; lod < leaf_lods; ++lod)
+            EXPECT_NEAR(seen_area(leaf_mesh(flat, lod)) / finest, 1.0, 0.15) << preset.id << lod;
+    }
+}
+
+TEST(Leaf, TheMiddleVeinKeepsItsLengthHoweverItCurls) {
+    LeafShape shape = pressed(leaf_preset("birch")->shape);
+    for (const double curl : {0.0, 90.0, -90.0, 180.0}) {
+        shape.curl_deg = curl;
+        const Mesh mesh = leaf_mesh(shape, 0);
+        // The tip is the middle of an arc that turns by the curl over the limb's length.
+        const double turn = radians(curl);
+        const glm::dvec3 wanted =
+            shape.length * (curl == 0.0 ? glm::dvec3(0.0, 0.0, 1.0)
+                                        : glm::dvec3(0.0, (std::cos(turn) - 1.0) / turn,
+                                                     std::sin(turn) / turn)) +
+            glm::dvec3(0.0, 0.0, shape.length * shape.petiole);
+        double nearest = 1e9;
+        for (const glm::vec3& place : mesh.positions)
+            nearest = std::min(nearest, glm::distance(glm::dvec3(place), wanted));
+        EXPECT_LT(nearest, 1e-6) << curl;
+    }
+}
+
+TEST(Leaf, FacesLieOnTheirHalvesOfTheImage) {
+    const LeafShape shape = pressed(leaf_preset("maple")->shape);
+    const LeafChart chart = chart_of(limb_of(shape.venation, leaf_steps(shape.venation, 0)));
+    Random random(2, 1);
+    for (int i = 0; i < 200; ++i) {
+        const double x = random.uniform(0.02, 0.98), y = random.uniform(0.02, 0.9);
+        bool upper = false;
+        const glm::dvec2 place = chart.place({x, y}, upper);
+        EXPECT_EQ(upper, x < 0.5);
+        EXPECT_LT(glm::distance(chart.texture_point(place, upper), glm::dvec2(x, y)), 1e-12);
+    }
+    const Mesh mesh = leaf_mesh(shape, 0);
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const glm::vec2 at = mesh.texture_coordinates[i];
+        if (at.y > petiole_strip) continue;
+        EXPECT_EQ(at.x<0.5F, mesh.normals[i].y> 0.0F);
+    }
+}
+
+TEST(Leaf, OrdersThatCannotBeAreRefused) {
+    LeafShape shape;
+    EXPECT_TRUE(names(refusal([&] { (void)leaf_mesh(shape, 3); }), "/lod", "outside 0..2"));
+    EXPECT_TRUE(names(refusal([&] { (void)foliage_leaf(shape, 18); }), "/triangles", "18"));
+    EXPECT_TRUE(names(refusal([&] { (void)foliage_leaf(shape, 10); }), "/triangles", "10"));
+    shape.length = 0.0;
+    EXPECT_TRUE(names(refusal([&] { (void)leaf_mesh(shape, 0); }), "/length", "outside"));
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,36 @@
+// What core refuses, and whether it says why.
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/params/problems.h"
+
+namespace sporeprint {
+
+/// The problems that `work` is refused with; none when it goes through.
+template <class Work>
+std::vector<Problem> refusal(const Work& work) {
+    try {
+        work();
+    } catch (const InvalidInput& refused) {
+        return refused.problems();
+    }
+    return {};
+}
+
+/// Whether `problems` has one with this path, and words of its message.
+inline ::testing::AssertionResult names(const std::vector<Problem>& problems,
+                                        const std::string& path, const std::string& words = "") {
+    auto result = ::testing::AssertionFailure() << "no problem \"" << path << ": " << words << "\"";
+    for (const Problem& problem : problems) {
+        if (problem.path == path && problem.message.find(words) != std::string::npos)
+            return ::testing::AssertionSuccess();
+        result << "\n  " << problem.path << ": " << problem.message;
+    }
+    return result;
+}
+
+}  // namespace sporeprint
