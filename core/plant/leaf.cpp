@@ -790,6 +790,55 @@ std::vector<LeafPreset> make_presets() {
                                    0.25)});
     }
     {
+        // A shoot of a conifer as one leaf: needles in two rows.
+        LeafShape shoot;
+        shoot.venation = {.lobes = {1},
+                          .nodes = 24,
+                          .side_deg = 55,
+                          .law = LengthLaw::constant,
+                          .rise = 0,
+                          .side_length = 4.0,
+                          .narrow_base = 0.3,
+                          .narrow_tip = 0.5,
+                          .border = 1.05,
+                          .sinus = 0.95,
+                          .smooth = 0.3,
+                          .pointed = 0.6};
+        shoot.length = 0.12;
+        shoot.petiole = 0.05;
+        shoot.thickness = 0.012;
+        shoot.relief = 0.0;
+        shoot.curl_deg = 12;
+        shoot.fold_deg = 14;
+        shoot.wave = 0;
+        presets.push_back({"shoot", "Shoot of needles", shoot,
+                           palette({{78, 70, 44},
+                                    {30, 60, 36},
+                                    {40, 78, 44},
+                                    {74, 112, 56},
+                                    0.03,
+                                    GradationLaw::soft,
+                                    GradationLaw::late,
+                                    0.6},
+                                   {{104, 84, 48},
+                                    {104, 96, 44},
+                                    {124, 108, 48},
+                                    {134, 106, 48},
+                                    0.03,
+                                    GradationLaw::soft,
+                                    GradationLaw::late,
+                                    0.4},
+                                   {{104, 76, 46},
+                                    {118, 78, 42},
+                                    {112, 72, 40},
+                                    {104, 66, 38},
+                                    0.03,
+                                    GradationLaw::soft,
+                                    GradationLaw::late,
+                                    0.4},
+                                   0.3)});
+    }
+    {
         LeafShape needle;
         needle.venation = {.lobes = {1},
                            .nodes = 2,

@@ -76,7 +76,7 @@ struct LeafPreset {
     LeafPalette palette;
 };
 
-/// maple, oak, birch, ivy, fern, needle.
+/// maple, oak, birch, ivy, fern, shoot, needle.
 [[nodiscard]] std::span<const LeafPreset> leaf_presets();
 /// nullptr if there is none.
 [[nodiscard]] const LeafPreset* leaf_preset(std::string_view id);

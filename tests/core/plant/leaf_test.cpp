@@ -35,7 +35,7 @@ double seen_area(const Mesh& mesh) {
 }
 
 TEST(Leaf, PresetsAreClosedShellsAtEveryLevelOfDetail) {
-    ASSERT_EQ(leaf_presets().size(), 6U);
+    ASSERT_EQ(leaf_presets().size(), 7U);
     for (const LeafPreset& preset : leaf_presets()) {
         SCOPED_TRACE(preset.id);
         EXPECT_EQ(leaf_preset(preset.id), &preset);

@@ -1,0 +1,356 @@
+// A tree: a ramification in space, its bark and its leaves.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec3.hpp>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/plant/leaf.h"
+#include "core/plant/ramification.h"
+#include "core/skeleton/skeleton.h"
+
+namespace sporeprint {
+
+/// Named matrices; see ramification.h.
+enum class MatrixKind { perfect, random_binary, random_increasing, fishbone, tokunaga };
+
+constexpr const char* name(MatrixKind kind) {
+    switch (kind) {
+        case MatrixKind::perfect:
+            return "perfect";
+        case MatrixKind::random_binary:
+            return "random_binary";
+        case MatrixKind::random_increasing:
+            return "random_increasing";
+        case MatrixKind::fishbone:
+            return "fishbone";
+        case MatrixKind::tokunaga:
+            return "tokunaga";
+    }
+    return nullptr;
+}
+
+/// dealt: exactly the matrix, a number of leaves known beforehand. drawn: node by node, of any size.
+enum class TreeGrowth { dealt, drawn };
+
+constexpr const char* name(TreeGrowth growth) {
+    switch (growth) {
+        case TreeGrowth::dealt:
+            return "dealt";
+        case TreeGrowth::drawn:
+            return "drawn";
+    }
+    return nullptr;
+}
+
+/// How lengths and widths grow with the order k of an edge, from that of twigs (order 1):
+/// 1, 1 + A (k - 1), 1 + A log(k), or A^(k - 1) times; pipe: the A-th root of the number of leaves that an edge bears.
+enum class OrderLaw { constant, linear, logarithmic, geometric, pipe };
+
+constexpr const char* name(OrderLaw law) {
+    switch (law) {
+        case OrderLaw::constant:
+            return "constant";
+        case OrderLaw::linear:
+            return "linear";
+        case OrderLaw::logarithmic:
+            return "logarithmic";
+        case OrderLaw::geometric:
+            return "geometric";
+        case OrderLaw::pipe:
+            return "pipe";
+    }
+    return nullptr;
+}
+
+/// One row of an own matrix: order k = 2 for the first, k shares that sum to one.
+struct MatrixRow {
+    std::vector<double> shares;
+
+    static constexpr void fields(auto visit) {
+        visit(&MatrixRow::shares,
+              Info{.name = "shares",
+                   .min = 0,
+                   .max = 1,
+                   .most = most_order,
+                   .doc = "Of nodes with a side branch of order 1, 2 and so on, and at last of "
+                          "forks."});
+    }
+    bool operator==(const MatrixRow&) const = default;
+};
+static_assert(well_described<MatrixRow>());
+
+/// How a tree branches.
+struct TreeTopology {
+    MatrixKind matrix = MatrixKind::random_increasing;
+    MatrixKind toward = MatrixKind::random_binary;
+    double blend = 0.0;
+    double forks = 0.15;
+    double tokunaga_a = 1.0;
+    double tokunaga_c = 2.0;
+    std::vector<MatrixRow> rows;
+    int order = 7;
+    TreeGrowth growth = TreeGrowth::dealt;
+    MatrixKind tips = MatrixKind::fishbone;
+    int tip_order = 1;
+
+    static constexpr void fields(auto visit) {
+        using T = TreeTopology;
+        visit(&T::matrix, Info{.name = "matrix", .doc = "How often branches bear which others."});
+        visit(&T::toward, Info{.name = "toward", .doc = "The matrix that `blend` goes towards."});
+        visit(&T::blend,
+              Info{.name = "blend", .min = 0, .max = 1, .doc = "From `matrix` to `toward`."});
+        visit(&T::forks, Info{.name = "forks",
+                              .min = 0.01,
+                              .max = 1,
+                              .doc = "Share of forks in a fishbone: long axes where it is low."});
+        visit(&T::tokunaga_a, Info{.name = "tokunaga_a",
+                                   .min = 0,
+                                   .max = 6,
+                                   .doc = "Side branches of the next lower order to a segment of "
+                                          "a Tokunaga tree."});
+        visit(&T::tokunaga_c, Info{.name = "tokunaga_c",
+                                   .min = 0.2,
+                                   .max = 5,
+                                   .doc = "How many times more there are of each order below."});
+        visit(&T::rows, Info{.name = "rows",
+                             .most = most_order - 1,
+                             .doc = "An own matrix, which then counts instead of `matrix`."});
+        visit(&T::order, Info{.name = "order",
+                              .min = 1,
+                              .max = most_order,
+                              .doc = "Order of Horton and Strahler; each more bears about four "
+                                     "times the leaves."});
+        visit(&T::growth, Info{.name = "growth", .doc = "Dealt to measure, or drawn freely."});
+        visit(&T::tips, Info{.name = "tips", .doc = "Matrix of the small trees at the tips."});
+        visit(&T::tip_order,
+              Info{.name = "tip_order",
+                   .min = 1,
+                   .max = 4,
+                   .doc = "Highest order of the small trees that take the place of twigs, as in "
+                          "herbs; 1 for none."});
+    }
+    bool operator==(const TreeTopology&) const = default;
+};
+static_assert(well_described<TreeTopology>());
+
+/// What a tree looks like, besides its leaves.
+struct TreeShape {
+    TreeTopology topology;
+    double fork_deg = 30.0;
+    double main_deg = 10.0;
+    double side_deg = 45.0;
+    OrderLaw length_law = OrderLaw::linear;
+    double length_rise = 0.15;
+    double twig_length = 0.09;
+    OrderLaw width_law = OrderLaw::pipe;
+    double width_rise = 2.3;
+    double twig_radius = 0.0016;
+    double trunk = 0.8;
+    double shortening = 0.0;
+    double variation = 0.2;
+    double azimuth_deg = 137.5;
+    double plagiotropy = 0.0;
+    double gravitropism = 0.05;
+    double phototropism = 0.0;
+    double light_deg = 60.0;
+    double light_azimuth_deg = 0.0;
+
+    static constexpr void fields(auto visit) {
+        using T = TreeShape;
+        visit(&T::topology, Info{.name = ""});
+        visit(&T::fork_deg, Info{.name = "fork_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 80,
+                                 .doc = "Turn of either branch of a fork."});
+        visit(&T::main_deg, Info{.name = "main_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 60,
+                                 .doc = "Turn of a main branch that bears one nearly its equal; "
+                                        "less for lesser ones."});
+        visit(&T::side_deg, Info{.name = "side_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 100,
+                                 .doc = "Turn of a twig on a much greater branch; less for "
+                                        "greater ones."});
+        visit(&T::length_law, Info{.name = "length_law", .doc = "Lengths of edges by order."});
+        visit(&T::length_rise,
+              Info{.name = "length_rise", .min = 0, .max = 4, .doc = "A of the law of lengths."});
+        visit(&T::twig_length, Info{.name = "twig_length",
+                                    .unit = "m",
+                                    .min = 0.002,
+                                    .max = 1,
+                                    .doc = "Of an edge of order 1."});
+        visit(&T::width_law, Info{.name = "width_law", .doc = "Radii of edges by order."});
+        visit(&T::width_rise, Info{.name = "width_rise",
+                                   .min = 0,
+                                   .max = 4,
+                                   .doc = "A of the law of radii; of pipes 2 keeps the section of "
+                                          "all branches together (at least 1)."});
+        visit(&T::twig_radius, Info{.name = "twig_radius",
+                                    .unit = "m",
+                                    .min = 0.0001,
+                                    .max = 0.05,
+                                    .doc = "Of an edge of order 1."});
+        visit(&T::trunk, Info{.name = "trunk",
+                              .unit = "m",
+                              .min = 0,
+                              .max = 10,
+                              .doc = "Height of the lowest branch."});
+        visit(&T::shortening, Info{.name = "shortening",
+                                   .min = 0,
+                                   .max = 0.95,
+                                   .doc = "How much shorter branches are at the end of their "
+                                          "bearer than at its beginning: a cone."});
+        visit(&T::variation, Info{.name = "variation",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "How far lengths and angles vary from axis to axis."});
+        visit(&T::azimuth_deg, Info{.name = "azimuth_deg",
+                                    .unit = "deg",
+                                    .min = 0,
+                                    .max = 180,
+                                    .doc = "Phyllotaxis: turn about the bearer from one branch to "
+                                           "the next; 180 in two rows."});
+        visit(&T::plagiotropy, Info{.name = "plagiotropy",
+                                    .min = 0,
+                                    .max = 1,
+                                    .doc = "How far branches of low order spread in level "
+                                           "planes."});
+        visit(&T::gravitropism, Info{.name = "gravitropism",
+                                     .min = -0.5,
+                                     .max = 0.5,
+                                     .doc = "How far each edge turns up; down below 0."});
+        visit(&T::phototropism, Info{.name = "phototropism",
+                                     .min = 0,
+                                     .max = 0.5,
+                                     .doc = "How far each edge turns to the light."});
+        visit(&T::light_deg, Info{.name = "light_deg",
+                                  .unit = "deg",
+                                  .min = 0,
+                                  .max = 90,
+                                  .doc = "Height of the light."});
+        visit(&T::light_azimuth_deg, Info{.name = "light_azimuth_deg",
+                                          .unit = "deg",
+                                          .min = -180,
+                                          .max = 180,
+                                          .doc = "Where the light comes from, from +z to +x."});
+    }
+    bool operator==(const TreeShape&) const = default;
+
+    /// The faults of an own matrix, an order that it has not, pipes of an exponent below 1.
+    void check(const std::string& path, std::vector<Problem>& problems) const;
+};
+static_assert(well_described<TreeShape>());
+
+/// Most leaves and twigs that a tree is grown with.
+inline constexpr std::size_t most_tips = 40'000;
+
+[[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
+
+/// Mean number of tips of such a tree (the number itself where it is dealt and has no small trees at its tips), before any work.
+[[nodiscard]] double expected_tips(const TreeTopology& topology);
+
+/// A tree in space. Node 0 of the skeleton stands on the ground; node i + 1 is the end of the edge that enters node i of the
+/// ramification, and limb i that edge.
+struct Tree {
+    Ramification ramification;
+    Skeleton skeleton;
+    std::vector<glm::dvec3> headings;  ///< unit, of each limb before it ends
+    std::vector<glm::dvec3>
+        across;  ///< unit, square to them: the way to the side of its first child
+};
+
+/// Grows a tree: root at the origin, up along +y.
+///
+/// throws  InvalidInput with all that check() finds; Impossible (path "/order") naming the expected number of more than most_tips
+/// cost    O(tips)
+/// source  [Viennot1989] sections 4 and 5; angles by biorder, lengths and widths by order, azimuths and tropisms as described
+[[nodiscard]] Tree grown_tree(const TreeShape& shape, std::uint32_t seed);
+
+/// Levels of detail of a tree.
+inline constexpr int tree_lods = 4;
+
+/// The skin of trunk, branches and twigs. Thick orders are subdivided, twigs are not; each level leaves one more order out and
+/// subdivides less.
+///
+/// returns  closed pieces; `round` and `along` of each vertex: u once round its limb, metres along it
+struct Bark {
+    Mesh mesh;
+    std::vector<glm::vec2> places;
+};
+[[nodiscard]] Bark bark_of(const Tree& tree, int lod);
+
+/// How a tree bears its leaves.
+struct LeafStyle {
+    int per_tip = 3;
+    double leaf_size = 1.0;
+    double leaf_deg = 50.0;
+    double droop = 0.3;
+    double size_spread = 0.2;
+
+    static constexpr void fields(auto visit) {
+        using L = LeafStyle;
+        visit(&L::per_tip,
+              Info{.name = "per_tip", .min = 0, .max = 40, .doc = "Leaves to a twig."});
+        visit(&L::leaf_size, Info{.name = "leaf_size",
+                                  .min = 0.1,
+                                  .max = 10,
+                                  .doc = "Size of a leaf, in that of its own kind."});
+        visit(&L::leaf_deg, Info{.name = "leaf_deg",
+                                 .unit = "deg",
+                                 .min = 0,
+                                 .max = 100,
+                                 .doc = "Between a leaf and its twig."});
+        visit(&L::droop, Info{.name = "droop",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "How far leaves hang down from their twigs."});
+        visit(&L::size_spread, Info{.name = "size_spread",
+                                    .min = 0,
+                                    .max = 0.6,
+                                    .doc = "How far leaves vary in size."});
+    }
+    bool operator==(const LeafStyle&) const = default;
+};
+static_assert(well_described<LeafStyle>());
+
+/// A leaf on a tree: where its root is, its own axes, its size in that of the leaf that is placed.
+struct PlacedLeaf {
+    glm::dvec3 place{0.0}, along{0.0, 0.0, 1.0}, up{0.0, 1.0, 0.0};
+    double size = 1.0;
+    std::uint32_t id = 0;  ///< names its own random stream
+};
+
+/// Places leaves along all twigs, in the order in which thinning leaves them out: the last first, so that levels of detail nest.
+[[nodiscard]] std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
+                                                    std::uint32_t seed);
+
+/// Some of the leaves, larger: the first `share` of them, in the same places, with the same area in all.
+[[nodiscard]] std::vector<PlacedLeaf> thinned(std::span<const PlacedLeaf> leaves, double share);
+
+/// All leaves as one mesh, each a copy of `leaf` (root at the origin, along +z, upper face up).
+[[nodiscard]] Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf);
+
+/// A tree to begin with.
+struct TreePreset {
+    const char* id;
+    const char* name;
+    const char* leaf;  ///< id of its leaf's preset
+    TreeShape shape;
+    LeafStyle leaves;
+};
+
+/// broadleaf, birch, spruce, poplar, shrub, herb.
+[[nodiscard]] std::span<const TreePreset> tree_presets();
+/// nullptr if there is none.
+[[nodiscard]] const TreePreset* tree_preset(std::string_view id);
+
+}  // namespace sporeprint
