@@ -351,6 +351,13 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
                                       std::uint32_t seed) {
     std::vector<PlacedLeaf> leaves;
     const Ramification& grown = tree.ramification;
+    const std::size_t count = grown.leaves() * static_cast<std::size_t>(style.per_tip);
+    if (count > most_leaves)
+        throw Impossible("/per_tip", std::to_string(style.per_tip) + " make " +
+                                         std::to_string(count) + " leaves on " +
+                                         std::to_string(grown.leaves()) + " twigs; at most " +
+                                         std::to_string(most_leaves) + " are placed");
+    leaves.reserve(count);
     const SineCosine off = sine_cosine(radians(style.leaf_deg));
     for (std::uint32_t i = 0; i < grown.nodes.size(); ++i) {
         if (!grown.leaf(i)) continue;

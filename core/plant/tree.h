@@ -329,7 +329,12 @@ struct PlacedLeaf {
     std::uint32_t id = 0;  ///< names its own random stream
 };
 
+/// Most leaves that are placed.
+inline constexpr std::size_t most_leaves = 100'000;
+
 /// Places leaves along all twigs, in the order in which thinning leaves them out: the last first, so that levels of detail nest.
+///
+/// throws  Impossible (path "/per_tip") for more than most_leaves
 [[nodiscard]] std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
                                                     std::uint32_t seed);
 

@@ -81,7 +81,7 @@ struct Venation {
         visit(&V::rise, Info{.name = "rise",
                              .min = 0,
                              .max = 4,
-                             .doc = "A of the law A d + B or A log(1 + d) + B, in lengths of B."});
+                             .doc = "A of the law A d + B or A ln(1 + d) + B, in lengths of B."});
         visit(&V::side_length,
               Info{.name = "side_length",
                    .min = 0.05,

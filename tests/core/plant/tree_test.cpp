@@ -305,6 +305,15 @@ TEST(Foliage, LeavesAreAsManyAsAskedForAndHaveFewTriangles) {
     EXPECT_EQ(ids.size(), leaves.size());
 }
 
+TEST(Foliage, TooManyLeavesAreRefusedWithTheirNumber) {
+    TreeShape shape = plain(7);
+    shape.topology.blend = 1.0;
+    LeafStyle style;
+    style.per_tip = 40;
+    EXPECT_TRUE(names(refusal([&] { (void)placed_leaves(grown_tree(shape, 1), style, 1); }),
+                      "/per_tip", "40 make 109240 leaves on 2731 twigs"));
+}
+
 TEST(Foliage, ThinningNestsAndKeepsTheArea) {
     const TreePreset& preset = *tree_preset("shrub");
     const std::vector<PlacedLeaf> leaves =

@@ -1,0 +1,175 @@
+// The root system of a colony and the stems that rise from it, as a skeleton.
+#pragma once
+
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/params/describe.h"
+#include "core/skeleton/skeleton.h"
+
+namespace sporeprint {
+
+/// What roots take their headings from. noise: two smooth random components; branches gather and part. curl: the same without
+/// sources, branches keep their distance. radial: away from the base, so that 0 deg are rays and 90 deg nearly circles.
+enum class RootField { noise, curl, radial };
+
+constexpr const char* name(RootField field) {
+    switch (field) {
+        case RootField::noise:
+            return "noise";
+        case RootField::curl:
+            return "curl";
+        case RootField::radial:
+            return "radial";
+    }
+    return nullptr;
+}
+
+/// Every control of the source.
+/// source [Torres] "Root and Stems Generation"
+struct ColonyRoots {
+    RootField field = RootField::noise;
+    double field_scale = 0.35;
+    double heading_deg = 0.0;
+    int arms = 3;
+    double segment_length = 0.03;
+    double decay = 0.03;
+    int depth = 14;
+    double branch_distance = 0.12;
+    double branch_jitter_deg = 20.0;
+    double root_radius = 0.006;
+    double area_decay = 1.0;
+    double stem_height = 0.07;
+    double stem_decay = 0.03;
+    double stem_probability = 0.25;
+    double stem_displacement = 0.015;
+    int stem_segments = 5;
+
+    static constexpr void fields(auto visit) {
+        using C = ColonyRoots;
+        visit(&C::field, Info{.name = "field", .doc = "What roots take their headings from."});
+        visit(&C::field_scale,
+              Info{.name = "field_scale",
+                   .unit = "m",
+                   .min = 0.02,
+                   .max = 10,
+                   .doc = "Size of the field's features: smaller ones wind roots more."});
+        visit(&C::heading_deg, Info{.name = "heading_deg",
+                                    .unit = "deg",
+                                    .min = -180,
+                                    .max = 180,
+                                    .doc = "Angle that the first branch keeps to the field."});
+        visit(&C::arms, Info{.name = "arms",
+                             .min = 1,
+                             .max = 12,
+                             .doc = "Branches that leave the base, evenly round it."});
+        visit(&C::segment_length, Info{.name = "segment_length",
+                                       .unit = "m",
+                                       .min = 0.002,
+                                       .max = 1,
+                                       .doc = "Of root segments at the base."});
+        visit(&C::decay, Info{.name = "decay",
+                              .min = 0,
+                              .max = 1,
+                              .doc = "How fast segments shorten: by e to the minus this from one "
+                                     "to the next."});
+        visit(&C::depth, Info{.name = "depth",
+                              .min = 1,
+                              .max = 60,
+                              .doc = "Segments from the base to the farthest tips."});
+        visit(&C::branch_distance,
+              Info{.name = "branch_distance",
+                   .unit = "m",
+                   .min = 0.005,
+                   .max = 100,
+                   .doc = "Length of root between two branchings, in the mean."});
+        visit(&C::branch_jitter_deg, Info{.name = "branch_jitter_deg",
+                                          .unit = "deg",
+                                          .min = 0,
+                                          .max = 80,
+                                          .doc = "How far side branches depart from 90 deg, at "
+                                                 "most."});
+        visit(&C::root_radius, Info{.name = "root_radius",
+                                    .unit = "m",
+                                    .min = 0.0002,
+                                    .max = 0.2,
+                                    .doc = "Of the root at the base."});
+        visit(&C::area_decay, Info{.name = "area_decay",
+                                   .min = 0,
+                                   .max = 3,
+                                   .doc = "How fast the section of roots shrinks, in decays of "
+                                          "their lengths."});
+        visit(&C::stem_height, Info{.name = "stem_height",
+                                    .unit = "m",
+                                    .min = 0.002,
+                                    .max = 1,
+                                    .doc = "Of a stem at the base."});
+        visit(&C::stem_decay, Info{.name = "stem_decay",
+                                   .min = 0,
+                                   .max = 1,
+                                   .doc = "How fast stems grow lower away from the base."});
+        visit(&C::stem_probability, Info{.name = "stem_probability",
+                                         .min = 0,
+                                         .max = 1,
+                                         .doc = "Share of root nodes that bear a stem."});
+        visit(&C::stem_displacement,
+              Info{.name = "stem_displacement",
+                   .unit = "m",
+                   .min = 0,
+                   .max = 0.5,
+                   .doc = "How far the tops of stems stand away from the base, along a parabola."});
+        visit(&C::stem_segments,
+              Info{.name = "stem_segments", .min = 1, .max = 16, .doc = "Segments of a stem."});
+    }
+    bool operator==(const ColonyRoots&) const = default;
+};
+static_assert(well_described<ColonyRoots>());
+
+/// Most root nodes that are grown.
+inline constexpr std::size_t most_root_nodes = 20'000;
+
+/// Mean number of root nodes, before any work: a branch of length l bears l / branch_distance others.
+[[nodiscard]] double expected_root_nodes(const ColonyRoots& roots);
+
+/// Roots, and stems upon them. Metres, +y up, the base at the origin, roots in the plane y = 0.
+struct ColonySkeleton {
+    /// A branch: its own nodes, from that which it leaves to its tip.
+    struct Branch {
+        std::uint32_t parent = 0;  ///< branch; itself for those that leave the base
+        double angle = 0.0;        ///< to the field, radians
+        std::vector<std::uint32_t> nodes;
+        std::vector<double> splits;  ///< lengths along it at which others leave
+        double length = 0.0;
+    };
+    struct Stem {
+        std::uint32_t root = 0;            ///< node
+        std::vector<std::uint32_t> nodes;  ///< above it, the top last
+        double height = 0.0, radius = 0.0;
+        glm::dvec3 along{0.0, 1.0, 0.0};  ///< unit, at the top: the axis of a cap
+    };
+    Skeleton skeleton;
+    std::uint32_t root_nodes = 0;  ///< the first nodes of the skeleton
+    std::vector<int> depths;       ///< of root nodes: whole segments from the base
+    std::vector<bool> inserted;    ///< of root nodes: lies within a segment, where others leave
+    std::vector<Branch> branches;
+    std::vector<Stem> stems;
+};
+
+/// Grows roots segment by segment and stems upon their nodes; nothing is moved apart.
+///
+/// Segment d has length L e^(-decay d) and follows the field at the branch's own angle; side branches leave after exponential
+/// lengths, at 90 deg and a perturbation to either side, and begin with the next segment's length. Radii are
+/// r e^(-decay area_decay d / 2). A stem stands on each root node with its probability, H e^(-stem_decay d) high, its axis
+/// base + h up + D (h / H)^2 outwards, as thick as its node.
+///
+/// throws  InvalidInput with all that check() finds; Impossible (path "/branch_distance") naming the expected number of nodes
+/// source  [Torres]; differs: branches leave where the event falls, not at the next node, so that their distances are exponential
+[[nodiscard]] ColonySkeleton colony_skeleton(const ColonyRoots& roots, std::uint32_t seed);
+
+/// Unit heading of the field at a place of the ground (x, z); none (zero) where it has none.
+[[nodiscard]] glm::dvec2 field_heading(const ColonyRoots& roots, std::uint32_t seed,
+                                       const glm::dvec2& place);
+
+}  // namespace sporeprint
