@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/mesh/tangents.h"
 
 namespace sporeprint {
 
@@ -349,6 +350,7 @@ struct Shell {
             mesh.normals.emplace_back(normals[i] / size);
         }
         mesh.texture_coordinates = texture;
+        add_tangents(mesh);
         return mesh;
     }
 };
@@ -611,7 +613,7 @@ std::vector<LeafPreset> make_presets() {
                         .rise = 0.25,
                         .side_length = 2.7,
                         .narrow_base = 0.9,
-                        .narrow_tip = 0.7,
+                        .narrow_tip = 0.85,
                         .border = 1.06,
                         .sinus = 0.36,
                         .smooth = 1.0,

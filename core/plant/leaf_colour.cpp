@@ -21,13 +21,6 @@ glm::dvec3 mixed(const glm::dvec3& a, const glm::dvec3& b, double share) {
     return a + share * (b - a);
 }
 
-glm::dvec3 blade_colour(const LeafColours& colours, const LimbPlace& place) {
-    const glm::dvec3 across = mixed(linear(colours.inner), linear(colours.border),
-                                    gradation(colours.affinity, place.affinity));
-    return mixed(across, linear(colours.tip),
-                 colours.homothety_share * gradation(colours.homothety, place.homothety));
-}
-
 // 1 on a vein, 0 beside it. Main veins grow thinner to the tip, side veins are half as wide and end in the limb.
 double vein_share(const LeafColours& colours, const LimbPlace& place) {
     const auto line = [](double distance, double width) {
@@ -59,32 +52,48 @@ double gradation(GradationLaw law, double ratio) {
     return x;
 }
 
-glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place, double autumn,
-                       bool upper) {
+LeafColourist::Season LeafColourist::season(const LeafColours& colours) {
+    return {colours, linear(colours.vein), linear(colours.inner), linear(colours.border),
+            linear(colours.tip)};
+}
+
+LeafColourist::LeafColourist(const LeafPalette& palette)
+    : seasons_{season(palette.summer), season(palette.turning), season(palette.fallen)},
+      paler_below_(palette.paler_below) {}
+
+glm::dvec3 LeafColourist::blade(const Season& season, const LimbPlace& place) {
+    const LeafColours& colours = season.colours;
+    const glm::dvec3 across =
+        mixed(season.inner, season.border, gradation(colours.affinity, place.affinity));
+    return mixed(across, season.tip,
+                 colours.homothety_share * gradation(colours.homothety, place.homothety));
+}
+
+glm::dvec3 LeafColourist::at(const LimbPlace& place, double autumn, bool upper) const {
     // What is far from veins turns first: by up to a third of a season.
-    const double far = 0.6 * place.affinity + 0.4 * place.homothety;
-    const auto turned = [&](double begin, double lag, double depth) {
+    const double far = std::clamp(0.6 * place.affinity + 0.4 * place.homothety, 0.0, 1.0);
+    const auto turned = [&](double begin, double depth) {
+        constexpr double lag = 0.17;
         return smooth_step(begin + lag * (1.0 - depth), begin + 0.5 - lag * depth, autumn);
     };
-    const auto face = [&](auto colour_of) {
-        return mixed(
-            mixed(colour_of(palette.summer), colour_of(palette.turning), turned(0.0, 0.17, far)),
-            colour_of(palette.fallen), turned(0.5, 0.17, far));
+    const auto seasonal = [&](const auto& of, double depth) {
+        return mixed(mixed(of(seasons_[0]), of(seasons_[1]), turned(0.0, depth)), of(seasons_[2]),
+                     turned(0.5, depth));
     };
-    glm::dvec3 colour =
-        face([&](const LeafColours& colours) { return blade_colour(colours, place); });
-    const auto share = [&](const LeafColours& colours) { return vein_share(colours, place); };
-    // Veins keep the colour of the season before a little longer.
-    const glm::dvec3 vein = mixed(
-        mixed(linear(palette.summer.vein), linear(palette.turning.vein), turned(0.0, 0.17, 0.0)),
-        linear(palette.fallen.vein), turned(0.5, 0.17, 0.0));
-    const double season = smooth_step(0.0, 1.0, autumn);
-    const double line = (1.0 - season) * share(palette.summer) + season * share(palette.fallen);
+    glm::dvec3 colour = seasonal([&](const Season& one) { return blade(one, place); }, far);
+    const glm::dvec3 vein = seasonal([](const Season& one) { return one.vein; }, 0.0);
+    const double line = (1.0 - autumn) * vein_share(seasons_[0].colours, place) +
+                        autumn * vein_share(seasons_[2].colours, place);
     colour = mixed(colour, vein, line);
     if (upper) return colour;
     const double grey = (colour.r + colour.g + colour.b) / 3.0;
     const glm::dvec3 pale(0.6 * grey + 0.3);
-    return mixed(colour, mixed(colour, pale, 0.6), palette.paler_below);
+    return mixed(colour, mixed(colour, pale, 0.6), paler_below_);
+}
+
+glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place, double autumn,
+                       bool upper) {
+    return LeafColourist(palette).at(place, autumn, upper);
 }
 
 double leaf_autumn(double autumn, double spread, std::uint32_t seed, std::uint32_t leaf) {

@@ -88,10 +88,30 @@ struct LeafPalette {
 };
 static_assert(well_described<LeafPalette>());
 
-/// Linear colour of a place of the limb.
-///
-/// autumn   0 summer, 0.5 turning, 1 fallen. Leaves turn from their border and tip inwards, veins last
-/// returns  linear red, green, blue, 0..1
+/// Colours the places of one face after another; what a palette says is made linear once.
+class LeafColourist {
+  public:
+    explicit LeafColourist(const LeafPalette& palette);
+
+    /// Linear colour of a place of the limb.
+    ///
+    /// autumn   0 summer, 0.5 turning, 1 fallen. Leaves turn from their border and tip inwards, veins last
+    /// returns  linear red, green, blue, 0..1
+    [[nodiscard]] glm::dvec3 at(const LimbPlace& place, double autumn, bool upper) const;
+
+  private:
+    struct Season {
+        LeafColours colours;
+        glm::dvec3 vein, inner, border, tip;
+    };
+    [[nodiscard]] static Season season(const LeafColours& colours);
+    [[nodiscard]] static glm::dvec3 blade(const Season& season, const LimbPlace& place);
+
+    std::array<Season, 3> seasons_;  ///< summer, turning, fallen
+    double paler_below_;
+};
+
+/// The same for one place.
 [[nodiscard]] glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place,
                                      double autumn, bool upper);
 

@@ -8,6 +8,7 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/mesh/tangents.h"
 #include "core/params/messages.h"
 #include "core/skeleton/skin.h"
 
@@ -326,13 +327,13 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance) {
 
 }  // namespace
 
-Bark bark_of(const Tree& tree, int lod) {
+Mesh bark_of(const Tree& tree, int lod) {
     if (lod < 0 || lod >= tree_lods)
         throw InvalidInput("/lod",
                            std::to_string(lod) + " is outside 0.." + std::to_string(tree_lods - 1));
     const int highest = tree.ramification.nodes[0].order;
     const int lowest = std::min(1 + lod, highest);
-    Bark bark;
+    Mesh bark;
     // Trunk and great branches, branches, twigs: each a skin of its own, subdivided as its place in the picture is worth.
     int high = highest;
     for (int group = 0; group < 3 && high >= lowest; ++group) {
@@ -341,9 +342,17 @@ Bark bark_of(const Tree& tree, int lod) {
         high = low - 1;
         if (part.limbs.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, std::max(0, 2 - group - lod));
-        append(bark.mesh, skin.mesh);
-        for (const Scaffold::Place& place : skin.places) bark.places.emplace_back(place);
+        append(bark, skin.mesh);
+        for (std::size_t i = 0; i < skin.places.size(); ++i) {
+            // There and back: so the image meets itself wherever it ends.
+            const double girth = 2.0 * pi * skin.strips[skin.strip_of[i]].radius;
+            const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
+            const double whole = 2.0 * std::floor(0.5 * images);
+            bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
+                                                  1.0 - std::abs(1.0 - (images - whole)));
+        }
     }
+    add_tangents(bark);
     return bark;
 }
 
@@ -428,6 +437,11 @@ Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf) {
             mesh.normals.emplace_back(
                 glm::normalize(normal.x * side + normal.y * one.up + normal.z * one.along));
         }
+        for (const glm::vec4& tangent : leaf.tangents) {
+            const glm::dvec3 t(tangent);
+            mesh.tangents.emplace_back(
+                glm::vec3(glm::normalize(t.x * side + t.y * one.up + t.z * one.along)), tangent.w);
+        }
         mesh.texture_coordinates.insert(mesh.texture_coordinates.end(),
                                         leaf.texture_coordinates.begin(),
                                         leaf.texture_coordinates.end());
@@ -462,7 +476,12 @@ std::vector<TreePreset> make_presets() {
                            "Broadleaf",
                            "oak",
                            oak,
-                           {.per_tip = 9, .leaf_size = 1.7, .leaf_deg = 60, .droop = 0.3}});
+                           {.per_tip = 9, .leaf_size = 1.7, .leaf_deg = 60, .droop = 0.3},
+                           {.ridge = {112, 98, 82},
+                            .furrow = {44, 37, 31},
+                            .furrows = 0.9,
+                            .ridges = 14,
+                            .stretch = 5}});
     }
     {
         TreeShape birch;
@@ -486,30 +505,41 @@ std::vector<TreePreset> make_presets() {
                            "Birch-like",
                            "birch",
                            birch,
-                           {.per_tip = 8, .leaf_size = 1.9, .leaf_deg = 50, .droop = 0.8}});
+                           {.per_tip = 8, .leaf_size = 1.9, .leaf_deg = 50, .droop = 0.8},
+                           {.ridge = {222, 218, 208},
+                            .furrow = {90, 84, 80},
+                            .furrows = 0.15,
+                            .ridges = 6,
+                            .stretch = 1.5,
+                            .lenticels = 0.5}});
     }
     {
         TreeShape spruce;
-        spruce.topology.rows = {{{0.92, 0.08}}, {{0.5, 0.42, 0.08}}, {{0.02, 0.96, 0.0, 0.02}}};
+        spruce.topology.rows = {{{0.92, 0.08}}, {{0.5, 0.42, 0.08}}, {{0.02, 0.966, 0.0, 0.014}}};
         spruce.topology.order = 4;
         spruce.fork_deg = 20;
         spruce.main_deg = 0;
-        spruce.side_deg = 95;
+        spruce.side_deg = 100;
         spruce.length_law = OrderLaw::geometric;
         spruce.length_rise = 0.85;
-        spruce.twig_length = 0.14;
+        spruce.twig_length = 0.12;
         spruce.width_rise = 2.0;
         spruce.twig_radius = 0.0022;
         spruce.trunk = 0.3;
         spruce.shortening = 0.9;
         spruce.plagiotropy = 0.9;
-        spruce.gravitropism = -0.05;
+        spruce.gravitropism = -0.02;
         presets.push_back(
             {"spruce",
              "Spruce-like",
              "shoot",
              spruce,
-             {.per_tip = 4, .leaf_size = 1.9, .leaf_deg = 45, .droop = 0.15, .size_spread = 0.3}});
+             {.per_tip = 4, .leaf_size = 1.9, .leaf_deg = 45, .droop = 0.15, .size_spread = 0.3},
+             {.ridge = {112, 84, 66},
+              .furrow = {62, 44, 36},
+              .furrows = 0.6,
+              .ridges = 18,
+              .stretch = 1.4}});
     }
     {
         TreeShape poplar;
@@ -530,7 +560,12 @@ std::vector<TreePreset> make_presets() {
                            "Poplar-like",
                            "birch",
                            poplar,
-                           {.per_tip = 9, .leaf_size = 1.8, .leaf_deg = 55, .droop = 0.35}});
+                           {.per_tip = 9, .leaf_size = 1.8, .leaf_deg = 55, .droop = 0.35},
+                           {.ridge = {122, 116, 100},
+                            .furrow = {58, 52, 44},
+                            .furrows = 0.7,
+                            .ridges = 10,
+                            .stretch = 6}});
     }
     {
         TreeShape shrub;
@@ -552,7 +587,14 @@ std::vector<TreePreset> make_presets() {
                            "Shrub",
                            "maple",
                            shrub,
-                           {.per_tip = 4, .leaf_size = 0.5, .leaf_deg = 55, .droop = 0.2}});
+                           {.per_tip = 4, .leaf_size = 0.5, .leaf_deg = 55, .droop = 0.2},
+                           {.ridge = {104, 84, 62},
+                            .furrow = {70, 56, 42},
+                            .furrows = 0.2,
+                            .ridges = 10,
+                            .stretch = 4,
+                            .lenticels = 0.2,
+                            .lenticel = {150, 128, 100}}});
     }
     {
         TreeShape herb;
@@ -575,7 +617,12 @@ std::vector<TreePreset> make_presets() {
                            "Herb",
                            "birch",
                            herb,
-                           {.per_tip = 3, .leaf_size = 0.5, .leaf_deg = 60, .droop = 0.1}});
+                           {.per_tip = 3, .leaf_size = 0.5, .leaf_deg = 60, .droop = 0.1},
+                           {.ridge = {96, 120, 62},
+                            .furrow = {70, 96, 46},
+                            .furrows = 0.25,
+                            .ridges = 8,
+                            .stretch = 12}});
     }
     return presets;
 }

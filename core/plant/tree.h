@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "core/mesh/mesh.h"
+#include "core/plant/bark_image.h"
 #include "core/plant/leaf.h"
 #include "core/plant/ramification.h"
 #include "core/skeleton/skeleton.h"
@@ -281,12 +282,9 @@ inline constexpr int tree_lods = 4;
 /// The skin of trunk, branches and twigs. Thick orders are subdivided, twigs are not; each level leaves one more order out and
 /// subdivides less.
 ///
-/// returns  closed pieces; `round` and `along` of each vertex: u once round its limb, metres along it
-struct Bark {
-    Mesh mesh;
-    std::vector<glm::vec2> places;
-};
-[[nodiscard]] Bark bark_of(const Tree& tree, int lod);
+/// returns  closed pieces with tangents; u goes once round a limb, v along it to the end of the image and back, in girths of the
+///          limb, so that bark is nowhere stretched
+[[nodiscard]] Mesh bark_of(const Tree& tree, int lod);
 
 /// How a tree bears its leaves.
 struct LeafStyle {
@@ -351,6 +349,7 @@ struct TreePreset {
     const char* leaf;  ///< id of its leaf's preset
     TreeShape shape;
     LeafStyle leaves;
+    BarkStyle bark;
 };
 
 /// broadleaf, birch, spruce, poplar, shrub, herb.

@@ -57,8 +57,10 @@ std::vector<Corner> corners_of(const Venation& venation, const Lobe& lobe, const
         ends.push_back({{0.5 * lobe.reach, bare(lobe, 0.5 * lobe.reach)}, true});
     ends.push_back({{lobe.reach, 0.0}, true});
     if (venation.sinus == 0.0) return ends;
-    std::vector<Corner> corners = {ends[0], ends[1]};
-    for (std::size_t i = 2; i < ends.size(); ++i) {
+    // Next to the petiole neighbours grow together, so only a lone lobe has a bay there.
+    std::vector<Corner> corners = {ends[0]};
+    if (venation.lobes.value > 1) corners.push_back(ends[1]);
+    for (std::size_t i = corners.size(); i < ends.size(); ++i) {
         Rise between = 0.5 * (ends[i - 1].at + ends[i].at);
         between.y *= 1.0 - venation.sinus;
         corners.push_back({between, false});
@@ -460,10 +462,21 @@ LimbPlace LimbReader::at(const glm::dvec2& point) const {
     if (lobe.base_angle[place.side] == lobe.side_angle[place.side]) {
         low = high = -excess(0.0);
     } else {
-        for (int halving = 0; halving < 32; ++halving) {
-            const double middle = 0.5 * (low + high);
-            (excess(middle) < 0.0 ? low : high) = middle;
+        // Newton from the steep end; the excess never falls, so what leaves the bracket is halved instead.
+        double foot = 0.0;
+        for (int step = 0; step < 24; ++step) {
+            const SineCosine at = sine_cosine(lobe.angle(place.side, foot));
+            const double value = foot + place.from_main * at.cosine / at.sine - along;
+            (value < 0.0 ? low : high) = foot;
+            const double falls = 2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) *
+                                 (1.0 - foot / lobe.reach) / lobe.reach;
+            const double slope = 1.0 + place.from_main * falls / (at.sine * at.sine);
+            const double next = foot - value / slope;
+            const double moved = (next >= low && next <= high ? next : 0.5 * (low + high)) - foot;
+            foot += moved;
+            if (std::abs(moved) < 1e-12) break;
         }
+        low = high = foot;
     }
     place.foot = 0.5 * (low + high);
     const SineCosine at = sine_cosine(lobe.angle(place.side, place.foot));

@@ -247,13 +247,13 @@ TEST(Tree, BarkIsClosedAtEveryLevelOfDetail) {
         const Tree tree = grown_tree(preset.shape, 1);
         std::size_t before = 400'000;
         for (int lod = 0; lod < tree_lods; ++lod) {
-            const Bark bark = bark_of(tree, lod);
-            const std::vector<std::string> found = defects(bark.mesh);
+            const Mesh bark = bark_of(tree, lod);
+            const std::vector<std::string> found = defects(bark);
             EXPECT_TRUE(found.empty()) << lod << ": " << found.front();
-            EXPECT_GT(volume(bark.mesh), 0.0);
-            EXPECT_EQ(bark.places.size(), bark.mesh.positions.size());
-            EXPECT_LE(bark.mesh.triangles(), before);
-            before = bark.mesh.triangles();
+            EXPECT_GT(volume(bark), 0.0);
+            EXPECT_EQ(bark.tangents.size(), bark.positions.size());
+            EXPECT_LE(bark.triangles(), before);
+            before = bark.triangles();
         }
     }
     EXPECT_EQ(tree_preset("palm"), nullptr);
@@ -267,8 +267,8 @@ TEST(Tree, TreesAtTheEndsOfTheirRangesAreClosedOrRefused) {
         check(shape, Info{.name = ""}, "", problems);
         if (!problems.empty()) return;
         try {
-            const Bark bark = bark_of(grown_tree(shape, 1), 0);
-            const std::vector<std::string> found = defects(bark.mesh);
+            const Mesh bark = bark_of(grown_tree(shape, 1), 0);
+            const std::vector<std::string> found = defects(bark);
             EXPECT_TRUE(found.empty()) << path << ": " << found.front();
         } catch (const Impossible& refused) {
             EXPECT_TRUE(names(refused.problems(), "/order", "leaves")) << path;
@@ -283,7 +283,7 @@ TEST(Tree, TheSameSeedIsTheSameTree) {
     EXPECT_EQ(one.headings, again.headings);
     EXPECT_NE(one.headings, other.headings);
     EXPECT_EQ(one.ramification.leaves(), other.ramification.leaves());
-    EXPECT_EQ(bark_of(one, 2).mesh.positions, bark_of(again, 2).mesh.positions);
+    EXPECT_EQ(bark_of(one, 2).positions, bark_of(again, 2).positions);
 }
 
 TEST(Foliage, LeavesAreAsManyAsAskedForAndHaveFewTriangles) {

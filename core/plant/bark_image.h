@@ -1,0 +1,57 @@
+// Bark as an image that goes round a limb once and repeats along it, there and back.
+#pragma once
+
+#include <cstdint>
+
+#include "core/params/describe.h"
+#include "core/surface/paint.h"
+
+namespace sporeprint {
+
+/// What bark looks like.
+struct BarkStyle {
+    Colour ridge{118, 102, 84};
+    Colour furrow{52, 42, 34};
+    double furrows = 0.6;
+    int ridges = 12;
+    double stretch = 4.0;
+    double lenticels = 0.0;
+    Colour lenticel{48, 42, 40};
+
+    static constexpr void fields(auto visit) {
+        using B = BarkStyle;
+        visit(&B::ridge, Info{.name = "ridge", .doc = "Colour of what stands out."});
+        visit(&B::furrow, Info{.name = "furrow", .doc = "Colour of what lies deep."});
+        visit(&B::furrows, Info{.name = "furrows",
+                                .min = 0,
+                                .max = 1,
+                                .doc = "Depth of the furrows; 0 for smooth bark."});
+        visit(&B::ridges,
+              Info{.name = "ridges", .min = 3, .max = 40, .doc = "Ridges round a limb."});
+        visit(&B::stretch, Info{.name = "stretch",
+                                .min = 1,
+                                .max = 12,
+                                .doc = "How much longer ridges are than wide."});
+        visit(&B::lenticels, Info{.name = "lenticels",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "How many level dashes there are, as on birches."});
+        visit(&B::lenticel, Info{.name = "lenticel", .doc = "Colour of the dashes."});
+    }
+    bool operator==(const BarkStyle&) const = default;
+};
+static_assert(well_described<BarkStyle>());
+
+/// One image along a limb is as long as this many of its girths.
+inline constexpr double bark_girths = 2.0;
+
+/// Paints base colour, normal (+Y up, towards the beginning of a limb) and occlusion-roughness-metalness; the left border goes on
+/// at the right one.
+///
+/// side     16..2048 texels, a power of two
+/// throws   InvalidInput with all that check() finds, or for another side (path "/side")
+/// cost     O(side^2)
+[[nodiscard]] RawImages bark_images(const BarkStyle& style, std::uint32_t seed, int side,
+                                    const Parallel& parallel = in_turn);
+
+}  // namespace sporeprint

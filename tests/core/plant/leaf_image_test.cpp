@@ -1,0 +1,86 @@
+#include "core/plant/leaf_image.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <thread>
+
+#include "core/math/elementary.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint {
+namespace {
+
+constexpr int side = 128;
+
+glm::dvec3 texel(const RawImages& images, std::size_t image, const glm::dvec2& at) {
+    const auto x = static_cast<std::size_t>(at.x * side), y = static_cast<std::size_t>(at.y * side);
+    const std::uint8_t* rgb = &images.rgb[image][3 * (y * side + x)];
+    return glm::dvec3(rgb[0], rgb[1], rgb[2]) / 255.0;
+}
+
+TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
+    for (const LeafPreset& preset : leaf_presets()) {
+        SCOPED_TRACE(preset.id);
+        const RawImages images = leaf_images(preset.shape, preset.palette, 0.0, 1, side);
+        const Limb limb = limb_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0));
+        const LeafChart chart = chart_of(limb);
+        const LimbReader reader(limb);
+        for (const bool upper : {true, false}) {
+            // The middle of a texel.
+            glm::dvec2 at = chart.texture_point({0.0, 0.45}, upper);
+            at = (glm::floor(at * double{side}) + 0.5) / double{side};
+            bool face = false;
+            const LimbPlace place = reader.at(chart.place(at, face));
+            EXPECT_EQ(face, upper);
+            const glm::dvec3 seen = texel(images, 0, at);
+            const glm::dvec3 wanted = leaf_colour(preset.palette, place, 0.0, upper);
+            // Blotches and the net change brightness by a quarter at most, an eighth of the encoded one.
+            for (int k = 0; k < 3; ++k)
+                EXPECT_NEAR(seen[k], linear_to_srgb(wanted[k]), 0.13) << upper;
+        }
+    }
+}
+
+TEST(LeafImage, NormalsAreUnitVectorsThatLeanFromVeins) {
+    const LeafPreset& birch = *leaf_preset("birch");
+    const RawImages images = leaf_images(birch.shape, birch.palette, 0.0, 1, side);
+    for (std::size_t i = 0; i < images.rgb[1].size(); i += 3) {
+        const glm::dvec3 normal =
+            2.0 * glm::dvec3(images.rgb[1][i], images.rgb[1][i + 1], images.rgb[1][i + 2]) / 255.0 -
+            1.0;
+        ASSERT_NEAR(glm::length(normal), 1.0, 0.02);
+        ASSERT_GT(normal.z, 0.2);
+    }
+    // Right of the middle vein of the upper face, which lies deeper, the face leans to the left.
+    const LeafChart chart =
+        chart_of(limb_of(birch.shape.venation, leaf_steps(birch.shape.venation, 0)));
+    EXPECT_LT(texel(images, 1, chart.texture_point({0.01, 0.35}, true)).x, 0.48);
+    EXPECT_GT(texel(images, 1, chart.texture_point({-0.01, 0.35}, true)).x, 0.52);
+    EXPECT_GT(texel(images, 1, chart.texture_point({0.01, 0.35}, false)).x, 0.52);
+}
+
+TEST(LeafImage, IsTheSameWhoeverPaintsItAndAnotherForAnotherSeed) {
+    const LeafPreset& maple = *leaf_preset("maple");
+    const RawImages one = leaf_images(maple.shape, maple.palette, 0.4, 1, 64);
+    const Parallel hands = [](std::span<const std::function<void()>> pieces) {
+        std::vector<std::thread> threads;
+        for (const auto& piece : pieces) threads.emplace_back(piece);
+        for (std::thread& thread : threads) thread.join();
+    };
+    EXPECT_EQ(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 1, 64, hands).rgb);
+    EXPECT_NE(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 2, 64).rgb);
+}
+
+TEST(LeafImage, OrdersThatCannotBeAreRefused) {
+    const LeafPreset& maple = *leaf_preset("maple");
+    EXPECT_TRUE(names(refusal([&] { (void)leaf_images(maple.shape, maple.palette, 1.5, 1, 100); }),
+                      "/side", "100"));
+    EXPECT_TRUE(names(refusal([&] { (void)leaf_images(maple.shape, maple.palette, 1.5, 1, 64); }),
+                      "/autumn", "outside"));
+}
+
+}  // namespace
+}  // namespace sporeprint
