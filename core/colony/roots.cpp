@@ -10,13 +10,12 @@
 #include "core/math/elementary.h"
 #include "core/math/noise.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 #include "core/params/messages.h"
 
 namespace sporeprint {
 
 namespace {
-
-constexpr std::uint32_t field_purpose = 70, branch_purpose = 71, stem_purpose = 72;
 
 glm::dvec2 turned(const glm::dvec2& v, double angle) {
     const SineCosine at = sine_cosine(angle);
@@ -27,7 +26,7 @@ glm::dvec2 turned(const glm::dvec2& v, double angle) {
 class Field {
   public:
     Field(const ColonyRoots& roots, std::uint32_t seed) : roots_(roots) {
-        Random random(seed, field_purpose);
+        Random random(seed, purposes::root_field);
         first_ = random.bits();
         second_ = random.bits();
         // Lattice points of the noise have no heading: the base lies anywhere between them.
@@ -124,7 +123,7 @@ class Grower {
         const double angle = made_.branches[start.branch].angle;
         std::uint32_t here = made_.branches[start.branch].nodes.front();
         glm::dvec2 heading = start.heading;
-        Random random(seed_, branch_purpose, start.branch);
+        Random random(seed_, purposes::root_branches, start.branch);
         double passed = 0.0;
         double next = split(random);
         std::vector<std::uint32_t> nodes = {here};
@@ -168,7 +167,7 @@ class Grower {
     void link(std::uint32_t from, std::uint32_t to) { made_.skeleton.limbs.push_back({from, to}); }
 
     void stem(std::uint32_t root) {
-        Random random(seed_, stem_purpose, root);
+        Random random(seed_, purposes::root_stems, root);
         if (random.uniform() >= roots_.stem_probability) return;
         const Skeleton::Node base = made_.skeleton.nodes[root];
         ColonySkeleton::Stem stem;

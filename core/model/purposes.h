@@ -32,7 +32,18 @@ enum Purpose : std::uint32_t {
     furrows = 36,
     ragged = 37,  ///< edge of what is torn or dissolved
     drips = 38,
-    marks = 40,  ///< of four kinds on four parts
+    marks = 40,               ///< of four kinds on four parts
+    grown_ramification = 60,  ///< biorders of a tree, drawn node by node
+    dealt_ramification = 61,  ///< or dealt like cards
+    ramification_tips = 62,   ///< small trees in place of leaves
+    tree_axes = 63,           ///< lengths, angles and azimuths of a tree's axes and nodes
+    leaf_autumn = 64,         ///< when each leaf turns
+    placed_leaves = 65,       ///< how leaves stand on their twigs
+    leaf_thinning = 66,       ///< which leaves are left out first
+    spot_spin = 67,           ///< how polygonal spots are turned
+    root_field = 70,          ///< what the roots of a colony follow
+    root_branches = 71,       ///< where they branch
+    root_stems = 72,          ///< which of their nodes bear a stem
     cap_paint = 101,
     hymenium = 102,  ///< places of gills, ridges, pores and spines
     stem_paint = 103,
@@ -80,6 +91,17 @@ enum Purpose : std::uint32_t {
         case furrows:
         case ragged:
         case drips:
+        case grown_ramification:
+        case dealt_ramification:
+        case ramification_tips:
+        case tree_axes:
+        case leaf_autumn:
+        case placed_leaves:
+        case leaf_thinning:
+        case spot_spin:
+        case root_field:
+        case root_branches:
+        case root_stems:
         case cap_paint:
         case hymenium:
         case stem_paint:

@@ -5,12 +5,11 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
 namespace {
-
-constexpr std::uint32_t autumn_purpose = 64;
 
 glm::dvec3 linear(const Colour& colour) {
     return {srgb_to_linear(colour.r / 255.0), srgb_to_linear(colour.g / 255.0),
@@ -97,7 +96,7 @@ glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place, doubl
 }
 
 double leaf_autumn(double autumn, double spread, std::uint32_t seed, std::uint32_t leaf) {
-    Random random(seed, autumn_purpose, leaf);
+    Random random(seed, purposes::leaf_autumn, leaf);
     const double drawn = random.symmetric();
     // A bow through (0, 0) and (1, 1), up for early leaves and down for late ones.
     return std::clamp(autumn + spread * drawn * 2.0 * autumn * (1.0 - autumn), 0.0, 1.0);

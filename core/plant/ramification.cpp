@@ -6,13 +6,12 @@
 #include <utility>
 
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 #include "core/params/messages.h"
 
 namespace sporeprint {
 
 namespace {
-
-constexpr std::uint32_t grown_purpose = 60, dealt_purpose = 61, tip_purpose = 62;
 
 constexpr std::uint32_t none = Ramification::none;
 
@@ -197,7 +196,7 @@ double expected_leaves(const RamificationMatrix& matrix, int order) {
 Ramification grown_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
                                 std::size_t most) {
     refuse_faults(matrix, order);
-    Random random(seed, grown_purpose);
+    Random random(seed, purposes::grown_ramification);
     Ramification tree;
     const std::uint32_t root = appended(tree, none, order);
     if (!grow(tree, root, matrix, random, most)) refuse_size(expected_leaves(matrix, order), most);
@@ -225,7 +224,7 @@ Ramification dealt_ramification(const RamificationMatrix& matrix, int order, std
                 decks[static_cast<std::size_t>(k)].sides[static_cast<std::size_t>(i - 1)];
             cards.insert(cards.end(), static_cast<std::size_t>(count), i);
         }
-        Random random(seed, dealt_purpose, static_cast<std::uint32_t>(k));
+        Random random(seed, purposes::dealt_ramification, static_cast<std::uint32_t>(k));
         for (std::size_t i = cards.size(); i > 1; --i) {
             const double drawn = random.uniform();
             std::swap(cards[i - 1],
@@ -269,7 +268,7 @@ Ramification with_tips(const Ramification& tree, const RamificationMatrix& tips,
     const std::size_t before = tree.nodes.size();
     for (std::uint32_t node = 0; node < before; ++node) {
         if (!tree.leaf(node)) continue;
-        Random random(seed, tip_purpose, node);
+        Random random(seed, purposes::ramification_tips, node);
         const double drawn = random.uniform();
         grown.nodes[node].order = 1 + static_cast<int>(drawn * tip_order);
         if (!grow(grown, node, tips, random, most)) {

@@ -8,12 +8,11 @@
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
 namespace {
-
-constexpr std::uint32_t spin_purpose = 67;
 
 glm::dvec3 square_to(const glm::dvec3& axis) {
     const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
@@ -57,7 +56,7 @@ Mesh polygonal_spots(std::span<const Spot> spots, int corners, std::uint32_t see
     const double unit = 1.0 / std::sqrt(0.5 * corners * sine(2.0 * pi / corners));
     Mesh mesh;
     for (const Spot& spot : spots) {
-        Random random(seed, spin_purpose, spot.id);
+        Random random(seed, purposes::spot_spin, spot.id);
         const double spin = 2.0 * pi * random.uniform();
         const glm::dvec3 first = square_to(spot.normal);
         const glm::dvec3 second = glm::cross(spot.normal, first);

@@ -9,6 +9,7 @@
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/mesh/tangents.h"
+#include "core/model/purposes.h"
 #include "core/params/messages.h"
 #include "core/skeleton/skin.h"
 
@@ -16,7 +17,6 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t axis_purpose = 63, leaf_purpose = 65, thinning_purpose = 66;
 constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
 
 RamificationMatrix named_matrix(MatrixKind kind, const TreeTopology& topology, int order) {
@@ -189,10 +189,10 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         const double passed = (axes.position[i] + 1.0) / along;
 
         // Lengths vary from axis to axis, not from edge to edge.
-        Random by_axis(seed, axis_purpose, first);
+        Random by_axis(seed, purposes::tree_axes, first);
         const double drawn_length = by_axis.symmetric(), drawn_angle = by_axis.symmetric();
         const double drawn_start = by_axis.uniform();
-        Random by_node(seed, axis_purpose, i + 0x80000000U);
+        Random by_node(seed, purposes::tree_axes, i + 0x80000000U);
         const double drawn_azimuth = by_node.symmetric();
 
         glm::dvec3 heading = tree.headings[i];
@@ -270,8 +270,9 @@ void append(Mesh& mesh, const Mesh& part) {
     for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
 }
 
-// The limbs of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go.
-Skeleton part_of(const Tree& tree, int low, int high, double tolerance) {
+// The limbs of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go, and longer
+// ways than `gap` radii get nodes: an image that turns back between two rings would be seen stretched.
+Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double gap) {
     const Ramification& grown = tree.ramification;
     const std::size_t count = grown.nodes.size();
     const auto within = [&](std::uint32_t i) {
@@ -312,12 +313,23 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance) {
                 const double t = glm::dot(here.place - before.place, way) / whole;
                 const double aside = glm::length(here.place - before.place - t * way);
                 const double wanted = before.radius + t * (after.radius - before.radius);
-                if (aside < tolerance * here.radius &&
+                if (whole < gap * gap * here.radius * here.radius &&
+                    aside < tolerance * here.radius &&
                     std::abs(wanted - here.radius) < 0.5 * tolerance * here.radius) {
                     place[i] = from;
                     continue;
                 }
             }
+        }
+        const Skeleton::Node start = part.nodes[from];
+        const double length = glm::distance(start.place, here.place);
+        const double steps = std::floor(length / (gap * std::max(start.radius, here.radius)));
+        for (double step = 1.0; step <= steps; step += 1.0) {
+            const double t = step / (steps + 1.0);
+            const std::uint32_t between = add({start.place + t * (here.place - start.place),
+                                               start.radius + t * (here.radius - start.radius)});
+            part.limbs.push_back({from, between});
+            from = between;
         }
         place[i] = add(here);
         part.limbs.push_back({from, place[i]});
@@ -337,8 +349,10 @@ Mesh bark_of(const Tree& tree, int lod) {
     // Trunk and great branches, branches, twigs: each a skin of its own, subdivided as its place in the picture is worth.
     int high = highest;
     for (int group = 0; group < 3 && high >= lowest; ++group) {
-        const int low = group == 2 ? lowest : std::max(lowest, high - 1);
-        const Skeleton part = part_of(tree, low, high, 0.25 * (1 + lod));
+        // Twigs of order 1, half of all limbs, are never subdivided.
+        const int low = group == 2 ? lowest : std::max({lowest, high - 1, std::min(high, 2)});
+        const double gap = group == 2 ? 1e9 : 3.0 * (1 + group) * (1 + lod);
+        const Skeleton part = part_of(tree, low, high, 0.25 * (1 + lod), gap);
         high = low - 1;
         if (part.limbs.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, std::max(0, 2 - group - lod));
@@ -373,7 +387,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
         const Skeleton::Node& from = tree.skeleton.nodes[tree.skeleton.limbs[i].from];
         const Skeleton::Node& to = tree.skeleton.nodes[i + 1];
         const glm::dvec3 heading = tree.headings[i];
-        Random random(seed, leaf_purpose, i);
+        Random random(seed, purposes::placed_leaves, i);
         const double start = random.uniform();
         for (int k = 0; k < style.per_tip; ++k) {
             const double turn_drawn = random.symmetric(), size_drawn = random.symmetric();
@@ -397,7 +411,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
     }
     std::vector<std::pair<std::uint32_t, std::uint32_t>> order;
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
-        Random random(seed, thinning_purpose, leaves[i].id);
+        Random random(seed, purposes::leaf_thinning, leaves[i].id);
         order.emplace_back(random.bits(), i);
     }
     std::sort(order.begin(), order.end());
