@@ -14,10 +14,6 @@ namespace sporeprint {
 
 namespace {
 
-void stop_if_asked(const Workshop& workshop) {
-    if (workshop.stop.stop_requested()) throw Cancelled();
-}
-
 /// Runs the work on one frame; a refusal says which frame it is about.
 template <class Work>
 auto at_age(double age, const Work& work) {

@@ -12,30 +12,6 @@ namespace sporeprint {
 
 namespace {
 
-void stop_if_asked(const Workshop& workshop) {
-    if (workshop.stop.stop_requested()) throw Cancelled();
-}
-
-Value corner(const glm::vec3& p) {
-    // As the float's own shortest text would read: widened, then cut to what a float holds.
-    Value list = Value::array();
-    for (const float x : {p.x, p.y, p.z}) list.push(Value(static_cast<double>(x)));
-    return list;
-}
-
-std::string extras_json(const Extras& extras, const Individual& individual, const Mesh& mesh) {
-    Value json = Value::object();
-    json.set("canonical", Value(extras.canonical));
-    json.set("effective", write(individual.effective));
-    const Bounds box = bounds(mesh);
-    Value limits = Value::object();
-    limits.set("min", corner(box.min));
-    limits.set("max", corner(box.max));
-    json.set("bounds_m", std::move(limits));
-    json.set("triangles", Value(mesh.triangles()));
-    return dump(json);
-}
-
 /// That of the species with the most weight, so that the order of a mix changes nothing.
 std::string name_of(const Individual& individual) {
     const auto most = std::max_element(
@@ -79,9 +55,7 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     const std::uint64_t images = textured(order) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(order));
     // Twenty years of JPEG: noisy paint takes about a third of a byte a texel.
-    e.bytes = 2500 + e.vertices * (textured(order) ? 44 : 24) +
-              e.triangles * 3 * (e.vertices > 65535 ? 4 : 2) +
-              (order.params.textures == Textures::embedded ? images / 3 : 0);
+    e.bytes = estimated_bytes(e.vertices, e.triangles, order.params.textures, images / 3);
     if (order.params.animation != Animation::none) {
         const auto frames = static_cast<std::uint64_t>(order.params.frames);
         e.bytes += e.vertices * 24 * frames + 600 * frames;
@@ -108,7 +82,7 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     GlbParts parts{.name = name_of(individual),
                    .images = nullptr,
                    .image_addresses = {},
-                   .extras_json = extras_json(extras, individual, mesh),
+                   .extras_json = extras_json(extras, write(individual.effective), mesh),
                    .look = look_of(individual.model)};
     GrowthClip growth;
     if (order.params.animation == Animation::growth) {
@@ -116,19 +90,9 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
         parts.targets = growth.targets;
         parts.clip = &growth.clip;
     }
-    std::shared_ptr<const ImageSet> images;
-    if (order.params.textures == Textures::embedded) {
-        workshop.observer(Step::paint);
-        images = painted_images(paint_recipe(order, atlas, workshop.memo), workshop);
-        parts.images = images.get();
-        stop_if_asked(workshop);
-    } else if (order.params.textures == Textures::linked) {
-        if (extras.image_addresses[0].empty())
-            throw Impossible(
-                "/textures",
-                "'linked' needs the images to have addresses; a model of one's own has none");
-        parts.image_addresses = extras.image_addresses;
-    }
+    const auto images = wear_images(parts, order.params.textures, extras, workshop, [&] {
+        return painted_images(paint_recipe(order, atlas, workshop.memo), workshop);
+    });
     workshop.observer(Step::pack);
     return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
 }

@@ -2,23 +2,12 @@
 #pragma once
 
 #include "core/atlas/atlas.h"
-#include "core/bytes.h"
-#include "core/grow/workshop.h"
-#include "core/mesh/mesh.h"
+#include "core/grow/product.h"
 #include "core/model/request.h"
 #include "core/model/resolve.h"
 #include "core/version.h"
 
 namespace sporeprint {
-
-/// What an order will come to, before any work.
-struct Estimate {
-    std::uint64_t vertices = 0;  ///< those of every frame of a clip too: each is built
-    std::uint64_t triangles = 0;
-    std::uint64_t texels =
-        0;  ///< held at once, at most: of the images and of what they are dissolved from
-    std::uint64_t bytes = 0;
-};
 
 /// Number of vertices (exact), triangles (at most), texels and bytes; microseconds, allocates nothing large.
 [[nodiscard]] Estimate estimate(const MushroomOrder& order, const Individual& individual);
@@ -28,16 +17,7 @@ struct Estimate {
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
 
-struct Extras {
-    std::string canonical;  ///< canonical address of the request; empty for none
-    std::array<std::string, 3> image_addresses;  ///< by ImageKind, for Textures::linked
-};
-
-struct Mushroom {
-    Body glb;
-    std::uint64_t vertices = 0;
-    std::uint64_t triangles = 0;
-};
+using Mushroom = Grown;
 
 /// Grows a mushroom.
 ///

@@ -4,6 +4,7 @@
 #include <functional>
 #include <stop_token>
 
+#include "core/params/problems.h"
 #include "core/remember.h"
 #include "core/silhouette/morph_set.h"
 #include "core/surface/paint.h"
@@ -42,5 +43,10 @@ struct Workshop {
     Parallel parallel = in_turn;
     std::stop_token stop;
 };
+
+/// throws  Cancelled if the workshop was asked to stop
+inline void stop_if_asked(const Workshop& workshop) {
+    if (workshop.stop.stop_requested()) throw Cancelled();
+}
 
 }  // namespace sporeprint

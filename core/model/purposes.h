@@ -41,6 +41,7 @@ enum Purpose : std::uint32_t {
     placed_leaves = 65,       ///< how leaves stand on their twigs
     leaf_thinning = 66,       ///< which leaves are left out first
     spot_spin = 67,           ///< how polygonal spots are turned
+    leaf_variation = 68,      ///< how a leaf differs from its preset
     root_field = 70,          ///< what the roots of a colony follow
     root_branches = 71,       ///< where they branch
     root_stems = 72,          ///< which of their nodes bear a stem
@@ -99,6 +100,7 @@ enum Purpose : std::uint32_t {
         case placed_leaves:
         case leaf_thinning:
         case spot_spin:
+        case leaf_variation:
         case root_field:
         case root_branches:
         case root_stems:

@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/math/random.h"
 #include "core/mesh/tangents.h"
+#include "core/model/purposes.h"
 
 namespace sporeprint {
 
@@ -423,36 +425,6 @@ LeafChart chart_of(const Limb& limb) {
 
 int leaf_steps(const Venation& venation, int lod) { return level_of(venation, lod).steps; }
 
-Mesh leaf_mesh(const LeafShape& shape, int lod) {
-    refuse_faults(shape);
-    if (lod < 0 || lod >= leaf_lods)
-        throw InvalidInput("/lod",
-                           std::to_string(lod) + " is outside 0.." + std::to_string(leaf_lods - 1));
-    const Level level = level_of(shape.venation, lod);
-    const Limb limb = limb_of(shape.venation, level.steps);
-    const LeafChart chart = chart_of(limb);
-    const FlatLimb flat = FlatMaker(limb, level.rows, level.fill).take();
-    const Bending bent(shape);
-    Shell shell;
-    const auto count = static_cast<std::uint32_t>(flat.vertices.size());
-    for (const bool upper : {true, false})
-        for (const Flat& vertex : flat.vertices) {
-            double lift = 0.0;
-            if (!vertex.rim && &vertex != flat.vertices.data()) {
-                lift = shape.relief * (0.012 * vertex.swell - 0.008 * vertex.groove);
-                lift += upper ? 0.5 * shape.thickness
-                              : -0.5 * shape.thickness - shape.relief * 0.012 * vertex.rib;
-            }
-            shell.add(bent.at(vertex.place, lift), chart.texture_point(vertex.place, upper));
-        }
-    for (const auto& t : flat.triangles) shell.triangles.push_back(t);
-    for (const auto& t : flat.triangles)
-        shell.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
-    add_petiole(shape, bent, level, shell);
-    for (glm::dvec3& place : shell.places) place.z += shape.petiole;
-    return shell.mesh(shape.length);
-}
-
 namespace {
 
 double area_of(const std::vector<glm::dvec2>& border) {
@@ -510,10 +482,10 @@ double limb_area(const LeafShape& shape) {
            shape.length * shape.length;
 }
 
-Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
-    refuse_faults(shape);
-    if (triangles < 8 || triangles > most_foliage_triangles || triangles % 4 != 0)
-        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 8, 12 or 16");
+namespace {
+
+// The limb alone, root at the origin.
+Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles) {
     const Limb limb = limb_of(shape.venation, leaf_steps(shape.venation, 0));
     // Between its veins' ends the border goes straight, or every corner would go into the bays of a frond.
     Venation plain = shape.venation;
@@ -533,7 +505,6 @@ Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
     // As much area as the limb has.
     const double grown = std::sqrt(area_of(border_of(limb)) / area_of(border));
     const LeafChart chart = chart_of(limb);
-    const Bending bent(shape);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(border.size());
     for (const bool upper : {true, false}) {
@@ -547,7 +518,83 @@ Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
         shell.triangles.push_back({i, next, count});
         shell.triangles.push_back({below + next, below + i, below + count});
     }
-    return shell.mesh(shape.length);
+    return shell;
+}
+
+}  // namespace
+
+Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
+    refuse_faults(shape);
+    if (triangles < 8 || triangles > most_foliage_triangles || triangles % 4 != 0)
+        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 8, 12 or 16");
+    return foliage_shell(shape, Bending(shape), triangles).mesh(shape.length);
+}
+
+namespace {
+
+// Both faces on the grid of a level.
+Shell limb_shell(const LeafShape& shape, const Bending& bent, const Level& level) {
+    const Limb limb = limb_of(shape.venation, level.steps);
+    const LeafChart chart = chart_of(limb);
+    const FlatLimb flat = FlatMaker(limb, level.rows, level.fill).take();
+    Shell shell;
+    const auto count = static_cast<std::uint32_t>(flat.vertices.size());
+    for (const bool upper : {true, false})
+        for (const Flat& vertex : flat.vertices) {
+            double lift = 0.0;
+            if (!vertex.rim && &vertex != flat.vertices.data()) {
+                lift = shape.relief * (0.012 * vertex.swell - 0.008 * vertex.groove);
+                lift += upper ? 0.5 * shape.thickness
+                              : -0.5 * shape.thickness - shape.relief * 0.012 * vertex.rib;
+            }
+            shell.add(bent.at(vertex.place, lift), chart.texture_point(vertex.place, upper));
+        }
+    for (const auto& t : flat.triangles) shell.triangles.push_back(t);
+    for (const auto& t : flat.triangles)
+        shell.triangles.push_back({t[0] + count, t[2] + count, t[1] + count});
+    return shell;
+}
+
+}  // namespace
+
+Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
+    refuse_faults(shape);
+    if (lod < 0 || lod >= leaf_lods)
+        throw InvalidInput("/lod",
+                           std::to_string(lod) + " is outside 0.." + std::to_string(leaf_lods - 1));
+    const Level level = level_of(shape.venation, lod);
+    const Bending bent(shape);
+    Shell shell = limb_shell(shape, bent, level);
+    if (lod + 1 == leaf_lods && shell.triangles.size() > most_foliage_triangles)
+        shell = foliage_shell(shape, bent, most_foliage_triangles);
+    add_petiole(shape, bent, level, shell);
+    for (glm::dvec3& place : shell.places) place.z += shape.petiole;
+    return shell.mesh(shape.length * size);
+}
+
+LeafCount most_of_leaf(const Venation& venation, int lod) {
+    const Level level = level_of(venation, lod);
+    const auto sides = static_cast<std::uint64_t>(level.petiole_sides);
+    const auto rings = static_cast<std::uint64_t>(level.petiole_rings);
+    LeafCount count{rings * (sides + 1) + sides + 2, 2 * sides * rings};
+    // The polygon of a needle has fewer corners, and then two to a triangle at the most.
+    if (lod + 1 == leaf_lods)
+        return {count.vertices + 2 * most_foliage_triangles,
+                count.triangles + most_foliage_triangles};
+    // Feet of half a lobe: its border's corners and what lies between them, where it is joined to its neighbour, and filled in.
+    const auto nodes = static_cast<std::uint64_t>(venation.nodes);
+    const auto lobes = static_cast<std::uint64_t>(venation.lobes.value);
+    const std::uint64_t between =
+        (venation.sinus > 0.0 ? 2 : 1) * std::max<std::uint64_t>(nodes, 2);
+    const bool toothed = level.steps > 1 && venation.teeth > 0.0;
+    const int places = std::max(level.steps, toothed ? 2 * venation.teeth_per_vein : 0);
+    const std::uint64_t feet =
+        between * static_cast<std::uint64_t>(places) + 6 + level.fill * (nodes + 1);
+    const std::uint64_t rows = level.rows.size();
+    // Both halves of a lobe share their main vein, neighbours the ray between; either line has the feet of both sides.
+    count.vertices += 2 * lobes * (2 * feet * (rows - 1) + 4 * feet);
+    count.triangles += 2 * lobes * (2 * feet * 2 * (rows - 1) + 8 * feet);
+    return count;
 }
 
 namespace {
@@ -654,15 +701,15 @@ std::vector<LeafPreset> make_presets() {
         birch.venation = {.lobes = {1},
                           .nodes = 8,
                           .side_deg = 48,
-                          .base_deg = 28,
+                          .base_deg = 14,
                           .law = LengthLaw::logarithmic,
-                          .rise = 0.8,
-                          .side_length = 2.7,
-                          .narrow_base = 0.35,
+                          .rise = 3,
+                          .side_length = 2.4,
+                          .narrow_base = 0.15,
                           .narrow_tip = 0.95,
                           .border = 1.06,
                           .smooth = 0.9,
-                          .pointed = 0.4,
+                          .pointed = 0.7,
                           .teeth = 0.6,
                           .teeth_per_vein = 3};
         birch.length = 0.055;
@@ -704,14 +751,14 @@ std::vector<LeafPreset> make_presets() {
                         .vein_deg = 48,
                         .side_deg = 46,
                         .base_deg = 20,
-                        .law = LengthLaw::constant,
-                        .rise = 0,
-                        .side_length = 2.0,
+                        .law = LengthLaw::logarithmic,
+                        .rise = 0.8,
+                        .side_length = 1.6,
                         .narrow_base = 0,
                         .narrow_tip = 0.95,
                         .border = 1.1,
-                        .smooth = 0.8,
-                        .pointed = 0.6};
+                        .smooth = 0.7,
+                        .pointed = 1.0};
         ivy.length = 0.065;
         ivy.petiole = 0.9;
         ivy.thickness = 0.01;
@@ -801,7 +848,7 @@ std::vector<LeafPreset> make_presets() {
                           .rise = 0,
                           .side_length = 4.0,
                           .narrow_base = 0.3,
-                          .narrow_tip = 0.5,
+                          .narrow_tip = 0.9,
                           .border = 1.05,
                           .sinus = 0.95,
                           .smooth = 0.3,
@@ -889,6 +936,45 @@ std::vector<LeafPreset> make_presets() {
 }
 
 }  // namespace
+
+LeafShape individual_leaf(const LeafShape& shape, std::uint32_t seed, double variation) {
+    Random random(seed, purposes::leaf_variation);
+    const auto departure = [&] {
+        const double drawn = random.normal();
+        return variation * std::clamp(drawn, -2.5, 2.5);
+    };
+    const auto within = [](const Info& info, double value) {
+        return std::clamp(value, info.min, info.max);
+    };
+    LeafShape leaf = shape;
+    const auto scaled = [&](const char* name, double value, double spread) {
+        const double by = departure();
+        return within(info_of<LeafShape>(name), value * exponential(spread * by));
+    };
+    const auto turned = [&](const Info& info, double value, double spread) {
+        const double by = departure();
+        return within(info, value + spread * by);
+    };
+    leaf.length = scaled("length", leaf.length, 0.15);
+    leaf.petiole = scaled("petiole", leaf.petiole, 0.2);
+    leaf.wave = scaled("wave", leaf.wave, 0.4);
+    leaf.waves = scaled("waves", leaf.waves, 0.15);
+    leaf.curl_deg = turned(info_of<LeafShape>("curl_deg"), leaf.curl_deg, 12.0);
+    leaf.fold_deg = turned(info_of<LeafShape>("fold_deg"), leaf.fold_deg, 5.0);
+    Venation& veins = leaf.venation;
+    const double longer = departure();
+    veins.side_length =
+        within(info_of<Venation>("side_length"), veins.side_length * exponential(0.1 * longer));
+    veins.side_deg = turned(info_of<Venation>("side_deg"), veins.side_deg, 2.5);
+    veins.vein_deg = turned(info_of<Venation>("vein_deg"), veins.vein_deg, 2.5);
+    // Angles that leave lobes no room stay as they were.
+    std::vector<Problem> problems;
+    veins.check("", problems);
+    if (problems.empty()) return leaf;
+    veins.side_deg = shape.venation.side_deg;
+    veins.vein_deg = shape.venation.vein_deg;
+    return leaf;
+}
 
 std::span<const LeafPreset> leaf_presets() {
     static const std::vector<LeafPreset> presets = make_presets();

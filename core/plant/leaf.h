@@ -25,7 +25,7 @@ struct LeafShape {
 
     static constexpr void fields(auto visit) {
         using L = LeafShape;
-        visit(&L::venation, Info{.name = ""});
+        visit(&L::venation, Info{.name = "venation", .doc = "Veins, and the border about them."});
         visit(&L::length, Info{.name = "length",
                                .unit = "m",
                                .min = 0.004,
@@ -95,18 +95,35 @@ struct LeafChart {
 inline constexpr double petiole_strip = 0.94;
 [[nodiscard]] LeafChart chart_of(const Limb& limb);
 
-/// Levels of detail of a lone leaf; foliage_leaf() is the level beyond.
-inline constexpr int leaf_lods = 3;
+/// Levels of detail of a lone leaf.
+inline constexpr int leaf_lods = 4;
 
 /// Steps that limb_of() takes for a leaf at a level of detail.
 [[nodiscard]] int leaf_steps(const Venation& venation, int lod);
 
 /// The whole leaf: pivot at the far end of the petiole, the limb along +z, its upper face up.
 ///
-/// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source
+/// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source; 3 foliage_leaf() on its petiole, or the polygon
+///          where that has no more triangles
+/// size     scale of the whole
 /// returns  two closed pieces: limb, its veins as relief, and petiole
 /// throws   InvalidInput with all that check() finds
-[[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod);
+[[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod, double size = 1.0);
+
+struct LeafCount {
+    std::uint64_t vertices = 0, triangles = 0;
+};
+
+/// Most that leaf_mesh() comes to; nanoseconds. Up to six times as many where few corners are many lobes.
+[[nodiscard]] LeafCount most_of_leaf(const Venation& venation, int lod);
+
+/// One of many leaves of a shape: a little longer or shorter, more or less curled, with other angles between its veins.
+///
+/// shape      with nothing that check() finds
+/// variation  0 the shape itself, 1 as far as leaves of one plant differ
+/// returns    a shape with nothing that check() finds
+[[nodiscard]] LeafShape individual_leaf(const LeafShape& shape, std::uint32_t seed,
+                                        double variation);
 
 /// Most triangles of foliage_leaf().
 inline constexpr std::size_t most_foliage_triangles = 16;

@@ -14,6 +14,7 @@ namespace sporeprint {
 namespace {
 
 constexpr int rows_per_piece = 32;
+constexpr int finest_row = 512;  // points that show the veins of a leaf whole
 // Features of blotches and of the net between veins, to the length of a limb.
 constexpr float blotches = 7.0F, net = 60.0F;
 
@@ -79,47 +80,75 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
         parallel(pieces);
     };
 
+    // A texel of a small image is wider than a vein: it is the mean of several points.
+    const auto points = static_cast<std::size_t>(std::clamp(finest_row / side, 1, 4));
+    const std::size_t half = count / 2;
+    const double share = 1.0 / static_cast<double>(points * points);
     in_pieces([&](std::size_t y) {
-        std::vector<float> across(count), down(count), spots(count), cells(count);
-        for (std::size_t x = 0; x < count; ++x) {
-            bool upper = false;
-            const glm::dvec2 at = chart.place({along(x), along(y)}, upper);
-            // Blotches go through the leaf: both faces have the same.
-            across[x] = static_cast<float>(at.x + 8.0);
-            down[x] = static_cast<float>(at.y + 8.0);
-        }
-        const auto noise = [&](float scale, std::uint32_t purpose, std::vector<float>& out) {
-            std::vector<float> u = across, v = down;
-            for (float& one : u) one *= scale;
-            for (float& one : v) one *= scale;
-            gradient_noise(u, v, seed * 2U + purpose, out);
+        struct Texel {
+            glm::dvec3 light{0.0};
+            double height = 0.0, occlusion = 0.0, roughness = 0.0;
         };
-        noise(blotches, 0U, spots);
-        noise(net, 1U, cells);
-        for (std::size_t x = 0; x < count; ++x) {
-            std::uint8_t* colour = &images.rgb[0][3 * (y * count + x)];
-            std::uint8_t* surface = &images.rgb[2][3 * (y * count + x)];
-            const auto blotch = static_cast<double>(spots[x]);
-            const auto cell = static_cast<double>(cells[x]);
-            glm::dvec3 light;
-            double depth = 0.0;
-            bool upper = false;
-            if (along(y) > petiole_strip) {
-                LimbPlace petiole;
-                petiole.from_side = 0.0;
-                light = colourist.at(petiole, autumn, true) * (0.8 + 0.2 * blotch);
-            } else {
-                const LimbPlace place = reader.at(chart.place({along(x), along(y)}, upper));
-                const double own =
-                    std::clamp(autumn + 0.5 * blotch * autumn * (1.0 - autumn) * 2.0, 0.0, 1.0);
-                light = colourist.at(place, own, upper) * (1.0 + 0.16 * blotch + 0.1 * cell);
-                depth = vein_depth(place);
-                const double relief = shape.relief * (0.006 * depth - 0.0006 * cell);
-                heights[y * count + x] = static_cast<float>(upper ? -relief : relief);
+        std::vector<Texel> row(count);
+        const bool of_petiole = along(y) > petiole_strip;
+        for (std::size_t line = 0; line < points; ++line) {
+            const auto offset = [&](std::size_t i) {
+                return (static_cast<double>(i) + 0.5) / static_cast<double>(points);
+            };
+            const double v = (static_cast<double>(y) + offset(line)) / static_cast<double>(count);
+            // Both faces show the same places, and blotches go through the leaf: what is seen is looked up once for the two.
+            std::vector<glm::dvec2> places(half * points);
+            std::vector<float> across(places.size()), down(places.size());
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                const double u = (static_cast<double>(i / points) + offset(i % points)) /
+                                 static_cast<double>(count);
+                bool upper = false;
+                places[i] = chart.place({u, v}, upper);
+                across[i] = static_cast<float>(places[i].x + 8.0);
+                down[i] = static_cast<float>(places[i].y + 8.0);
             }
-            for (int k = 0; k < 3; ++k) colour[k] = encoded(light[k]);
-            surface[0] = byte(upper ? 1.0 - 0.25 * shape.relief * depth : 1.0);
-            surface[1] = byte((upper ? 0.5 : 0.75) + 0.08 * cell + 0.2 * autumn);
+            const auto noise = [&](float scale, std::uint32_t purpose) {
+                std::vector<float> a = across, b = down, out(places.size());
+                for (float& one : a) one *= scale;
+                for (float& one : b) one *= scale;
+                gradient_noise(a, b, seed * 2U + purpose, out);
+                return out;
+            };
+            const std::vector<float> spots = noise(blotches, 0U), cells = noise(net, 1U);
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                const auto blotch = static_cast<double>(spots[i]);
+                const auto cell = static_cast<double>(cells[i]);
+                LimbPlace place;
+                double depth = 0.0, own = autumn;
+                if (of_petiole) {
+                    place.from_side = 0.0;
+                } else {
+                    place = reader.at(places[i]);
+                    depth = vein_depth(place);
+                    own = std::clamp(autumn + blotch * autumn * (1.0 - autumn), 0.0, 1.0);
+                }
+                for (const bool upper : {true, false}) {
+                    // The strip of the petiole goes on where both halves meet.
+                    const std::size_t x = i / points;
+                    Texel& texel = row[upper ? x : of_petiole ? count - 1 - x : half + x];
+                    const double shade =
+                        of_petiole ? 0.8 + 0.2 * blotch : 1.0 + 0.16 * blotch + 0.1 * cell;
+                    texel.light += share * shade * colourist.at(place, own, upper || of_petiole);
+                    texel.occlusion += share * (upper ? 1.0 - 0.25 * shape.relief * depth : 1.0);
+                    texel.roughness +=
+                        share * ((upper && !of_petiole ? 0.5 : 0.75) + 0.08 * cell + 0.2 * autumn);
+                    const double relief = shape.relief * (0.006 * depth - 0.0006 * cell);
+                    if (!of_petiole) texel.height += share * (upper ? -relief : relief);
+                }
+            }
+        }
+        for (std::size_t x = 0; x < count; ++x) {
+            const std::size_t texel = y * count + x;
+            for (std::size_t k = 0; k < 3; ++k)
+                images.rgb[0][3 * texel + k] = encoded(row[x].light[static_cast<int>(k)]);
+            heights[texel] = static_cast<float>(row[x].height);
+            images.rgb[2][3 * texel] = byte(row[x].occlusion);
+            images.rgb[2][3 * texel + 1] = byte(row[x].roughness);
         }
     });
     const double texels = chart.scale * static_cast<double>(side);

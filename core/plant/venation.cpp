@@ -418,6 +418,12 @@ constexpr std::size_t directions = 2048;
 
 LimbReader::LimbReader(Limb limb) : limb_(std::move(limb)), reach_(directions + 1, 0.0) {
     const std::vector<glm::dvec2> border = border_of(limb_);
+    for (const Lobe& lobe : limb_.lobes) {
+        turns_.push_back(sine_cosine(lobe.turn));
+        for (std::size_t side = 0; side < 2; ++side)
+            rays_.push_back({sine_cosine(lobe.base_angle[side]),
+                             lobe.base_angle[side] == lobe.side_angle[side]});
+    }
     const double scale = static_cast<double>(directions) / (2.0 * pi);
     // Directions are turns to the left of the middle main vein.
     const auto direction = [&](const glm::dvec2& p) {
@@ -447,43 +453,42 @@ LimbPlace LimbReader::at(const glm::dvec2& point) const {
            turn > limb_.lobes[place.lobe].turn + limb_.lobes[place.lobe].halves[0].limit)
         ++place.lobe;
     const Lobe& lobe = limb_.lobes[place.lobe];
-    const SineCosine turned = sine_cosine(lobe.turn);
+    const SineCosine turned = turns_[place.lobe];
     const double along = -turned.sine * point.x + turned.cosine * point.y;
     const double left = -turned.cosine * point.x - turned.sine * point.y;
     place.side = left >= 0.0 ? 0 : 1;
     const HalfLobe& half = lobe.halves[place.side];
+    const Rays& rays = rays_[2 * place.lobe + place.side];
     place.from_main = std::abs(left);
     // The foot whose ray goes through the point: rays part, so there is one at most.
-    const auto excess = [&](double foot) {
-        const SineCosine at = sine_cosine(lobe.angle(place.side, foot));
-        return foot + place.from_main * at.cosine / at.sine - along;
+    const auto excess = [&](double foot, const SineCosine& ray) {
+        return foot + place.from_main * ray.cosine / ray.sine - along;
     };
-    double low = 0.0, high = lobe.reach;
-    if (lobe.base_angle[place.side] == lobe.side_angle[place.side]) {
-        low = high = -excess(0.0);
+    const double at_root = excess(0.0, rays.root);
+    SineCosine at = rays.root;
+    if (rays.parallel) {
+        place.foot = -at_root;
     } else {
         // Newton from the steep end; the excess never falls, so what leaves the bracket is halved instead.
-        double foot = 0.0;
+        double low = 0.0, high = lobe.reach, value = at_root;
         for (int step = 0; step < 24; ++step) {
-            const SineCosine at = sine_cosine(lobe.angle(place.side, foot));
-            const double value = foot + place.from_main * at.cosine / at.sine - along;
-            (value < 0.0 ? low : high) = foot;
+            (value < 0.0 ? low : high) = place.foot;
             const double falls = 2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) *
-                                 (1.0 - foot / lobe.reach) / lobe.reach;
+                                 (1.0 - place.foot / lobe.reach) / lobe.reach;
             const double slope = 1.0 + place.from_main * falls / (at.sine * at.sine);
-            const double next = foot - value / slope;
-            const double moved = (next >= low && next <= high ? next : 0.5 * (low + high)) - foot;
-            foot += moved;
-            if (std::abs(moved) < 1e-12) break;
+            const double next = place.foot - value / slope;
+            const double moved =
+                (next >= low && next <= high ? next : 0.5 * (low + high)) - place.foot;
+            place.foot += moved;
+            at = sine_cosine(lobe.angle(place.side, place.foot));
+            if (std::abs(moved) < 1e-10) break;
+            value = excess(place.foot, at);
         }
-        low = high = foot;
     }
-    place.foot = 0.5 * (low + high);
-    const SineCosine at = sine_cosine(lobe.angle(place.side, place.foot));
     place.height = place.from_main / at.sine;
     const double border = half.height(place.foot);
-    place.inside = place.foot >= 0.0 && place.foot <= lobe.reach && place.height <= border &&
-                   excess(0.0) <= 0.0;
+    place.inside =
+        place.foot >= 0.0 && place.foot <= lobe.reach && place.height <= border && at_root <= 0.0;
     place.affinity = border > 0.0 ? place.height / border : 1.0;
     const double where = (turn + pi) * (static_cast<double>(directions) / (2.0 * pi));
     const auto k = std::min(static_cast<std::size_t>(std::max(where, 0.0)), directions - 1);

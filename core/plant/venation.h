@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/math/elementary.h"
 #include "core/params/describe.h"
 
 namespace sporeprint {
@@ -214,8 +215,16 @@ class LimbReader {
     [[nodiscard]] const Limb& limb() const { return limb_; }
 
   private:
+    /// Direction of side veins at the root, and whether it is theirs everywhere.
+    struct Rays {
+        SineCosine root;
+        bool parallel = true;
+    };
+
     Limb limb_;
-    std::vector<double> reach_;  ///< farthest place of the border by direction from the root
+    std::vector<SineCosine> turns_;  ///< of each lobe
+    std::vector<Rays> rays_;         ///< of each half: 2 lobe + side
+    std::vector<double> reach_;      ///< farthest place of the border by direction from the root
 };
 
 }  // namespace sporeprint

@@ -55,13 +55,15 @@ Canvas::Canvas(int side)
 
 Canvas::~Canvas() { canvases().give(std::move(bytes_)); }
 
-ImageSet encoded(const Canvas& canvas, const Parallel& parallel) {
+namespace {
+
+ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int side,
+                 const Parallel& parallel) {
     ImageSet out;
     const auto encode = [&](ImageKind kind, int quality, Chroma chroma) {
         const std::size_t i = static_cast<std::size_t>(kind);
-        const std::span<const std::uint8_t> rgb(canvas.image(i), canvas.size());
-        out.files[i] = Slice(std::make_shared<const Bytes>(
-            jpeg(rgb, canvas.side(), canvas.side(), quality, chroma)));
+        out.files[i] =
+            Slice(std::make_shared<const Bytes>(jpeg(rgb[i], side, side, quality, chroma)));
     };
     const std::array<std::function<void()>, 3> pieces = {
         [&] { encode(ImageKind::normal, 89, Chroma::full); },
@@ -70,6 +72,18 @@ ImageSet encoded(const Canvas& canvas, const Parallel& parallel) {
     };
     parallel(pieces);
     return out;
+}
+
+}  // namespace
+
+ImageSet encoded(const Canvas& canvas, const Parallel& parallel) {
+    std::array<std::span<const std::uint8_t>, 3> rgb;
+    for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = {canvas.image(i), canvas.size()};
+    return encoded(rgb, canvas.side(), parallel);
+}
+
+ImageSet encoded(const RawImages& images, const Parallel& parallel) {
+    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.side, parallel);
 }
 
 RawImages raw(const Canvas& canvas) {

@@ -132,6 +132,9 @@ struct RawImages {
     }
 };
 
+/// Encodes pixels as paint() does.
+[[nodiscard]] ImageSet encoded(const RawImages& images, const Parallel& parallel = in_turn);
+
 /// How far given images are turned, in turns: what a texel at an angle shows lies that much further on in the image.
 struct GivenTurns {
     double cap = 0.0, hymenium = 0.0, stem = 0.0;

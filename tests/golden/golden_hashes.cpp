@@ -1,6 +1,6 @@
 // Compares a hash of each of many whole GLB files with the one written down, or writes them down.
 //   golden_hashes check FILE     golden_hashes bless FILE
-// A line of the file: generator_version species age lod texture_size hash
+// A line of the file: generator_version species age lod texture_size hash; a leaf has its preset and autumn in their place.
 
 #include <xxhash.h>
 
@@ -12,6 +12,7 @@
 #include <memory>
 #include <string>
 
+#include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
 #include "core/params/value.h"
 
@@ -31,7 +32,25 @@ std::string hash_of(const Body& body) {
 
 using Hashes = std::map<std::string, std::string>;  // "species age lod texture_size" -> hash
 
-/// Each species at several ages and every level of detail, small; and once as a game would ask for it.
+std::string line_of(const std::string& id, double age, int lod, int side) {
+    return id + ' ' + number_text(age) + ' ' + std::to_string(lod) + ' ' + std::to_string(side);
+}
+
+/// Each leaf through the year, at every level of detail, small.
+void add_leaves(Hashes& hashes) {
+    for (const LeafPreset& preset : leaf_presets())
+        for (const double autumn : {0.0, 0.5, 1.0})
+            for (int lod = 0; lod < leaf_lods; ++lod) {
+                LeafOrder order{preset.id, params_of(preset)};
+                order.params.autumn = autumn;
+                order.params.lod = lod;
+                order.params.texture_size.value = 128;
+                hashes[line_of(std::string("leaf/") + preset.id, autumn, lod, 128)] =
+                    hash_of(grow_leaf(order).glb);
+            }
+}
+
+/// Each species at several ages and every level of detail, small; and once as a game would ask for it. Then the leaves.
 Hashes hashes_of_today() {
     const auto atlas = built_in_atlas();
     Hashes hashes;
@@ -40,15 +59,15 @@ Hashes hashes_of_today() {
         order.params.age = age;
         order.params.lod = lod;
         order.params.texture_size.value = side;
-        const std::string request = entry.species.id.string() + ' ' + number_text(age) + ' ' +
-                                    std::to_string(lod) + ' ' + std::to_string(side);
-        hashes[request] = hash_of(grow_mushroom(order, *atlas).glb);
+        hashes[line_of(entry.species.id.string(), age, lod, side)] =
+            hash_of(grow_mushroom(order, *atlas).glb);
     };
     for (const AtlasEntry& entry : atlas->entries()) {
         for (const double age : {0.0, 0.3, 0.6, 0.85, 1.0})
             for (int lod = 0; lod < 4; ++lod) add(entry, age, lod, 128);
         add(entry, 0.6, 0, 512);
     }
+    add_leaves(hashes);
     return hashes;
 }
 

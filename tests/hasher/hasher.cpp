@@ -1,5 +1,5 @@
 // Prints a hash of the GLB of each of many random requests, from core alone, until `count` of them were grown;
-// what a species cannot have is refused, and printed too. Builds by other compilers and runs with other
+// what a species cannot have is refused, and printed too; then a fifth as many leaves. Builds by other compilers and runs with other
 // instruction sets must print the same text: tests/hasher/four_ways.sh compares them.
 //   hasher [count] [simd name]     hasher --simd-names
 
@@ -13,6 +13,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
 #include "core/math/noise.h"
 #include "core/math/random.h"
@@ -83,6 +84,32 @@ bool print_line(const MushroomOrder& order, const Atlas& atlas) {
     }
 }
 
+/// Prints the line of a leaf of random veins, or that it cannot be.
+void print_leaf(std::uint32_t number) {
+    Random random(number, 0x6c656166);
+    const LeafPreset& preset = leaf_presets()[number % leaf_presets().size()];
+    LeafOrder order{preset.id, params_of(preset)};
+    LeafParams& params = order.params;
+    params.seed = random.bits();
+    params.variation = random.uniform();
+    params.autumn = random.uniform();
+    params.lod = static_cast<int>(random.bits() % leaf_lods);
+    params.texture_size.value = 128;
+    params.shape.curl_deg = random.uniform(-180.0, 180.0);
+    params.shape.venation.rise = random.uniform(0.0, 4.0);
+    params.shape.venation.border = random.uniform(1.0, 2.0);
+    params.shape.venation.side_deg = random.uniform(15.0, 88.0);
+    const std::string request =
+        std::string("leaf/") + preset.id + '?' + query_text(params, params_of(preset));
+    try {
+        const Grown leaf = grow_leaf(order);
+        std::printf("%016llx %8zu  %s\n", static_cast<unsigned long long>(hash_of(leaf.glb)),
+                    size_of(leaf.glb), request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -107,6 +134,7 @@ int main(int argc, char** argv) try {
         if (number > 100 * count) throw GenerationError("hardly any random request can be grown");
         if (print_line(random_order(number, *atlas), *atlas)) ++grown;
     }
+    for (std::uint32_t number = 0; number < count / 5; ++number) print_leaf(number);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "hasher: %s\n", error.what());

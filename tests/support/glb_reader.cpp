@@ -208,6 +208,19 @@ ReadBack expect_glb(const Bytes& file) {
     return found;
 }
 
+Value json_chunk(const Bytes& file) {
+    const std::uint32_t length = word(file, 12);
+    if (file.size() < 20 + std::size_t{length}) {
+        ADD_FAILURE() << "too short for a GLB";
+        return {};
+    }
+    const std::string text(file.begin() + 20, file.begin() + 20 + length);
+    std::vector<Problem> problems;
+    Value json = parse(text, problems);
+    EXPECT_EQ(problems, std::vector<Problem>{});
+    return json;
+}
+
 Mesh posed(const ReadBack& file, const std::vector<float>& weights) {
     EXPECT_EQ(weights.size(), file.targets.size());
     Mesh mesh = file.mesh;

@@ -8,6 +8,7 @@
 
 #include "core/bytes.h"
 #include "core/mesh/mesh.h"
+#include "core/params/value.h"
 
 namespace sporeprint {
 
@@ -50,6 +51,9 @@ struct ReadBack {
 /// chunk lengths, padding, aligned buffer views, bounds that are those of the vertices, indices in range, targets and
 /// clips that fit the mesh.
 ReadBack expect_glb(const Bytes& file);
+
+/// The JSON of a GLB; null, and a failure, when it is none.
+[[nodiscard]] Value json_chunk(const Bytes& file);
 
 /// The mesh as a viewer shows it with these weights, one for each target; normals are made unit.
 [[nodiscard]] Mesh posed(const ReadBack& file, const std::vector<float>& weights);

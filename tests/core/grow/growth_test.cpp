@@ -16,6 +16,7 @@
 #include "core/params/query.h"
 #include "tests/support/effort.h"
 #include "tests/support/glb_reader.h"
+#include "tests/support/keeper.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
@@ -214,10 +215,7 @@ TEST(Clip, GivesEqualBytesTwiceAndWithManyHands) {
     const Bytes once = joined(grow_mushroom(order, atlas()).glb);
     EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), once);
     Workshop threads;
-    threads.parallel = [](std::span<const std::function<void()>> pieces) {
-        std::vector<std::jthread> hands;
-        for (const auto& piece : pieces) hands.emplace_back(piece);
-    };
+    threads.parallel = in_threads;
     EXPECT_EQ(joined(grow_mushroom(order, atlas(), {}, threads).glb), once);
 }
 

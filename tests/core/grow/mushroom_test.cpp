@@ -6,8 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
-#include <cstring>
-#include <map>
 #include <set>
 #include <span>
 #include <stop_token>
@@ -19,6 +17,7 @@
 #include "core/params/value.h"
 #include "tests/support/effort.h"
 #include "tests/support/glb_reader.h"
+#include "tests/support/keeper.h"
 #include "tests/support/meshes.h"
 #include "tests/support/mixes.h"
 
@@ -193,10 +192,7 @@ TEST_P(EverySpecies, GivesEqualBytesTwiceAndWithEightThreads) {
     const Bytes once = joined(grow_mushroom(order, atlas()).glb);
     EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), once);
     Workshop threads;
-    threads.parallel = [](std::span<const std::function<void()>> pieces) {
-        std::vector<std::jthread> hands;
-        for (const auto& piece : pieces) hands.emplace_back(piece);
-    };
+    threads.parallel = in_threads;
     EXPECT_EQ(joined(grow_mushroom(order, atlas(), {}, threads).glb), once);
     std::vector<Bytes> together(8);
     {
@@ -206,30 +202,6 @@ TEST_P(EverySpecies, GivesEqualBytesTwiceAndWithEightThreads) {
                 [&order, &mine] { mine = joined(grow_mushroom(order, atlas()).glb); });
     }
     for (const Bytes& mine : together) EXPECT_EQ(mine, once);
-}
-
-/// A workshop that keeps images by their key.
-struct Keeper {
-    std::map<std::string, std::shared_ptr<const ImageSet>> kept;
-    int asked = 0, made = 0;
-    Workshop workshop;
-
-    Keeper() {
-        workshop.memo.images = [this](const std::string& key, const auto& make) {
-            ++asked;
-            auto& place = kept[key];
-            if (!place) {
-                place = make();
-                ++made;
-            }
-            return place;
-        };
-    }
-};
-
-bool shares_bytes(const Body& body, const Slice& slice) {
-    return std::any_of(body.begin(), body.end(),
-                       [&](const Slice& s) { return s.owner == slice.owner; });
 }
 
 TEST(Mushroom, AChangeOfShapePaintsNothingAndCopiesNoImage) {
@@ -348,12 +320,7 @@ TEST(Mushroom, LinkedTexturesNeedAddresses) {
 TEST(Mushroom, SaysWhatItIsMadeOf) {
     const MushroomOrder order = order_of("boletus_edulis", 0.6, 1, 2);
     const Bytes file = joined(grow_mushroom(order, atlas(), {"/v1/canonical", {}}).glb);
-    std::uint32_t length = 0;
-    std::memcpy(&length, file.data() + 12, 4);
-    const std::string text(file.begin() + 20, file.begin() + 20 + length);
-    std::vector<Problem> problems;
-    const Value json = parse(text, problems);
-    ASSERT_EQ(problems, std::vector<Problem>{});
+    const Value json = json_chunk(file);
     const Mesh mesh = mesh_of(order);
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),

@@ -44,7 +44,8 @@ TEST(Leaf, PresetsAreClosedShellsAtEveryLevelOfDetail) {
             const Mesh mesh = leaf_mesh(preset.shape, lod);
             expect_valid(mesh);
             EXPECT_EQ(pieces(mesh).size(), 2U);
-            EXPECT_LT(mesh.triangles(), before);
+            EXPECT_LT(mesh.triangles(),
+                      before + (lod == 3 ? 1 : 0));  // a needle is a polygon already
             before = mesh.triangles();
         }
         expect_valid(foliage_leaf(preset.shape));
@@ -58,7 +59,7 @@ TEST(Leaf, AnyLeafIsClosed) {
     const std::size_t draws = effort(300, 40);
     for (std::size_t i = 0; i < draws; ++i) {
         const auto shape = drawn<LeafShape>(random);
-        const auto lod = static_cast<int>(i % 4);
+        const auto lod = static_cast<int>(i % 5);
         const Mesh mesh = lod < leaf_lods ? leaf_mesh(shape, lod) : foliage_leaf(shape);
         const std::vector<std::string> found = defects(mesh);
         ASSERT_TRUE(found.empty()) << i << ": " << found.front();
@@ -141,7 +142,7 @@ TEST(Leaf, FacesLieOnTheirHalvesOfTheImage) {
 
 TEST(Leaf, OrdersThatCannotBeAreRefused) {
     LeafShape shape;
-    EXPECT_TRUE(names(refusal([&] { (void)leaf_mesh(shape, 3); }), "/lod", "outside 0..2"));
+    EXPECT_TRUE(names(refusal([&] { (void)leaf_mesh(shape, 4); }), "/lod", "outside 0..3"));
     EXPECT_TRUE(names(refusal([&] { (void)foliage_leaf(shape, 18); }), "/triangles", "18"));
     EXPECT_TRUE(names(refusal([&] { (void)foliage_leaf(shape, 10); }), "/triangles", "10"));
     shape.length = 0.0;

@@ -1,0 +1,83 @@
+#include "core/grow/leaf.h"
+
+#include "core/gltf/glb.h"
+#include "core/mesh/index_order.h"
+#include "core/params/canonical.h"
+#include "core/params/reader.h"
+#include "core/plant/leaf_image.h"
+
+namespace sporeprint {
+
+namespace {
+
+// Leaves are smooth between their veins: a sixth of a byte a texel as JPEG, and what three files begin with.
+std::uint64_t image_bytes(std::uint64_t texels) { return texels / 6 + 1500; }
+
+}  // namespace
+
+Estimate measured(const LeafOrder& order, const Mesh& mesh) {
+    Estimate e = estimate(order);
+    e.vertices = mesh.positions.size();
+    e.triangles = mesh.triangles();
+    e.bytes =
+        estimated_bytes(e.vertices, e.triangles, order.params.textures, image_bytes(e.texels));
+    return e;
+}
+
+Estimate estimate(const LeafOrder& order) {
+    const LeafParams& params = order.params;
+    const LeafCount most = most_of_leaf(params.shape.venation, params.lod);
+    const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
+    Estimate e;
+    e.vertices = most.vertices;
+    e.triangles = most.triangles;
+    e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
+    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, image_bytes(e.texels));
+    return e;
+}
+
+Mesh leaf_mesh(const LeafOrder& order) {
+    const LeafParams& params = order.params;
+    require_valid(params);
+    Mesh mesh = leaf_mesh(shape_of(params), params.lod, params.size);
+    if (params.textures == Textures::none) {
+        mesh.texture_coordinates.clear();
+        mesh.tangents.clear();
+    }
+    order_for_vertex_cache(mesh);
+    return mesh;
+}
+
+std::string image_key(const LeafPaint& paint) { return "leaf " + canonical_text(paint); }
+
+std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint, const Workshop& workshop) {
+    require_valid(paint);
+    return workshop.memo.images(image_key(paint), [&] {
+        LeafParams params;
+        params.seed = paint.seed;
+        params.variation = paint.variation;
+        params.shape.relief = paint.relief;
+        params.shape.venation = paint.venation;
+        const RawImages images = leaf_images(shape_of(params), paint.palette, paint.autumn,
+                                             paint.seed, paint.texture_size, workshop.parallel);
+        stop_if_asked(workshop);
+        return std::make_shared<const ImageSet>(encoded(images, workshop.parallel));
+    });
+}
+
+Grown grow_leaf(const LeafOrder& order, const Extras& extras, const Workshop& workshop) {
+    const LeafParams& params = order.params;
+    workshop.observer(Step::build);
+    const Mesh mesh = leaf_mesh(order);
+    stop_if_asked(workshop);
+    GlbParts parts{.name = order.preset.empty() ? "leaf" : order.preset,
+                   .images = nullptr,
+                   .image_addresses = {},
+                   .extras_json = extras_json(extras, write(params), mesh)};
+    const auto images = wear_images(parts, params.textures, extras, workshop,
+                                    [&] { return painted_images(paint_of(params), workshop); });
+    workshop.observer(Step::pack);
+    return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
+}
+
+}  // namespace sporeprint
