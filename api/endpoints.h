@@ -10,6 +10,7 @@
 #include "api/answers.h"
 #include "api/morphs.h"
 #include "api/mushrooms.h"
+#include "api/presets.h"
 #include "api/service.h"
 #include "api/store.h"
 #include "api/surfaces.h"
@@ -60,13 +61,55 @@ struct Resource {
 [[nodiscard]] Plan plan_morph(Context& context, const Request& request, const MorphRequest& asked,
                               Faults& faults);
 
-/// One image of an atlas.
+/// A leaf as GLB or JSON, by address or by body.
+[[nodiscard]] Plan plan_leaf(Context& context, const Request& request, PresetRequest<Leaves> asked,
+                             Faults& faults);
+
+/// One image of an atlas as HTTP sees it.
+struct ImageResource {
+    ImageKind kind = ImageKind::base_color;
+    std::string version;  ///< today's token of what it is painted with
+    std::string address;  ///< canonical address without version
+    std::string of;       ///< begins the file's name: "amanita_muscaria-7"
+    std::optional<std::string> asked_version;
+};
+
+/// What painting an atlas takes.
+struct PaintWork {
+    Key key;  ///< equal keys, equal images
+    std::uint64_t texels = 0;
+    std::function<Images(const Workshop&)> paint;
+};
+
+/// Version, ETag, 304, cache, HEAD and the job: all that images have in common.
+///
+/// decide  what is painted; adds to the faults what of it is impossible
+[[nodiscard]] Plan plan_image(Context& context, const Request& request, const ImageResource& image,
+                              const std::function<PaintWork(Faults&)>& decide, Faults& faults);
+
+/// One image of a mushroom's atlas, of a leaf's.
 [[nodiscard]] Plan plan_surface(Context& context, const Request& request,
                                 const SurfaceRequest& asked, Faults& faults);
+[[nodiscard]] Plan plan_surface(Context& context, const Request& request,
+                                const PresetSurface<Leaves>& asked, Faults& faults);
 
-/// The image that `request` asked for, out of the shared answer of an atlas.
-[[nodiscard]] Answer delivered_surface(const Context& context, const SurfaceRequest& asked,
-                                       Answer shared);
+/// The image that a well-formed address asks for.
+[[nodiscard]] ImageResource image_of(const Context& context, const SurfaceRequest& asked);
+[[nodiscard]] ImageResource image_of(const Context& context, const PresetSurface<Leaves>& asked);
+
+/// The image that was asked for, out of the shared answer of an atlas.
+[[nodiscard]] Answer delivered_image(const ImageResource& image, Answer shared);
+
+/// 422 for an estimate that is over the budget of one request: /lod, /frames of a clip, /texture_size.
+void refuse_over_budget(const ServiceOptions& options, const Estimate& cost,
+                        bool of_every_species = false, bool is_clip = false);
+
+/// The same for the texels of images alone.
+void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,
+                   Faults& faults);
+
+/// What the HTTP side is told of an estimate.
+[[nodiscard]] Cost cost_of(const Estimate& estimated, Product product);
 
 /// What a GLB tells about itself.
 [[nodiscard]] Plan plan_inspection(Context& context, const Request& request, Faults& faults);

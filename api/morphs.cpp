@@ -74,9 +74,7 @@ SpeciesPair read_pair(std::string_view a, std::string_view b, const Atlas& atlas
     return species;
 }
 
-MorphRequest read_morph(SpeciesPair species,
-                        std::span<const std::pair<std::string, std::string>> query,
-                        Faults& faults) {
+MorphRequest read_morph(SpeciesPair species, Query query, Faults& faults) {
     MorphRequest request;
     request.species = std::move(species);
     std::vector<std::pair<std::string, std::string>> rest;
@@ -90,17 +88,12 @@ MorphRequest read_morph(SpeciesPair species,
 
 MushroomRequest read_morph(const SpeciesPair& species, std::string_view body, Faults& faults) {
     MushroomRequest request;
+    std::optional<Value> json = read_body(body, faults);
+    if (!json) return request;
     std::vector<Problem> problems;
-    Value json = parse(body, problems);
-    if (problems.empty() && !json.is_object())
-        report(problems, "", "expected an object, got " + shown(json));
-    if (!problems.empty()) {
-        faults.add(400, problems);
-        return request;
-    }
-    request.version = take_version(json, problems);
+    request.version = take_version(*json, problems);
     MorphOrder order;
-    read(json, order, Info{.name = ""}, "", problems);
+    read(*json, order, Info{.name = ""}, "", problems);
     faults.add(400, problems);
     refuse_crossings(order.arcs, faults);
     without_negative_zero(order);
@@ -124,9 +117,8 @@ MushroomRequest read_morph(const SpeciesPair& species, std::string_view body, Fa
 }
 
 std::string canonical_address(const MorphRequest& request) {
-    std::string address = "/v1/morphs/" + request.species[0] + '/' + request.species[1];
-    const std::string query = query_text(request.params);
-    return query.empty() ? address : address + '?' + query;
+    return with_query("/v1/morphs/" + request.species[0] + '/' + request.species[1],
+                      query_text(request.params));
 }
 
 std::string version_token(const SpeciesPair& species, const Atlas& atlas) {

@@ -71,9 +71,7 @@ struct MorphRequest {
                                     Faults& faults);
 
 /// Reads the query of GET /v1/morphs/{a}/{b}.
-[[nodiscard]] MorphRequest read_morph(SpeciesPair species,
-                                      std::span<const std::pair<std::string, std::string>> query,
-                                      Faults& faults);
+[[nodiscard]] MorphRequest read_morph(SpeciesPair species, Query query, Faults& faults);
 
 /// Reads the body of POST /v1/morphs/{a}/{b}.glb as an order of a mix: t in thousandths, arcs sorted along their curves and seen
 /// from the species that comes first by id, so that equal meaning is an equal order. Arcs that cross are 422, each named.

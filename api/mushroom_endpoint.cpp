@@ -13,35 +13,15 @@ namespace {
 /// What an order will come to. Refuses what of it is well-formed but impossible, as far as it can be told without making it (the
 /// individual is decided, nothing is built).
 Estimate weighed(const Context& context, const MushroomOrder& order, const Memo& memo) {
-    const ServiceOptions& options = context.options;
     if (order.model && order.params.textures == Textures::linked)
         throw Impossible(
             "/textures",
             "a model of your own has no address that images could be linked to; ask for embedded "
             "or none");
     const Estimate cost = estimate(order, *context.atlas, memo);
-    std::vector<Problem> problems;
-    if (cost.vertices > options.most_vertices) {
-        const std::string count = std::to_string(cost.vertices) +
-                                  " vertices would be made; at most " +
-                                  std::to_string(options.most_vertices) + " are. ";
-        report(problems, "/lod", count + "Raise lod");
-        if (order.params.animation != Animation::none)
-            report(problems, "/frames", count + "Lower frames");
-    }
-    if (cost.texels > options.most_texels)
-        report(problems, "/texture_size",
-               std::to_string(cost.texels) + " texels would be held" +
-                   (order.mix.size() > 1 ? ", those of every species" : "") + "; at most " +
-                   std::to_string(options.most_texels) + " are. Lower texture_size or raise lod");
-    if (!problems.empty()) throw Impossible(std::move(problems));
+    refuse_over_budget(context.options, cost, order.mix.size() > 1,
+                       order.params.animation != Animation::none);
     return cost;
-}
-
-/// What the HTTP side is told of an estimate.
-Cost cost_of(const Estimate& estimated, Product product) {
-    return product == Product::glb ? Cost{estimated.vertices, estimated.texels, estimated.bytes}
-                                   : Cost{estimated.vertices, 0, estimated.vertices * 32};
 }
 
 /// About what an order comes to, before its individual is known.
@@ -74,10 +54,6 @@ Body grown(const Context& context, const MushroomOrder& order, const std::string
     return grow_mushroom(order, atlas, extras, loan.workshop()).glb;
 }
 
-Value vector_value(const glm::vec3& vector) {
-    return Value(Value::Array{write(vector.x), write(vector.y), write(vector.z)});
-}
-
 /// How it is known that no outline of this mix touches itself.
 Certificate certificate(const MushroomOrder& order, const Atlas& atlas,
                         const Remember<MorphSet>& morphs) {
@@ -99,7 +75,6 @@ Body described(const Context& context, const MushroomOrder& order, const std::st
     observer(Step::build);
     const Bounds box = bounds(mushroom_mesh(order, individual));
     observer(Step::pack);
-    const Estimate cost = estimate(order, individual);
     Value mix = Value::array();
     for (const MixPart& part : order.mix)
         mix.push(Value::object().set("id", part.id).set("weight", part.weight / 1000.0));
@@ -109,12 +84,8 @@ Body described(const Context& context, const MushroomOrder& order, const std::st
     body.set("v", version);
     body.set("mix", std::move(mix));
     body.set("effective", write(individual.effective));
-    body.set("estimate", Value::object()
-                             .set("vertices", cost.vertices)
-                             .set("triangles", cost.triangles)
-                             .set("bytes", cost.bytes));
-    body.set("bounds_m",
-             Value::object().set("min", vector_value(box.min)).set("max", vector_value(box.max)));
+    body.set("estimate", told(estimate(order, individual)));
+    body.set("bounds_m", told(box));
     body.set("certificate", write(certificate(order, atlas, memo.morphs)));
     return {slice_of(dump(body))};
 }
@@ -131,7 +102,7 @@ Plan plan_mushroom(Context& context, const Request& request, MushroomRequest ask
     resource.address =
         order->model || !order->arcs.empty() ? std::string() : canonical_address(*order, product);
     resource.key = key_of(*order, product, resource.version);
-    resource.type = product == Product::glb ? "model/gltf-binary" : "application/json";
+    resource.type = type_of(product);
     resource.file_name = file_name(*order, product);
     resource.asked_version = std::move(asked.version);
     resource.weigh = [&context, order, product](const Memo& memo) {

@@ -2,9 +2,7 @@
 
 #include <algorithm>
 
-#include "api/encoding.h"
 #include "api/mix.h"
-#include "core/grow/mushroom.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -12,36 +10,8 @@
 
 namespace sporeprint::api {
 
-std::optional<std::string> take_version(std::span<const std::pair<std::string, std::string>> query,
-                                        std::vector<std::pair<std::string, std::string>>& rest,
-                                        Faults& faults) {
-    std::optional<std::string> version;
-    for (const auto& pair : query) {
-        if (pair.first != "v")
-            rest.push_back(pair);
-        else if (version)
-            faults.add(400, "v", "given more than once");
-        else
-            version = pair.second;
-    }
-    return version;
-}
-
-std::optional<std::string> take_version(Value& body, std::vector<Problem>& problems) {
-    std::optional<std::string> version;
-    if (const Value* given = body.find("v")) {
-        if (given->is_string())
-            version = given->as_string();
-        else
-            report(problems, "/v", "expected text, got " + shown(*given));
-    }
-    body.erase("v");
-    return version;
-}
-
-MushroomRequest read_mushroom(std::string_view mix,
-                              std::span<const std::pair<std::string, std::string>> query,
-                              const Atlas& atlas, Faults& faults) {
+MushroomRequest read_mushroom(std::string_view mix, Query query, const Atlas& atlas,
+                              Faults& faults) {
     MushroomRequest request;
     request.order.mix = read_mix(mix, atlas, faults);
     std::vector<std::pair<std::string, std::string>> rest;
@@ -55,16 +25,10 @@ MushroomRequest read_mushroom(std::string_view mix,
 
 MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Faults& faults) {
     MushroomRequest request;
+    std::optional<Value> body_read = read_body(body, faults);
+    if (!body_read) return request;
+    Value& json = *body_read;
     std::vector<Problem> problems;
-    Value json = parse(body, problems);
-    if (!problems.empty()) {
-        faults.add(400, problems);
-        return request;
-    }
-    if (!json.is_object()) {
-        faults.add(400, "", "expected an object, got " + shown(json));
-        return request;
-    }
     const Value* mix = json.find("mix");
     const Value* model = json.find("model");
     if (mix && model)
@@ -90,23 +54,16 @@ std::string version_token(const Mix& mix, const Atlas& atlas) {
     for (const MixPart& part : mix)
         if (const AtlasEntry* entry = atlas.find(part.id))
             templates += part.id + ' ' + std::to_string(entry->hash) + '\n';
-    return std::to_string(generator_version) + '-' + digest_of(templates).substr(0, 8);
+    return token_of(templates);
 }
 
 std::string canonical_address(const MushroomOrder& order, Product product) {
-    std::string address =
-        "/v1/mushrooms/" + mix_text(order.mix) + (product == Product::glb ? ".glb" : ".json");
-    const std::string query = query_text(order.params);
-    return query.empty() ? address : address + '?' + query;
-}
-
-std::string with_version(std::string address, std::string_view version) {
-    address += address.find('?') == std::string::npos ? '?' : '&';
-    return (address += "v=") += version;
+    return with_query("/v1/mushrooms/" + mix_text(order.mix) + ending_of(product),
+                      query_text(order.params));
 }
 
 std::string key_of(const MushroomOrder& order, Product product, std::string_view version) {
-    std::string key = product == Product::glb ? "mushroom.glb " : "mushroom.json ";
+    std::string key = std::string("mushroom") + ending_of(product) + ' ';
     (key += version) += '\n';
     if (order.model)
         canonical(*order.model, key);
@@ -125,7 +82,7 @@ std::string file_name(const MushroomOrder& order, Product product) {
     std::string out;
     for (const MixPart& part : order.mix) (out += part.id) += '-';
     if (order.mix.empty()) out = "model-";
-    return out + std::to_string(order.params.seed) + (product == Product::glb ? ".glb" : ".json");
+    return out + std::to_string(order.params.seed) + ending_of(product);
 }
 
 }  // namespace sporeprint::api

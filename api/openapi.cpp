@@ -8,6 +8,7 @@
 #include "api/errors.h"
 #include "api/mix.h"
 #include "api/morphs.h"
+#include "api/presets.h"
 #include "api/routes.h"
 #include "api/surfaces.h"
 #include "core/model/request.h"
@@ -41,6 +42,29 @@ void add_query_parameters(const Value& schema, const std::string& prefix, Value&
         parameters.push(std::move(parameter));
     }
 }
+
+/// What a preset brings: its own unless it is given.
+void take_from_preset(Value& leaf) {
+    if (Value* properties = leaf.find("properties")) {
+        for (auto& [key, property] : properties->members()) take_from_preset(property);
+        return;
+    }
+    leaf.erase("default");
+    leaf.set("x-default-from", "preset");
+}
+
+/// A schema whose members that Own... have too are the preset's.
+template <class... Own>
+Value from_preset(Value schema) {
+    Value& properties = *schema.find("properties");
+    const auto take = [&](auto, const Info& info) {
+        if (Value* property = properties.find(info.name)) take_from_preset(*property);
+    };
+    (Own::fields(take), ...);
+    return schema;
+}
+
+Value leaf_params_schema() { return from_preset<LeafShape, LeafPalette>(schema<LeafParams>()); }
 
 Value path_parameter(std::string_view key, std::string_view doc, Value schema,
                      std::string_view example) {
@@ -87,6 +111,9 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
                                        text, example));
     if (pattern.find("{id}") != std::string_view::npos)
         parameters.push(path_parameter("id", "A species id.", text, example));
+    if (pattern.find("{preset}") != std::string_view::npos)
+        parameters.push(
+            path_parameter("preset", "A preset's id.", text, Leaves::presets().front().id));
     if (pattern.find("{a}") != std::string_view::npos) {
         parameters.push(path_parameter("a", "Id of the first species.", text, example));
         parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
@@ -107,6 +134,16 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
         case Endpoint::mushroom_glb:
         case Endpoint::mushroom_json:
             add_query_parameters(schema<MushroomParams>(), "", parameters);
+            parameters.push(version_parameter());
+            break;
+        case Endpoint::leaf_glb:
+        case Endpoint::leaf_json:
+            add_query_parameters(leaf_params_schema(), "", parameters);
+            parameters.push(version_parameter());
+            break;
+        case Endpoint::leaf_surface:
+            add_query_parameters(from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()), "",
+                                 parameters);
             parameters.push(version_parameter());
             break;
         case Endpoint::morph:
@@ -150,6 +187,24 @@ Value order_schema() {
     out.set("properties", std::move(properties));
     out.set("oneOf", Value(Value::Array{object({{"required", Value(Value::Array{"mix"})}}),
                                         object({{"required", Value(Value::Array{"model"})}})}));
+    return out;
+}
+
+/// Body of POST /v1/leaves.glb.
+Value leaf_order_schema() {
+    Value out = leaf_params_schema();
+    Value ids = Value::array();
+    for (const auto& preset : Leaves::presets()) ids.push(preset.id);
+    Value properties = object({
+        {"preset", object({{"type", "string"},
+                           {"enum", std::move(ids)},
+                           {"description", "What to begin with."}})},
+        {"v", version_member()},
+    });
+    for (const auto& [key, property] : out.find("properties")->members())
+        properties.set(key, property);
+    out.set("properties", std::move(properties));
+    out.set("required", Value(Value::Array{"preset"}));
     return out;
 }
 
@@ -211,12 +266,24 @@ Value schemas() {
     problem.find("properties")
         ->set("canonical", object({{"type", "string"},
                                    {"description", "On 410: the address of today's answer."}}));
-    Value links = object({{"type", "object"}, {"additionalProperties", text}});
+    const Value links = object({{"type", "object"}, {"additionalProperties", text}});
+    const Value estimate = objects({{"vertices", whole}, {"triangles", whole}, {"bytes", whole}});
+    const Value bounds = objects({{"min", triple()}, {"max", triple()}});
     return object({
         {"mushroom_params", schema<MushroomParams>()},
         {"mushroom_order", order_schema()},
         {"morph_order", morph_order_schema()},
         {"morph", morph_schema()},
+        {"leaf_params", leaf_params_schema()},
+        {"leaf_order", leaf_order_schema()},
+        {"leaf_list",
+         objects({{"leaves", list_of(objects({{"id", text}, {"name", text}, {"links", links}}))}})},
+        {"leaf_description", objects({{"canonical", text},
+                                      {"v", text},
+                                      {"preset", text},
+                                      {"effective", reference("schemas/leaf_params")},
+                                      {"estimate", estimate},
+                                      {"bounds_m", bounds}})},
         {"certificate", schema<Certificate>()},
         {"model", schema<Model>()},
         {"species", schema<Species>()},
@@ -235,14 +302,13 @@ Value schemas() {
          objects(
              {{"name", text}, {"version", text}, {"generator_version", whole}, {"links", links}})},
         {"mushroom_description",
-         objects(
-             {{"canonical", text},
-              {"v", text},
-              {"mix", list_of(objects({{"id", text}, {"weight", typed("number")}}))},
-              {"effective", reference("schemas/mushroom_params")},
-              {"estimate", objects({{"vertices", whole}, {"triangles", whole}, {"bytes", whole}})},
-              {"bounds_m", objects({{"min", triple()}, {"max", triple()}})},
-              {"certificate", reference("schemas/certificate")}})},
+         objects({{"canonical", text},
+                  {"v", text},
+                  {"mix", list_of(objects({{"id", text}, {"weight", typed("number")}}))},
+                  {"effective", reference("schemas/mushroom_params")},
+                  {"estimate", estimate},
+                  {"bounds_m", bounds},
+                  {"certificate", reference("schemas/certificate")}})},
         {"inspection",
          objects({{"generator", text},
                   {"canonical", text},
@@ -266,13 +332,21 @@ Value body_schema(Endpoint endpoint) {
             return reference("schemas/inspection");
         case Endpoint::morph:
             return reference("schemas/morph");
+        case Endpoint::leaf_list:
+            return reference("schemas/leaf_list");
+        case Endpoint::leaf_json:
+            return reference("schemas/leaf_description");
         case Endpoint::mushroom_schema:
+        case Endpoint::leaf_schema:
         case Endpoint::openapi:
             return typed("object");
         case Endpoint::mushroom_glb:
         case Endpoint::mushroom_post:
         case Endpoint::morph_post:
+        case Endpoint::leaf_glb:
+        case Endpoint::leaf_post:
         case Endpoint::surface:
+        case Endpoint::leaf_surface:
             return object({{"type", "string"}, {"format", "binary"}});
         default:
             return typed("string");
@@ -293,6 +367,8 @@ std::set<int> problems_of(Endpoint endpoint) {
         case Endpoint::openapi:
         case Endpoint::mushroom_schema:
         case Endpoint::species_list:
+        case Endpoint::leaf_list:
+        case Endpoint::leaf_schema:
             return {400, 405, 414, 429, 431, 500, 503};
         case Endpoint::asset:
         case Endpoint::species:
@@ -301,6 +377,7 @@ std::set<int> problems_of(Endpoint endpoint) {
             return {400, 405, 408, 411, 413, 414, 415, 429, 431, 500, 503, 504};
         case Endpoint::mushroom_post:
         case Endpoint::morph_post:
+        case Endpoint::leaf_post:
             return {400, 404, 405, 408, 410, 411, 413, 414, 415, 422, 429, 431, 500, 503, 504};
         default:
             return {400, 404, 405, 410, 414, 422, 429, 431, 500, 503, 504};
@@ -315,7 +392,11 @@ bool is_made(Endpoint endpoint) {
         case Endpoint::mushroom_post:
         case Endpoint::morph:
         case Endpoint::morph_post:
+        case Endpoint::leaf_glb:
+        case Endpoint::leaf_json:
+        case Endpoint::leaf_post:
         case Endpoint::surface:
+        case Endpoint::leaf_surface:
             return true;
         default:
             return false;
@@ -330,6 +411,12 @@ Value taken(Endpoint endpoint, const Atlas& atlas) {
                 {{"schema", reference("schemas/mushroom_order")},
                  {"example",
                   object({{"mix", object({{example_id(atlas), 1}})}, {"age", 0.6}, {"seed", 7}})}});
+        case Endpoint::leaf_post:
+            return object(
+                {{"schema", reference("schemas/leaf_order")},
+                 {"example", object({{"preset", Leaves::presets().front().id},
+                                     {"autumn", 0.5},
+                                     {"venation", object({{"lobes", 7}, {"vein_deg", 40}})}})}});
         case Endpoint::morph_post:
             return object(
                 {{"schema", reference("schemas/morph_order")},
@@ -381,6 +468,10 @@ Value operation(const Route& route, const Atlas& atlas) {
 
 Value mushroom_schema() { return schema_document<MushroomParams>("Parameters of a mushroom"); }
 
+Value leaf_schema() {
+    return from_preset<LeafShape, LeafPalette>(schema_document<LeafParams>("Parameters of a leaf"));
+}
+
 Value openapi(const Atlas& atlas, std::string_view version) {
     Value paths = Value::object();
     for (const Route& route : routes()) {
@@ -403,13 +494,14 @@ Value openapi(const Atlas& atlas, std::string_view version) {
                                                {"instance", "8f14e45fceea167a"}})}})}})}}));
     return object({
         {"openapi", "3.1.0"},
-        {"info", object({{"title", "Sporeprint"},
-                         {"version", version},
-                         {"description",
-                          "Grows mushrooms on demand and answers with game-ready GLB files. The "
-                          "same request gives the same bytes. "
-                          "For pictures, never for identifying mushrooms to eat."},
-                         {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
+        {"info",
+         object({{"title", "Sporeprint"},
+                 {"version", version},
+                 {"description",
+                  "Grows mushrooms and leaves on demand and answers with game-ready GLB files. The "
+                  "same request gives the same bytes. "
+                  "For pictures, never for identifying mushrooms to eat."},
+                 {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
         {"servers", Value(Value::Array{object({{"url", "/"}})})},
         {"security", Value::array()},
         {"paths", std::move(paths)},

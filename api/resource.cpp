@@ -55,6 +55,44 @@ Answer superseded(Context& context, const Request& request, const Resource& reso
 
 }  // namespace
 
+namespace {
+
+std::string too_many_texels(const ServiceOptions& options, std::uint64_t texels,
+                            bool of_every_species) {
+    return std::to_string(texels) + " texels would be held" +
+           (of_every_species ? ", those of every species" : "") + "; at most " +
+           std::to_string(options.most_texels) + " are. Lower texture_size";
+}
+
+}  // namespace
+
+void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, bool of_every_species,
+                        bool is_clip) {
+    std::vector<Problem> problems;
+    if (cost.vertices > options.most_vertices) {
+        const std::string count = std::to_string(cost.vertices) +
+                                  " vertices would be made; at most " +
+                                  std::to_string(options.most_vertices) + " are. ";
+        report(problems, "/lod", count + "Raise lod");
+        if (is_clip) report(problems, "/frames", count + "Lower frames");
+    }
+    if (cost.texels > options.most_texels)
+        report(problems, "/texture_size",
+               too_many_texels(options, cost.texels, of_every_species) + " or raise lod");
+    if (!problems.empty()) throw Impossible(std::move(problems));
+}
+
+void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,
+                   Faults& faults) {
+    if (texels > options.most_texels)
+        faults.add(422, "texture_size", too_many_texels(options, texels, of_every_species));
+}
+
+Cost cost_of(const Estimate& estimated, Product product) {
+    return product == Product::glb ? Cost{estimated.vertices, estimated.texels, estimated.bytes}
+                                   : Cost{estimated.vertices, 0, estimated.vertices * 32};
+}
+
 std::vector<Problem> named(const InvalidInput& input, bool posted) {
     std::vector<Problem> problems = input.problems();
     for (Problem& problem : problems) problem.path = parameter_name(problem.path, posted);

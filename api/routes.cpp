@@ -13,7 +13,7 @@ namespace {
 constexpr const char* json = "application/json";
 constexpr const char* glb = "model/gltf-binary";
 
-constexpr std::array<Route, 18> table = {{
+constexpr std::array<Route, 24> table = {{
     {Endpoint::page, "GET", "/", "page", "The viewer page.", "text/html", ""},
     {Endpoint::docs, "GET", "/docs", "docs", "A page that shows this document.", "text/html", ""},
     {Endpoint::asset, "GET", "/assets/{name}", "asset", "A file of the viewer page.",
@@ -38,8 +38,20 @@ constexpr std::array<Route, 18> table = {{
      "Correspondence of two species: both outlines, what of one becomes what of the other, and "
      "whether any morph between them crosses itself.",
      json, ""},
+    {Endpoint::leaf_list, "GET", "/v1/leaves", "list_leaves", "The leaves to begin with.", json,
+     ""},
+    {Endpoint::leaf_schema, "GET", "/v1/leaves/schema", "leaf_schema",
+     "JSON Schema of the query parameters of a leaf.", "application/schema+json", ""},
+    {Endpoint::leaf_glb, "GET", "/v1/leaves/{preset}.glb", "get_leaf",
+     "Grows a leaf and answers with a GLB file.", glb, ""},
+    {Endpoint::leaf_json, "GET", "/v1/leaves/{preset}.json", "describe_leaf",
+     "What would be grown: canonical address, effective parameters, cost and bounds.", json, ""},
+    {Endpoint::leaf_post, "POST", "/v1/leaves.glb", "post_leaf",
+     "Grows a leaf from a body: a preset and what is to differ from it.", glb, json},
     {Endpoint::surface, "GET", "/v1/surfaces/mushrooms/{mix}/{image}.jpg", "get_surface",
      "One image of a mushroom's atlas; what textures=linked points to.", "image/jpeg", ""},
+    {Endpoint::leaf_surface, "GET", "/v1/surfaces/leaves/{preset}/{image}.jpg", "get_leaf_surface",
+     "One image of a leaf's atlas; what textures=linked points to.", "image/jpeg", ""},
     {Endpoint::inspect, "POST", "/v1/inspect", "inspect",
      "Reads a GLB of Sporeprint and answers with the request that made it.", json, glb},
     {Endpoint::openapi, "GET", "/openapi.json", "openapi", "This document.", json, ""},

@@ -19,7 +19,7 @@ namespace sporeprint::api {
 namespace {
 
 bool kept_by_key(const Key& key) {
-    return key.starts_with("mushroom.") || key.starts_with("morph.");
+    return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.");
 }
 
 /// "queue;dur=0.01, build;dur=2.5" of the steps that were taken.
@@ -71,6 +71,10 @@ struct Service::Parts {
           shelf(context.atlas, context.answers, options.assets) {}
 
     Plan plan(const Request& request);
+
+    /// The image that a request for one asks for; nothing, with faults, for none, and for a route that is not of images.
+    std::optional<ImageResource> image_asked(const Match& match, const Target& target,
+                                             Faults& faults) const;
 };
 
 Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
@@ -154,6 +158,24 @@ Plan Service::Parts::plan(const Request& request) {
             const SpeciesPair pair = read_pair(match.captured[0], match.captured[1], atlas, faults);
             return plan_mushroom(context, request, read_morph(pair, request.body, faults), faults);
         }
+        case Endpoint::leaf_list:
+            return shelf.leaf_list(request, target, faults);
+        case Endpoint::leaf_schema:
+            return shelf.leaf_schema(request, target, faults);
+        case Endpoint::leaf_glb:
+        case Endpoint::leaf_json: {
+            auto asked = read_preset<Leaves>(match.captured[0], target.query, faults);
+            asked.product = route.endpoint == Endpoint::leaf_glb ? Product::glb : Product::json;
+            return plan_leaf(context, request, std::move(asked), faults);
+        }
+        case Endpoint::leaf_post:
+            refuse_query(target, faults);
+            return plan_leaf(context, request, read_preset<Leaves>(request.body, faults), faults);
+        case Endpoint::leaf_surface:
+            return plan_surface(context, request,
+                                read_preset_surface<Leaves>(match.captured[0], match.captured[1],
+                                                            target.query, faults),
+                                faults);
         case Endpoint::surface:
             return plan_surface(
                 context, request,
@@ -168,6 +190,21 @@ Plan Service::Parts::plan(const Request& request) {
             break;  // the server's own; match_route never finds them
     }
     return context.answers.problem(request, 404, "there is nothing at " + in_quotes(target.path));
+}
+
+std::optional<ImageResource> Service::Parts::image_asked(const Match& match, const Target& target,
+                                                         Faults& faults) const {
+    const auto image = [&](const auto& asked) {
+        return faults.empty() ? std::optional(image_of(context, asked)) : std::nullopt;
+    };
+    const Endpoint endpoint = match.route ? match.route->endpoint : Endpoint::inspect;
+    if (endpoint == Endpoint::surface)
+        return image(read_surface(match.captured[0], match.captured[1], target.query,
+                                  *context.atlas, faults));
+    if (endpoint == Endpoint::leaf_surface)
+        return image(read_preset_surface<Leaves>(match.captured[0], match.captured[1], target.query,
+                                                 faults));
+    return std::nullopt;
 }
 
 std::variant<Answer, Job> Service::plan(const Request& request) {
@@ -200,12 +237,11 @@ Answer Service::deliver(const Request& request, const Answer& shared, Outcome ou
     const Match match = match_route(request.method, target.segments);
     const Endpoint endpoint = match.route ? match.route->endpoint : Endpoint::inspect;
 
-    if (endpoint == Endpoint::surface && answer.status == 200) {
-        Faults none;
-        const SurfaceRequest asked =
-            read_surface(match.captured[0], match.captured[1], target.query, *context.atlas, none);
-        if (!none.empty()) return context.answers.problem(request, none);
-        answer = delivered_surface(context, asked, std::move(answer));
+    Faults none;
+    const std::optional<ImageResource> image = parts_->image_asked(match, target, none);
+    if (!none.empty()) return context.answers.problem(request, none);
+    if (image && answer.status == 200) {
+        answer = delivered_image(*image, std::move(answer));
         set_header(answer, "Cache-Status", std::move(status));
     } else if (endpoint != Endpoint::inspect && answer.status == 200) {
         const bool versioned = std::any_of(target.query.begin(), target.query.end(),

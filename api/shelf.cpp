@@ -5,6 +5,7 @@
 #include "api/catalogue.h"
 #include "api/mix.h"
 #include "api/openapi.h"
+#include "api/presets.h"
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -29,6 +30,7 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
     if (atlas_->entries().size() > 1)  // an example: any two will do
         links.set("morph", "/v1/morphs/" + atlas_->entries()[0].species.id.string() + '/' +
                                atlas_->entries()[1].species.id.string());
+    links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
     links.set("openapi", "/openapi.json").set("docs", "/docs");
     Value root = Value::object();
     root.set("name", "sporeprint")
@@ -38,13 +40,15 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
     about_ = json_document(root);
     species_list_ = json_document(api::species_list(*atlas_));
     schema_ = json_document(api::mushroom_schema(), "application/schema+json");
+    leaf_list_ = json_document(preset_list<Leaves>());
+    leaf_schema_ = json_document(api::leaf_schema(), "application/schema+json");
     openapi_ = json_document(api::openapi(*atlas_, SPOREPRINT_VERSION));
     for (const AtlasEntry& entry : atlas_->entries())
         species_.emplace(entry.species.id.string(), document("application/json", entry.json));
     hint_ = document("text/plain; charset=utf-8",
                      "Sporeprint grows mushrooms. The page is not installed here; the API is:\n"
                      "  GET /v1/species\n  GET /v1/mushrooms/<species>.glb?age=0.6&seed=7\n  "
-                     "GET /openapi.json\n",
+                     "GET /v1/leaves\n  GET /openapi.json\n",
                      revalidated);
 }
 
@@ -75,6 +79,14 @@ Answer Shelf::about(const Request& request, const Target& target, Faults& faults
 
 Answer Shelf::mushroom_schema(const Request& request, const Target& target, Faults& faults) const {
     return plain(request, target, schema_, faults);
+}
+
+Answer Shelf::leaf_list(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, leaf_list_, faults);
+}
+
+Answer Shelf::leaf_schema(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, leaf_schema_, faults);
 }
 
 Answer Shelf::openapi(const Request& request, const Target& target, Faults& faults) const {

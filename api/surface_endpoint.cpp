@@ -13,18 +13,14 @@ namespace {
 constexpr const char* digest_header = ":digest";
 
 /// What every answer about an image carries; the tag is that of what is painted.
-Answer surface_head(const SurfaceRequest& asked, std::string_view digest,
-                    const std::string& version) {
+Answer image_head(const ImageResource& image, std::string_view digest) {
     Answer head;
-    head.headers = {
-        {"Content-Type", "image/jpeg"},
-        {"ETag", '"' + std::string(digest) + '-' + name(*asked.kind) + '"'},
-        {"Cache-Control", cache_control(asked.version.has_value())},
-        {"Content-Location",
-         with_version(canonical_address(asked.mix, *asked.kind, asked.address), version)},
-        {"Content-Disposition", "inline; filename=\"" + asked.mix.front().id + '-' +
-                                    std::to_string(asked.address.seed) + '-' + name(*asked.kind) +
-                                    ".jpg\""}};
+    head.headers = {{"Content-Type", "image/jpeg"},
+                    {"ETag", '"' + std::string(digest) + '-' + name(image.kind) + '"'},
+                    {"Cache-Control", cache_control(image.asked_version.has_value())},
+                    {"Content-Location", with_version(image.address, image.version)},
+                    {"Content-Disposition",
+                     "inline; filename=\"" + image.of + '-' + name(image.kind) + ".jpg\""}};
     return head;
 }
 
@@ -38,12 +34,7 @@ PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& fault
     try {
         PaintRecipe recipe =
             painted_at(asked.address, asked.mix, *context.atlas, made_at_once(context.store));
-        if (const std::uint64_t texels = texels_held(recipe); texels > context.options.most_texels)
-            faults.add(422, "texture_size",
-                       std::to_string(texels) + " texels would be held" +
-                           (recipe.size() > 1 ? ", those of every species" : "") + "; at most " +
-                           std::to_string(context.options.most_texels) +
-                           " are. Lower texture_size");
+        refuse_texels(context.options, texels_held(recipe), recipe.size() > 1, faults);
         return recipe;
     } catch (const Impossible& impossible) {
         faults.add(422, named(impossible, false));
@@ -55,37 +46,32 @@ PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& fault
 
 }  // namespace
 
-Plan plan_surface(Context& context, const Request& request, const SurfaceRequest& asked,
-                  Faults& faults) {
+Plan plan_image(Context& context, const Request& request, const ImageResource& image,
+                const std::function<PaintWork(Faults&)>& decide, Faults& faults) {
     const Answers& answers = context.answers;
     Store& store = context.store;
-    if (!faults.empty()) return answers.problem(request, faults);
-    PaintRecipe recipe = painted(context, asked, faults);
-    const std::string version = version_token(asked.mix, *context.atlas);
-    if (asked.version && *asked.version != version) {
+    PaintWork work = decide(faults);
+    if (image.asked_version && *image.asked_version != image.version) {
         faults.add(410, "v",
-                   in_quotes(*asked.version) + " is no longer made; today's version is " +
-                       in_quotes(version));
+                   in_quotes(*image.asked_version) + " is no longer made; today's version is " +
+                       in_quotes(image.version));
         Value::Object more;
         if (faults.status() == 410)
-            more.emplace_back(
-                "canonical",
-                with_version(canonical_address(asked.mix, *asked.kind, asked.address), version));
+            more.emplace_back("canonical", with_version(image.address, image.version));
         return answers.problem(request, faults.status(), {}, faults.problems(), more);
     }
     if (!faults.empty()) return answers.problem(request, faults);
 
-    const Key key = image_key(recipe);
-    const std::string digest = digest_of(key);
-    Answer head = surface_head(asked, digest, version);
+    const std::string digest = digest_of(work.key);
+    Answer head = image_head(image, digest);
     const std::string_view condition = request.header("If-None-Match");
     if (names_any(condition) || names_etag(condition, header_of(head, "ETag"))) {
         set_header(head, "Cache-Status", "sporeprint-images; hit; detail=not-modified");
         return answers.not_modified(request, std::move(head));
     }
-    if (const std::optional<Painted> kept = store.images.cache().find(key)) {
+    if (const std::optional<Painted> kept = store.images.cache().find(work.key)) {
         ++store.counters.image_hits;
-        head.body = {std::get<Images>(*kept)->files[static_cast<std::size_t>(*asked.kind)]};
+        head.body = {std::get<Images>(*kept)->files[static_cast<std::size_t>(image.kind)]};
         set_header(head, "Cache-Status", "sporeprint-images; hit");
         answers.represent(request, head);
         return head;
@@ -96,26 +82,42 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
         answers.add_common_headers(request, head);
         return head;
     }
-    // One flight for the three images of an atlas: its answer holds them all, delivered_surface() hands out the one asked for.
-    const std::uint64_t texels = texels_held(recipe);
-    const auto shared = std::make_shared<const PaintRecipe>(std::move(recipe));
-    auto run = [&store, shared, digest](std::stop_token stop, const Observer& observer,
-                                        const Parallel& parallel) {
+    // One flight for the three images of an atlas: its answer holds them all, delivered_image() hands out the one asked for.
+    auto run = [&store, paint = std::move(work.paint), digest](
+                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
         observer(Step::paint);
         Loan loan(store, std::move(stop), observer, parallel);
-        const Images set = painted_images(*shared, loan.workshop());
+        const Images set = paint(loan.workshop());
         Answer answer;
         answer.headers = {{digest_header, digest}, {"Cache-Status", loan.cache_status()}};
         answer.body.assign(set->files.begin(), set->files.end());
         return answer;
     };
-    return Job{key, Cost{0, texels, texels}, std::move(run)};
+    return Job{std::move(work.key), Cost{0, work.texels, work.texels}, std::move(run)};
 }
 
-Answer delivered_surface(const Context& context, const SurfaceRequest& asked, Answer shared) {
-    const std::string digest = take_header(shared, digest_header);
-    Answer answer = surface_head(asked, digest, version_token(asked.mix, *context.atlas));
-    answer.body = {shared.body[static_cast<std::size_t>(*asked.kind)]};
+ImageResource image_of(const Context& context, const SurfaceRequest& asked) {
+    return {*asked.kind, version_token(asked.mix, *context.atlas),
+            canonical_address(asked.mix, *asked.kind, asked.address),
+            asked.mix.front().id + '-' + std::to_string(asked.address.seed), asked.version};
+}
+
+Plan plan_surface(Context& context, const Request& request, const SurfaceRequest& asked,
+                  Faults& faults) {
+    if (!faults.empty()) return context.answers.problem(request, faults);
+    const auto decide = [&](Faults& found) {
+        const auto recipe = std::make_shared<const PaintRecipe>(painted(context, asked, found));
+        if (recipe->empty()) return PaintWork{};
+        return PaintWork{
+            image_key(*recipe), texels_held(*recipe),
+            [recipe](const Workshop& workshop) { return painted_images(*recipe, workshop); }};
+    };
+    return plan_image(context, request, image_of(context, asked), decide, faults);
+}
+
+Answer delivered_image(const ImageResource& image, Answer shared) {
+    Answer answer = image_head(image, take_header(shared, digest_header));
+    answer.body = {shared.body[static_cast<std::size_t>(image.kind)]};
     return answer;
 }
 

@@ -47,31 +47,13 @@ PaintRecipe painted_at(const SurfaceAddress& address, const Mix& mix, const Atla
     return recipe;
 }
 
-SurfaceRequest read_surface(std::string_view mix, std::string_view image,
-                            std::span<const std::pair<std::string, std::string>> query,
+SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query query,
                             const Atlas& atlas, Faults& faults) {
     SurfaceRequest request;
     request.mix = surface_mix(read_mix(mix, atlas, faults));
-    std::vector<std::string> kinds;
-    for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) {
-        kinds.emplace_back(one);
-        if (image == one) request.kind = static_cast<ImageKind>(i);
-    }
-    if (!request.kind) {
-        const std::string_view meant = closest(image, kinds);
-        faults.add(404, "image",
-                   in_quotes(image) + " is not one of " + enum_names<ImageKind>() +
-                       (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
-    }
+    request.kind = read_image(image, faults);
     std::vector<std::pair<std::string, std::string>> rest;
-    for (const auto& pair : query) {
-        if (pair.first != "v")
-            rest.push_back(pair);
-        else if (request.version)
-            faults.add(400, "v", "given more than once");
-        else
-            request.version = pair.second;
-    }
+    request.version = take_version(query, rest, faults);
     std::vector<Problem> problems;
     read_query(rest, request.address, problems);
     faults.add(400, problems);
@@ -81,9 +63,8 @@ SurfaceRequest read_surface(std::string_view mix, std::string_view image,
 }
 
 std::string canonical_address(const Mix& mix, ImageKind kind, const SurfaceAddress& address) {
-    std::string out = "/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + name(kind) + ".jpg";
-    const std::string query = query_text(address);
-    return query.empty() ? out : out + '?' + query;
+    return with_query("/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + name(kind) + ".jpg",
+                      query_text(address));
 }
 
 }  // namespace sporeprint::api

@@ -2,12 +2,10 @@
 #pragma once
 
 #include <optional>
-#include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
-#include "api/errors.h"
+#include "api/orders.h"
 #include "core/atlas/atlas.h"
 #include "core/grow/painting.h"
 #include "core/surface/paint.h"
@@ -89,9 +87,8 @@ struct SurfaceRequest {
 };
 
 /// Reads {mix}, {image} and query of an address under /v1/surfaces/mushrooms; weights and age are quantised.
-[[nodiscard]] SurfaceRequest read_surface(
-    std::string_view mix, std::string_view image,
-    std::span<const std::pair<std::string, std::string>> query, const Atlas& atlas, Faults& faults);
+[[nodiscard]] SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query query,
+                                          const Atlas& atlas, Faults& faults);
 
 /// Canonical address of an image without version.
 [[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind,

@@ -7,6 +7,7 @@
 
 #include "api/errors.h"
 #include "api/morphs.h"
+#include "api/presets.h"
 #include "api/routes.h"
 #include "api/surfaces.h"
 #include "core/model/request.h"
@@ -23,7 +24,7 @@ void leaf_names(const std::string& prefix, std::set<std::string>& out) {
     T::fields([&](auto member, const Info& info) {
         using Member = std::remove_cvref_t<decltype(std::declval<T&>().*member)>;
         if constexpr (Described<Member>)
-            leaf_names<Member>(prefix + info.name + '.', out);
+            leaf_names<Member>(info.name[0] ? prefix + info.name + '.' : prefix, out);
         else
             out.insert(prefix + info.name);
     });
@@ -79,12 +80,18 @@ TEST(OpenApi, names_every_query_parameter) {
     std::set<std::string> mushroom = {"v"}, surface = {"v"};
     leaf_names<MushroomParams>("", mushroom);
     leaf_names<SurfaceAddress>("", surface);
+    std::set<std::string> leaf = {"v"}, leaf_surface = {"v"};
+    leaf_names<LeafParams>("", leaf);
+    leaf_names<LeafPaint>("", leaf_surface);
     const auto get = [&](const char* path) -> const Value& {
         return *api.find("paths")->find(path)->find("get");
     };
     EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}.glb")), mushroom);
     EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}.json")), mushroom);
     EXPECT_EQ(query_names(get("/v1/surfaces/mushrooms/{mix}/{image}.jpg")), surface);
+    EXPECT_EQ(query_names(get("/v1/leaves/{preset}.glb")), leaf);
+    EXPECT_EQ(query_names(get("/v1/leaves/{preset}.json")), leaf);
+    EXPECT_EQ(query_names(get("/v1/surfaces/leaves/{preset}/{image}.jpg")), leaf_surface);
     EXPECT_EQ(query_names(get("/v1/morphs/{a}/{b}")), (std::set<std::string>{"age", "v"}));
     EXPECT_EQ(query_names(get("/v1/species")),
               (std::set<std::string>{"form", "family", "substrate", "habit", "month", "colour",
@@ -103,6 +110,10 @@ TEST(OpenApi, names_every_member_of_a_body) {
     MushroomParams::fields([&](auto, const Info& info) { params.insert(info.name); });
     morph.insert(params.begin(), params.end());
     mushroom.insert(params.begin(), params.end());
+    std::set<std::string> leaf = {"preset", "v"}, params_of_leaf;
+    leaf_names<LeafParams>("", params_of_leaf);
+    for (const std::string& name : params_of_leaf) leaf.insert(name.substr(0, name.find('.')));
+    EXPECT_EQ(properties("leaf_order"), leaf);
     EXPECT_EQ(properties("morph_order"), morph);
     EXPECT_EQ(properties("mushroom_order"), mushroom);
     const auto& arc =

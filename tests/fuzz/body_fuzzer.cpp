@@ -7,6 +7,8 @@
 
 #include "api/morphs.h"
 #include "api/mushrooms.h"
+#include "api/presets.h"
+#include "api/query.h"
 #include "core/atlas/atlas.h"
 #include "core/params/reader.h"
 #include "tests/fuzz/expect.h"
@@ -76,6 +78,27 @@ void read_as_morph(std::string_view text, const Atlas& atlas) {
            "a morph is the same from either side");
 }
 
+void read_as_leaf(std::string_view text) {
+    api::Faults faults;
+    const LeafOrder order = api::read_preset<api::Leaves>(text, faults).order;
+    if (!faults.empty()) return;
+    const auto key = [](const LeafOrder& one) {
+        return api::key_of<api::Leaves>(one, api::Product::glb, "v");
+    };
+    Value own = write(order.params);
+    own.set("preset", order.preset);
+    api::Faults none;
+    const LeafOrder again = api::read_preset<api::Leaves>(dump(own), none).order;
+    expect(none.empty() && key(again) == key(order), "a leaf reads back from its own text");
+    // And from its address.
+    std::vector<Problem> problems;
+    const api::Target target =
+        api::split_target(api::canonical_address<api::Leaves>(order, api::Product::glb), problems);
+    const LeafOrder there = api::read_preset<api::Leaves>(order.preset, target.query, none).order;
+    expect(problems.empty() && none.empty() && key(there) == key(order),
+           "a leaf reads back from its address");
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -83,5 +106,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     read_as_mushroom(text, *atlas);
     read_as_morph(text, *atlas);
+    read_as_leaf(text);
     return 0;
 }

@@ -1,0 +1,37 @@
+#include "api/preset_endpoint.h"
+#include "core/grow/leaf.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+struct Recipe {
+    static Grown grow(const LeafOrder& order, const Extras& extras, const Workshop& workshop) {
+        return grow_leaf(order, extras, workshop);
+    }
+
+    static std::pair<Estimate, Bounds> measure(const LeafOrder& order, const Workshop& workshop) {
+        workshop.observer(Step::build);
+        const Mesh mesh = leaf_mesh(order);
+        workshop.observer(Step::pack);
+        return {measured(order, mesh), bounds(mesh)};
+    }
+};
+
+}  // namespace
+
+Plan plan_leaf(Context& context, const Request& request, PresetRequest<Leaves> asked,
+               Faults& faults) {
+    return plan_preset<Leaves, Recipe>(context, request, std::move(asked), faults);
+}
+
+Plan plan_surface(Context& context, const Request& request, const PresetSurface<Leaves>& asked,
+                  Faults& faults) {
+    return plan_preset_surface<Leaves>(context, request, asked, faults);
+}
+
+ImageResource image_of(const Context&, const PresetSurface<Leaves>& asked) {
+    return image_of<Leaves>(asked);
+}
+
+}  // namespace sporeprint::api

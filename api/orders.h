@@ -1,0 +1,72 @@
+// What requests for all products have in common: version token, body, canonical address, what their JSON tells.
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/errors.h"
+#include "core/grow/product.h"
+#include "core/params/describe.h"
+#include "core/params/value.h"
+
+namespace sporeprint::api {
+
+/// The decoded names and values of a query.
+using Query = std::span<const std::pair<std::string, std::string>>;
+
+/// What is made of an order.
+enum class Product { glb, json };
+
+/// Ending of the name of what is made: ".glb" or ".json".
+[[nodiscard]] const char* ending_of(Product product);
+
+/// Media type of what is made.
+[[nodiscard]] const char* type_of(Product product);
+
+/// Takes `v` out of a query; what remains goes to `rest`.
+[[nodiscard]] std::optional<std::string> take_version(
+    Query query, std::vector<std::pair<std::string, std::string>>& rest, Faults& faults);
+
+/// Takes `v` out of a body.
+[[nodiscard]] std::optional<std::string> take_version(Value& body, std::vector<Problem>& problems);
+
+/// The JSON object of a body; empty, with the reason in `faults`, when it is none.
+[[nodiscard]] std::optional<Value> read_body(std::string_view body, Faults& faults);
+
+/// Makes each -0 of a described struct 0, so that equal keys cannot differ in the sign of a zero.
+template <class T>
+void without_negative_zero(T& value) {
+    if constexpr (Described<T>) {
+        T::fields([&](auto member, const Info&) { without_negative_zero(value.*member); });
+    } else if constexpr (is_variant<T>) {
+        std::visit([](auto& one) { without_negative_zero(one); }, value);
+    } else if constexpr (is_optional<T>) {
+        if (value) without_negative_zero(*value);
+    } else if constexpr (is_list<T>) {
+        for (auto& item : value) without_negative_zero(item);
+    } else if constexpr (std::is_floating_point_v<T>) {
+        value += T{};
+    }
+}
+
+/// Today's version token of what is made with `templates`: generator version, '-', 8 hexadecimal digits of their hash.
+[[nodiscard]] std::string token_of(std::string_view templates);
+
+/// A path and its query, where there is one.
+[[nodiscard]] std::string with_query(std::string path, const std::string& query);
+
+/// Appends `v` as the last parameter.
+[[nodiscard]] std::string with_version(std::string address, std::string_view version);
+
+/// Reads the {image} of an address; 404 for none of them.
+[[nodiscard]] std::optional<ImageKind> read_image(std::string_view image, Faults& faults);
+
+/// Members of what the JSON of a product tells.
+[[nodiscard]] Value told(const Estimate& estimate);
+[[nodiscard]] Value told(const Bounds& bounds);
+
+}  // namespace sporeprint::api

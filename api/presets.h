@@ -1,0 +1,189 @@
+// Requests for what grows from presets (leaves): from an address or a body to an order, and back to the canonical address and key.
+#pragma once
+
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "api/orders.h"
+#include "core/params/canonical.h"
+#include "core/params/messages.h"
+#include "core/params/query.h"
+#include "core/params/reader.h"
+#include "core/plant/leaf_order.h"
+
+namespace sporeprint::api {
+
+/// Leaves, as what follows knows them: names, presets, and what they are ordered and painted by.
+struct Leaves {
+    using Preset = LeafPreset;
+    using Order = LeafOrder;
+    using Params = LeafParams;
+    using Paint = LeafPaint;
+    static constexpr const char *one = "leaf", *all = "leaves";
+    static std::span<const Preset> presets() { return leaf_presets(); }
+};
+
+template <class Kind>
+struct PresetRequest {
+    typename Kind::Order order;
+    Product product = Product::glb;
+    std::optional<std::string> version;
+};
+
+/// One image of what grows from a preset.
+template <class Kind>
+struct PresetSurface {
+    std::string preset;
+    std::optional<ImageKind> kind;
+    typename Kind::Paint paint;
+    std::optional<std::string> version;
+};
+
+/// The preset of that id; of the first, with 404 for `parameter`, when there is none.
+template <class Kind>
+const typename Kind::Preset& preset_of(std::string_view id, const char* parameter, Faults& faults) {
+    std::vector<std::string> ids;
+    for (const auto& preset : Kind::presets()) {
+        if (id == preset.id) return preset;
+        ids.emplace_back(preset.id);
+    }
+    const std::string_view meant = closest(id, ids);
+    faults.add(404, parameter,
+               std::string("unknown ") + Kind::one + ' ' + in_quotes(id) +
+                   (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+    return Kind::presets().front();
+}
+
+/// The parameters of a preset that is there.
+template <class Kind>
+typename Kind::Params own_params(std::string_view id) {
+    Faults none;
+    return params_of(preset_of<Kind>(id, "", none));
+}
+
+/// What was found against `params`: each alone in its range but impossible together is 422, all else 400.
+template <class Params>
+void add_problems(const std::vector<Problem>& problems, const Params& params, bool posted,
+                  Faults& faults) {
+    const std::vector<Problem> impossible = problems_in(params);
+    for (const Problem& problem : problems) {
+        const bool together =
+            std::any_of(impossible.begin(), impossible.end(), [&](const Problem& one) {
+                return (posted ? one.path : query_name(one.path)) == problem.path &&
+                       one.message == problem.message;
+            });
+        faults.add(together ? 422 : 400, problem.path, problem.message);
+    }
+}
+
+/// Reads the {preset} and the query of an address.
+template <class Kind>
+PresetRequest<Kind> read_preset(std::string_view id, Query query, Faults& faults) {
+    const auto& preset = preset_of<Kind>(id, "preset", faults);
+    PresetRequest<Kind> request{{preset.id, params_of(preset)}, {}, {}};
+    std::vector<std::pair<std::string, std::string>> rest;
+    request.version = take_version(query, rest, faults);
+    std::vector<Problem> problems;
+    read_query(rest, request.order.params, problems);
+    add_problems(problems, request.order.params, false, faults);
+    without_negative_zero(request.order.params);
+    return request;
+}
+
+/// Reads a body: {"preset":id} beside the query parameters nested ("venation":{"lobes":7}).
+template <class Kind>
+PresetRequest<Kind> read_preset(std::string_view body, Faults& faults) {
+    PresetRequest<Kind> request;
+    std::optional<Value> json = read_body(body, faults);
+    if (!json) return request;
+    std::vector<Problem> problems;
+    request.version = take_version(*json, problems);
+    const Value* given = json->find("preset");
+    const auto& first = Kind::presets().front();
+    if (!given)
+        report(problems, "/preset",
+               std::string("is missing; give {\"preset\":\"") + first.id + "\"}");
+    else if (!given->is_string())
+        report(problems, "/preset", "expected text, got " + shown(*given));
+    const bool named = given && given->is_string();
+    const auto& preset = named ? preset_of<Kind>(given->as_string(), "/preset", faults) : first;
+    json->erase("preset");
+    request.order = {preset.id, params_of(preset)};
+    read(*json, request.order.params, Info{.name = ""}, "", problems);
+    add_problems(problems, request.order.params, true, faults);
+    without_negative_zero(request.order.params);
+    return request;
+}
+
+/// Today's version token of what is made from a preset.
+template <class Kind>
+std::string preset_token(const std::string& preset) {
+    return token_of(preset + ' ' + canonical_text(own_params<Kind>(preset)));
+}
+
+/// Canonical address without version: the preset, then what differs from it, in schema order.
+template <class Kind, class Order>
+std::string canonical_address(const Order& order, Product product) {
+    return with_query(std::string("/v1/") + Kind::all + '/' + order.preset + ending_of(product),
+                      query_text(order.params, own_params<Kind>(order.preset)));
+}
+
+/// Full canonical text of all values: equal keys, equal bytes.
+template <class Kind, class Order>
+std::string key_of(const Order& order, Product product, const std::string& version) {
+    return std::string(Kind::one) + ending_of(product) + ' ' + version + '\n' + order.preset +
+           '\n' + canonical_text(order.params);
+}
+
+/// "maple-7.glb"
+template <class Order>
+std::string preset_file_name(const Order& order, Product product) {
+    return order.preset + '-' + std::to_string(order.params.seed) + ending_of(product);
+}
+
+/// Reads {preset}, {image} and query of an address under /v1/surfaces.
+template <class Kind>
+PresetSurface<Kind> read_preset_surface(std::string_view id, std::string_view image, Query query,
+                                        Faults& faults) {
+    const auto& preset = preset_of<Kind>(id, "preset", faults);
+    PresetSurface<Kind> asked{
+        preset.id, read_image(image, faults), paint_of(params_of(preset)), {}};
+    std::vector<std::pair<std::string, std::string>> rest;
+    asked.version = take_version(query, rest, faults);
+    std::vector<Problem> problems;
+    read_query(rest, asked.paint, problems);
+    add_problems(problems, asked.paint, false, faults);
+    without_negative_zero(asked.paint);
+    return asked;
+}
+
+/// Canonical address of an image without version.
+template <class Kind, class Paint>
+std::string canonical_image_address(const std::string& preset, ImageKind kind, const Paint& paint) {
+    return with_query(
+        std::string("/v1/surfaces/") + Kind::all + '/' + preset + '/' + name(kind) + ".jpg",
+        query_text(paint, paint_of(own_params<Kind>(preset))));
+}
+
+/// {"leaves":[{"id","name","links"}]}
+template <class Kind>
+Value preset_list() {
+    const std::string root = std::string("/v1/") + Kind::all + '/';
+    Value list = Value::array();
+    for (const auto& preset : Kind::presets()) {
+        Value links = Value::object();
+        links.set("self", root + preset.id + ".json").set("model", root + preset.id + ".glb");
+        list.push(Value::object()
+                      .set("id", preset.id)
+                      .set("name", preset.name)
+                      .set("links", std::move(links)));
+    }
+    return Value::object().set(Kind::all, std::move(list));
+}
+
+}  // namespace sporeprint::api
