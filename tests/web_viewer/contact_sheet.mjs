@@ -3,6 +3,7 @@
 //   node tests/web_viewer/contact_sheet.mjs http://127.0.0.1:8080 [options]
 //     --out FILE            picture to write (build/screenshots/contact_sheet.png)
 //     --species a,b         rows (all species); a mix is written with + for its commas: a:0.5+b:0.5
+//     --leaves              leaves instead of mushrooms: rows are presets, --species names some of them
 //     --ages 0,0.3,0.6,1    columns, each list is crossed with the others
 //     --seeds 1,2
 //     --lods 0,2
@@ -44,6 +45,7 @@ function readArguments(argv) {
     };
     for (let i = 0; i < argv.length; ++i) {
         if (argv[i] === "--wireframe") options.wireframe = true;
+        else if (argv[i] === "--leaves") options.leaves = true;
         else if (argv[i] === "--growth") options.growth = true;
         else if (take[argv[i]] && argv[i + 1] !== undefined) take[argv[i]](argv[++i]);
         else if (/^https?:/.test(argv[i]) && !options.base) options.base = argv[i].replace(/\/+$/, "");
@@ -54,7 +56,8 @@ function readArguments(argv) {
 }
 
 const options = readArguments(process.argv.slice(2));
-const species = options.species ?? (await (await fetch(`${options.base}/v1/species`)).json()).species.map(({ id }) => id);
+const [kind, list] = options.leaves ? ["leaf", "leaves"] : ["species", "species"];
+const species = options.species ?? (await (await fetch(`${options.base}/v1/${list}`)).json())[list].map(({ id }) => id);
 
 let columns = [{ query: options.set, label: [] }];
 for (const [name, values] of options.vary) {
@@ -146,7 +149,7 @@ async function ownSheet() {
     for (const { title, shown } of table) {
         const cells = [];
         for (const { mix, query, label } of shown) {
-            const address = `/?${[`species=${mix}`, ...query, "shot=1"].join("&")}`;
+            const address = `/?${[`${kind}=${mix}`, ...query, "shot=1"].join("&")}`;
             let facts = "";
             try {
                 await go(page, address);

@@ -9,7 +9,7 @@ import { packages, root } from "./support.mjs";
 
 const { outputFiles } = packages("esbuild").buildSync({
     stdin: {
-        contents: ["arcs", "camera", "dom", "gallery", "history", "http", "mix", "schema", "settings", "weights"].map((name) => `export * from "./${name}";`).join("\n"),
+        contents: ["arcs", "camera", "dom", "gallery", "history", "http", "mix", "products", "schema", "settings", "weights"].map((name) => `export * from "./${name}";`).join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
     bundle: true,
@@ -60,7 +60,7 @@ test("every parameter of the schema becomes a field under its query name, except
 
 test("alternatives of a variant are one list of names and the fields of all of them", () => {
     assert.deepEqual(named("hymenium.form").options, ["gills", "pores"]);
-    assert.ok(named("hymenium.count").fromSpecies);
+    assert.equal(named("hymenium.count").owner, "species");
     assert.equal(named("hymenium.count").fallback, undefined);
 });
 
@@ -81,6 +81,28 @@ test("an address carries only what differs, in the schema's order", () => {
     assert.equal(settings.pageQuery(new URLSearchParams("shot=1")), "?species=boletus_edulis&age=0.25&deformation.bend_deg=20&shot=1");
     settings.set("age", 0.6);
     assert.equal(settings.address(".glb"), "/v1/mushrooms/boletus_edulis.glb?deformation.bend_deg=20");
+});
+
+test("a leaf has its own routes, and its colours are controls of their own kind", () => {
+    const tint = { type: "string", format: "color", "x-default-from": "preset" };
+    const parts = page.groupsOf({ type: "object", properties: { seed: schema.properties.seed, summer: { type: "object", properties: { vein: tint } } } })
+        .flatMap((group) => group.fields);
+    assert.deepEqual(parts.map(({ name, kind, owner }) => [name, kind, owner]), [["seed", "number", ""], ["summer.vein", "color", "preset"]]);
+    const settings = new page.Settings(parts, "maple", page.leaves);
+    settings.set("summer.vein", "#aabbcc");
+    assert.equal(settings.address(".glb"), "/v1/leaves/maple.glb?summer.vein=%23aabbcc");
+    assert.equal(settings.pageQuery(new URLSearchParams()), "?leaf=maple&summer.vein=%23aabbcc");
+    settings.choose("oak");
+    assert.equal(settings.address(".json"), "/v1/leaves/oak.json");
+    assert.deepEqual(settings.read(new URLSearchParams("leaf=oak&age=1")).map(({ detail }) => detail), ["'age' is no parameter of a leaf"]);
+});
+
+test("a page's query and a canonical address say what grew", () => {
+    assert.equal(page.productOf(new URLSearchParams("leaf")), page.leaves);
+    assert.equal(page.productOf(new URLSearchParams("seed=7")), page.mushrooms);
+    assert.deepEqual(page.grownAt("/v1/leaves/oak.glb"), { product: page.leaves, id: "oak" });
+    assert.equal(page.grownAt("/v1/mushrooms/a:0.5,b:0.5.json").id, "a:0.5,b:0.5");
+    assert.equal(page.grownAt("/v1/morphs/a/b.glb"), undefined);
 });
 
 test("another species drops what was set on the last one's own shape and keeps the rest", () => {

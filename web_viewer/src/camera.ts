@@ -11,12 +11,24 @@ function towards(azimuth: number, elevation: number): Vector3 {
     return new Vector3(Math.sin(a) * Math.cos(e), Math.sin(e), Math.cos(a) * Math.cos(e));
 }
 
-export const viewDirections: Readonly<Record<ViewName, Vector3>> = {
+export type Directions = Readonly<Record<ViewName, Vector3>>;
+
+/** Of what stands upright. */
+export const standing: Directions = {
     "three-quarter": towards(32, 17),
     front: towards(0, 4),
     side: towards(90, 4),
     top: towards(0, 89.9),
     below: towards(24, -38),
+};
+
+/** Of what lies on the ground along +Z: its tip is up in the picture. */
+export const lying: Directions = {
+    "three-quarter": towards(200, 62),
+    front: towards(0, 12),
+    side: towards(90, 8),
+    top: towards(180, 89.9),
+    below: towards(160, -60),
 };
 
 /** The frame left free around the model, as parts of the picture: the plate and the buttons stand there. */

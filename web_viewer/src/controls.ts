@@ -12,6 +12,11 @@ export interface ControlEvents {
 
 type Entry = HTMLInputElement | HTMLSelectElement;
 
+/** "species'", "preset's" */
+function ownerOf({ owner }: Field): string {
+    return owner.endsWith("s") ? `${owner}'` : `${owner}'s`;
+}
+
 class Control {
     readonly row: HTMLElement;
     private readonly entries: Entry[] = [];
@@ -33,7 +38,7 @@ class Control {
         this.message.id = `${id}-fault`;
         const label = make("label", { for: id, title: field.description || undefined }, field.label);
         const about = make("p", { class: "about", id: `${id}-about` }, this.aboutText());
-        const reset = field.fromSpecies ? "Back to the species' own" : "Back to the default";
+        const reset = field.owner ? `Back to the ${ownerOf(field)} own` : "Back to the default";
         this.reset.title = reset;
         this.reset.setAttribute("aria-label", `${field.label}: ${reset.toLowerCase()}`);
         this.reset.addEventListener("click", () => {
@@ -49,6 +54,8 @@ class Control {
         } else if (field.kind === "select") {
             const options = field.options.map((option) => make("option", { value: String(option) }, String(option)));
             body.append(this.listen(make("select", { ...shared, id }, ...options)));
+        } else if (field.kind === "color") {
+            body.append(this.listen(make("input", { ...shared, id, type: "color" })));
         } else if (field.kind === "text") {
             body.append(this.listen(make("input", { ...shared, id, type: "text" })));
         } else {
@@ -79,13 +86,13 @@ class Control {
     /** Shows the setting, or what the species has of its own. */
     show(effective: unknown): void {
         const set = this.settings.values.get(this.field.name);
-        const own = this.field.fromSpecies ? valueAt(effective, this.field.name) : this.field.fallback;
+        const own = this.field.owner ? valueAt(effective, this.field.name) : this.field.fallback;
         const value = set ?? own;
         this.row.classList.toggle("set", set !== undefined);
-        this.row.classList.toggle("inherited", set === undefined && this.field.fromSpecies);
+        this.row.classList.toggle("inherited", set === undefined && this.field.owner !== "");
         this.reset.hidden = set === undefined;
         // What a species cannot have is not offered.
-        this.row.hidden = !this.settings.matters(this.field) || this.field.fromSpecies && set === undefined && effective !== undefined && own === undefined;
+        this.row.hidden = !this.settings.matters(this.field) || this.field.owner !== "" && set === undefined && effective !== undefined && own === undefined;
         for (const entry of this.entries) {
             if (entry instanceof HTMLInputElement && entry.type === "checkbox") {
                 entry.checked = value === true;
@@ -111,7 +118,7 @@ class Control {
         const { field } = this;
         const range = field.min !== undefined && field.max !== undefined ? `${field.min} to ${field.max}` : "";
         const span = [range, field.unit].filter(Boolean).join(" ");
-        const start = field.fromSpecies ? "the species' own unless moved" : "";
+        const start = field.owner ? `the ${ownerOf(field)} own unless moved` : "";
         const facts = [span, start].filter(Boolean).join("; ");
         return [field.description, facts && `(${facts})`].filter(Boolean).join(" ");
     }

@@ -12,6 +12,7 @@ import { readShares } from "./mix";
 import { countsOf, paintOf } from "./model";
 import { Paint } from "./paint";
 import { groupsOf, words, type Schema, type Value } from "./schema";
+import { grownAt, mushrooms, productOf, type Product } from "./products";
 import { mixPattern, Settings, type Fault } from "./settings";
 import { Sheet, sheetButtons, type SheetKind } from "./sheet";
 import { Stage } from "./stage";
@@ -90,12 +91,13 @@ class Page {
 
     constructor(
         private readonly stage: Stage,
+        private readonly product: Product,
         schema: Schema,
         species: readonly Species[],
     ) {
         const groups = groupsOf(schema);
         const fields = groups.flatMap((group) => group.fields);
-        this.settings = new Settings(fields, species[0]?.id ?? "");
+        this.settings = new Settings(fields, species[0]?.id ?? "", product);
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
         this.controls = new Controls(byId("form"), groups, this.settings, {
             moving: ({ name }) => {
@@ -174,6 +176,7 @@ class Page {
 
     /** From one species to the bench and back; what was mixed goes along. */
     private makeModes(): void {
+        if (!this.product.lives) return;
         byId("mode-species").addEventListener("click", (event) => {
             if (!plainClick(event)) return;
             event.preventDefault();
@@ -196,6 +199,7 @@ class Page {
     private showMode(): void {
         const { morph } = this.settings;
         document.documentElement.classList.toggle("morphing", morph !== undefined);
+        if (!this.product.lives) return;
         for (const [id, on] of [["mode-species", !morph], ["mode-morph", Boolean(morph)]] as const) {
             if (on) byId(id).setAttribute("aria-current", "page");
             else byId(id).removeAttribute("aria-current");
@@ -353,7 +357,9 @@ class Page {
         clearTimeout(this.writing);
         this.writing = undefined;
         const query = new URLSearchParams(location.search);
-        const asked = query.get("species");
+        // Another product's address is another page.
+        if (productOf(query) !== this.product) return location.reload();
+        const asked = query.get(this.product.kind);
         const before = this.settings.mix;
         const faults = this.settings.readMorph(query, (id) => this.gallery.find(id) !== undefined);
         const mix = this.settings.morph ? this.settings.mix : asked && this.canShow(asked) ? asked : (this.gallery.species[0]?.id ?? "");
@@ -362,7 +368,7 @@ class Page {
         faults.push(...this.settings.read(query));
         this.written = undefined;
         this.begin(refit);
-        if (asked && asked !== mix) faults.push({ parameter: "species", detail: `'${asked}' is no species here` });
+        if (asked && asked !== mix) faults.push({ parameter: this.product.kind, detail: `'${asked}' is no ${this.product.kind} here` });
         this.showFaults(faults);
         const sheet = query.get("sheet");
         if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) this.sheet.show(sheet);
@@ -437,9 +443,9 @@ class Page {
 
     private showDimensions(): void {
         const { above, width, depth } = this.stage.size;
-        
-        byId("dimensions").textContent =
-            `${centimetres(above, 1)} tall, ${centimetres(Math.max(width, depth), 1)} across`;
+        byId("dimensions").textContent = this.product.lies
+            ? `${centimetres(depth, 1)} long, ${centimetres(width, 1)} wide`
+            : `${centimetres(above, 1)} tall, ${centimetres(Math.max(width, depth), 1)} across`;
     }
 
     private showScale(): void {
@@ -448,7 +454,7 @@ class Page {
         const text = centimetres(metres);
         const label = byId("scale-text");
         if (label.textContent !== text) label.textContent = text;
-        label.title = `At the depth of the mushroom. Lines on the ground every ${centimetres(this.stage.ruling)}.`;
+        label.title = `At the depth of the ${this.product.noun}. Lines on the ground every ${centimetres(this.stage.ruling)}.`;
     }
 
     private showProgress(progress: Progress | { stage: "unpacking" } | { stage: "idle" }): void {
@@ -558,7 +564,7 @@ class Page {
 
     private fileName(): string {
         const disposition = this.grown?.answer.response.headers.get("content-disposition") ?? "";
-        return /filename="([\w.-]+)"/.exec(disposition)?.[1] ?? "mushroom.glb";
+        return /filename="([\w.-]+)"/.exec(disposition)?.[1] ?? `${this.product.noun}.glb`;
     }
 
     private makeActions(): void {
@@ -618,9 +624,15 @@ class Page {
             });
             const { canonical } = (await response.json()) as { canonical?: string };
             const address = new URL(canonical ?? "", location.href);
-            const mix = /^\/v1\/mushrooms\/([^/]+)\.(?:glb|json)$/.exec(decodeURIComponent(address.pathname))?.[1];
+            const grown = grownAt(decodeURIComponent(address.pathname));
+            if (grown && grown.product !== this.product && mixPattern.test(grown.id)) {
+                const query = address.search.replace("?", "&");
+                this.thumbnails.abort();
+                return location.assign(`?${grown.product.kind}=${grown.id}${query}`);
+            }
+            const mix = grown?.id;
             if (!mix || !mixPattern.test(mix)) {
-                throw new RequestFailed(`${file.name} is not a mushroom of this page`, canonical ? `It was made by ${canonical}` : "It names no recipe.", 0);
+                throw new RequestFailed(`${file.name} is not a ${this.product.noun} of this page`, canonical ? `It was made by ${canonical}` : "It names no recipe.", 0);
             }
             const refit = mix !== this.settings.mix;
             this.settings.setMorph(undefined);
@@ -665,10 +677,10 @@ class Page {
             return field && least !== undefined ? [`${name}=${least}`] : [];
         }).join("&");
         const models = this.gallery.species.map(({ id, links }) => {
-            const model = links?.model ?? `/v1/mushrooms/${id}.glb`;
+            const model = links?.model ?? `${this.product.path}/${id}.glb`;
             return { id, address: query ? `${model}${model.includes("?") ? "&" : "?"}${query}` : model };
         });
-        await makeThumbnails(models, (id, picture) => this.gallery.picture(id, picture), this.thumbnails.signal);
+        await makeThumbnails(models, this.product.directions, (id, picture) => this.gallery.picture(id, picture), this.thumbnails.signal);
         document.documentElement.dataset["gallery"] = "complete";
     }
 }
@@ -685,15 +697,31 @@ function paintStage(stage: Stage, dusk: boolean): void {
     stage.colours(style.getPropertyValue("--rule").trim(), style.getPropertyValue("--shade").trim());
 }
 
+/** What of the page says what grows on it. */
+function dressPage(product: Product): void {
+    const canvas = byId("canvas");
+    canvas.setAttribute("aria-label", (canvas.getAttribute("aria-label") ?? "").replace("mushroom", product.noun));
+    for (const mode of ["species", "morph", "leaf"]) {
+        const current = mode === product.kind;
+        if (current) byId(`mode-${mode}`).setAttribute("aria-current", "page");
+        else byId(`mode-${mode}`).removeAttribute("aria-current");
+    }
+    if (product === mushrooms) return;
+    // Only mushrooms have something between them, a life to play and a season.
+    byId("mode-morph").hidden = byId("sheets").hidden = true;
+    byId<HTMLInputElement>("find").placeholder = "Name…";
+    byId("gallery").parentElement?.setAttribute("aria-label", words(product.kind));
+    byId("find").setAttribute("aria-label", `Find a ${product.noun}`);
+}
+
 async function open(): Promise<void> {
     document.documentElement.classList.toggle("shot", shot);
-    const [schema, list] = await Promise.all([
-        getJson<Schema>("/v1/mushrooms/schema"),
-        getJson<{ species: Species[] }>("/v1/species"),
-    ]);
-    const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), { calm, bare: shot });
+    const product = productOf(new URLSearchParams(location.search));
+    dressPage(product);
+    const [schema, list] = await Promise.all([getJson<Schema>(`${product.path}/schema`), product.list()]);
+    const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), { calm, bare: shot, directions: product.directions, lies: product.lies });
     paintStage(stage, false);
-    const page = new Page(stage, schema, list.species);
+    const page = new Page(stage, product, schema, list);
     window.sporeprint = {
         ready: async () => {
             await page.settled();

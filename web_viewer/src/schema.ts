@@ -5,6 +5,7 @@ export type Value = number | string | boolean;
 
 export interface Schema {
     type?: string | string[];
+    format?: string;
     title?: string;
     description?: string;
     default?: Value;
@@ -24,7 +25,7 @@ export interface Schema {
     "x-step"?: number;
 }
 
-export type Kind = "number" | "select" | "checkbox" | "text";
+export type Kind = "number" | "select" | "checkbox" | "color" | "text";
 
 export interface Field {
     /** The query name, dotted when nested: "weathering.cracks". */
@@ -37,9 +38,10 @@ export interface Field {
     /** Distance between two notches of the slider: 1, 2 or 5 times a power of ten. */
     step: number;
     options: Value[];
-    /** What the server takes when the parameter is absent; undefined when it is the species' own. */
+    /** What the server takes when the parameter is absent; undefined when it is somebody's own. */
     fallback: Value | undefined;
-    fromSpecies: boolean;
+    /** Whose own the value is unless it is set: "species", "preset"; "" when there is a fallback. */
+    owner: string;
     unit: string;
     description: string;
     /** Key of the group, "" for the top level. */
@@ -103,7 +105,7 @@ function fieldOf(
     last: string,
     group: string,
     schema: Schema,
-    fromSpecies: boolean,
+    owner: string,
 ): Field | undefined {
     const types = Array.isArray(schema.type) ? schema.type : [schema.type];
     const field: Field = {
@@ -115,8 +117,8 @@ function fieldOf(
         max: schema.maximum,
         step: 1,
         options: [],
-        fallback: fromSpecies ? undefined : schema.default,
-        fromSpecies,
+        fallback: owner ? undefined : schema.default,
+        owner,
         unit: unitSign(schema["x-unit"] ?? ""),
         description: schema.description ?? "",
         group,
@@ -132,6 +134,8 @@ function fieldOf(
             const span = field.min !== undefined && field.max !== undefined ? field.max - field.min : 1;
             field.step = schema["x-step"] ?? niceStep(span / 180);
         }
+    } else if (schema.format === "color") {
+        field.kind = "color";
     } else if (!types.includes("string")) {
         return undefined;
     }
@@ -166,10 +170,10 @@ export function groupsOf(root: Schema): Group[] {
         groups.set(key, made);
         return made;
     };
-    const walk = (schema: Schema, path: string[], fromSpecies: boolean): void => {
+    const walk = (schema: Schema, path: string[], owner: string): void => {
         for (const [key, sub] of propertiesOf(schema, root)) {
             const at = [...path, ...key.split(".")];
-            const own = fromSpecies || sub["x-default-from"] === "species";
+            const own = owner || (sub["x-default-from"] ?? "");
             if (propertiesOf(sub, root).size > 0) {
                 const groupKey = at.join(".");
                 groupAt(groupKey, words(sub.title ?? at.join(" · ")), sub.description);
@@ -183,11 +187,11 @@ export function groupsOf(root: Schema): Group[] {
             if (field) groupAt(groupKey, words(groupKey || "individual")).fields.push(field);
         }
     };
-    walk(resolved(root, root), [], false);
+    walk(resolved(root, root), [], "");
     return [...groups.values()].filter((group) => group.fields.length > 0);
 }
 
-/** Top-level parameters about the file rather than the mushroom stand in a group of their own. */
+/** Top-level parameters about the file rather than the individual stand in a group of their own. */
 function fileGroup(name: string): string {
     return /^(lod|textures?|texture_size|animation|frames)$/.test(name) ? "file" : "";
 }

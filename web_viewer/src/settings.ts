@@ -2,6 +2,7 @@
 // server would take anyway. It is written to and read from the page's URL and the service's URLs.
 import { arcsText, readArcs, type Arc } from "./arcs";
 import { canonicalMix, fewestMembers, mostMembers, readShares, sharesText, type Share } from "./mix";
+import { mushrooms, products, type Product } from "./products";
 import { fault, parsed, type Field, type Value } from "./schema";
 
 export interface Fault {
@@ -27,8 +28,8 @@ export interface Wanted {
     key: string;
 }
 
-/** The page's own query names, which are no parameters of a mushroom. */
-const pageNames = new Set(["species", "shot", "morph", "arcs", "sheet"]);
+/** The page's own query names, which are no parameters of what grows. */
+const pageNames = new Set([...products.map(({ kind }) => kind), "shot", "morph", "arcs", "sheet"]);
 
 export class Settings {
     mix: string;
@@ -36,7 +37,7 @@ export class Settings {
     morph: Morph | undefined;
     readonly values = new Map<string, Value>();
 
-    constructor(readonly fields: readonly Field[], mix: string) {
+    constructor(readonly fields: readonly Field[], mix: string, readonly product: Product = mushrooms) {
         this.mix = mix;
     }
 
@@ -48,7 +49,7 @@ export class Settings {
     set(name: string, value: Value | undefined): void {
         const field = this.field(name);
         if (!field) return;
-        if (value === undefined || (!field.fromSpecies && value === field.fallback)) {
+        if (value === undefined || (!field.owner && value === field.fallback)) {
             this.values.delete(name);
         } else {
             this.values.set(name, value);
@@ -59,7 +60,7 @@ export class Settings {
     choose(mix: string): void {
         this.mix = mix;
         for (const field of this.fields) {
-            if (field.fromSpecies) this.values.delete(field.name);
+            if (field.owner) this.values.delete(field.name);
         }
     }
 
@@ -77,7 +78,7 @@ export class Settings {
         for (const field of this.fields) {
             if (!this.matters(field, replaced)) continue;
             const value = replaced.get(field.name) ?? this.values.get(field.name);
-            if (value === undefined || (!field.fromSpecies && value === field.fallback)) continue;
+            if (value === undefined || (!field.owner && value === field.fallback)) continue;
             parts.push(`${encodeURIComponent(field.name)}=${encodeURIComponent(String(value))}`);
         }
         return parts.join("&");
@@ -89,7 +90,7 @@ export class Settings {
         for (const field of this.fields) {
             if (!this.matters(field, replaced)) continue;
             const value = replaced.get(field.name) ?? this.values.get(field.name);
-            if (value === undefined || (!field.fromSpecies && value === field.fallback)) continue;
+            if (value === undefined || (!field.owner && value === field.fallback)) continue;
             const path = field.name.split(".");
             let at = out;
             for (const part of path.slice(0, -1)) at = (at[part] ??= {}) as Record<string, unknown>;
@@ -101,7 +102,7 @@ export class Settings {
     /** Address of the model, ".glb" or ".json". */
     address(suffix: ".glb" | ".json", replaced?: ReadonlyMap<string, Value>): string {
         const query = this.query(replaced);
-        return `/v1/mushrooms/${this.mix}${suffix}${query ? `?${query}` : ""}`;
+        return `${this.product.path}/${this.mix}${suffix}${query ? `?${query}` : ""}`;
     }
 
     setMorph(morph: Morph | undefined): void {
@@ -160,7 +161,7 @@ export class Settings {
         const query = this.query();
         const shot = kept.get("shot");
         const arcs = this.morph?.shares.length === 2 && this.morph.arcs.length ? `&arcs=${arcsText(this.morph.arcs)}` : "";
-        const what = this.morph ? `morph=${sharesText(this.morph.shares)}${arcs}` : `species=${this.mix}`;
+        const what = this.morph ? `morph=${sharesText(this.morph.shares)}${arcs}` : `${this.product.kind}=${this.mix}`;
         return `?${what}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
     }
 
@@ -190,7 +191,7 @@ export class Settings {
             if (pageNames.has(name) || name === "v") continue;
             const field = this.field(name);
             if (!field) {
-                faults.push({ parameter: name, detail: `'${name}' is no parameter of a mushroom` });
+                faults.push({ parameter: name, detail: `'${name}' is no parameter of a ${this.product.noun}` });
                 continue;
             }
             const value = parsed(field, text);

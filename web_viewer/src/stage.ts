@@ -16,7 +16,7 @@ import {
 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
-import { fittingDistance, pixelsPerMetre, viewDirections, type ViewName } from "./camera";
+import { fittingDistance, pixelsPerMetre, type Directions, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
 import { boundsOf, disposeModel, setWireframe, texturesOf } from "./model";
@@ -38,6 +38,10 @@ export interface StageStyle {
     calm: boolean;
     /** Nothing but the model: it may fill the picture. */
     bare: boolean;
+    /** Where to stand, by the name of a view. */
+    directions: Directions;
+    /** What is shown lies on the ground: nothing of it is below. */
+    lies: boolean;
 }
 
 /** A renderer and a lit scene, the same for the stage and for thumbnails. */
@@ -171,6 +175,7 @@ export class Stage {
         }
         const old = this.model;
         this.model = model;
+        if (this.style.lies) model.position.y = -boundsOf(model).min.y;
         this.bounds = boundsOf(model);
         this.scene.add(model);
         if (old) {
@@ -198,9 +203,9 @@ export class Stage {
     fit(name?: ViewName, atOnce = false): void {
         if (this.bounds.isEmpty()) return;
         const direction = name
-            ? viewDirections[name].clone()
+            ? this.style.directions[name].clone()
             : this.camera.position.clone().sub(this.controls.target).normalize();
-        if (direction.lengthSq() === 0) direction.copy(viewDirections["three-quarter"]);
+        if (direction.lengthSq() === 0) direction.copy(this.style.directions["three-quarter"]);
         const centre = this.bounds.getCenter(new Vector3());
         const margin = this.style.bare ? { x: 0.06, y: 0.06 } : this.host.clientWidth < 520 ? { x: 0.12, y: 0.3 } : { x: 0.14, y: 0.26 };
         const distance = fittingDistance(this.bounds, direction, this.camera, margin);

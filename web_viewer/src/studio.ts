@@ -1,6 +1,6 @@
 // A renderer off the page that takes pictures of models, one after the other: thumbnails and sheets.
 import { Box3, PerspectiveCamera, Sphere, Vector3, type DirectionalLight, type Object3D, type Scene, type WebGLRenderer } from "three";
-import { fittingDistance, viewDirections, type Margin, type ViewName } from "./camera";
+import { fittingDistance, standing, type Directions, type Margin, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
 import { boundsOf } from "./model";
@@ -8,6 +8,8 @@ import { aimSun, litScene } from "./stage";
 
 export interface Pose {
     view: ViewName;
+    /** Where that view stands; of what stands upright when absent. */
+    directions?: Directions;
     /** What has to fit into the picture, metres; the model's own bounds when absent. */
     frame?: Box3;
     margin: Margin;
@@ -38,12 +40,12 @@ export class Studio {
     }
 
     /** Draws a model on the canvas, on nothing; the picture has to be taken off before the next task. */
-    photograph(model: Object3D, { view, frame, margin, grounded = false }: Pose): HTMLCanvasElement {
+    photograph(model: Object3D, { view, directions = standing, frame, margin, grounded = false }: Pose): HTMLCanvasElement {
         const bounds = boundsOf(model);
         const framed = frame ?? bounds;
         const ball = bounds.getBoundingSphere(new Sphere());
         const centre = framed.getCenter(new Vector3());
-        const direction = viewDirections[view];
+        const direction = directions[view];
         const distance = fittingDistance(framed, direction, this.camera, margin);
         this.camera.position.copy(direction).multiplyScalar(distance).add(centre);
         this.camera.near = distance / 50;

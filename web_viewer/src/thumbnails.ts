@@ -1,5 +1,6 @@
 // Takes the gallery's pictures: small models, one after the other, on one renderer off the page.
 // They are kept in Cache Storage under the model's ETag, so that a second visit draws nothing.
+import type { Directions } from "./camera";
 import { getModel, send } from "./http";
 import { disposeModel, parseModel } from "./model";
 import { Studio } from "./studio";
@@ -33,9 +34,9 @@ async function keep(cache: Cache, id: string, version: string, picture: Blob): P
     await cache.put(keyOf(id, version), new Response(picture, { headers: { "Content-Type": picture.type } }));
 }
 
-async function photograph(studio: Studio, bytes: ArrayBuffer): Promise<Blob> {
+async function photograph(studio: Studio, bytes: ArrayBuffer, directions: Directions): Promise<Blob> {
     const model = await parseModel(bytes);
-    const canvas = studio.photograph(model, { view: "three-quarter", margin: { x: 0.08, y: 0.08 } });
+    const canvas = studio.photograph(model, { view: "three-quarter", directions, margin: { x: 0.08, y: 0.08 } });
     const picture = await new Promise<Blob>((resolve, reject) => {
         canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/webp", 0.9);
     });
@@ -46,6 +47,7 @@ async function photograph(studio: Studio, bytes: ArrayBuffer): Promise<Blob> {
 /** Makes or finds the picture of each model in turn; `done` gets an address for an <img>. */
 export async function makeThumbnails(
     models: readonly { id: string; address: string }[],
+    directions: Directions,
     done: (id: string, picture: string) => void,
     signal: AbortSignal,
 ): Promise<void> {
@@ -64,7 +66,7 @@ export async function makeThumbnails(
                 }
                 const answer = await getModel({ address }, signal);
                 studio ??= new Studio(pixels);
-                const picture = await photograph(studio, answer.bytes);
+                const picture = await photograph(studio, answer.bytes, directions);
                 done(id, URL.createObjectURL(picture));
                 const version = versionOf(answer.response);
                 if (cache && version) await keep(cache, id, version, picture);

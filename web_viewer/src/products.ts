@@ -1,0 +1,65 @@
+// What the page grows: mushrooms, or what grows from a preset. Where each has its routes, its list and its words.
+import { lying, standing, type Directions } from "./camera";
+import type { Species } from "./gallery";
+import { getJson } from "./http";
+
+export interface Product {
+    /** "mushroom": what one of them is called. */
+    noun: string;
+    /** What names one of its list: "species", also in the page's query. */
+    kind: string;
+    /** Where the service grows it. */
+    path: string;
+    /** Whether two of them have something between them, and a growth. */
+    lives: boolean;
+    /** Where to stand, by the name of a view. */
+    directions: Directions;
+    /** What of it is never sunk into the ground. */
+    lies: boolean;
+    list: () => Promise<Species[]>;
+}
+
+interface Preset {
+    id: string;
+    name: string;
+    links?: { self?: string; model?: string };
+}
+
+export const mushrooms: Product = {
+    noun: "mushroom",
+    kind: "species",
+    path: "/v1/mushrooms",
+    lives: true,
+    directions: standing,
+    lies: false,
+    list: async () => (await getJson<{ species: Species[] }>("/v1/species")).species,
+};
+
+export const leaves: Product = {
+    noun: "leaf",
+    kind: "leaf",
+    path: "/v1/leaves",
+    lives: false,
+    directions: lying,
+    lies: true,
+    list: async () => {
+        const { leaves: presets } = await getJson<{ leaves: Preset[] }>("/v1/leaves");
+        return presets.map(({ id, name, links }) => ({ id, common_name: name, scientific_name: "", ...(links && { links }) }));
+    },
+};
+
+export const products: readonly Product[] = [mushrooms, leaves];
+
+/** What a page's query is about. */
+export function productOf(query: URLSearchParams): Product {
+    return products.find(({ kind }) => query.has(kind)) ?? mushrooms;
+}
+
+/** What grew at a canonical address, and which of its list. */
+export function grownAt(path: string): { product: Product; id: string } | undefined {
+    for (const product of products) {
+        const id = new RegExp(`^${product.path}/([^/]+)\\.(?:glb|json)$`).exec(path)?.[1];
+        if (id) return { product, id };
+    }
+    return undefined;
+}
