@@ -21,6 +21,8 @@ constexpr int knots_between_nodes =
 constexpr double turn_per_length = 7.0;
 // A bend draws so many times as many rings as its length alone, at most: one that shrinks to a point goes without leaving them there.
 constexpr double most_per_length = 9.0;
+// So few rings draw nearer to the bends: a chord across one would hide what an image shows there.
+constexpr int few_rings = 5;
 
 std::string number(double value) {
     std::string text = std::to_string(value);
@@ -138,7 +140,7 @@ void SubCurve::tabulate(int knots_per_segment) {
         const Knot& before = knots_[k - 1];
         const double length = (knots_[k].arc - before.arc) / whole;
         const double turn = (knots_[k].turn - before.turn) / turn_per_length;
-        knots_[k].rings = before.rings + length + std::min(turn, most_per_length * length);
+        knots_[k].bends = before.bends + std::min(turn, most_per_length * length);
     }
 }
 
@@ -237,12 +239,14 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     std::vector<OutlineSample> samples;
     if (empty()) return samples;
     samples.reserve(static_cast<std::size_t>(count));
-    const double whole = knots_.back().rings;
+    const double bent = count <= few_rings ? 2.0 : 1.0, length = std::max(length_, 1e-12);
+    const auto rings = [&](const Knot& knot) { return knot.arc / length + bent * knot.bends; };
+    const double whole = rings(knots_.back());
     std::size_t k = 1;
     for (int i = 0; i < count; ++i) {
         const double wanted = whole * i / (count - 1);
-        while (k + 1 < knots_.size() && knots_[k].rings < wanted) ++k;
-        const double from = knots_[k - 1].rings, to = knots_[k].rings;
+        while (k + 1 < knots_.size() && rings(knots_[k]) < wanted) ++k;
+        const double from = rings(knots_[k - 1]), to = rings(knots_[k]);
         const double t = to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0;
         const Knot &a = knots_[k - 1], &b = knots_[k];
         samples.push_back(

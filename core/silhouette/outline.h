@@ -93,7 +93,7 @@ class SubCurve {
   private:
     struct Knot {
         double arc = 0.0, turn = 0.0, parameter = 0.0;  // parameter: segment index + t
-        double rings = 0.0;  // share of the rings that stand before it, times a constant
+        double bends = 0.0;  // what its bends add to its length when rings are placed
     };
     void tabulate(int knots_per_segment);
     void pin_ends(std::vector<OutlineSample>& samples) const;
