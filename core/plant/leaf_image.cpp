@@ -100,8 +100,9 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
             std::vector<glm::dvec2> places(half * points);
             std::vector<float> across(places.size()), down(places.size());
             for (std::size_t i = 0; i < places.size(); ++i) {
-                const double u = (static_cast<double>(i / points) + offset(i % points)) /
-                                 static_cast<double>(count);
+                const std::size_t column = i / points;
+                const double u =
+                    (static_cast<double>(column) + offset(i % points)) / static_cast<double>(count);
                 bool upper = false;
                 places[i] = chart.place({u, v}, upper);
                 across[i] = static_cast<float>(places[i].x + 8.0);

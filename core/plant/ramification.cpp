@@ -295,6 +295,7 @@ RamificationMatrix BiorderCounts::matrix() const {
     for (const std::vector<std::size_t>& row : rows) {
         const std::size_t sum = std::accumulate(row.begin(), row.end(), std::size_t{0});
         std::vector<double> shares;
+        shares.reserve(row.size());
         for (const std::size_t count : row)
             shares.push_back(sum == 0 ? 0.0
                                       : static_cast<double>(count) / static_cast<double>(sum));

@@ -161,6 +161,7 @@ class Cutter {
                     }
         }
         std::vector<glm::dvec3> directions;
+        directions.reserve(ends.size());
         for (const End& end : ends) directions.push_back(direction(end));
         constexpr double factor = tube_factor(judged_levels);
         if (ends.size() == 3) {
