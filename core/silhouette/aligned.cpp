@@ -222,16 +222,13 @@ class Aligner {
         : shapes_(shapes), curves_(curves), heights_(heights), name_(name), out_(out) {}
 
     /// Appends the nodes of this sub-curve to all shapes; none if no shape has it.
-    ///
-    /// returns  whether one has it
-    bool align(std::span<const Arc> arcs, double arcs_age) {
+    void align(std::span<const Arc> arcs, double arcs_age) {
         match_stages();
         const auto hub = std::find_if(out_.kins.begin(), out_.kins.end(),
                                       [&](const Kin& kin) { return !curve(kin.mature).empty(); });
-        if (hub == out_.kins.end()) return false;
+        if (hub == out_.kins.end()) return;
         match_kins(*hub, landmarks(arcs, arcs_age));
         place_nodes(common_parameter());
-        return true;
     }
 
   private:
@@ -436,10 +433,8 @@ AlignedShapes aligned(const std::vector<ControlShape>& shapes, std::span<const A
         check_arcs(arcs, out.kins.size(), in_both);
     }
     out.nodes.resize(shapes.size());
-    for (const CurveName curve : curve_names) {
-        const bool any = Aligner(shapes, curves, heights, curve, out).align(arcs, arcs_age);
-        if (curve == CurveName::hymenium) out.hymenium = any;
-    }
+    for (const CurveName curve : curve_names)
+        Aligner(shapes, curves, heights, curve, out).align(arcs, arcs_age);
     align_joins(out.nodes, shapes);
     return out;
 }

@@ -50,7 +50,6 @@ struct AlignedShapes {
     std::vector<Kin> kins;
     std::vector<double> ages;         ///< of the shapes
     std::vector<OutlineNodes> nodes;  ///< of the shapes, each divided by its size
-    bool hymenium = false;            ///< whether any of them has a lower face
 };
 
 /// Finds what belongs together: every stage with the mature one of its kin by control points, every kin with the hub (the first that

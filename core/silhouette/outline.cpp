@@ -196,15 +196,6 @@ std::vector<OutlineSample> SubCurve::placed(std::span<const double> u) const {
     return samples;
 }
 
-std::vector<OutlineSample> SubCurve::shared(std::span<const double> shares) const {
-    std::vector<OutlineSample> samples;
-    if (empty()) return samples;
-    samples.reserve(shares.size());
-    for (const double share : shares) samples.push_back(at(share));
-    pin_ends(samples);
-    return samples;
-}
-
 // The ends are the nodes themselves, so that neighbouring sub-curves weld bit for bit.
 void SubCurve::pin_ends(std::vector<OutlineSample>& samples) const {
     const auto pin = [](OutlineSample& sample, const glm::dvec2& position, double share) {

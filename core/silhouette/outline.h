@@ -75,9 +75,6 @@ class SubCurve {
     /// The point at a share of the arc length, 0..1.
     [[nodiscard]] OutlineSample at(double share) const;
 
-    /// The points at shares of the arc length, 0 to 1, rising. The ends are the first and last node bit for bit.
-    [[nodiscard]] std::vector<OutlineSample> shared(std::span<const double> shares) const;
-
     /// The points at values of the parameter u, 0..1, rising. The ends are the first and last node bit for bit.
     [[nodiscard]] std::vector<OutlineSample> placed(std::span<const double> u) const;
 

@@ -21,6 +21,7 @@ namespace sporeprint::api {
 namespace {
 
 using test::errors_of;
+using test::expect_linked_images;
 using test::expect_problem;
 using test::first_species;
 using test::get;
@@ -794,34 +795,9 @@ TEST_F(ServiceTest, a_negative_zero_is_zero) {
 TEST_F(ServiceTest, linked_textures_are_where_the_file_says) {
     const Answer embedded = ask(small());
     const Answer linked = ask(small("&textures=linked"));
-    ASSERT_EQ(linked.status, 200) << text_of(linked);
     EXPECT_EQ(header(linked, "Cache-Status"),
               "sporeprint-morph; hit, sporeprint; fwd=miss; stored");
-    const std::string file = text_of(linked);
-    int found = 0;
-    for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
-        std::string address = file.substr(at, file.find('"', at) - at);
-        const Answer image = ask(address);
-        ASSERT_EQ(image.status, 200) << address << text_of(image);
-        EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
-        EXPECT_EQ(header(image, "Cache-Control"), "public, max-age=31536000, immutable");
-        EXPECT_EQ(header(image, "Content-Location"), address);
-        EXPECT_EQ(header(image, "Cache-Status"), "sporeprint-images; hit")
-            << "the embedded file painted it";
-        EXPECT_EQ(text_of(image).substr(0, 2), "\xff\xd8");
-        EXPECT_NE(text_of(embedded).find(text_of(image)), std::string::npos)
-            << "the same bytes as embedded";
-        EXPECT_EQ(ask(address, {{"If-None-Match", header(image, "ETag")}}).status, 304);
-        Service other(built_in_atlas(), ServiceOptions{});
-        const Answer elsewhere = handle(other, get(address));
-        EXPECT_EQ(header(elsewhere, "Cache-Status"), "sporeprint-images; fwd=miss; stored");
-        EXPECT_EQ(text_of(elsewhere), text_of(image));
-        EXPECT_EQ(header(elsewhere, "ETag"), header(image, "ETag"));
-        EXPECT_NE(header(elsewhere, "Server-Timing").find("paint;dur="), std::string::npos);
-        ++found;
-    }
-    EXPECT_EQ(found, 3);
-    EXPECT_EQ(service_.counters().painted, 1u);
+    expect_linked_images(service_, linked, embedded);
 }
 
 TEST_F(ServiceTest, the_three_images_of_an_atlas_are_one_flight) {

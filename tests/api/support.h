@@ -96,6 +96,43 @@ inline void expect_problem(const Answer& answer, int status) {
     EXPECT_EQ(header(answer, "X-Content-Type-Options"), "nosniff");
 }
 
+/// Expects that the three images which a file points to are those of the same file with embedded ones, kept once, immutable, and
+/// painted alike by a service that has never seen the file.
+///
+/// returns  their addresses
+inline std::vector<std::string> expect_linked_images(Service& service, const Answer& linked,
+                                                     const Answer& embedded) {
+    EXPECT_EQ(linked.status, 200) << text_of(linked);
+    const std::string file = text_of(linked);
+    std::vector<std::string> found;
+    for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
+        const std::string address = file.substr(at, file.find('"', at) - at);
+        const Answer image = handle(service, get(address));
+        EXPECT_EQ(image.status, 200) << address << text_of(image);
+        EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
+        EXPECT_EQ(header(image, "Cache-Control"), "public, max-age=31536000, immutable");
+        EXPECT_EQ(header(image, "Content-Location"), address);
+        EXPECT_EQ(header(image, "Cache-Status"), "sporeprint-images; hit")
+            << "the embedded file painted it";
+        EXPECT_EQ(text_of(image).substr(0, 2), "\xff\xd8");
+        EXPECT_NE(text_of(embedded).find(text_of(image)), std::string::npos)
+            << address << ": the same bytes as embedded";
+        const Answer again =
+            handle(service, get(address, {{"If-None-Match", header(image, "ETag")}}));
+        EXPECT_EQ(again.status, 304);
+        Service other(built_in_atlas(), ServiceOptions{});
+        const Answer elsewhere = handle(other, get(address));
+        EXPECT_EQ(header(elsewhere, "Cache-Status"), "sporeprint-images; fwd=miss; stored");
+        EXPECT_EQ(text_of(elsewhere), text_of(image));
+        EXPECT_EQ(header(elsewhere, "ETag"), header(image, "ETag"));
+        EXPECT_NE(header(elsewhere, "Server-Timing").find("paint;dur="), std::string::npos);
+        found.push_back(address);
+    }
+    EXPECT_EQ(found.size(), 3u);
+    EXPECT_EQ(service.counters().painted, 1u);
+    return found;
+}
+
 /// A species of the built-in atlas, and its address at the smallest cost.
 inline std::string first_species() {
     return built_in_atlas()->entries().front().species.id.string();

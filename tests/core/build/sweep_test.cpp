@@ -44,13 +44,16 @@ Mesh swept(const Model& model, int lod, std::uint32_t seed = 1, bool with_textur
     return swept(individual_of(model, seed, lod), lod, with_texture);
 }
 
-std::size_t row_of(int lod) {
-    return static_cast<std::size_t>(details[static_cast<std::size_t>(lod)].columns) + 1;
+std::size_t row_of(int lod) { return static_cast<std::size_t>(detail_of(lod).columns) + 1; }
+
+/// How many times the columns of the next level a level has.
+double columns_over_next(int lod) {
+    return static_cast<double>(detail_of(lod).columns) / detail_of(lod + 1).columns;
 }
 
 /// Area of the polygon of an LOD's columns, over that of its circle of radius 1.
 double polygon_area(int lod) {
-    const int n = details[static_cast<std::size_t>(lod)].columns;
+    const int n = detail_of(lod).columns;
     return 0.5 * n * std::sin(2.0 * pi / n);
 }
 
@@ -74,8 +77,7 @@ TEST(Sweep, ACylinderIsAPrismAndConvergesToPiTimesSquareTimesHeight) {
     }
     // Twice the columns, a quarter of the error.
     for (int lod = 0; lod < 2; ++lod) {
-        const double columns =
-            static_cast<double>(detail_of(lod).columns) / detail_of(lod + 1).columns;
+        const double columns = columns_over_next(lod);
         EXPECT_NEAR(errors[lod + 1] / errors[lod] / (columns * columns), 1.0, 0.03);
     }
 }
@@ -114,8 +116,7 @@ TEST(Sweep, ASphereConvergesToSecondOrder) {
     EXPECT_GT(errors[0], 0.0);
     // By the square of what there is less of: rings, half and half again, and columns.
     for (int lod = 0; lod < 2; ++lod) {
-        const double columns =
-            static_cast<double>(detail_of(lod).columns) / detail_of(lod + 1).columns;
+        const double columns = columns_over_next(lod);
         EXPECT_GT(errors[lod + 1] / errors[lod], 3.0);
         EXPECT_LT(errors[lod + 1] / errors[lod], columns * columns);
     }
@@ -382,7 +383,7 @@ TEST(Sweep, TangentsPointWhereTheTextureGoesAndHandednessUpTheImage) {
 TEST(Sweep, PolesPointAlongTheAxis) {
     for (const std::string& id : species_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            const Detail& detail = details[static_cast<std::size_t>(lod)];
+            const Detail& detail = detail_of(lod);
             const Model model = bare(mature_silhouette(id));
             const Mesh mesh = swept(model, lod, 1, true);
             for (std::size_t j = 0; j < row_of(lod); ++j) {

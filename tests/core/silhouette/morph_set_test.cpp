@@ -170,7 +170,7 @@ TEST(MorphSet, CountsAndPlacesAreThoseOfTheLevelsOfDetail) {
     const MorphSet set = set_of({fly_agaric, cep});
     const Outline outline(set.nodes(only(set, 0)));
     for (int lod = 0; lod < 4; ++lod) {
-        const Detail& detail = details[static_cast<std::size_t>(lod)];
+        const Detail& detail = detail_of(lod);
         EXPECT_EQ(outline.rings(CurveName::stem, lod).size(),
                   static_cast<std::size_t>(detail.stem_rings));
         EXPECT_EQ(outline.rings(CurveName::hymenium, lod).size(),
