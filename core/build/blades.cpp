@@ -17,7 +17,7 @@ namespace sporeprint {
 namespace {
 
 // Rows of a blade on the face: equal in all but crowded sets, or a mix would not end where its species begin.
-constexpr int face_segments = 6, least_segments = 3, stem_segments = 3;
+constexpr int face_segments = 6, least_segments = 3, stem_segments = 2;
 constexpr int most_blade_triangles = 36000;
 constexpr std::size_t row_corners = 6;
 constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from ridge to ridge

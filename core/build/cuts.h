@@ -13,11 +13,15 @@ namespace sporeprint {
 /// Where cap and lower face end. A cut takes the same length off both meridians; what lies further in moves along its meridian, so
 /// that images stretch only there and gills, warts and pores follow.
 ///
-/// Columns of the mesh stand evenly, whatever can be cut, and where a cut needs more there are more between them. Those lie on the
-/// straight way between their even neighbours as long as no cut is open there: a species of whose margin nothing is gone has
-/// the same surface whether others of its mix can be bitten or not.
+/// Columns of the mesh stand evenly, whatever can be cut, and where a cut needs more there are more between them. Those are laid onto
+/// the straight way between their even neighbours, beside the left one, as long as no cut is open there: a species of whose margin
+/// nothing is gone has the same surface whether others of its mix can be bitten or not.
 class Cuts {
   public:
+    /// Where the columns of closed cuts are laid, in shares of their places along their ways: beside the left end, each in its turn.
+    /// In the middle they would divide quads, and those of folded skin are twisted: either half would bend another way than the whole.
+    static constexpr double closed_width = 0.02;
+
     /// cost  some twenty microseconds; made once for a mesh
     Cuts(const Individual& individual, int lod);
 
@@ -55,12 +59,12 @@ class Cuts {
     /// beside it: even ones and those of open cuts. While others open it lies on several ways, by their weights.
     struct Between {
         std::size_t column;
-        double open;              ///< 0: on those ways, 1: at its own place
+        double open;              ///< 0: laid onto those ways, 1: at its own place
         std::size_t first, last;  ///< of its ways
     };
     struct Way {
         std::size_t left, right;  ///< columns; right may be turns().size(), the repeated first one
-        double share;             ///< from left to right
+        double share;             ///< of its own place, from left to right
         double weight;            ///< those of a column sum to 1
     };
     [[nodiscard]] std::span<const Between> between() const { return between_; }

@@ -112,7 +112,7 @@ class Weatherer {
         return left > 0.0 ? found + left * place(at(face, ring, other)) : found;
     }
 
-    /// Lays columns of closed cuts onto the straight ways between those that count beside them.
+    /// Lays columns of closed cuts onto the straight ways between those that count beside them, near their left ends.
     void lay_closed() {
         std::vector<Laid> laid;
         for (const FaceGrid* face : {&body_.stem, &body_.hymenium, &body_.cap})
@@ -148,7 +148,8 @@ class Weatherer {
         }
         for (const Cuts::Way& way : cuts_.ways(own)) {
             const double weight = (1.0 - own.open) * way.weight;
-            const double to_right = weight * way.share, to_left = weight - to_right;
+            const double to_right = weight * Cuts::closed_width * way.share,
+                         to_left = weight - to_right;
             const std::size_t left = first + way.left, right = first + way.right;
             one.position += to_left * place(left) + to_right * place(right);
             one.normal += to_left * glm::dvec3(mesh_.normals[left]) +

@@ -29,15 +29,30 @@ TEST(Budget, EverySetKeepsTheTrianglesOfItsLevel) {
     }
 }
 
+/// Expects that a set has the patches, shells and blades which its level of detail offers.
+void expect_nothing_given_up(const Mix& mix, int lod) {
+    const Individual individual = resolved(mix_of(mix, 0.6, 3, lod));
+    const Budget budget = budget_of(individual, lod);
+    const Detail& whole = detail_of(lod);
+    SCOPED_TRACE(text_of(mix) + " lod " + std::to_string(lod));
+    EXPECT_EQ(budget.ornaments.patch_sides, whole.patch_sides);
+    EXPECT_EQ(budget.ornaments.patch_rings, whole.patch_rings);
+    EXPECT_EQ(budget.ornaments.sac_rings, whole.sac_rings);
+    EXPECT_EQ(budget.ornaments.patches, whole.patches);
+    if (lod > 0 || individual.outline.hymenium.empty()) return;
+    const BladeBudget blades = blade_budget(individual, budget.cells.pores > 0);
+    EXPECT_EQ(budget.blades.tiers, blades.tiers);
+    EXPECT_EQ(budget.blades.veins, blades.veins);
+    EXPECT_EQ(budget.blades.segments, blades.segments);
+}
+
 TEST(Budget, ASpeciesAloneGivesUpNothing) {
     for (const std::string& id : species_ids())
-        for (int lod = 0; lod < 4; ++lod) {
-            const Detail& whole = details[static_cast<std::size_t>(lod)];
-            const Detail ornaments = budget_at({{id, 1000}}, 0.6, lod).ornaments;
-            EXPECT_EQ(ornaments.patch_sides, whole.patch_sides) << id << " lod " << lod;
-            EXPECT_EQ(ornaments.patch_rings, whole.patch_rings) << id << " lod " << lod;
-            EXPECT_EQ(ornaments.sac_rings, whole.sac_rings) << id << " lod " << lod;
-        }
+        for (int lod = 0; lod < 4; ++lod) expect_nothing_given_up({{id, 1000}}, lod);
+}
+
+TEST(Budget, APairGivesUpNothingNearBy) {
+    for (const auto& [a, b] : species_pairs()) expect_nothing_given_up({{a, 500}, {b, 500}}, 0);
 }
 
 TEST(Budget, NoWeightAndNoAgeChangesIt) {
