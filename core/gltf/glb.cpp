@@ -5,9 +5,12 @@
 #include <cmath>
 #include <cstring>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <utility>
 
-#include "core/grow/mushroom.h"
 #include "core/params/problems.h"
+#include "core/version.h"
 
 namespace sporeprint {
 
@@ -122,6 +125,10 @@ struct Geometry {
 
 Geometry geometry(const Mesh& mesh, bool textured, Tables& tables) {
     const std::size_t n = mesh.positions.size();
+    if (n == 0 || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
+    if (mesh.normals.size() != n ||
+        (textured && (mesh.tangents.size() != n || mesh.texture_coordinates.size() != n)))
+        throw GenerationError("a mesh lacks what its material needs of each vertex");
     const bool small = n <= 65535;
     const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
     Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0)) + padded(index_bytes));
@@ -155,28 +162,19 @@ Geometry geometry(const Mesh& mesh, bool textured, Tables& tables) {
     return out;
 }
 
-/// The targets and their clip.
+/// The targets of a primitive.
 struct Motion {
     std::shared_ptr<const Bytes> bytes;
-    std::string targets;     ///< of the primitive, from a comma on
-    std::string mesh;        ///< weights and names, from a comma on
-    std::string animations;  ///< from a comma on
+    std::string targets;  ///< of the primitive, from a comma on
 };
 
-Motion motion(const GlbParts& parts, std::size_t vertices, Tables& tables) {
-    const auto& targets = parts.targets;
+Motion motion(std::span<const MorphTarget> targets, std::size_t vertices, Tables& tables) {
     for (const MorphTarget& target : targets)
         if (target.positions.size() != vertices || target.normals.size() != vertices)
             throw GenerationError("a morph target has another number of vertices than its mesh");
-    const WeightClip* clip = parts.clip;
-    if (clip && (targets.empty() || clip->times.empty() ||
-                 clip->weights.size() != clip->times.size() * targets.size()))
-        throw GenerationError("a clip needs targets, and a weight for each of them at each key");
     Motion out;
     if (targets.empty()) return out;
-    Chunk chunk(targets.size() * vertices * 24 +
-                (clip ? (clip->times.size() + clip->weights.size()) * 4 : 0));
-    std::string names, zeros;
+    Chunk chunk(targets.size() * vertices * 24);
     for (const MorphTarget& target : targets) {
         chunk.append(std::span<const glm::vec3>(target.positions));
         chunk.append(std::span<const glm::vec3>(target.normals));
@@ -184,58 +182,147 @@ Motion motion(const GlbParts& parts, std::size_t vertices, Tables& tables) {
         append(out.targets += "{\"POSITION\":", tables.positions(target.positions));
         append(out.targets += ",\"NORMAL\":", tables.vectors(target.normals));
         out.targets += '}';
-        append_quoted(names += names.empty() ? "" : ",", target.name);
-        zeros += zeros.empty() ? "0" : ",0";
     }
     out.targets += ']';
-    out.mesh = ",\"weights\":[" + zeros + "],\"extras\":{\"targetNames\":[" + names + "]}";
-    if (clip) {
-        chunk.append(std::span<const float>(clip->times));
-        chunk.append(std::span<const float>(clip->weights));
-        std::string span = ",\"min\":[";
-        append(span, clip->times.front());
-        append(span += "],\"max\":[", clip->times.back());
-        const std::size_t input = tables.accessor(clip->times.size(), float_component, "SCALAR",
-                                                  clip->times.size() * 4, 0, span + ']');
-        const std::size_t output = tables.accessor(clip->weights.size(), float_component, "SCALAR",
-                                                   clip->weights.size() * 4);
-        append_quoted(out.animations += ",\"animations\":[{\"name\":", clip->name);
-        append(out.animations += ",\"samplers\":[{\"input\":", input);
-        append(out.animations += ",\"output\":", output);
-        out.animations +=
-            ",\"interpolation\":\"LINEAR\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,"
-            "\"path\":\"weights\"}}]}]";
-    }
     out.bytes = std::move(chunk.bytes);
     return out;
 }
 
-/// The members of a material, and the list of what it uses, each from a comma on.
-struct Shine {
-    std::string material, used;
+/// Weights and names of the targets of a mesh, from a comma on.
+std::string poses(const GlbMesh& mesh) {
+    const auto& targets = mesh.primitives.front().targets;
+    for (const GlbPrimitive& other : mesh.primitives)
+        if (other.targets.size() != targets.size())
+            throw GenerationError("the primitives of a mesh have as many targets each");
+    if (targets.empty()) return {};
+    std::string names, zeros;
+    for (const MorphTarget& target : targets) {
+        append_quoted(names += names.empty() ? "" : ",", target.name);
+        zeros += zeros.empty() ? "0" : ",0";
+    }
+    return ",\"weights\":[" + zeros + "],\"extras\":{\"targetNames\":[" + names + "]}";
+}
+
+/// How the first node moves.
+struct Film {
+    std::shared_ptr<const Bytes> bytes;
+    std::string animations;  ///< from a comma on
 };
 
-Shine shine_of(const MaterialLook& look, bool textured) {
+Film film(const WeightClip& clip, std::size_t targets, Tables& tables) {
+    if (targets == 0 || clip.times.empty() || clip.weights.size() != clip.times.size() * targets)
+        throw GenerationError("a clip needs targets, and a weight for each of them at each key");
+    Chunk chunk((clip.times.size() + clip.weights.size()) * 4);
+    chunk.append(std::span<const float>(clip.times));
+    chunk.append(std::span<const float>(clip.weights));
+    std::string span = ",\"min\":[";
+    append(span, clip.times.front());
+    append(span += "],\"max\":[", clip.times.back());
+    const std::size_t input = tables.accessor(clip.times.size(), float_component, "SCALAR",
+                                              clip.times.size() * 4, 0, span + ']');
+    const std::size_t output =
+        tables.accessor(clip.weights.size(), float_component, "SCALAR", clip.weights.size() * 4);
+    Film out;
+    append_quoted(out.animations += ",\"animations\":[{\"name\":", clip.name);
+    append(out.animations += ",\"samplers\":[{\"input\":", input);
+    append(out.animations += ",\"output\":", output);
+    out.animations +=
+        ",\"interpolation\":\"LINEAR\"}],\"channels\":[{\"sampler\":0,\"target\":{\"node\":0,"
+        "\"path\":\"weights\"}}]}]";
+    out.bytes = std::move(chunk.bytes);
+    return out;
+}
+
+/// What a list of JSON objects begins with, or goes on.
+const char* next(const std::string& list) { return list.empty() ? "" : ","; }
+
+/// The tables of textures, images and samplers.
+struct Wardrobe {
+    std::string textures, images, samplers;
+    std::vector<const GlbMaterial*> worn;  ///< those that brought images, three textures each
+    std::vector<bool> rounds;              ///< by sampler
+
+    /// The first of a material's textures; brings its images where no other has the same.
+    std::size_t textures_of(const GlbMaterial& material, Tables& tables) {
+        for (std::size_t k = 0; k < worn.size(); ++k)
+            if (worn[k]->images == material.images &&
+                worn[k]->image_addresses == material.image_addresses &&
+                worn[k]->goes_round == material.goes_round)
+                return 3 * k;
+        const std::size_t sampler = sampler_of(material.goes_round);
+        const std::size_t first = 3 * worn.size();
+        worn.push_back(&material);
+        for (std::size_t i = 0; i < 3; ++i) {
+            append((textures += next(textures)) += "{\"sampler\":", sampler);
+            append(textures += ",\"source\":", first + i);
+            textures += '}';
+            if (material.images)
+                append((images += next(images)) += "{\"mimeType\":\"image/jpeg\",\"bufferView\":",
+                       tables.view(material.images->files[i].size));
+            else
+                append_quoted((images += next(images)) += "{\"uri\":", material.image_addresses[i]);
+            images += '}';
+        }
+        return first;
+    }
+
+  private:
+    std::size_t sampler_of(bool goes_round) {
+        const auto found = std::find(rounds.begin(), rounds.end(), goes_round);
+        if (found != rounds.end()) return static_cast<std::size_t>(found - rounds.begin());
+        rounds.push_back(goes_round);
+        (samplers += next(samplers)) += "{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":";
+        (samplers += goes_round ? "10497" : "33071") += ",\"wrapT\":33071}";
+        return rounds.size() - 1;
+    }
+};
+
+/// Names of the extensions that are used, each once.
+struct Extensions {
+    std::vector<std::string> names;
+
+    void use(const std::string& name) {
+        if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
+    }
+    /// From a comma on.
+    [[nodiscard]] std::string json() const {
+        if (names.empty()) return {};
+        std::string list;
+        for (const std::string& name : names) append_quoted(list += next(list), name);
+        return ",\"extensionsUsed\":[" + list + "]";
+    }
+};
+
+/// What optional extensions make of a material, from a comma on.
+///
+/// textures  the first of its own; none for a material without images
+std::string shine_of(const MaterialLook& look, std::optional<std::size_t> textures,
+                     Extensions& used) {
     const auto shines = [](const glm::dvec3& light) {
         return light.x > 0.0 || light.y > 0.0 || light.z > 0.0;
     };
-    std::string extensions, names, emission;
+    std::string extensions, emission;
     const auto extension = [&](const std::string& name, const std::string& members) {
         extensions += (extensions.empty() ? "\"" : ",\"") + name + "\":{" + members + "}";
-        names += (names.empty() ? "\"" : ",\"") + name + "\"";
+        used.use(name);
+    };
+    const auto texture = [&](std::string& out, std::size_t which) {
+        append(out += "{\"index\":", *textures + which);
+        out += '}';
     };
     if (look.coat > 0.0) {
         std::string coat = "\"clearcoatFactor\":";
         append(coat, static_cast<float>(look.coat));
         // Sharp where the skin is smooth, unseen where it is matt: so one material coats the cap alone, without an image of its own.
-        coat += textured
-                    ? ",\"clearcoatRoughnessFactor\":1,\"clearcoatRoughnessTexture\":{\"index\":2}"
-                    : ",\"clearcoatRoughnessFactor\":0.25";
+        if (textures)
+            texture(coat += ",\"clearcoatRoughnessFactor\":1,\"clearcoatRoughnessTexture\":", 2);
+        else
+            coat += ",\"clearcoatRoughnessFactor\":0.25";
         extension("KHR_materials_clearcoat", coat);
     }
     if (shines(look.glow)) {
         append_corner(emission += ",\"emissiveFactor\":", glm::vec3(look.glow));
-        if (textured) emission += ",\"emissiveTexture\":{\"index\":0}";
+        if (textures) texture(emission += ",\"emissiveTexture\":", 0);
         extension("KHR_materials_emissive_strength", "\"emissiveStrength\":4");
     }
     if (shines(look.sheen)) {
@@ -243,11 +330,49 @@ Shine shine_of(const MaterialLook& look, bool textured) {
         append_corner(sheen, glm::vec3(look.sheen));
         extension("KHR_materials_sheen", sheen + ",\"sheenRoughnessFactor\":0.45");
     }
-    Shine shine;
-    if (extensions.empty()) return shine;
-    shine.material = emission + ",\"extensions\":{" + extensions + "}";
-    shine.used = ",\"extensionsUsed\":[" + names + "]";
-    return shine;
+    if (extensions.empty()) return {};
+    return emission + ",\"extensions\":{" + extensions + "}";
+}
+
+bool is_textured(const GlbMaterial& material) {
+    return material.images != nullptr || !material.image_addresses[0].empty();
+}
+
+std::string material_json(const GlbMaterial& material, Wardrobe& wardrobe, Tables& tables,
+                          Extensions& used) {
+    std::string json = "{\"name\":";
+    append_quoted(json, material.name);
+    if (!is_textured(material))
+        return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
+               shine_of(material.look, std::nullopt, used) + "}";
+    const std::size_t first = wardrobe.textures_of(material, tables);
+    append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
+    append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
+    append(json += "}},\"normalTexture\":{\"index\":", first + 1);
+    append(json += "},\"occlusionTexture\":{\"index\":", first + 2);
+    return json + "}" + shine_of(material.look, first, used) + "}";
+}
+
+std::string node_json(const GlbNode& node, std::size_t meshes) {
+    const glm::vec3 translation(node.translation), scale(node.scale);
+    const glm::vec4 rotation(node.rotation);
+    if (node.mesh >= meshes) throw GenerationError("a node shows a mesh that there is not");
+    if (!(std::abs(glm::dot(node.rotation, node.rotation) - 1.0) < 1e-6))
+        throw GenerationError("the rotation of a node is no unit quaternion");
+    if (!(std::abs(scale.x * scale.y * scale.z) > 0.0F))
+        throw GenerationError("a node has a scale of nothing");
+    std::string json = "{\"name\":";
+    append_quoted(json, node.name);
+    append(json += ",\"mesh\":", node.mesh);
+    if (translation != glm::vec3(0.0F)) append_corner(json += ",\"translation\":", translation);
+    if (rotation != glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)) {
+        append_corner(json += ",\"rotation\":", glm::vec3(rotation));
+        json.back() = ',';
+        append(json, rotation.w);
+        json += ']';
+    }
+    if (scale != glm::vec3(1.0F)) append_corner(json += ",\"scale\":", scale);
+    return json + "}";
 }
 
 const std::shared_ptr<const Bytes>& zeros() {
@@ -255,65 +380,10 @@ const std::shared_ptr<const Bytes>& zeros() {
     return bytes;
 }
 
-}  // namespace
-
-Body glb(const Mesh& mesh, const GlbParts& parts) {
-    if (mesh.positions.empty() || mesh.indices.empty())
-        throw GenerationError("an empty mesh cannot be written");
-    const bool linked = !parts.image_addresses[0].empty();
-    const bool textured = parts.images != nullptr || linked;
-    Tables tables;
-    Geometry shape = geometry(mesh, textured, tables);
-    const Shine shine = shine_of(parts.look, textured);
-    Motion moves = motion(parts, mesh.positions.size(), tables);
-
-    std::string images;
-    if (parts.images)
-        for (const Slice& file : parts.images->files) {
-            images += images.empty() ? "" : ",";
-            append(images += "{\"mimeType\":\"image/jpeg\",\"bufferView\":",
-                   tables.view(file.size));
-            images += '}';
-        }
-    if (linked)
-        for (const std::string& address : parts.image_addresses) {
-            images += images.empty() ? "{\"uri\":" : ",{\"uri\":";
-            append_quoted(images, address);
-            images += '}';
-        }
-
-    std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
-                       std::to_string(generator_version) + "\"";
-    if (!parts.extras_json.empty()) (json += ",\"extras\":") += parts.extras_json;
-    json += "}" + shine.used + ",\"scene\":0,\"scenes\":[{\"nodes\":[0]}],\"nodes\":[{\"name\":";
-    append_quoted(json, parts.name);
-    json += ",\"mesh\":0}],\"meshes\":[{\"name\":";
-    append_quoted(json, parts.name);
-    json += ",\"primitives\":[{\"attributes\":{" + shape.attributes + "},\"indices\":";
-    append(json, shape.indices_accessor);
-    json += ",\"material\":0" + moves.targets + "}]" + moves.mesh + "}],\"materials\":[{\"name\":";
-    append_quoted(json, parts.name);
-    if (textured)
-        json +=
-            ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":0},\"metallicFactor\":0,"
-            "\"metallicRoughnessTexture\":{\"index\":2}},"
-            "\"normalTexture\":{\"index\":1},\"occlusionTexture\":{\"index\":2}" +
-            shine.material +
-            "}],"
-            "\"textures\":[{\"sampler\":0,\"source\":0},{\"sampler\":0,\"source\":1},{\"sampler\":"
-            "0,\"source\":2}],"
-            "\"samplers\":[{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":33071,\"wrapT\":33071}]"
-            ",\"images\":[" +
-            images + "]";
-    else
-        json += ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" + shine.material + "}]";
-    json += ",\"buffers\":[{\"byteLength\":";
-    append(json, tables.binary);
-    json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +
-            moves.animations + "}";
+/// Header, JSON chunk and the beginning of the BIN chunk.
+Slice head_of(std::string json, std::size_t binary) {
     json.append(padded(json.size()) - json.size(), ' ');
-
-    const std::size_t total = 12 + 8 + json.size() + 8 + tables.binary;
+    const std::size_t total = 12 + 8 + json.size() + 8 + binary;
     if (total > 0xFFFFFFFFULL) throw GenerationError("the file would exceed 4 GB");
     auto head = std::make_shared<Bytes>(12 + 8 + json.size() + 8);
     std::uint8_t* at = head->data();
@@ -324,18 +394,88 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     put(at, std::uint32_t{0x4E4F534A});  // "JSON"
     std::memcpy(at, json.data(), json.size());
     at += json.size();
-    put(at, static_cast<std::uint32_t>(tables.binary));
+    put(at, static_cast<std::uint32_t>(binary));
     put(at, std::uint32_t{0x004E4942});  // "BIN"
+    return Slice(std::move(head));
+}
 
-    Body body{Slice(std::move(head)), Slice(std::move(shape.bytes))};
-    if (moves.bytes) body.emplace_back(std::move(moves.bytes));
-    if (parts.images)
-        for (const Slice& file : parts.images->files) {
-            body.push_back(file);
-            if (const std::size_t pad = padded(file.size) - file.size)
-                body.push_back(Slice(zeros(), 0, pad));
+}  // namespace
+
+Body glb(const GlbScene& scene) {
+    if (scene.nodes.empty()) throw GenerationError("a scene without nodes shows nothing");
+    Tables tables;
+    Body geometries;
+    std::string meshes;
+    for (const GlbMesh& mesh : scene.meshes) {
+        std::string primitives;
+        for (const GlbPrimitive& primitive : mesh.primitives) {
+            if (primitive.material >= scene.materials.size())
+                throw GenerationError("a primitive wears a material that there is not");
+            Geometry shape =
+                geometry(*primitive.mesh, is_textured(scene.materials[primitive.material]), tables);
+            geometries.emplace_back(std::move(shape.bytes));
+            Motion moves = motion(primitive.targets, primitive.mesh->positions.size(), tables);
+            if (moves.bytes) geometries.emplace_back(std::move(moves.bytes));
+            (primitives += next(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
+            append(primitives += "\"indices\":", shape.indices_accessor);
+            append(primitives += ",\"material\":", primitive.material);
+            primitives += moves.targets + "}";
         }
+        if (primitives.empty()) throw GenerationError("a mesh has no primitives");
+        append_quoted((meshes += next(meshes)) += "{\"name\":", mesh.name);
+        meshes += ",\"primitives\":[" + primitives + "]" + poses(mesh) + "}";
+    }
+    std::string nodes, roots;
+    for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        (nodes += next(nodes)) += node_json(scene.nodes[i], scene.meshes.size());
+        append(roots += next(roots), i);
+    }
+    Film clip;
+    if (scene.clip) {
+        const GlbMesh& shown = scene.meshes[scene.nodes.front().mesh];
+        clip = film(*scene.clip, shown.primitives.front().targets.size(), tables);
+        geometries.emplace_back(std::move(clip.bytes));
+    }
+    // The views of images come after those of all accessors.
+    Wardrobe wardrobe;
+    Extensions used;
+    std::string materials;
+    for (const GlbMaterial& material : scene.materials)
+        (materials += next(materials)) += material_json(material, wardrobe, tables, used);
+
+    std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
+                       std::to_string(generator_version) + "\"";
+    if (!scene.extras_json.empty()) (json += ",\"extras\":") += scene.extras_json;
+    json += "}" + used.json() + ",\"scene\":0,\"scenes\":[{\"nodes\":[" + roots +
+            "]}],\"nodes\":[" + nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" +
+            materials + "]";
+    if (!wardrobe.textures.empty())
+        json += ",\"textures\":[" + wardrobe.textures + "],\"samplers\":[" + wardrobe.samplers +
+                "],\"images\":[" + wardrobe.images + "]";
+    append(json += ",\"buffers\":[{\"byteLength\":", tables.binary);
+    json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +
+            clip.animations + "}";
+
+    Body body{head_of(std::move(json), tables.binary)};
+    body.insert(body.end(), geometries.begin(), geometries.end());
+    for (const GlbMaterial* material : wardrobe.worn)
+        if (material->images)
+            for (const Slice& file : material->images->files) {
+                body.push_back(file);
+                if (const std::size_t pad = padded(file.size) - file.size)
+                    body.push_back(Slice(zeros(), 0, pad));
+            }
     return body;
+}
+
+Body glb(const Mesh& mesh, const GlbParts& parts) {
+    GlbScene scene;
+    scene.materials.push_back({parts.name, parts.images, parts.image_addresses, parts.look, false});
+    scene.meshes.push_back({parts.name, {{&mesh, 0, parts.targets}}});
+    scene.nodes.push_back({.name = parts.name});
+    scene.extras_json = parts.extras_json;
+    scene.clip = parts.clip;
+    return glb(scene);
 }
 
 }  // namespace sporeprint

@@ -100,19 +100,8 @@ void read_targets(const tinygltf::Model& model, ReadBack& found) {
     }
 }
 
-}  // namespace
-
-ReadBack read_back(const Bytes& file) {
-    ReadBack found;
-    tinygltf::TinyGLTF reader;
-    tinygltf::Model model;
-    std::string error, warning;
-    found.read = reader.LoadBinaryFromMemory(&model, &error, &warning, file.data(),
-                                             static_cast<unsigned>(file.size()));
-    found.trouble = error + warning;
-    if (!found.read || model.meshes.size() != 1 || model.meshes[0].primitives.size() != 1)
-        return found;
-    const auto& primitive = model.meshes[0].primitives[0];
+ReadPrimitive read_primitive(const tinygltf::Model& model, const tinygltf::Primitive& primitive) {
+    ReadPrimitive found;
     for (const auto& [name, index] : primitive.attributes) {
         found.attributes.push_back(name);
         if (name == "POSITION") {
@@ -140,6 +129,51 @@ ReadBack read_back(const Bytes& file) {
     } else {
         found.mesh.indices = values<std::uint32_t>(model, primitive.indices);
     }
+    found.material = primitive.material;
+    return found;
+}
+
+bool has_foreign_extensions(const tinygltf::Model& model) {
+    // Of the material alone, and none that a loader must know.
+    const std::vector<std::string> optional = {
+        "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_sheen"};
+    return !model.extensionsRequired.empty() ||
+           std::any_of(model.extensionsUsed.begin(), model.extensionsUsed.end(),
+                       [&](const std::string& name) {
+                           return std::find(optional.begin(), optional.end(), name) ==
+                                  optional.end();
+                       });
+}
+
+void expect_layout(const Bytes& file) {
+    EXPECT_EQ(word(file, 0), 0x46546C67u) << "glTF";
+    EXPECT_EQ(word(file, 4), 2u);
+    EXPECT_EQ(word(file, 8), file.size());
+    const std::size_t json = word(file, 12);
+    EXPECT_EQ(word(file, 16), 0x4E4F534Au) << "JSON";
+    EXPECT_EQ(json % 4, 0u);
+    EXPECT_EQ(word(file, 24 + json), 0x004E4942u) << "BIN";
+    EXPECT_EQ(word(file, 20 + json) + 28 + json, file.size());
+    EXPECT_EQ(file.size() % 4, 0u);
+}
+
+}  // namespace
+
+ReadBack read_back(const Bytes& file) {
+    ReadBack found;
+    tinygltf::TinyGLTF reader;
+    tinygltf::Model model;
+    std::string error, warning;
+    found.read = reader.LoadBinaryFromMemory(&model, &error, &warning, file.data(),
+                                             static_cast<unsigned>(file.size()));
+    found.trouble = error + warning;
+    if (!found.read || model.meshes.size() != 1 || model.meshes[0].primitives.size() != 1)
+        return found;
+    ReadPrimitive whole = read_primitive(model, model.meshes[0].primitives[0]);
+    found.mesh = std::move(whole.mesh);
+    found.stated = whole.stated;
+    found.attributes = std::move(whole.attributes);
+    found.index_component = whole.index_component;
     for (const auto& image : model.images) {
         if (image.uri.empty())
             found.images.push_back({image.width, image.height});
@@ -151,13 +185,7 @@ ReadBack read_back(const Bytes& file) {
     found.generator = model.asset.generator;
     if (model.asset.extras.Has("canonical"))
         found.canonical = model.asset.extras.Get("canonical").Get<std::string>();
-    // Of the material alone, and none that a loader must know.
-    const std::vector<std::string> optional = {
-        "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_sheen"};
-    found.has_foreign_extensions = !model.extensionsRequired.empty();
-    for (const std::string& name : model.extensionsUsed)
-        if (std::find(optional.begin(), optional.end(), name) == optional.end())
-            found.has_foreign_extensions = true;
+    found.has_foreign_extensions = has_foreign_extensions(model);
     read_targets(model, found);
     for (const auto& view : model.bufferViews) EXPECT_EQ(view.byteOffset % 4, 0u);
     EXPECT_EQ(model.scenes.size(), 1u);
@@ -166,15 +194,7 @@ ReadBack read_back(const Bytes& file) {
 }
 
 ReadBack expect_glb(const Bytes& file) {
-    EXPECT_EQ(word(file, 0), 0x46546C67u) << "glTF";
-    EXPECT_EQ(word(file, 4), 2u);
-    EXPECT_EQ(word(file, 8), file.size());
-    const std::size_t json = word(file, 12);
-    EXPECT_EQ(word(file, 16), 0x4E4F534Au) << "JSON";
-    EXPECT_EQ(json % 4, 0u);
-    EXPECT_EQ(word(file, 24 + json), 0x004E4942u) << "BIN";
-    EXPECT_EQ(word(file, 20 + json) + 28 + json, file.size());
-    EXPECT_EQ(file.size() % 4, 0u);
+    expect_layout(file);
     ReadBack found = read_back(file);
     EXPECT_TRUE(found.read) << found.trouble;
     const bool linked = !found.uris.empty();  // those images are not there, which is told
@@ -204,6 +224,59 @@ ReadBack expect_glb(const Bytes& file) {
             << "times ascend strictly";
         EXPECT_EQ(clip.first, clip.times.front());
         EXPECT_EQ(clip.last, clip.times.back());
+    }
+    return found;
+}
+
+ReadScene expect_scene(const Bytes& file) {
+    expect_layout(file);
+    ReadScene found;
+    tinygltf::TinyGLTF reader;
+    tinygltf::Model model;
+    std::string error, warning;
+    EXPECT_TRUE(reader.LoadBinaryFromMemory(&model, &error, &warning, file.data(),
+                                            static_cast<unsigned>(file.size())))
+        << error << warning;
+    EXPECT_FALSE(has_foreign_extensions(model));
+    for (const auto& view : model.bufferViews) EXPECT_EQ(view.byteOffset % 4, 0u);
+    for (const auto& mesh : model.meshes) {
+        auto& primitives = found.meshes.emplace_back();
+        for (const auto& primitive : mesh.primitives) {
+            primitives.push_back(read_primitive(model, primitive));
+            const ReadPrimitive& one = primitives.back();
+            expect_valid(one.mesh);
+            EXPECT_EQ(one.stated.min, bounds(one.mesh).min);
+            EXPECT_EQ(one.stated.max, bounds(one.mesh).max);
+            EXPECT_GE(one.material, 0);
+            EXPECT_LT(one.material, static_cast<int>(model.materials.size()));
+        }
+    }
+    const auto image_of = [&](int texture) {
+        return texture < 0 ? -1 : model.textures.at(static_cast<std::size_t>(texture)).source;
+    };
+    for (const auto& material : model.materials) {
+        const auto& surface = material.pbrMetallicRoughness;
+        EXPECT_EQ(surface.metallicRoughnessTexture.index, material.occlusionTexture.index);
+        ReadMaterial one{.name = material.name};
+        one.images = {image_of(surface.baseColorTexture.index),
+                      image_of(material.normalTexture.index),
+                      image_of(material.occlusionTexture.index)};
+        if (const int texture = surface.baseColorTexture.index; texture >= 0) {
+            const int sampler = model.textures.at(static_cast<std::size_t>(texture)).sampler;
+            one.wrap_s = model.samplers.at(static_cast<std::size_t>(sampler)).wrapS;
+        }
+        found.materials.push_back(std::move(one));
+    }
+    EXPECT_EQ(model.scenes.size(), 1u);
+    for (const int root : model.scenes.at(0).nodes) {
+        const auto& node = model.nodes.at(static_cast<std::size_t>(root));
+        EXPECT_LT(node.mesh, static_cast<int>(model.meshes.size())) << node.name;
+        found.nodes.push_back({node.name, node.mesh, node.translation, node.rotation, node.scale});
+    }
+    EXPECT_EQ(found.nodes.size(), model.nodes.size());
+    for (const auto& image : model.images) {
+        found.images.push_back({image.width, image.height});
+        if (!image.uri.empty()) found.uris.push_back(image.uri);
     }
     return found;
 }

@@ -44,6 +44,40 @@ struct ReadBack {
     std::vector<ReadClip> clips;
 };
 
+/// A piece of a mesh in one material.
+struct ReadPrimitive {
+    Mesh mesh;
+    Bounds stated;                        ///< min and max of its POSITION accessor
+    std::vector<std::string> attributes;  ///< sorted
+    int index_component = 0;
+    int material = -1;
+};
+
+struct ReadMaterial {
+    std::string name;
+    std::array<int, 3> images{-1, -1, -1};  ///< base colour, normal, occlusion-roughness-metalness
+    int wrap_s = 0;
+};
+
+struct ReadNode {
+    std::string name;
+    int mesh = -1;
+    std::vector<double> translation, rotation, scale;  ///< empty where nothing is said
+};
+
+/// A file of any number of meshes, as tinygltf reads it.
+struct ReadScene {
+    std::vector<std::vector<ReadPrimitive>> meshes;
+    std::vector<ReadMaterial> materials;
+    std::vector<ReadNode> nodes;             ///< those of the scene, in its order
+    std::vector<std::array<int, 2>> images;  ///< width and height of each; -1 of linked ones
+    std::vector<std::string> uris;
+};
+
+/// Reads a file of many meshes and expects what expect_glb() expects of one: layout, bounds, valid closed meshes, indices of
+/// materials and meshes in range, no extension but those of materials.
+ReadScene expect_scene(const Bytes& file);
+
 /// Reads `file`. What went wrong stands in `trouble`.
 [[nodiscard]] ReadBack read_back(const Bytes& file);
 

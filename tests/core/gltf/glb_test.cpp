@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstring>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -270,6 +272,119 @@ TEST(Glb, TargetsAndClipsThatDoNotFitAreRefused) {
     refused(targets, &short_of_one);
     refused(targets, &without_keys);
     refused({}, &good);
+}
+
+/// Two mushrooms of which one is textured, in three nodes, and what they are made of.
+struct Group {
+    Mesh bare = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
+    Mesh painted_mesh = mesh_of(textured(order_of("mycena_sanguinolenta", 0.6, 2, 3)));
+    ImageSet images = *painted_images(
+        paint_recipe(painted(order_of("boletus_edulis", 0.6, 1, 3), 128), atlas()), {});
+    GlbScene scene;
+
+    Group() {
+        scene.materials = {{.name = "bare"},
+                           {.name = "painted", .images = &images},
+                           {.name = "coated", .images = &images, .look = {.coat = 0.5}},
+                           {.name = "linked",
+                            .image_addresses = {"/a.jpg", "/b.jpg", "/c.jpg"},
+                            .look = {.coat = 0.5},
+                            .goes_round = true}};
+        scene.meshes = {{"both", {{&painted_mesh, 1, {}}, {&bare, 0, {}}, {&painted_mesh, 2, {}}}},
+                        {"one", {{&painted_mesh, 3, {}}}}};
+        scene.nodes = {{.name = "here"},
+                       {.name = "there",
+                        .mesh = 1,
+                        .translation = {0.5, -1.0, 0.25},
+                        .rotation = {0.0, 0.6, 0.0, 0.8},
+                        .scale = glm::dvec3(2.0)},
+                       {.name = "again", .mesh = 1, .translation = {0.0, 0.0, 3.0}}};
+        scene.extras_json = R"({"canonical":"/v1/x"})";
+    }
+};
+
+TEST(Glb, PrimitivesOfManyMaterialsReadBackAsTheyWere) {
+    const Group group;
+    const Body body = glb(group.scene);
+    const ReadScene found = expect_scene(joined(body));
+    ASSERT_EQ(found.meshes.size(), 2u);
+    ASSERT_EQ(found.meshes[0].size(), 3u);
+    EXPECT_TRUE(same_bits(found.meshes[0][1].mesh, group.bare));
+    EXPECT_EQ(found.meshes[0][0].attributes, full);
+    EXPECT_EQ(found.meshes[0][1].attributes, plain) << "each as its own material needs";
+    EXPECT_TRUE(same_bits(found.meshes[0][2].mesh.positions, group.painted_mesh.positions));
+    EXPECT_EQ(found.meshes[0][0].material, 1);
+    EXPECT_EQ(found.meshes[0][2].material, 2);
+    ASSERT_EQ(found.materials.size(), 4u);
+    using Three = std::array<int, 3>;
+    EXPECT_EQ(found.materials[0].images, (Three{-1, -1, -1}));
+    EXPECT_EQ(found.materials[1].images, (Three{0, 1, 2}));
+    EXPECT_EQ(found.materials[2].images, (Three{0, 1, 2})) << "equal images are there once";
+    EXPECT_EQ(found.materials[3].images, (Three{3, 4, 5}));
+    EXPECT_EQ(found.materials[1].wrap_s, 33071) << "clamped";
+    EXPECT_EQ(found.materials[3].wrap_s, 10497) << "goes round";
+    EXPECT_EQ(found.images.size(), 6u);
+    EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
+    for (const Slice& file : group.images.files)
+        EXPECT_EQ(std::count_if(body.begin(), body.end(),
+                                [&](const Slice& slice) { return slice.data() == file.data(); }),
+                  1);
+    const Value json = json_chunk(joined(body));
+    EXPECT_EQ(dump(*json.find("extensionsUsed")), R"(["KHR_materials_clearcoat"])");
+    const std::string rough =
+        "/materials/3/extensions/KHR_materials_clearcoat/clearcoatRoughnessTexture/index";
+    EXPECT_EQ(json.at_pointer(rough)->as_number(), 5.0);
+}
+
+TEST(Glb, NodesShowMeshesWhereTheyAreAndLeaveOutTheIdentity) {
+    const Group group;
+    const ReadScene found = expect_scene(joined(glb(group.scene)));
+    ASSERT_EQ(found.nodes.size(), 3u);
+    using Numbers = std::vector<double>;
+    EXPECT_EQ(found.nodes[0].name, "here");
+    EXPECT_EQ(found.nodes[0].mesh, 0);
+    EXPECT_EQ(found.nodes[0].translation, Numbers{});
+    EXPECT_EQ(found.nodes[0].rotation, Numbers{});
+    EXPECT_EQ(found.nodes[0].scale, Numbers{});
+    EXPECT_EQ(found.nodes[1].mesh, 1);
+    EXPECT_EQ(found.nodes[1].translation, (Numbers{0.5, -1.0, 0.25}));
+    EXPECT_EQ(found.nodes[1].rotation, (Numbers{0.0, 0.6, 0.0, 0.8}));
+    EXPECT_EQ(found.nodes[1].scale, (Numbers{2.0, 2.0, 2.0}));
+    EXPECT_EQ(found.nodes[2].mesh, 1) << "one mesh, shown twice";
+    EXPECT_EQ(found.nodes[2].scale, Numbers{});
+}
+
+TEST(Glb, ASceneOfOneMeshIsTheFileOfThatMesh) {
+    const Group group;
+    GlbParts parts = parts_of("one");
+    parts.images = &group.images;
+    GlbScene scene;
+    scene.materials = {{.name = "one", .images = &group.images}};
+    scene.meshes = {{"one", {{&group.painted_mesh, 0, {}}}}};
+    scene.nodes = {{.name = "one"}};
+    EXPECT_EQ(joined(glb(scene)), joined(glb(group.painted_mesh, parts)));
+}
+
+TEST(Glb, ScenesThatCannotBeAreRefused) {
+    const auto refused = [](const std::function<void(Group&)>& spoil) {
+        Group group;
+        spoil(group);
+        EXPECT_THROW((void)glb(group.scene), GenerationError);
+    };
+    refused([](Group& g) { g.scene.nodes.clear(); });
+    refused([](Group& g) { g.scene.nodes[1].mesh = 2; });
+    refused([](Group& g) { g.scene.nodes[1].rotation *= 1.01; });
+    refused([](Group& g) { g.scene.nodes[1].rotation.x = NAN; });
+    refused([](Group& g) { g.scene.nodes[1].scale.y = 0.0; });
+    refused([](Group& g) { g.scene.meshes[0].primitives[0].material = 4; });
+    refused([](Group& g) { g.scene.meshes[1].primitives.clear(); });
+    refused([](Group& g) { g.scene.meshes[0].primitives[1].material = 1; });
+    const Mesh empty;
+    refused([&](Group& g) { g.scene.meshes[1].primitives[0].mesh = &empty; });
+    Group group;
+    const std::vector<MorphTarget> targets = lift_and_turn(group.bare);
+    group.scene.meshes[0].primitives[1].targets = targets;
+    EXPECT_THROW((void)glb(group.scene), GenerationError) << "one primitive of three moves";
 }
 
 TEST(Glb, AnEmptyMeshIsRefused) {
