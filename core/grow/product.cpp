@@ -24,35 +24,49 @@ std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles, T
            (textures == Textures::embedded ? image_bytes : 0);
 }
 
-std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh) {
+std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
+                        std::size_t triangles) {
     Value json = Value::object();
     json.set("canonical", Value(extras.canonical));
     json.set("effective", std::move(effective));
-    const Bounds box = bounds(mesh);
     Value limits = Value::object();
     limits.set("min", corner(box.min));
     limits.set("max", corner(box.max));
     json.set("bounds_m", std::move(limits));
-    json.set("triangles", Value(mesh.triangles()));
+    json.set("triangles", Value(triangles));
     return dump(json);
+}
+
+std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh) {
+    return extras_json(extras, std::move(effective), bounds(mesh), mesh.triangles());
+}
+
+std::shared_ptr<const ImageSet> wear_images(
+    GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
+    const Workshop& workshop, const std::function<std::shared_ptr<const ImageSet>()>& paint) {
+    std::shared_ptr<const ImageSet> images;
+    if (textures == Textures::embedded) {
+        workshop.observer(Step::paint);
+        images = paint();
+        material.images = images.get();
+        stop_if_asked(workshop);
+    } else if (textures == Textures::linked) {
+        if (addresses[0].empty())
+            throw Impossible(
+                "/textures",
+                "'linked' needs the images to have addresses; a model of one's own has none");
+        material.image_addresses = addresses;
+    }
+    return images;
 }
 
 std::shared_ptr<const ImageSet> wear_images(
     GlbParts& parts, Textures textures, const Extras& extras, const Workshop& workshop,
     const std::function<std::shared_ptr<const ImageSet>()>& paint) {
-    std::shared_ptr<const ImageSet> images;
-    if (textures == Textures::embedded) {
-        workshop.observer(Step::paint);
-        images = paint();
-        parts.images = images.get();
-        stop_if_asked(workshop);
-    } else if (textures == Textures::linked) {
-        if (extras.image_addresses[0].empty())
-            throw Impossible(
-                "/textures",
-                "'linked' needs the images to have addresses; a model of one's own has none");
-        parts.image_addresses = extras.image_addresses;
-    }
+    GlbMaterial material;
+    auto images = wear_images(material, textures, extras.image_addresses, workshop, paint);
+    parts.images = material.images;
+    parts.image_addresses = material.image_addresses;
     return images;
 }
 

@@ -31,9 +31,12 @@ struct Estimate {
 [[nodiscard]] std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles,
                                             Textures textures, std::uint64_t image_bytes);
 
+/// Addresses of the images of an atlas, by ImageKind.
+using ImageAddresses = std::array<std::string, 3>;
+
 struct Extras {
-    std::string canonical;  ///< canonical address of the request; empty for none
-    std::array<std::string, 3> image_addresses;  ///< by ImageKind, for Textures::linked
+    std::string canonical;           ///< canonical address of the request; empty for none
+    ImageAddresses image_addresses;  ///< for Textures::linked
 };
 
 /// A file that was grown.
@@ -44,6 +47,8 @@ struct Grown {
 };
 
 /// asset.extras of a file.
+[[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
+                                      std::size_t triangles);
 [[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh);
 
 /// Gives `parts` the images that an order asks for: those that `paint` makes, the addresses of `extras`, or none.
@@ -53,5 +58,10 @@ struct Grown {
 [[nodiscard]] std::shared_ptr<const ImageSet> wear_images(
     GlbParts& parts, Textures textures, const Extras& extras, const Workshop& workshop,
     const std::function<std::shared_ptr<const ImageSet>()>& paint);
+
+/// The same for one material of a scene.
+[[nodiscard]] std::shared_ptr<const ImageSet> wear_images(
+    GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
+    const Workshop& workshop, const std::function<std::shared_ptr<const ImageSet>()>& paint);
 
 }  // namespace sporeprint

@@ -1,17 +1,14 @@
 #include "core/plant/tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <utility>
 
 #include "core/math/elementary.h"
 #include "core/math/random.h"
-#include "core/mesh/tangents.h"
 #include "core/model/purposes.h"
 #include "core/params/messages.h"
-#include "core/skeleton/skin.h"
 
 namespace sporeprint {
 
@@ -31,6 +28,11 @@ RamificationMatrix named_matrix(MatrixKind kind, const TreeTopology& topology, i
             return fishbone_matrix(order, topology.forks);
         case MatrixKind::tokunaga:
             return tokunaga_matrix(order, topology.tokunaga_a, topology.tokunaga_c);
+        case MatrixKind::own: {
+            RamificationMatrix own{topology.rows};
+            own.rows.resize(std::min(own.rows.size(), static_cast<std::size_t>(order) - 1));
+            return own;
+        }
     }
     return perfect_matrix(order);
 }
@@ -98,6 +100,25 @@ Axes axes_of(const Ramification& tree) {
     return axes;
 }
 
+// How many times longer the edges of each node's axis are for all axes of its order to be as long as each other; by no more than
+// three times either way, so that no branch is drawn out to a bare stick.
+std::vector<double> evened(const Ramification& tree, const Axes& axes, double evenness) {
+    std::vector<double> edges(most_order + 5, 0.0), begun = edges, factors;
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
+        const auto order = static_cast<std::size_t>(tree.nodes[i].order);
+        edges[order] += 1.0;
+        if (axes.first[i] == i) begun[order] += 1.0;
+    }
+    factors.reserve(tree.nodes.size());
+    for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
+        const auto order = static_cast<std::size_t>(tree.nodes[i].order);
+        const double mean = edges[order] / begun[order];
+        const auto own = static_cast<double>(axes.length[axes.first[i]]);
+        factors.push_back(power(std::clamp(mean / own, 1.0 / 3.0, 3.0), evenness));
+    }
+    return factors;
+}
+
 // Leaves that each node bears.
 std::vector<double> leaves_of(const Ramification& tree) {
     std::vector<double> leaves(tree.nodes.size(), 0.0);
@@ -118,24 +139,35 @@ void TreeShape::check(const std::string& path, std::vector<Problem>& problems) c
                number_text(width_rise) +
                    " is less than 1: pipes would be thinner together than "
                    "each alone");
-    if (topology.rows.empty()) return;
-    const std::vector<Problem> faults = faults_of(matrix_of(topology), path + "/rows");
-    problems.insert(problems.end(), faults.begin(), faults.end());
-    if (topology.order > static_cast<int>(topology.rows.size()) + 1)
-        report(problems, path + "/order",
-               std::to_string(topology.order) + " needs " + std::to_string(topology.order - 1) +
-                   " rows; there are " + std::to_string(topology.rows.size()));
+}
+
+void TreeTopology::check(const std::string& path, std::vector<Problem>& problems) const {
+    if (!rows.empty()) {
+        const std::vector<Problem> faults = faults_of(RamificationMatrix{rows}, path + "/rows");
+        problems.insert(problems.end(), faults.begin(), faults.end());
+    }
+    if (!uses_rows()) return;
+    const bool of_tips = tips == MatrixKind::own && tip_order > 1;
+    const bool of_tree = matrix == MatrixKind::own || (toward == MatrixKind::own && blend > 0.0);
+    const auto reached = static_cast<int>(rows.size()) + 1;
+    const auto reach = [&](int wanted, const char* name) {
+        if (wanted > reached)
+            report(problems, path + '/' + name,
+                   std::to_string(wanted) + " needs " + std::to_string(wanted - 1) +
+                       " rows of an own matrix; there are " + std::to_string(rows.size()));
+    };
+    if (rows.empty())
+        report(problems, path + "/rows", "an own matrix is asked for, and no rows are given");
+    else if (of_tree)
+        reach(order, "order");
+    if (!rows.empty() && of_tips) reach(tip_order, "tip_order");
 }
 
 RamificationMatrix matrix_of(const TreeTopology& topology) {
-    if (!topology.rows.empty()) {
-        RamificationMatrix own;
-        for (const MatrixRow& row : topology.rows) own.rows.push_back(row.shares);
-        return own;
-    }
     const int order = std::max(2, topology.order);
-    return blended(named_matrix(topology.matrix, topology, order),
-                   named_matrix(topology.toward, topology, order), topology.blend);
+    const RamificationMatrix matrix = named_matrix(topology.matrix, topology, order);
+    if (!(topology.blend > 0.0)) return matrix;
+    return blended(matrix, named_matrix(topology.toward, topology, order), topology.blend);
 }
 
 double expected_tips(const TreeTopology& topology) {
@@ -147,6 +179,54 @@ double expected_tips(const TreeTopology& topology) {
     for (int k = 1; k <= topology.tip_order; ++k)
         mean += expected_leaves(tip_matrix(topology), k) / topology.tip_order;
     return leaves * mean;
+}
+
+std::vector<ExpectedOrder> expected_orders(const TreeShape& shape) {
+    const TreeTopology& topology = shape.topology;
+    // Axes, edges and leaves of each order of a tree of the matrix, from the top down.
+    const auto orders_of = [](const RamificationMatrix& matrix, int order) {
+        std::vector<double> axes(static_cast<std::size_t>(order) + 1, 0.0), edges = axes;
+        axes.back() = 1.0;
+        for (int k = order; k >= 2; --k) {
+            const auto at = static_cast<std::size_t>(k);
+            edges[at] = axes[at] / matrix.fork(k);
+            axes[at - 1] += 2.0 * axes[at];
+            for (int i = 1; i < k; ++i)
+                axes[static_cast<std::size_t>(i)] += matrix.at(k, i) * edges[at];
+        }
+        edges[1] = axes[1];
+        return edges;
+    };
+    const RamificationMatrix matrix = matrix_of(topology);
+    const std::vector<double> tree = orders_of(matrix, topology.order);
+    // Small trees in place of twigs raise the orders above them.
+    const int raised = topology.tip_order - 1;
+    std::vector<double> edges(tree.size() + static_cast<std::size_t>(raised), 0.0);
+    for (std::size_t k = 2; k < tree.size(); ++k)
+        edges[k + static_cast<std::size_t>(raised)] = tree[k];
+    double mean_tips = 0.0;
+    for (int t = 1; t <= topology.tip_order; ++t) {
+        const std::vector<double> tips = orders_of(tip_matrix(topology), t);
+        for (std::size_t k = 1; k < tips.size(); ++k)
+            edges[k] += tree[1] * tips[k] / topology.tip_order;
+        mean_tips += tips[1] / topology.tip_order;
+    }
+    std::vector<ExpectedOrder> orders;
+    for (std::size_t k = 1; k < edges.size(); ++k) {
+        const int order = static_cast<int>(k);
+        const int own = std::clamp(order - raised, 1, topology.order);
+        // An axis bears all its leaves at its first edge and those of its fork at its last.
+        const double most = expected_leaves(matrix, own) * mean_tips;
+        const double least = own > 1 ? 2.0 * expected_leaves(matrix, own - 1) * mean_tips : 1.0;
+        // Branches along their bearer shorten evenly.
+        const double scale = k + 1 < edges.size() ? 1.0 - 0.5 * shape.shortening : 1.0;
+        orders.push_back(
+            {edges[k],
+             scale * shape.twig_length * by_order(shape.length_law, shape.length_rise, order, most),
+             shape.twig_radius *
+                 by_order(shape.width_law, shape.width_rise, order, std::min(least, most))});
+    }
+    return orders;
 }
 
 Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
@@ -166,6 +246,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
     const std::size_t count = grown.nodes.size();
     const Axes axes = axes_of(grown);
     const std::vector<double> leaves = leaves_of(grown);
+    const std::vector<double> even = evened(grown, axes, shape.evenness);
     const int highest = grown.nodes[0].order;
     const auto radius_of = [&](int order, double borne) {
         return shape.twig_radius * by_order(shape.width_law, shape.width_rise, order, borne);
@@ -203,7 +284,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         tree.headings[i] = heading;
         glm::dvec3 across = square_to(carried(tree.across[i], before, heading), heading);
 
-        double length = scale[i] * (1.0 + 0.6 * shape.variation * drawn_length) *
+        double length = scale[i] * even[i] * (1.0 + 0.6 * shape.variation * drawn_length) *
                         shape.twig_length *
                         by_order(shape.length_law, shape.length_rise, node.order, leaves[i]);
         if (i == 0) length += shape.trunk;
@@ -259,115 +340,6 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         scale[other] = shorter;
     }
     return tree;
-}
-
-namespace {
-
-void append(Mesh& mesh, const Mesh& part) {
-    const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
-    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
-    mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
-    for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
-}
-
-// The limbs of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go, and longer
-// ways than `gap` radii get nodes: an image that turns back between two rings would be seen stretched.
-Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double gap) {
-    const Ramification& grown = tree.ramification;
-    const std::size_t count = grown.nodes.size();
-    const auto within = [&](std::uint32_t i) {
-        return grown.nodes[i].order >= low && grown.nodes[i].order <= high;
-    };
-    std::vector<std::uint32_t> children(count, 0);
-    for (std::uint32_t i = 1; i < count; ++i)
-        if (within(i)) ++children[grown.nodes[i].parent];
-    Skeleton part;
-    // Where each node lies in the part, and, of one that was left out, the last before it that was not.
-    std::vector<std::uint32_t> place(count, Ramification::none);
-    const auto add = [&](const Skeleton::Node& node) {
-        part.nodes.push_back(node);
-        return static_cast<std::uint32_t>(part.nodes.size() - 1);
-    };
-    for (std::uint32_t i = 0; i < count; ++i) {
-        if (!within(i)) continue;
-        const Skeleton::Node& here = tree.skeleton.nodes[i + 1];
-        const std::uint32_t parent = grown.nodes[i].parent;
-        std::uint32_t from = Ramification::none;
-        if (parent != Ramification::none && within(parent)) {
-            from = place[parent];
-        } else {
-            // A part that begins on a thicker one begins inside of it, as thick as it goes on.
-            Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.limbs[i].from];
-            if (parent != Ramification::none) root.radius = std::min(root.radius, here.radius);
-            from = add(root);
-        }
-        const Skeleton::Node& before = part.nodes[from];
-        if (children[i] == 1) {
-            const std::uint32_t next = within(grown.nodes[i].children[0])
-                                           ? grown.nodes[i].children[0]
-                                           : grown.nodes[i].children[1];
-            const Skeleton::Node& after = tree.skeleton.nodes[next + 1];
-            const glm::dvec3 way = after.place - before.place;
-            const double whole = glm::dot(way, way);
-            if (whole > 0.0) {
-                const double t = glm::dot(here.place - before.place, way) / whole;
-                const double aside = glm::length(here.place - before.place - t * way);
-                const double wanted = before.radius + t * (after.radius - before.radius);
-                if (whole < gap * gap * here.radius * here.radius &&
-                    aside < tolerance * here.radius &&
-                    std::abs(wanted - here.radius) < 0.5 * tolerance * here.radius) {
-                    place[i] = from;
-                    continue;
-                }
-            }
-        }
-        const Skeleton::Node start = part.nodes[from];
-        const double length = glm::distance(start.place, here.place);
-        const double steps = std::floor(length / (gap * std::max(start.radius, here.radius)));
-        for (double step = 1.0; step <= steps; step += 1.0) {
-            const double t = step / (steps + 1.0);
-            const std::uint32_t between = add({start.place + t * (here.place - start.place),
-                                               start.radius + t * (here.radius - start.radius)});
-            part.limbs.push_back({from, between});
-            from = between;
-        }
-        place[i] = add(here);
-        part.limbs.push_back({from, place[i]});
-    }
-    return part;
-}
-
-}  // namespace
-
-Mesh bark_of(const Tree& tree, int lod) {
-    if (lod < 0 || lod >= tree_lods)
-        throw InvalidInput("/lod",
-                           std::to_string(lod) + " is outside 0.." + std::to_string(tree_lods - 1));
-    const int highest = tree.ramification.nodes[0].order;
-    const int lowest = std::min(1 + lod, highest);
-    Mesh bark;
-    // Trunk and great branches, branches, twigs: each a skin of its own, subdivided as its place in the picture is worth.
-    int high = highest;
-    for (int group = 0; group < 3 && high >= lowest; ++group) {
-        // Twigs of order 1, half of all limbs, are never subdivided.
-        const int low = group == 2 ? lowest : std::max({lowest, high - 1, std::min(high, 2)});
-        const double gap = group == 2 ? 1e9 : 3.0 * (1 + group) * (1 + lod);
-        const Skeleton part = part_of(tree, low, high, 0.25 * (1 + lod), gap);
-        high = low - 1;
-        if (part.limbs.empty()) continue;
-        const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, std::max(0, 2 - group - lod));
-        append(bark, skin.mesh);
-        for (std::size_t i = 0; i < skin.places.size(); ++i) {
-            // There and back: so the image meets itself wherever it ends.
-            const double girth = 2.0 * pi * skin.strips[skin.strip_of[i]].radius;
-            const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
-            const double whole = 2.0 * std::floor(0.5 * images);
-            bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
-                                                  1.0 - std::abs(1.0 - (images - whole)));
-        }
-    }
-    add_tangents(bark);
-    return bark;
 }
 
 std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
@@ -462,196 +434,6 @@ Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf) {
         for (const std::uint32_t index : leaf.indices) mesh.indices.push_back(index + shift);
     }
     return mesh;
-}
-
-namespace {
-
-std::vector<TreePreset> make_presets() {
-    std::vector<TreePreset> presets;
-    {
-        TreeShape oak;
-        oak.topology.matrix = MatrixKind::random_increasing;
-        oak.topology.toward = MatrixKind::random_binary;
-        oak.topology.blend = 0.6;
-        oak.topology.order = 7;
-        oak.fork_deg = 34;
-        oak.main_deg = 20;
-        oak.side_deg = 65;
-        oak.length_law = OrderLaw::geometric;
-        oak.length_rise = 1.3;
-        oak.twig_length = 0.085;
-        oak.width_rise = 2.0;
-        oak.twig_radius = 0.0028;
-        oak.trunk = 0.8;
-        oak.plagiotropy = 0.3;
-        oak.gravitropism = 0.015;
-        oak.phototropism = 0.02;
-        presets.push_back({"broadleaf",
-                           "Broadleaf",
-                           "oak",
-                           oak,
-                           {.per_tip = 9, .leaf_size = 1.7, .leaf_deg = 60, .droop = 0.3},
-                           {.ridge = {112, 98, 82},
-                            .furrow = {44, 37, 31},
-                            .furrows = 0.9,
-                            .ridges = 14,
-                            .stretch = 5}});
-    }
-    {
-        TreeShape birch;
-        birch.topology.rows = {{{0.7, 0.3}},
-                               {{0.35, 0.4, 0.25}},
-                               {{0.1, 0.3, 0.45, 0.15}},
-                               {{0.02, 0.08, 0.45, 0.4, 0.05}}};
-        birch.topology.order = 5;
-        birch.fork_deg = 24;
-        birch.main_deg = 6;
-        birch.side_deg = 62;
-        birch.length_law = OrderLaw::geometric;
-        birch.length_rise = 1.12;
-        birch.twig_length = 0.13;
-        birch.width_rise = 2.0;
-        birch.twig_radius = 0.002;
-        birch.trunk = 1.2;
-        birch.shortening = 0.5;
-        birch.gravitropism = -0.015;
-        presets.push_back({"birch",
-                           "Birch-like",
-                           "birch",
-                           birch,
-                           {.per_tip = 8, .leaf_size = 1.9, .leaf_deg = 50, .droop = 0.8},
-                           {.ridge = {222, 218, 208},
-                            .furrow = {90, 84, 80},
-                            .furrows = 0.15,
-                            .ridges = 6,
-                            .stretch = 1.5,
-                            .lenticels = 0.5}});
-    }
-    {
-        TreeShape spruce;
-        spruce.topology.rows = {{{0.92, 0.08}}, {{0.5, 0.42, 0.08}}, {{0.02, 0.966, 0.0, 0.014}}};
-        spruce.topology.order = 4;
-        spruce.fork_deg = 20;
-        spruce.main_deg = 0;
-        spruce.side_deg = 100;
-        spruce.length_law = OrderLaw::geometric;
-        spruce.length_rise = 0.85;
-        spruce.twig_length = 0.12;
-        spruce.width_rise = 2.0;
-        spruce.twig_radius = 0.0022;
-        spruce.trunk = 0.3;
-        spruce.shortening = 0.9;
-        spruce.plagiotropy = 0.9;
-        spruce.gravitropism = -0.02;
-        presets.push_back(
-            {"spruce",
-             "Spruce-like",
-             "shoot",
-             spruce,
-             {.per_tip = 4, .leaf_size = 1.9, .leaf_deg = 45, .droop = 0.15, .size_spread = 0.3},
-             {.ridge = {112, 84, 66},
-              .furrow = {62, 44, 36},
-              .furrows = 0.6,
-              .ridges = 18,
-              .stretch = 1.4}});
-    }
-    {
-        TreeShape poplar;
-        poplar.topology.rows = {{{0.75, 0.25}}, {{0.4, 0.45, 0.15}}, {{0.05, 0.3, 0.62, 0.03}}};
-        poplar.topology.order = 4;
-        poplar.fork_deg = 16;
-        poplar.main_deg = 4;
-        poplar.side_deg = 80;
-        poplar.length_law = OrderLaw::geometric;
-        poplar.length_rise = 1.15;
-        poplar.twig_length = 0.11;
-        poplar.width_rise = 2.0;
-        poplar.twig_radius = 0.003;
-        poplar.trunk = 0.6;
-        poplar.shortening = 0.5;
-        poplar.gravitropism = 0.06;
-        presets.push_back({"poplar",
-                           "Poplar-like",
-                           "birch",
-                           poplar,
-                           {.per_tip = 9, .leaf_size = 1.8, .leaf_deg = 55, .droop = 0.35},
-                           {.ridge = {122, 116, 100},
-                            .furrow = {58, 52, 44},
-                            .furrows = 0.7,
-                            .ridges = 10,
-                            .stretch = 6}});
-    }
-    {
-        TreeShape shrub;
-        shrub.topology.matrix = MatrixKind::perfect;
-        shrub.topology.toward = MatrixKind::random_increasing;
-        shrub.topology.blend = 0.5;
-        shrub.topology.order = 8;
-        shrub.fork_deg = 26;
-        shrub.main_deg = 14;
-        shrub.side_deg = 50;
-        shrub.length_law = OrderLaw::linear;
-        shrub.length_rise = 0.12;
-        shrub.twig_length = 0.08;
-        shrub.width_rise = 2.4;
-        shrub.twig_radius = 0.0022;
-        shrub.trunk = 0.05;
-        shrub.gravitropism = 0.04;
-        presets.push_back({"shrub",
-                           "Shrub",
-                           "maple",
-                           shrub,
-                           {.per_tip = 4, .leaf_size = 0.5, .leaf_deg = 55, .droop = 0.2},
-                           {.ridge = {104, 84, 62},
-                            .furrow = {70, 56, 42},
-                            .furrows = 0.2,
-                            .ridges = 10,
-                            .stretch = 4,
-                            .lenticels = 0.2,
-                            .lenticel = {150, 128, 100}}});
-    }
-    {
-        TreeShape herb;
-        herb.topology.rows = {{{0.6, 0.4}}, {{0.25, 0.6, 0.15}}};
-        herb.topology.order = 3;
-        herb.topology.tips = MatrixKind::fishbone;
-        herb.topology.forks = 0.35;
-        herb.topology.tip_order = 3;
-        herb.fork_deg = 22;
-        herb.main_deg = 8;
-        herb.side_deg = 48;
-        herb.length_law = OrderLaw::linear;
-        herb.length_rise = 0.5;
-        herb.twig_length = 0.014;
-        herb.width_rise = 2.6;
-        herb.twig_radius = 0.0005;
-        herb.trunk = 0.03;
-        herb.gravitropism = 0.08;
-        presets.push_back({"herb",
-                           "Herb",
-                           "birch",
-                           herb,
-                           {.per_tip = 3, .leaf_size = 0.5, .leaf_deg = 60, .droop = 0.1},
-                           {.ridge = {96, 120, 62},
-                            .furrow = {70, 96, 46},
-                            .furrows = 0.25,
-                            .ridges = 8,
-                            .stretch = 12}});
-    }
-    return presets;
-}
-
-}  // namespace
-
-std::span<const TreePreset> tree_presets() {
-    static const std::vector<TreePreset> presets = make_presets();
-    return presets;
-}
-
-const TreePreset* tree_preset(std::string_view id) {
-    for (const TreePreset& preset : tree_presets())
-        if (id == preset.id) return &preset;
-    return nullptr;
 }
 
 }  // namespace sporeprint

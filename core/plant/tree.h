@@ -16,8 +16,8 @@
 
 namespace sporeprint {
 
-/// Named matrices; see ramification.h.
-enum class MatrixKind { perfect, random_binary, random_increasing, fishbone, tokunaga };
+/// Named matrices (see ramification.h), or one's own rows.
+enum class MatrixKind { perfect, random_binary, random_increasing, fishbone, tokunaga, own };
 
 constexpr const char* name(MatrixKind kind) {
     switch (kind) {
@@ -31,6 +31,8 @@ constexpr const char* name(MatrixKind kind) {
             return "fishbone";
         case MatrixKind::tokunaga:
             return "tokunaga";
+        case MatrixKind::own:
+            return "own";
     }
     return nullptr;
 }
@@ -68,23 +70,6 @@ constexpr const char* name(OrderLaw law) {
     return nullptr;
 }
 
-/// One row of an own matrix: order k = 2 for the first, k shares that sum to one.
-struct MatrixRow {
-    std::vector<double> shares;
-
-    static constexpr void fields(auto visit) {
-        visit(&MatrixRow::shares,
-              Info{.name = "shares",
-                   .min = 0,
-                   .max = 1,
-                   .most = most_order,
-                   .doc = "Of nodes with a side branch of order 1, 2 and so on, and at last of "
-                          "forks."});
-    }
-    bool operator==(const MatrixRow&) const = default;
-};
-static_assert(well_described<MatrixRow>());
-
 /// How a tree branches.
 struct TreeTopology {
     MatrixKind matrix = MatrixKind::random_increasing;
@@ -93,7 +78,7 @@ struct TreeTopology {
     double forks = 0.15;
     double tokunaga_a = 1.0;
     double tokunaga_c = 2.0;
-    std::vector<MatrixRow> rows;
+    std::vector<std::vector<double>> rows;
     int order = 7;
     TreeGrowth growth = TreeGrowth::dealt;
     MatrixKind tips = MatrixKind::fishbone;
@@ -118,9 +103,14 @@ struct TreeTopology {
                                    .min = 0.2,
                                    .max = 5,
                                    .doc = "How many times more there are of each order below."});
-        visit(&T::rows, Info{.name = "rows",
-                             .most = most_order - 1,
-                             .doc = "An own matrix, which then counts instead of `matrix`."});
+        visit(&T::rows,
+              Info{.name = "rows",
+                   .min = 0,
+                   .max = 1,
+                   .most = most_order,
+                   .doc = "The matrix called `own`, rows of order 2, 3 and so on: shares of nodes "
+                          "with a side branch of order 1, 2 and so on, and at last of forks; each "
+                          "sums to one."});
         visit(&T::order, Info{.name = "order",
                               .min = 1,
                               .max = most_order,
@@ -136,6 +126,14 @@ struct TreeTopology {
                           "herbs; 1 for none."});
     }
     bool operator==(const TreeTopology&) const = default;
+
+    /// Whether the rows are asked for at all.
+    [[nodiscard]] bool uses_rows() const {
+        return matrix == MatrixKind::own || (toward == MatrixKind::own && blend > 0.0) ||
+               (tips == MatrixKind::own && tip_order > 1);
+    }
+    /// The faults of the rows, rows that are asked for and not there, an order that they do not reach.
+    void check(const std::string& path, std::vector<Problem>& problems) const;
 };
 static_assert(well_described<TreeTopology>());
 
@@ -153,6 +151,7 @@ struct TreeShape {
     double twig_radius = 0.0016;
     double trunk = 0.8;
     double shortening = 0.0;
+    double evenness = 0.0;
     double variation = 0.2;
     double azimuth_deg = 137.5;
     double plagiotropy = 0.0;
@@ -210,6 +209,11 @@ struct TreeShape {
                                    .max = 0.95,
                                    .doc = "How much shorter branches are at the end of their "
                                           "bearer than at its beginning: a cone."});
+        visit(&T::evenness, Info{.name = "evenness",
+                                 .min = 0,
+                                 .max = 1,
+                                 .doc = "How far all axes of an order are as long as each other, "
+                                        "however many branches they bear: an even crown."});
         visit(&T::variation, Info{.name = "variation",
                                   .min = 0,
                                   .max = 1,
@@ -246,7 +250,7 @@ struct TreeShape {
     }
     bool operator==(const TreeShape&) const = default;
 
-    /// The faults of an own matrix, an order that it has not, pipes of an exponent below 1.
+    /// Pipes of an exponent below 1.
     void check(const std::string& path, std::vector<Problem>& problems) const;
 };
 static_assert(well_described<TreeShape>());
@@ -254,10 +258,25 @@ static_assert(well_described<TreeShape>());
 /// Most leaves and twigs that a tree is grown with.
 inline constexpr std::size_t most_tips = 40'000;
 
+/// The matrix that a tree obeys, up to its order.
+///
+/// topology  with nothing that check() finds
 [[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
 
 /// Mean number of tips of such a tree (the number itself where it is dealt and has no small trees at its tips), before any work.
 [[nodiscard]] double expected_tips(const TreeTopology& topology);
+
+/// What is to be expected of the edges of one order.
+struct ExpectedOrder {
+    double edges = 0.0;   ///< how many
+    double length = 0.0;  ///< mean, metres
+    double radius = 0.0;  ///< of the thinnest, metres
+};
+
+/// By order from 1 on, before any work. With small trees at the tips the orders above them are those that most trees have.
+///
+/// shape  with nothing that check() finds
+[[nodiscard]] std::vector<ExpectedOrder> expected_orders(const TreeShape& shape);
 
 /// A tree in space. Node 0 of the skeleton stands on the ground; node i + 1 is the end of the edge that enters node i of the
 /// ramification, and limb i that edge.
@@ -280,11 +299,22 @@ struct Tree {
 inline constexpr int tree_lods = 4;
 
 /// The skin of trunk, branches and twigs. Thick orders are subdivided, twigs are not; each level leaves one more order out and
-/// subdivides less.
+/// subdivides less; what a low tree has left at last is its trunk with its branches.
 ///
 /// returns  closed pieces with tangents; u goes once round a limb, v along it to the end of the image and back, in girths of the
 ///          limb, so that bark is nowhere stretched
+/// throws   Impossible (path "/twig_radius") for more than most_skeleton_nodes rings
 [[nodiscard]] Mesh bark_of(const Tree& tree, int lod);
+
+struct TreeCount {
+    double vertices = 0.0, triangles = 0.0;
+};
+
+/// About what bark_of() comes to, rather more; microseconds. Of a tree that is drawn freely, about the mean.
+///
+/// shape   with nothing that check() finds
+/// throws  Impossible (path "/twig_radius") for more than most_skeleton_nodes rings
+[[nodiscard]] TreeCount count_of_bark(const TreeShape& shape, int lod);
 
 /// How a tree bears its leaves.
 struct LeafStyle {

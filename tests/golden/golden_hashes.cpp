@@ -1,6 +1,7 @@
 // Compares a hash of each of many whole GLB files with the one written down, or writes them down.
 //   golden_hashes check FILE     golden_hashes bless FILE
-// A line of the file: generator_version species age lod texture_size hash; a leaf has its preset and autumn in their place.
+// A line of the file: generator_version species age lod texture_size hash; a leaf has its preset and autumn in their
+// place, a tree its preset and seed.
 
 #include <xxhash.h>
 
@@ -14,6 +15,7 @@
 
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/tree.h"
 #include "core/params/value.h"
 
 namespace {
@@ -50,7 +52,21 @@ void add_leaves(Hashes& hashes) {
             }
 }
 
-/// Each species at several ages and every level of detail, small; and once as a game would ask for it. Then the leaves.
+/// Some individuals of each tree, at every level of detail, small.
+void add_trees(Hashes& hashes) {
+    for (const TreePreset& preset : tree_presets())
+        for (const std::uint32_t seed : {1u, 2u, 3u})
+            for (int lod = 0; lod < tree_lods; ++lod) {
+                TreeOrder order{preset.id, params_of(preset)};
+                order.params.seed = seed;
+                order.params.lod = lod;
+                order.params.texture_size.value = 128;
+                hashes[line_of(std::string("tree/") + preset.id, seed, lod, 128)] =
+                    hash_of(grow_tree(order).glb);
+            }
+}
+
+/// Each species at several ages and every level of detail, small; and once as a game would ask for it. Then leaves and trees.
 Hashes hashes_of_today() {
     const auto atlas = built_in_atlas();
     Hashes hashes;
@@ -68,6 +84,7 @@ Hashes hashes_of_today() {
         add(entry, 0.6, 0, 512);
     }
     add_leaves(hashes);
+    add_trees(hashes);
     return hashes;
 }
 

@@ -31,11 +31,12 @@ done | xargs -P "$jobs" -L 1 sh -c '"$0" "$1" "$2" > "$3" || echo "failed: $?" >
 
 reference=build/hash/out/g++:-O3:auto
 leaves=$(grep -cE '^[0-9a-f]{16} .* leaf/' "$reference" || true)
-mushrooms=$(($(grep -cE '^[0-9a-f]{16} ' "$reference" || true) - leaves))
-if [ "$mushrooms" -eq "$requests" ] && [ "$leaves" -ge $((requests / 10)) ]; then
-    verdict ok "$mushrooms random mushrooms, $leaves leaves"
+trees=$(grep -cE '^[0-9a-f]{16} .* tree/' "$reference" || true)
+mushrooms=$(($(grep -cE '^[0-9a-f]{16} ' "$reference" || true) - leaves - trees))
+if [ "$mushrooms" -eq "$requests" ] && [ "$leaves" -ge $((requests / 10)) ] && [ "$trees" -ge $((requests / 20)) ]; then
+    verdict ok "$mushrooms random mushrooms, $leaves leaves, $trees trees"
 else
-    verdict bad "$mushrooms of $requests random mushrooms, $leaves leaves"
+    verdict bad "$mushrooms of $requests random mushrooms, $leaves leaves, $trees trees"
 fi
 for out in build/hash/out/*; do
     if cmp -s "$reference" "$out"; then

@@ -1,5 +1,5 @@
 // Prints a hash of the GLB of each of many random requests, from core alone, until `count` of them were grown;
-// what a species cannot have is refused, and printed too; then a fifth as many leaves. Builds by other compilers and runs with other
+// what a species cannot have is refused, and printed too; then a fifth as many leaves, and a tenth as many trees. Builds by other compilers and runs with other
 // instruction sets must print the same text: tests/hasher/four_ways.sh compares them.
 //   hasher [count] [simd name]     hasher --simd-names
 
@@ -15,6 +15,7 @@
 
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/tree.h"
 #include "core/math/noise.h"
 #include "core/math/random.h"
 #include "core/params/query.h"
@@ -110,6 +111,40 @@ void print_leaf(std::uint32_t number) {
     }
 }
 
+/// Prints the line of a tree of random angles, laws and leaves, or that it cannot be.
+void print_tree(std::uint32_t number) {
+    Random random(number, 0x74726565);
+    const TreePreset& preset = tree_presets()[number % tree_presets().size()];
+    TreeOrder order{preset.id, params_of(preset)};
+    TreeParams& params = order.params;
+    TreeShape& shape = params.look.shape;
+    params.seed = random.bits();
+    params.autumn = random.uniform();
+    params.lod = static_cast<int>(random.bits() % tree_lods);
+    params.texture_size.value = 128;
+    params.look.leaf = static_cast<LeafKind>(random.bits() % leaf_presets().size());
+    params.look.leaves.droop = random.uniform();
+    params.look.bark.furrows = random.uniform();
+    shape.width_rise = random.uniform(1.0, 3.0);
+    shape.length_rise = random.uniform(0.6, 1.4);
+    shape.fork_deg = random.uniform(0.0, 80.0);
+    shape.side_deg = random.uniform(0.0, 100.0);
+    shape.gravitropism = random.uniform(-0.2, 0.2);
+    shape.phototropism = random.uniform(0.0, 0.2);
+    shape.plagiotropy = random.uniform();
+    shape.variation = random.uniform();
+    if (random.bits() % 4 == 0) shape.topology.growth = TreeGrowth::drawn;
+    const std::string request =
+        std::string("tree/") + preset.id + '?' + query_text(params, params_of(preset));
+    try {
+        const Grown tree = grow_tree(order);
+        std::printf("%016llx %8zu  %s\n", static_cast<unsigned long long>(hash_of(tree.glb)),
+                    size_of(tree.glb), request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -135,6 +170,7 @@ int main(int argc, char** argv) try {
         if (print_line(random_order(number, *atlas), *atlas)) ++grown;
     }
     for (std::uint32_t number = 0; number < count / 5; ++number) print_leaf(number);
+    for (std::uint32_t number = 0; number < count / 10; ++number) print_tree(number);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "hasher: %s\n", error.what());

@@ -46,7 +46,7 @@ TEST(PlantParams, OfEveryPresetAreReadBackAsTheyWereWritten) {
 TEST(PlantParams, OwnMatricesComeInAsJson) {
     std::vector<Problem> problems;
     const auto shape = read_json<TreeShape>(
-        R"({"order":3,"rows":[{"shares":[0.5,0.5]},{"shares":[0.25,0.25,0.5]}]})", problems);
+        R"({"order":3,"matrix":"own","rows":[[0.5,0.5],[0.25,0.25,0.5]]})", problems);
     EXPECT_TRUE(problems.empty());
     EXPECT_EQ(matrix_of(shape.topology).rows,
               (std::vector<std::vector<double>>{{0.5, 0.5}, {0.25, 0.25, 0.5}}));

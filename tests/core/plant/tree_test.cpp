@@ -50,7 +50,9 @@ TEST(Tree, MatricesAreTheNamedOnesTheirBlendsOrOnesOwn) {
     EXPECT_EQ(matrix_of(topology), perfect_matrix(5));
     topology.blend = 1.0;
     EXPECT_EQ(matrix_of(topology), random_binary_matrix(5));
-    topology.rows = {{{0.25, 0.75}}, {{0.5, 0.25, 0.25}}};
+    topology.matrix = MatrixKind::own;
+    topology.blend = 0.0;
+    topology.rows = {{0.25, 0.75}, {0.5, 0.25, 0.25}};
     EXPECT_EQ(matrix_of(topology).rows,
               (std::vector<std::vector<double>>{{0.25, 0.75}, {0.5, 0.25, 0.25}}));
 }
@@ -221,7 +223,8 @@ TEST(Tree, PlagiotropyLaysTwigsLevel) {
 
 TEST(Tree, ShorteningMakesACone) {
     TreeShape shape = plain(3);
-    shape.topology.rows = {{{0.9, 0.1}}, {{0.0, 0.9, 0.1}}};
+    shape.topology.matrix = MatrixKind::own;
+    shape.topology.rows = {{0.9, 0.1}, {0.0, 0.9, 0.1}};
     shape.shortening = 0.8;
     const Tree tree = grown_tree(shape, 2);
     // First edges of side branches shorten evenly along the trunk.
@@ -237,6 +240,37 @@ TEST(Tree, ShorteningMakesACone) {
     const auto nodes = static_cast<double>(lengths.size());
     EXPECT_NEAR(lengths[0], full * (1.0 - 0.8 / nodes), 0.02 * full);
     EXPECT_NEAR(lengths.back(), full * 0.2, 1e-9);
+}
+
+TEST(Tree, EvenAxesAreAsLongAsEachOther) {
+    TreeShape shape = plain(3);
+    shape.topology.matrix = MatrixKind::own;
+    shape.topology.rows = {{0.8, 0.2}, {0.0, 0.9, 0.1}};
+    const auto spread = [&] {
+        const Tree tree = grown_tree(shape, 2);
+        const std::vector<Ramification::Node>& nodes = tree.ramification.nodes;
+        double sum = 0.0, squares = 0.0, count = 0.0;
+        for (std::uint32_t i = 1; i < nodes.size(); ++i) {
+            if (nodes[i].order != 2 || nodes[nodes[i].parent].order == 2) continue;
+            double length = 0.0;
+            double edges = 0.0;
+            for (std::uint32_t at = i; nodes[at].order == 2; at = nodes[at].children[0]) {
+                length += glm::length(edge(tree, at));
+                edges += 1.0;
+            }
+            if (edges < 2.0 || edges > 14.0)
+                continue;  // of a mean of 5: none is stretched beyond three times
+            sum += length;
+            squares += length * length;
+            count += 1.0;
+        }
+        EXPECT_GE(count, 5.0);
+        const double mean = sum / count;
+        return std::sqrt(std::max(0.0, squares / count - mean * mean)) / mean;
+    };
+    EXPECT_GT(spread(), 0.2);
+    shape.evenness = 1.0;
+    EXPECT_NEAR(spread(), 0.0, 1e-6);
 }
 
 TEST(Tree, BarkIsClosedAtEveryLevelOfDetail) {
@@ -335,10 +369,11 @@ TEST(Tree, ImpossibleTreesAreRefusedByName) {
     shape.topology.order = 12;
     EXPECT_TRUE(names(refusal([&] { (void)grown_tree(shape, 1); }), "/order", "leaves"));
     shape.topology.order = 4;
-    shape.topology.rows = {{{0.25, 0.7}}, {{0.5, 0.25, 0.25}}};
+    shape.topology.matrix = MatrixKind::own;
+    shape.topology.rows = {{0.25, 0.7}, {0.5, 0.25, 0.25}};
     const auto own = refusal([&] { (void)grown_tree(shape, 1); });
     EXPECT_TRUE(names(own, "/rows/0", "sum to 0.95"));
-    EXPECT_TRUE(names(own, "/order", "4 needs 3 rows; there are 2"));
+    EXPECT_TRUE(names(own, "/order", "4 needs 3 rows of an own matrix; there are 2"));
     shape = plain();
     shape.width_rise = 0.5;
     EXPECT_TRUE(names(refusal([&] { (void)grown_tree(shape, 1); }), "/width_rise", "less than 1"));

@@ -1,0 +1,173 @@
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/mesh/tangents.h"
+#include "core/params/messages.h"
+#include "core/plant/tree.h"
+#include "core/skeleton/skin.h"
+
+namespace sporeprint {
+
+namespace {
+
+void append(Mesh& mesh, const Mesh& part) {
+    const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), part.positions.begin(), part.positions.end());
+    mesh.normals.insert(mesh.normals.end(), part.normals.begin(), part.normals.end());
+    for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
+}
+
+// Limbs that are skinned together: trunk and great branches, branches, twigs.
+struct Group {
+    int low = 1, high = 1;  // orders
+    int levels = 0;         // of subdivision
+    double gap = 0.0;       // longest way without a node, in radii
+};
+
+std::vector<Group> groups_of(int highest, int lod) {
+    // A low tree keeps the branches that bear its leaves as long as its trunk is worth more than a line.
+    const int lowest =
+        std::clamp(1 + lod, 1, std::max(1, highest - (lod + 1 == tree_lods ? 1 : 2)));
+    std::vector<Group> groups;
+    int high = highest;
+    for (int i = 0; i < 3 && high >= lowest; ++i) {
+        // Twigs of order 1, half of all limbs, are never subdivided.
+        const int low = i == 2 ? lowest : std::max({lowest, high - 1, std::min(high, 2)});
+        groups.push_back(
+            {low, high, std::max(0, 2 - i - lod), i == 2 ? 1e9 : 3.0 * (1 + i) * (1 + lod)});
+        high = low - 1;
+    }
+    return groups;
+}
+
+void refuse_thin(double nodes) {
+    throw Impossible("/twig_radius",
+                     "bark would need about " + number_text(std::floor(nodes)) +
+                         " rings, its branches are so thin for their length; at most " +
+                         std::to_string(most_skeleton_nodes) + " are made");
+}
+
+// The limbs of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go, and longer
+// ways than `gap` radii get nodes: an image that turns back between two rings would be seen stretched.
+Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double gap) {
+    const Ramification& grown = tree.ramification;
+    const std::size_t count = grown.nodes.size();
+    const auto within = [&](std::uint32_t i) {
+        return grown.nodes[i].order >= low && grown.nodes[i].order <= high;
+    };
+    std::vector<std::uint32_t> children(count, 0);
+    for (std::uint32_t i = 1; i < count; ++i)
+        if (within(i)) ++children[grown.nodes[i].parent];
+    Skeleton part;
+    // Where each node lies in the part, and, of one that was left out, the last before it that was not.
+    std::vector<std::uint32_t> place(count, Ramification::none);
+    const auto add = [&](const Skeleton::Node& node) {
+        part.nodes.push_back(node);
+        return static_cast<std::uint32_t>(part.nodes.size() - 1);
+    };
+    for (std::uint32_t i = 0; i < count; ++i) {
+        if (!within(i)) continue;
+        const Skeleton::Node& here = tree.skeleton.nodes[i + 1];
+        const std::uint32_t parent = grown.nodes[i].parent;
+        std::uint32_t from = Ramification::none;
+        if (parent != Ramification::none && within(parent)) {
+            from = place[parent];
+        } else {
+            // A part that begins on a thicker one begins inside of it, as thick as it goes on.
+            Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.limbs[i].from];
+            if (parent != Ramification::none) root.radius = std::min(root.radius, here.radius);
+            from = add(root);
+        }
+        const Skeleton::Node& before = part.nodes[from];
+        if (children[i] == 1) {
+            const std::uint32_t next = within(grown.nodes[i].children[0])
+                                           ? grown.nodes[i].children[0]
+                                           : grown.nodes[i].children[1];
+            const Skeleton::Node& after = tree.skeleton.nodes[next + 1];
+            const glm::dvec3 way = after.place - before.place;
+            const double whole = glm::dot(way, way);
+            if (whole > 0.0) {
+                const double t = glm::dot(here.place - before.place, way) / whole;
+                const double aside = glm::length(here.place - before.place - t * way);
+                const double wanted = before.radius + t * (after.radius - before.radius);
+                if (whole < gap * gap * here.radius * here.radius &&
+                    aside < tolerance * here.radius &&
+                    std::abs(wanted - here.radius) < 0.5 * tolerance * here.radius) {
+                    place[i] = from;
+                    continue;
+                }
+            }
+        }
+        const Skeleton::Node start = part.nodes[from];
+        const double length = glm::distance(start.place, here.place);
+        const double steps = std::floor(length / (gap * std::max(start.radius, here.radius)));
+        if (static_cast<double>(part.nodes.size()) + steps >
+            static_cast<double>(most_skeleton_nodes))
+            refuse_thin(static_cast<double>(part.nodes.size()) + steps);
+        for (double step = 1.0; step <= steps; step += 1.0) {
+            const double t = step / (steps + 1.0);
+            const std::uint32_t between = add({start.place + t * (here.place - start.place),
+                                               start.radius + t * (here.radius - start.radius)});
+            part.limbs.push_back({from, between});
+            from = between;
+        }
+        place[i] = add(here);
+        part.limbs.push_back({from, place[i]});
+    }
+    return part;
+}
+
+}  // namespace
+
+Mesh bark_of(const Tree& tree, int lod) {
+    if (lod < 0 || lod >= tree_lods)
+        throw InvalidInput("/lod",
+                           std::to_string(lod) + " is outside 0.." + std::to_string(tree_lods - 1));
+    Mesh bark;
+    for (const Group& group : groups_of(tree.ramification.nodes[0].order, lod)) {
+        const Skeleton part = part_of(tree, group.low, group.high, 0.25 * (1 + lod), group.gap);
+        if (part.limbs.empty()) continue;
+        const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
+        append(bark, skin.mesh);
+        for (std::size_t i = 0; i < skin.places.size(); ++i) {
+            // There and back: so the image meets itself wherever it ends.
+            const double girth = 2.0 * pi * skin.strips[skin.strip_of[i]].radius;
+            const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
+            const double whole = 2.0 * std::floor(0.5 * images);
+            bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
+                                                  1.0 - std::abs(1.0 - (images - whole)));
+        }
+    }
+    add_tangents(bark);
+    return bark;
+}
+
+TreeCount count_of_bark(const TreeShape& shape, int lod) {
+    const std::vector<ExpectedOrder> orders = expected_orders(shape);
+    TreeCount count;
+    double rings = 0.0;
+    for (const Group& group : groups_of(static_cast<int>(orders.size()), lod)) {
+        // Quads round a limb and along it from ring to ring, with the seam and what forks and ends take.
+        double limbs = 0.0, between = 0.0;
+        for (int k = group.low; k <= group.high; ++k) {
+            const ExpectedOrder& order = orders[static_cast<std::size_t>(k - 1)];
+            limbs += order.edges;
+            between += order.edges * std::floor(order.length / (group.gap * order.radius));
+        }
+        const ExpectedOrder& top = orders[static_cast<std::size_t>(group.high - 1)];
+        if (group.high == static_cast<int>(orders.size()))
+            between += shape.trunk / (group.gap * top.radius);
+        rings += limbs + between;
+        const double faces = static_cast<double>(std::size_t{4} << (2 * group.levels));
+        count.vertices += (4.3 * limbs + 1.35 * between) * (faces + 2.0);
+        count.triangles += 2.0 * (4.0 * limbs + 1.35 * between) * faces;
+    }
+    if (rings > static_cast<double>(most_skeleton_nodes)) refuse_thin(rings);
+    return count;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,244 @@
+#include "core/grow/tree.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/grow/leaf.h"
+#include "core/mesh/measure.h"
+#include "tests/support/effort.h"
+#include "tests/support/glb_reader.h"
+#include "tests/support/keeper.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint {
+namespace {
+
+TreeOrder order_of(const char* preset, int lod = 0, int side = 128) {
+    TreeOrder order{preset, params_of(*tree_preset(preset))};
+    order.params.lod = lod;
+    order.params.texture_size.value = side;
+    return order;
+}
+
+class EveryTree : public ::testing::TestWithParam<const char*> {};
+
+std::vector<const char*> ids() {
+    std::vector<const char*> found;
+    for (const TreePreset& preset : tree_presets()) found.push_back(preset.id);
+    return found;
+}
+
+INSTANTIATE_TEST_SUITE_P(Presets, EveryTree, ::testing::ValuesIn(ids()),
+                         [](const auto& one) { return std::string(one.param); });
+
+TEST_P(EveryTree, ReadsBackFromItsFileAsTwoDrawCalls) {
+    for (int lod = 0; lod < tree_lods; ++lod) {
+        const Grown tree = grow_tree(order_of(GetParam(), lod));
+        const ReadScene found = expect_scene(joined(tree.glb));
+        ASSERT_EQ(found.meshes.size(), 1u);
+        ASSERT_EQ(found.meshes[0].size(), 2u);
+        ASSERT_EQ(found.nodes.size(), 1u);
+        EXPECT_EQ(found.nodes[0].name, GetParam());
+        std::size_t vertices = 0, triangles = 0;
+        for (const ReadPrimitive& part : found.meshes[0]) {
+            vertices += part.mesh.positions.size();
+            triangles += part.mesh.triangles();
+            EXPECT_EQ(part.attributes,
+                      (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
+        }
+        EXPECT_EQ(vertices, tree.vertices);
+        EXPECT_EQ(triangles, tree.triangles);
+        ASSERT_EQ(found.materials.size(), 2u);
+        EXPECT_EQ(found.materials[0].name, "bark");
+        EXPECT_EQ(found.materials[0].wrap_s, 10497) << "bark goes round";
+        EXPECT_EQ(found.materials[1].name, "leaves");
+        EXPECT_EQ(found.materials[1].wrap_s, 33071);
+        const int side = 128 >> lod;
+        EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(6, {side, side})));
+    }
+}
+
+TEST_P(EveryTree, HasFewerTrianglesAtEveryLevelAndOneCrown) {
+    Bounds finest;
+    double before = 1e12, foliage = 0.0;
+    for (int lod = 0; lod < tree_lods; ++lod) {
+        const TreeMeshes meshes = tree_meshes(order_of(GetParam(), lod));
+        const auto triangles = static_cast<double>(meshes.triangles());
+        EXPECT_LT(triangles, 0.6 * before) << lod;
+        before = triangles;
+        // The same individual: leaves keep their area, so the crown keeps its size.
+        const Bounds box = bounds(meshes);
+        const double leaves = area(meshes.leaves);
+        if (lod == 0) {
+            finest = box;
+            foliage = leaves;
+        }
+        EXPECT_NEAR(leaves / foliage, 1.0, 0.12) << lod;
+        const glm::vec3 size = box.max - box.min, whole = finest.max - finest.min;
+        EXPECT_NEAR(static_cast<double>(size.y / whole.y), 1.0, lod < 3 ? 0.1 : 0.3) << lod;
+        EXPECT_LE(meshes.leaves.triangles(), 16u * most_leaves);
+        EXPECT_GE(box.min.y, -0.2F) << "nothing stands below the ground by more than a root";
+    }
+}
+
+TEST_P(EveryTree, IsEstimatedBeforeAnyWork) {
+    for (int lod = 0; lod < tree_lods; ++lod)
+        for (std::uint32_t seed = 1; seed <= effort(4, 1); ++seed) {
+            TreeOrder order = order_of(GetParam(), lod, 256);
+            order.params.seed = seed;
+            const Estimate e = estimate(order);
+            const Grown tree = grow_tree(order);
+            EXPECT_GE(1.15 * static_cast<double>(e.vertices), static_cast<double>(tree.vertices));
+            EXPECT_GE(1.15 * static_cast<double>(e.triangles), static_cast<double>(tree.triangles));
+            EXPECT_LT(static_cast<double>(e.vertices), 4.5 * static_cast<double>(tree.vertices));
+            EXPECT_EQ(e.texels, 6u * (256u >> lod) * (256u >> lod));
+            const auto bytes = static_cast<double>(size_of(tree.glb));
+            EXPECT_GT(static_cast<double>(e.bytes), 0.7 * bytes) << lod;
+            EXPECT_LT(static_cast<double>(e.bytes), 4.5 * bytes) << lod;
+        }
+}
+
+TEST_P(EveryTree, GivesEqualBytesTwiceAndWithManyThreads) {
+    const TreeOrder order = order_of(GetParam(), 1, 128);
+    Workshop threads;
+    threads.parallel = in_threads;
+    const Bytes once = joined(grow_tree(order).glb);
+    EXPECT_EQ(joined(grow_tree(order, {}, {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_tree(order).glb), once);
+}
+
+TEST_P(EveryTree, LeavesSitOnItsTwigs) {
+    const TreePreset& preset = *tree_preset(GetParam());
+    const Tree tree = grown_tree(preset.shape, 3);
+    for (const PlacedLeaf& leaf : placed_leaves(tree, preset.leaves, 3)) {
+        const std::uint32_t twig = leaf.id / 64;
+        const glm::dvec3 from = tree.skeleton.nodes[tree.skeleton.limbs[twig].from].place;
+        const glm::dvec3 to = tree.skeleton.nodes[twig + 1].place;
+        const glm::dvec3 way = to - from;
+        const double t =
+            std::clamp(glm::dot(leaf.place - from, way) / glm::dot(way, way), 0.0, 1.0);
+        ASSERT_LT(glm::distance(leaf.place, from + t * way),
+                  1e-9 + tree.skeleton.nodes[twig + 1].radius);
+    }
+}
+
+TEST(GrownTree, SizeScalesTheWhole) {
+    TreeOrder order = order_of("herb");
+    const TreeMeshes one = tree_meshes(order);
+    order.params.size = 2.0;
+    const TreeMeshes twice = tree_meshes(order);
+    ASSERT_EQ(one.bark.positions.size(), twice.bark.positions.size());
+    for (std::size_t i = 0; i < one.bark.positions.size(); ++i)
+        ASSERT_EQ(2.0F * one.bark.positions[i], twice.bark.positions[i]);
+    for (std::size_t i = 0; i < one.leaves.positions.size(); ++i)
+        ASSERT_EQ(2.0F * one.leaves.positions[i], twice.leaves.positions[i]);
+}
+
+TEST(GrownTree, SeedsAreIndividualsInTheSameImages) {
+    Keeper keeper;
+    TreeOrder order = order_of("shrub", 2);
+    const Bytes one = joined(grow_tree(order, {}, {}, keeper.workshop).glb);
+    EXPECT_EQ(keeper.made, 2) << "bark and leaves";
+    order.params.seed = 2;
+    order.params.look.shape.fork_deg = 40.0;
+    EXPECT_NE(joined(grow_tree(order, {}, {}, keeper.workshop).glb), one);
+    EXPECT_EQ(keeper.made, 2);
+    // The leaf alone wears what is kept.
+    LeafOrder leaf{"maple", leaf_of(order.params)};
+    (void)grow_leaf(leaf, {}, keeper.workshop);
+    EXPECT_EQ(keeper.made, 2);
+    order.params.autumn = 0.5;
+    (void)grow_tree(order, {}, {}, keeper.workshop);
+    EXPECT_EQ(keeper.made, 3) << "leaves turn, bark does not";
+}
+
+TEST(GrownTree, LinksImagesOrLeavesThemOut) {
+    TreeOrder order = order_of("poplar", 2);
+    order.params.textures = Textures::linked;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_tree(order); }), "/textures", "linked"));
+    const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
+    const ReadScene found =
+        expect_scene(joined(grow_tree(order, extras, {"/d.jpg", "/e.jpg", "/f.jpg"}).glb));
+    EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg", "/d.jpg",
+                                                    "/e.jpg", "/f.jpg"}));
+    order.params.textures = Textures::none;
+    const ReadScene bare = expect_scene(joined(grow_tree(order).glb));
+    for (const ReadPrimitive& part : bare.meshes[0])
+        EXPECT_EQ(part.attributes, (std::vector<std::string>{"NORMAL", "POSITION"}));
+    EXPECT_TRUE(bare.images.empty());
+}
+
+TEST(GrownTree, WithoutLeavesIsBarkAlone) {
+    TreeOrder order = order_of("birch", 2);
+    order.params.look.leaves.per_tip = 0;
+    const Grown tree = grow_tree(order);
+    const ReadScene found = expect_scene(joined(tree.glb));
+    EXPECT_EQ(found.meshes[0].size(), 1u);
+    EXPECT_EQ(found.materials.size(), 1u);
+    EXPECT_EQ(found.images.size(), 3u);
+    EXPECT_EQ(estimate(order).texels, 3u * 32u * 32u);
+}
+
+TEST(GrownTree, SaysWhatItIsMadeOf) {
+    TreeOrder order = order_of("birch", 2);
+    order.params.look.shape.main_deg = 11.0;
+    const Value json = json_chunk(joined(grow_tree(order, {"/v1/canonical", {}}).glb));
+    EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
+    EXPECT_EQ(json.at_pointer("/asset/extras/effective/main_deg")->as_number(), 11.0);
+    EXPECT_EQ(json.at_pointer("/asset/extras/effective/rows/0/1")->as_number(), 0.3);
+    const TreeMeshes meshes = tree_meshes(order);
+    EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
+              static_cast<double>(meshes.triangles()));
+    EXPECT_EQ(static_cast<float>(json.at_pointer("/asset/extras/bounds_m/max/1")->as_number()),
+              bounds(meshes).max.y);
+    EXPECT_EQ(json.at_pointer("/extensionsUsed"), nullptr);
+}
+
+TEST(GrownTree, IsAbandonedWhenAskedToStop) {
+    std::stop_source source;
+    source.request_stop();
+    Workshop workshop;
+    workshop.stop = source.get_token();
+    EXPECT_THROW((void)grow_tree(order_of("herb"), {}, {}, workshop), Cancelled);
+}
+
+TEST(GrownTree, WhatCannotBeIsRefusedByNameBeforeAnyWork) {
+    const auto refused = [](auto change) {
+        TreeOrder order = order_of("broadleaf");
+        change(order.params.look);
+        return refusal([&] { (void)estimate(order); });
+    };
+    EXPECT_TRUE(names(refused([](TreeLook& look) { look.shape.topology.order = 12; }), "/order",
+                      "at most 40000"));
+    EXPECT_TRUE(names(refused([](TreeLook& look) {
+                          look.shape.topology.matrix = look.shape.topology.toward =
+                              MatrixKind::random_binary;
+                          look.leaves.per_tip = 40;
+                      }),
+                      "/leaves/per_tip", "40 make about 109240 leaves on 2731 twigs"));
+    EXPECT_TRUE(names(refused([](TreeLook& look) {
+                          look.shape.twig_length = 1.0;
+                          look.shape.twig_radius = 0.0001;
+                          look.shape.length_rise = 4.0;
+                          look.shape.width_law = OrderLaw::constant;
+                      }),
+                      "/twig_radius", "so thin for their length"));
+    TreeOrder order = order_of("broadleaf");
+    order.params.look.shape.topology.matrix = MatrixKind::own;
+    order.params.look.shape.topology.rows = {{0.5, 0.25}};
+    const auto found = refusal([&] { (void)grow_tree(order); });
+    EXPECT_TRUE(names(found, "/rows/0", "sum to 0.75"));
+    EXPECT_TRUE(names(found, "/order", "7 needs 6 rows"));
+}
+
+}  // namespace
+}  // namespace sporeprint
