@@ -65,6 +65,10 @@ struct Resource {
 [[nodiscard]] Plan plan_leaf(Context& context, const Request& request, PresetRequest<Leaves> asked,
                              Faults& faults);
 
+/// A tree as GLB or JSON, by address or by body.
+[[nodiscard]] Plan plan_tree(Context& context, const Request& request, PresetRequest<Trees> asked,
+                             Faults& faults);
+
 /// One image of an atlas as HTTP sees it.
 struct ImageResource {
     ImageKind kind = ImageKind::base_color;
@@ -87,15 +91,18 @@ struct PaintWork {
 [[nodiscard]] Plan plan_image(Context& context, const Request& request, const ImageResource& image,
                               const std::function<PaintWork(Faults&)>& decide, Faults& faults);
 
-/// One image of a mushroom's atlas, of a leaf's.
+/// One image of a mushroom's atlas, of a leaf's, of a tree's bark.
 [[nodiscard]] Plan plan_surface(Context& context, const Request& request,
                                 const SurfaceRequest& asked, Faults& faults);
 [[nodiscard]] Plan plan_surface(Context& context, const Request& request,
                                 const PresetSurface<Leaves>& asked, Faults& faults);
+[[nodiscard]] Plan plan_surface(Context& context, const Request& request,
+                                const PresetSurface<Trees>& asked, Faults& faults);
 
 /// The image that a well-formed address asks for.
 [[nodiscard]] ImageResource image_of(const Context& context, const SurfaceRequest& asked);
 [[nodiscard]] ImageResource image_of(const Context& context, const PresetSurface<Leaves>& asked);
+[[nodiscard]] ImageResource image_of(const Context& context, const PresetSurface<Trees>& asked);
 
 /// The image that was asked for, out of the shared answer of an atlas.
 [[nodiscard]] Answer delivered_image(const ImageResource& image, Answer shared);

@@ -34,6 +34,8 @@ void add_query_parameters(const Value& schema, const std::string& prefix, Value&
             add_query_parameters(leaf, prefix + key + '.', parameters);
             continue;
         }
+        if (const Value* type = leaf.find("type"); type && *type == Value("array"))
+            continue;  // a list comes in a body
         Value plain = leaf;
         Value parameter = object({{"name", prefix + key}, {"in", "query"}, {"required", false}});
         if (const Value* doc = leaf.find("description")) parameter.set("description", *doc);
@@ -53,18 +55,29 @@ void take_from_preset(Value& leaf) {
     leaf.set("x-default-from", "preset");
 }
 
+/// Marks the members of Own, and those that are inlined into it, as the preset's.
+template <class Own>
+void mark_members_of(Value& properties) {
+    const Own* none = nullptr;
+    Own::fields([&](auto member, const Info& info) {
+        using Member = std::remove_cvref_t<decltype(none->*member)>;
+        if constexpr (Described<Member>) {
+            if (*info.name == '\0') return mark_members_of<Member>(properties);
+        }
+        if (Value* property = properties.find(info.name)) take_from_preset(*property);
+    });
+}
+
 /// A schema whose members that Own... have too are the preset's.
 template <class... Own>
 Value from_preset(Value schema) {
-    Value& properties = *schema.find("properties");
-    const auto take = [&](auto, const Info& info) {
-        if (Value* property = properties.find(info.name)) take_from_preset(*property);
-    };
-    (Own::fields(take), ...);
+    (mark_members_of<Own>(*schema.find("properties")), ...);
     return schema;
 }
 
 Value leaf_params_schema() { return from_preset<LeafShape, LeafPalette>(schema<LeafParams>()); }
+
+Value tree_params_schema() { return from_preset<TreeLook>(schema<TreeParams>()); }
 
 Value path_parameter(std::string_view key, std::string_view doc, Value schema,
                      std::string_view example) {
@@ -112,8 +125,10 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
     if (pattern.find("{id}") != std::string_view::npos)
         parameters.push(path_parameter("id", "A species id.", text, example));
     if (pattern.find("{preset}") != std::string_view::npos)
-        parameters.push(
-            path_parameter("preset", "A preset's id.", text, Leaves::presets().front().id));
+        parameters.push(path_parameter("preset", "A preset's id.", text,
+                                       pattern.find("/trees/") != std::string_view::npos
+                                           ? Trees::presets().front().id
+                                           : Leaves::presets().front().id));
     if (pattern.find("{a}") != std::string_view::npos) {
         parameters.push(path_parameter("a", "Id of the first species.", text, example));
         parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
@@ -139,6 +154,15 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
         case Endpoint::leaf_glb:
         case Endpoint::leaf_json:
             add_query_parameters(leaf_params_schema(), "", parameters);
+            parameters.push(version_parameter());
+            break;
+        case Endpoint::tree_glb:
+        case Endpoint::tree_json:
+            add_query_parameters(tree_params_schema(), "", parameters);
+            parameters.push(version_parameter());
+            break;
+        case Endpoint::tree_surface:
+            add_query_parameters(from_preset<TreeLook>(schema<TreePaint>()), "", parameters);
             parameters.push(version_parameter());
             break;
         case Endpoint::leaf_surface:
@@ -190,11 +214,11 @@ Value order_schema() {
     return out;
 }
 
-/// Body of POST /v1/leaves.glb.
-Value leaf_order_schema() {
-    Value out = leaf_params_schema();
+/// Body of POST /v1/leaves.glb, /v1/trees.glb.
+template <class Kind>
+Value preset_order_schema(Value out) {
     Value ids = Value::array();
-    for (const auto& preset : Leaves::presets()) ids.push(preset.id);
+    for (const auto& preset : Kind::presets()) ids.push(preset.id);
     Value properties = object({
         {"preset", object({{"type", "string"},
                            {"enum", std::move(ids)},
@@ -275,7 +299,7 @@ Value schemas() {
         {"morph_order", morph_order_schema()},
         {"morph", morph_schema()},
         {"leaf_params", leaf_params_schema()},
-        {"leaf_order", leaf_order_schema()},
+        {"leaf_order", preset_order_schema<Leaves>(leaf_params_schema())},
         {"leaf_list",
          objects({{"leaves", list_of(objects({{"id", text}, {"name", text}, {"links", links}}))}})},
         {"leaf_description", objects({{"canonical", text},
@@ -284,6 +308,20 @@ Value schemas() {
                                       {"effective", reference("schemas/leaf_params")},
                                       {"estimate", estimate},
                                       {"bounds_m", bounds}})},
+        {"tree_params", tree_params_schema()},
+        {"tree_order", preset_order_schema<Trees>(tree_params_schema())},
+        {"tree_list",
+         objects({{"trees",
+                   list_of(objects(
+                       {{"id", text}, {"name", text}, {"order", whole}, {"links", links}}))}})},
+        {"tree_description", objects({{"canonical", text},
+                                      {"v", text},
+                                      {"preset", text},
+                                      {"effective", reference("schemas/tree_params")},
+                                      {"estimate", estimate},
+                                      {"bounds_m", bounds},
+                                      {"matrix", list_of(list_of(typed("number")))},
+                                      {"expected_twigs", typed("number")}})},
         {"certificate", schema<Certificate>()},
         {"model", schema<Model>()},
         {"species", schema<Species>()},
@@ -336,8 +374,13 @@ Value body_schema(Endpoint endpoint) {
             return reference("schemas/leaf_list");
         case Endpoint::leaf_json:
             return reference("schemas/leaf_description");
+        case Endpoint::tree_list:
+            return reference("schemas/tree_list");
+        case Endpoint::tree_json:
+            return reference("schemas/tree_description");
         case Endpoint::mushroom_schema:
         case Endpoint::leaf_schema:
+        case Endpoint::tree_schema:
         case Endpoint::openapi:
             return typed("object");
         case Endpoint::mushroom_glb:
@@ -345,8 +388,11 @@ Value body_schema(Endpoint endpoint) {
         case Endpoint::morph_post:
         case Endpoint::leaf_glb:
         case Endpoint::leaf_post:
+        case Endpoint::tree_glb:
+        case Endpoint::tree_post:
         case Endpoint::surface:
         case Endpoint::leaf_surface:
+        case Endpoint::tree_surface:
             return object({{"type", "string"}, {"format", "binary"}});
         default:
             return typed("string");
@@ -369,6 +415,8 @@ std::set<int> problems_of(Endpoint endpoint) {
         case Endpoint::species_list:
         case Endpoint::leaf_list:
         case Endpoint::leaf_schema:
+        case Endpoint::tree_list:
+        case Endpoint::tree_schema:
             return {400, 405, 414, 429, 431, 500, 503};
         case Endpoint::asset:
         case Endpoint::species:
@@ -378,6 +426,7 @@ std::set<int> problems_of(Endpoint endpoint) {
         case Endpoint::mushroom_post:
         case Endpoint::morph_post:
         case Endpoint::leaf_post:
+        case Endpoint::tree_post:
             return {400, 404, 405, 408, 410, 411, 413, 414, 415, 422, 429, 431, 500, 503, 504};
         default:
             return {400, 404, 405, 410, 414, 422, 429, 431, 500, 503, 504};
@@ -395,8 +444,12 @@ bool is_made(Endpoint endpoint) {
         case Endpoint::leaf_glb:
         case Endpoint::leaf_json:
         case Endpoint::leaf_post:
+        case Endpoint::tree_glb:
+        case Endpoint::tree_json:
+        case Endpoint::tree_post:
         case Endpoint::surface:
         case Endpoint::leaf_surface:
+        case Endpoint::tree_surface:
             return true;
         default:
             return false;
@@ -417,6 +470,19 @@ Value taken(Endpoint endpoint, const Atlas& atlas) {
                  {"example", object({{"preset", Leaves::presets().front().id},
                                      {"autumn", 0.5},
                                      {"venation", object({{"lobes", 7}, {"vein_deg", 40}})}})}});
+        case Endpoint::tree_post: {
+            const auto row = [](std::initializer_list<double> shares) {
+                Value list = Value::array();
+                for (const double share : shares) list.push(share);
+                return list;
+            };
+            return object(
+                {{"schema", reference("schemas/tree_order")},
+                 {"example",
+                  object({{"preset", Trees::presets().front().id},
+                          {"rows", Value(Value::Array{row({0.6, 0.4}), row({0.3, 0.4, 0.3})})},
+                          {"leaves", object({{"per_tip", 6}})}})}});
+        }
         case Endpoint::morph_post:
             return object(
                 {{"schema", reference("schemas/morph_order")},
@@ -472,6 +538,10 @@ Value leaf_schema() {
     return from_preset<LeafShape, LeafPalette>(schema_document<LeafParams>("Parameters of a leaf"));
 }
 
+Value tree_schema() {
+    return from_preset<TreeLook>(schema_document<TreeParams>("Parameters of a tree"));
+}
+
 Value openapi(const Atlas& atlas, std::string_view version) {
     Value paths = Value::object();
     for (const Route& route : routes()) {
@@ -494,14 +564,14 @@ Value openapi(const Atlas& atlas, std::string_view version) {
                                                {"instance", "8f14e45fceea167a"}})}})}})}}));
     return object({
         {"openapi", "3.1.0"},
-        {"info",
-         object({{"title", "Sporeprint"},
-                 {"version", version},
-                 {"description",
-                  "Grows mushrooms and leaves on demand and answers with game-ready GLB files. The "
-                  "same request gives the same bytes. "
-                  "For pictures, never for identifying mushrooms to eat."},
-                 {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
+        {"info", object({{"title", "Sporeprint"},
+                         {"version", version},
+                         {"description",
+                          "Grows mushrooms, leaves and trees on demand and answers with game-ready "
+                          "GLB files. The "
+                          "same request gives the same bytes. "
+                          "For pictures, never for identifying mushrooms to eat."},
+                         {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
         {"servers", Value(Value::Array{object({{"url", "/"}})})},
         {"security", Value::array()},
         {"paths", std::move(paths)},

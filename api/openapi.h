@@ -17,4 +17,7 @@ namespace sporeprint::api {
 /// The same for a leaf: what a preset brings has no default, but "x-default-from": "preset".
 [[nodiscard]] Value leaf_schema();
 
+/// The JSON Schema document of the query parameters of a tree.
+[[nodiscard]] Value tree_schema();
+
 }  // namespace sporeprint::api

@@ -12,6 +12,7 @@ namespace sporeprint::api {
 /// A product as GLB or JSON, by address or by body. What `Recipe` tells of an order:
 ///   grow(order, extras, workshop)  the file
 ///   measure(order, workshop)       what it comes to, exactly, and where it lies
+///   tell(order, body)              what else its JSON tells; none of it where there is no such function
 template <class Kind, class Recipe>
 Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> asked,
                  Faults& faults) {
@@ -41,6 +42,7 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> a
             body.set("effective", write(order->params));
             body.set("estimate", told(cost));
             body.set("bounds_m", told(box));
+            if constexpr (requires { Recipe::tell(*order, body); }) Recipe::tell(*order, body);
             return {slice_of(dump(body))};
         }
         Extras extras;
@@ -59,9 +61,11 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> a
 /// The image that an address asks for, as HTTP sees it.
 template <class Kind>
 ImageResource image_of(const PresetSurface<Kind>& asked) {
+    std::string of = asked.preset;
+    if constexpr (requires { asked.paint.seed; }) of += '-' + std::to_string(asked.paint.seed);
     return {*asked.kind, preset_token<Kind>(asked.preset),
-            canonical_image_address<Kind>(asked.preset, *asked.kind, asked.paint),
-            asked.preset + '-' + std::to_string(asked.paint.seed), asked.version};
+            canonical_image_address<Kind>(asked.preset, *asked.kind, asked.paint), std::move(of),
+            asked.version};
 }
 
 /// One image of a product.

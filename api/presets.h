@@ -1,4 +1,4 @@
-// Requests for what grows from presets (leaves): from an address or a body to an order, and back to the canonical address and key.
+// Requests for what grows from presets (leaves, trees): from an address or a body to an order, and back to the canonical address and key.
 #pragma once
 
 #include <algorithm>
@@ -15,6 +15,7 @@
 #include "core/params/query.h"
 #include "core/params/reader.h"
 #include "core/plant/leaf_order.h"
+#include "core/plant/tree_order.h"
 
 namespace sporeprint::api {
 
@@ -26,6 +27,34 @@ struct Leaves {
     using Paint = LeafPaint;
     static constexpr const char *one = "leaf", *all = "leaves";
     static std::span<const Preset> presets() { return leaf_presets(); }
+};
+
+/// Trees. What a kind has beside names, presets and types it says by functions that others need not have.
+struct Trees {
+    using Preset = TreePreset;
+    using Order = TreeOrder;
+    using Params = TreeParams;
+    using Paint = TreePaint;
+    static constexpr const char *one = "tree", *all = "trees";
+    static std::span<const Preset> presets() { return tree_presets(); }
+
+    /// What a matrix of one's own means in a body: it is called `own`, its order is the highest that it has, and it is blended with
+    /// nothing, unless the body says otherwise. Its faults are 422, each by its row; rows that no matrix asks for are one.
+    static void take_from_body(Value& body, Faults& faults);
+
+    /// One text for one tree.
+    static void settle(Params& params) { without_unused_rows(params); }
+
+    /// Rows of one's own are in no address.
+    static bool has_address(const Order& order);
+
+    /// What else the list tells of a preset.
+    static void tell(const Preset& preset, Value& item) {
+        item.set("order", preset.shape.topology.order);
+    }
+
+    /// What else it is made with: the leaves that it may bear.
+    static std::string more_templates();
 };
 
 template <class Kind>
@@ -92,6 +121,8 @@ PresetRequest<Kind> read_preset(std::string_view id, Query query, Faults& faults
     read_query(rest, request.order.params, problems);
     add_problems(problems, request.order.params, false, faults);
     without_negative_zero(request.order.params);
+    if constexpr (requires { Kind::settle(request.order.params); })
+        Kind::settle(request.order.params);
     return request;
 }
 
@@ -113,22 +144,30 @@ PresetRequest<Kind> read_preset(std::string_view body, Faults& faults) {
     const bool named = given && given->is_string();
     const auto& preset = named ? preset_of<Kind>(given->as_string(), "/preset", faults) : first;
     json->erase("preset");
+    if constexpr (requires { Kind::take_from_body(*json, faults); })
+        Kind::take_from_body(*json, faults);
     request.order = {preset.id, params_of(preset)};
     read(*json, request.order.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.order.params, true, faults);
     without_negative_zero(request.order.params);
+    if constexpr (requires { Kind::settle(request.order.params); })
+        Kind::settle(request.order.params);
     return request;
 }
 
 /// Today's version token of what is made from a preset.
 template <class Kind>
 std::string preset_token(const std::string& preset) {
-    return token_of(preset + ' ' + canonical_text(own_params<Kind>(preset)));
+    std::string templates = preset + ' ' + canonical_text(own_params<Kind>(preset));
+    if constexpr (requires { Kind::more_templates(); }) templates += Kind::more_templates();
+    return token_of(templates);
 }
 
-/// Canonical address without version: the preset, then what differs from it, in schema order.
+/// Canonical address without version: the preset, then what differs from it, in schema order; empty where no address says it.
 template <class Kind, class Order>
 std::string canonical_address(const Order& order, Product product) {
+    if constexpr (requires { Kind::has_address(order); })
+        if (!Kind::has_address(order)) return {};
     return with_query(std::string("/v1/") + Kind::all + '/' + order.preset + ending_of(product),
                       query_text(order.params, own_params<Kind>(order.preset)));
 }
@@ -178,10 +217,9 @@ Value preset_list() {
     for (const auto& preset : Kind::presets()) {
         Value links = Value::object();
         links.set("self", root + preset.id + ".json").set("model", root + preset.id + ".glb");
-        list.push(Value::object()
-                      .set("id", preset.id)
-                      .set("name", preset.name)
-                      .set("links", std::move(links)));
+        Value item = Value::object().set("id", preset.id).set("name", preset.name);
+        if constexpr (requires { Kind::tell(preset, item); }) Kind::tell(preset, item);
+        list.push(std::move(item.set("links", std::move(links))));
     }
     return Value::object().set(Kind::all, std::move(list));
 }

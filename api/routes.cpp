@@ -13,7 +13,7 @@ namespace {
 constexpr const char* json = "application/json";
 constexpr const char* glb = "model/gltf-binary";
 
-constexpr std::array<Route, 24> table = {{
+constexpr std::array<Route, 30> table = {{
     {Endpoint::page, "GET", "/", "page", "The viewer page.", "text/html", ""},
     {Endpoint::docs, "GET", "/docs", "docs", "A page that shows this document.", "text/html", ""},
     {Endpoint::asset, "GET", "/assets/{name}", "asset", "A file of the viewer page.",
@@ -48,10 +48,25 @@ constexpr std::array<Route, 24> table = {{
      "What would be grown: canonical address, effective parameters, cost and bounds.", json, ""},
     {Endpoint::leaf_post, "POST", "/v1/leaves.glb", "post_leaf",
      "Grows a leaf from a body: a preset and what is to differ from it.", glb, json},
+    {Endpoint::tree_list, "GET", "/v1/trees", "list_trees", "The trees to begin with.", json, ""},
+    {Endpoint::tree_schema, "GET", "/v1/trees/schema", "tree_schema",
+     "JSON Schema of the query parameters of a tree.", "application/schema+json", ""},
+    {Endpoint::tree_glb, "GET", "/v1/trees/{preset}.glb", "get_tree",
+     "Grows a tree and answers with a GLB file.", glb, ""},
+    {Endpoint::tree_json, "GET", "/v1/trees/{preset}.json", "describe_tree",
+     "What would be grown: canonical address, effective parameters, matrix, cost and bounds.", json,
+     ""},
+    {Endpoint::tree_post, "POST", "/v1/trees.glb", "post_tree",
+     "Grows a tree from a body: a preset and what is to differ from it, also a ramification matrix "
+     "of your own.",
+     glb, json},
     {Endpoint::surface, "GET", "/v1/surfaces/mushrooms/{mix}/{image}.jpg", "get_surface",
      "One image of a mushroom's atlas; what textures=linked points to.", "image/jpeg", ""},
     {Endpoint::leaf_surface, "GET", "/v1/surfaces/leaves/{preset}/{image}.jpg", "get_leaf_surface",
      "One image of a leaf's atlas; what textures=linked points to.", "image/jpeg", ""},
+    {Endpoint::tree_surface, "GET", "/v1/surfaces/trees/{preset}/{image}.jpg", "get_tree_surface",
+     "One image of a tree's bark; what textures=linked points to, beside those of its leaves.",
+     "image/jpeg", ""},
     {Endpoint::inspect, "POST", "/v1/inspect", "inspect",
      "Reads a GLB of Sporeprint and answers with the request that made it.", json, glb},
     {Endpoint::openapi, "GET", "/openapi.json", "openapi", "This document.", json, ""},

@@ -19,7 +19,8 @@ namespace sporeprint::api {
 namespace {
 
 bool kept_by_key(const Key& key) {
-    return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.");
+    return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.") ||
+           key.starts_with("tree.");
 }
 
 /// "queue;dur=0.01, build;dur=2.5" of the steps that were taken.
@@ -176,6 +177,24 @@ Plan Service::Parts::plan(const Request& request) {
                                 read_preset_surface<Leaves>(match.captured[0], match.captured[1],
                                                             target.query, faults),
                                 faults);
+        case Endpoint::tree_list:
+            return shelf.tree_list(request, target, faults);
+        case Endpoint::tree_schema:
+            return shelf.tree_schema(request, target, faults);
+        case Endpoint::tree_glb:
+        case Endpoint::tree_json: {
+            auto asked = read_preset<Trees>(match.captured[0], target.query, faults);
+            asked.product = route.endpoint == Endpoint::tree_glb ? Product::glb : Product::json;
+            return plan_tree(context, request, std::move(asked), faults);
+        }
+        case Endpoint::tree_post:
+            refuse_query(target, faults);
+            return plan_tree(context, request, read_preset<Trees>(request.body, faults), faults);
+        case Endpoint::tree_surface:
+            return plan_surface(context, request,
+                                read_preset_surface<Trees>(match.captured[0], match.captured[1],
+                                                           target.query, faults),
+                                faults);
         case Endpoint::surface:
             return plan_surface(
                 context, request,
@@ -204,6 +223,9 @@ std::optional<ImageResource> Service::Parts::image_asked(const Match& match, con
     if (endpoint == Endpoint::leaf_surface)
         return image(read_preset_surface<Leaves>(match.captured[0], match.captured[1], target.query,
                                                  faults));
+    if (endpoint == Endpoint::tree_surface)
+        return image(
+            read_preset_surface<Trees>(match.captured[0], match.captured[1], target.query, faults));
     return std::nullopt;
 }
 

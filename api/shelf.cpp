@@ -31,6 +31,7 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
         links.set("morph", "/v1/morphs/" + atlas_->entries()[0].species.id.string() + '/' +
                                atlas_->entries()[1].species.id.string());
     links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
+    links.set("trees", "/v1/trees").set("tree_schema", "/v1/trees/schema");
     links.set("openapi", "/openapi.json").set("docs", "/docs");
     Value root = Value::object();
     root.set("name", "sporeprint")
@@ -42,13 +43,15 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
     schema_ = json_document(api::mushroom_schema(), "application/schema+json");
     leaf_list_ = json_document(preset_list<Leaves>());
     leaf_schema_ = json_document(api::leaf_schema(), "application/schema+json");
+    tree_list_ = json_document(preset_list<Trees>());
+    tree_schema_ = json_document(api::tree_schema(), "application/schema+json");
     openapi_ = json_document(api::openapi(*atlas_, SPOREPRINT_VERSION));
     for (const AtlasEntry& entry : atlas_->entries())
         species_.emplace(entry.species.id.string(), document("application/json", entry.json));
     hint_ = document("text/plain; charset=utf-8",
                      "Sporeprint grows mushrooms. The page is not installed here; the API is:\n"
                      "  GET /v1/species\n  GET /v1/mushrooms/<species>.glb?age=0.6&seed=7\n  "
-                     "GET /v1/leaves\n  GET /openapi.json\n",
+                     "GET /v1/leaves\n  GET /v1/trees\n  GET /openapi.json\n",
                      revalidated);
 }
 
@@ -87,6 +90,14 @@ Answer Shelf::leaf_list(const Request& request, const Target& target, Faults& fa
 
 Answer Shelf::leaf_schema(const Request& request, const Target& target, Faults& faults) const {
     return plain(request, target, leaf_schema_, faults);
+}
+
+Answer Shelf::tree_list(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, tree_list_, faults);
+}
+
+Answer Shelf::tree_schema(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, tree_schema_, faults);
 }
 
 Answer Shelf::openapi(const Request& request, const Target& target, Faults& faults) const {

@@ -36,6 +36,10 @@ class Shelf {
                                    Faults& faults) const;
     [[nodiscard]] Answer leaf_schema(const Request& request, const Target& target,
                                      Faults& faults) const;
+    [[nodiscard]] Answer tree_list(const Request& request, const Target& target,
+                                   Faults& faults) const;
+    [[nodiscard]] Answer tree_schema(const Request& request, const Target& target,
+                                     Faults& faults) const;
     [[nodiscard]] Answer openapi(const Request& request, const Target& target,
                                  Faults& faults) const;
 
@@ -54,7 +58,8 @@ class Shelf {
     std::shared_ptr<const Atlas> atlas_;
     const Answers& answers_;
     std::map<std::string, Document, std::less<>> assets_, species_;
-    Document about_, species_list_, schema_, leaf_list_, leaf_schema_, openapi_, hint_;
+    Document about_, species_list_, schema_, leaf_list_, leaf_schema_, tree_list_, tree_schema_,
+        openapi_, hint_;
 };
 
 }  // namespace sporeprint::api

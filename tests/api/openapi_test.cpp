@@ -83,6 +83,10 @@ TEST(OpenApi, names_every_query_parameter) {
     std::set<std::string> leaf = {"v"}, leaf_surface = {"v"};
     leaf_names<LeafParams>("", leaf);
     leaf_names<LeafPaint>("", leaf_surface);
+    std::set<std::string> tree = {"v"}, tree_surface = {"v"};
+    leaf_names<TreeParams>("", tree);
+    tree.erase("rows");  // a list comes in a body
+    leaf_names<TreePaint>("", tree_surface);
     const auto get = [&](const char* path) -> const Value& {
         return *api.find("paths")->find(path)->find("get");
     };
@@ -92,6 +96,9 @@ TEST(OpenApi, names_every_query_parameter) {
     EXPECT_EQ(query_names(get("/v1/leaves/{preset}.glb")), leaf);
     EXPECT_EQ(query_names(get("/v1/leaves/{preset}.json")), leaf);
     EXPECT_EQ(query_names(get("/v1/surfaces/leaves/{preset}/{image}.jpg")), leaf_surface);
+    EXPECT_EQ(query_names(get("/v1/trees/{preset}.glb")), tree);
+    EXPECT_EQ(query_names(get("/v1/trees/{preset}.json")), tree);
+    EXPECT_EQ(query_names(get("/v1/surfaces/trees/{preset}/{image}.jpg")), tree_surface);
     EXPECT_EQ(query_names(get("/v1/morphs/{a}/{b}")), (std::set<std::string>{"age", "v"}));
     EXPECT_EQ(query_names(get("/v1/species")),
               (std::set<std::string>{"form", "family", "substrate", "habit", "month", "colour",
@@ -114,6 +121,10 @@ TEST(OpenApi, names_every_member_of_a_body) {
     leaf_names<LeafParams>("", params_of_leaf);
     for (const std::string& name : params_of_leaf) leaf.insert(name.substr(0, name.find('.')));
     EXPECT_EQ(properties("leaf_order"), leaf);
+    std::set<std::string> tree = {"preset", "v"}, params_of_tree;
+    leaf_names<TreeParams>("", params_of_tree);
+    for (const std::string& name : params_of_tree) tree.insert(name.substr(0, name.find('.')));
+    EXPECT_EQ(properties("tree_order"), tree);
     EXPECT_EQ(properties("morph_order"), morph);
     EXPECT_EQ(properties("mushroom_order"), mushroom);
     const auto& arc =
