@@ -4,6 +4,7 @@
 //     --out FILE            picture to write (build/screenshots/contact_sheet.png)
 //     --species a,b         rows (all species); a mix is written with + for its commas: a:0.5+b:0.5
 //     --leaves              leaves instead of mushrooms: rows are presets, --species names some of them
+//     --trees               trees instead of mushrooms
 //     --ages 0,0.3,0.6,1    columns, each list is crossed with the others
 //     --seeds 1,2
 //     --lods 0,2
@@ -46,6 +47,7 @@ function readArguments(argv) {
     for (let i = 0; i < argv.length; ++i) {
         if (argv[i] === "--wireframe") options.wireframe = true;
         else if (argv[i] === "--leaves") options.leaves = true;
+        else if (argv[i] === "--trees") options.trees = true;
         else if (argv[i] === "--growth") options.growth = true;
         else if (take[argv[i]] && argv[i + 1] !== undefined) take[argv[i]](argv[++i]);
         else if (/^https?:/.test(argv[i]) && !options.base) options.base = argv[i].replace(/\/+$/, "");
@@ -56,7 +58,7 @@ function readArguments(argv) {
 }
 
 const options = readArguments(process.argv.slice(2));
-const [kind, list] = options.leaves ? ["leaf", "leaves"] : ["species", "species"];
+const [kind, list] = options.leaves ? ["leaf", "leaves"] : options.trees ? ["tree", "trees"] : ["species", "species"];
 const species = options.species ?? (await (await fetch(`${options.base}/v1/${list}`)).json())[list].map(({ id }) => id);
 
 let columns = [{ query: options.set, label: [] }];

@@ -9,7 +9,7 @@ import { packages, root } from "./support.mjs";
 
 const { outputFiles } = packages("esbuild").buildSync({
     stdin: {
-        contents: ["arcs", "camera", "dom", "gallery", "history", "http", "mix", "products", "schema", "settings", "weights"].map((name) => `export * from "./${name}";`).join("\n"),
+        contents: ["arcs", "camera", "dom", "gallery", "history", "http", "mix", "products", "rows", "schema", "settings", "weights"].map((name) => `export * from "./${name}";`).join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
     bundle: true,
@@ -265,6 +265,41 @@ test("mixes are spelled as the service's canonical rule does", () => {
     assert.equal(mix("a:7e-1,b:0.3,c:0"), "a:0.7,b:0.3");
     for (const text of ["a:0.334,b:0.333,c:0.333", "a:0.7,b:0.3", "a"]) assert.equal(mix(text), text);
     for (const text of ["", "a,a", "a:-1", "a:0", "a:0,b:0", "A", "a:x", "a:1,"]) assert.equal(page.readShares(text), undefined, text);
+});
+
+test("rows of a matrix are read as they are written, and sum to one whatever share is changed", () => {
+    const rows = [[0.5, 0.5], [0.25, 0.5, 0.25]];
+    assert.equal(page.rowsText(rows), "0.5,0.5;0.25,0.5,0.25");
+    assert.deepEqual(page.readRows("0.5,0.5;0.25,0.5,0.25"), rows);
+    assert.deepEqual(page.readRows(".5,5e-1"), [[0.5, 0.5]]);
+    for (const wrong of ["", "1", "0.5,0.5;0.5,0.5", "0.5,x", "0.5,0.5;", "NaN,1", Array(12).fill("0.5,0.5").join(";")]) {
+        assert.equal(page.readRows(wrong), undefined, wrong);
+    }
+    assert.deepEqual(page.withShare([0.2, 0.6, 0.2], 2, 0.6), [0.1, 0.3, 0.6]);
+    assert.deepEqual(page.withShare([1, 0, 0], 0, 0.4), [0.4, 0.3, 0.3], "nothing has no proportion");
+    assert.deepEqual(page.withShare([0.5, 0.5], 0, 7), [1, 0]);
+    for (let i = 0; i < 300; ++i) {
+        const row = Array.from({ length: 2 + (i % 8) }, () => Math.random());
+        const made = page.withShare(row, i % row.length, Math.random());
+        assert.ok(Math.abs(made.reduce((sum, share) => sum + share, 0) - 1) < 1e-9 && made.every((share) => share >= -1e-12), made.join());
+    }
+    assert.deepEqual(page.grownBy(rows), [...rows, [0, 0.25, 0.5, 0.25]]);
+});
+
+test("rows of one's own are posted with what else is set, and leave with the preset", () => {
+    const parts = page.groupsOf({ type: "object", properties: { lod: { type: "integer", minimum: 0, maximum: 3, default: 0 },
+        matrix: { type: "string", enum: ["own", "perfect"], "x-default-from": "preset" } } }).flatMap(({ fields }) => fields);
+    const settings = new page.Settings(parts, "birch", page.trees);
+    settings.set("lod", 2);
+    assert.deepEqual(settings.readMatrix(new URLSearchParams("rows=0.5,0.5")), []);
+    const { address, body } = settings.wanted();
+    assert.equal(address, "/v1/trees.glb");
+    assert.deepEqual(JSON.parse(body), { preset: "birch", lod: 2, order: 2, rows: [[0.5, 0.5]] });
+    assert.equal(settings.pageQuery(new URLSearchParams()), "?tree=birch&rows=0.5,0.5&lod=2");
+    assert.equal(settings.readMatrix(new URLSearchParams("rows=1")).length, 1);
+    settings.rows = [[0.5, 0.5]];
+    settings.choose("herb");
+    assert.equal(settings.wanted().address, "/v1/trees/herb.glb?lod=2");
 });
 
 test("another share of one species leaves the others in proportion", () => {

@@ -87,3 +87,8 @@ export function centimetres(metres: number, digits?: number): string {
     const text = digits === undefined ? String(Number(value.toPrecision(6))) : value.toFixed(digits);
     return `${text} cm`;
 }
+
+/** "4.2 cm", and from a metre on "6.52 m". */
+export function length(metres: number): string {
+    return metres < 1 ? centimetres(metres, 1) : `${metres.toFixed(2)} m`;
+}

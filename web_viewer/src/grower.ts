@@ -20,7 +20,7 @@ export interface GrowerEvents {
     progress: (progress: Progress | { stage: "unpacking" } | { stage: "idle" }) => void;
     /** Puts the model on the stage; `current` says whether it is still wanted. */
     show: (grown: Grown, refit: boolean, current: () => boolean) => Promise<boolean>;
-    effective: (resource: { effective?: unknown }) => void;
+    effective: (resource: { effective?: unknown; matrix?: number[][] }) => void;
     failed: (error: RequestFailed) => void;
 }
 
@@ -162,7 +162,7 @@ export class Grower {
         this.events.failed(known);
     }
 
-    private async readEffective(signal: AbortSignal): Promise<{ effective?: unknown } | undefined> {
+    private async readEffective(signal: AbortSignal): Promise<{ effective?: unknown; matrix?: number[][] } | undefined> {
         try {
             return await getJson(this.settings.address(".json"), signal);
         } catch {

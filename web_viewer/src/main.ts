@@ -1,7 +1,7 @@
 // The page: puts gallery, stage, controls and service together.
 import "./app.css";
 import { Bench } from "./bench";
-import { centimetres, scaleBar, viewNames, type ViewName } from "./camera";
+import { centimetres, length, scaleBar, viewNames, type ViewName } from "./camera";
 import { Controls } from "./controls";
 import { byId, grouped, kilobytes, make } from "./dom";
 import { factLine, Gallery, type Species } from "./gallery";
@@ -9,6 +9,7 @@ import { Grower, type Grown } from "./grower";
 import { Growth } from "./growth";
 import { getJson, RequestFailed, send, type ProblemItem, type Progress } from "./http";
 import { readShares } from "./mix";
+import { MatrixTable } from "./matrix";
 import { countsOf, paintOf } from "./model";
 import { Paint } from "./paint";
 import { groupsOf, words, type Schema, type Value } from "./schema";
@@ -79,7 +80,11 @@ class Page {
     private readonly paint = new Paint();
     private readonly bench: Bench;
     private readonly sheet: Sheet;
-    private readonly place: Place = (item) => this.controls.fail(item.parameter, item.detail) || this.bench.fail(item);
+    private readonly matrix: MatrixTable | undefined;
+    private readonly place: Place = (item) =>
+        // Of a body the service names the members by pointers.
+        this.matrix?.fail(item.parameter, item.detail) ||
+        this.controls.fail(item.parameter.replace(/^\//, "").replaceAll("/", "."), item.detail) || this.bench.fail(item);
     private readonly growth: Growth;
     private readonly playButton = make("button", { type: "button", id: "play", class: "play" });
     private readonly lods = new Map<number, HTMLButtonElement>();
@@ -128,9 +133,13 @@ class Page {
         this.grower = new Grower(this.settings, this.paint, {
             progress: (progress) => this.showProgress(progress),
             show: (grown, refit, current) => this.show(grown, refit, current),
-            effective: (resource) => this.controls.show(resource.effective),
+            effective: (resource) => {
+                this.controls.show(resource.effective);
+                this.matrix?.serve(resource.matrix);
+            },
             failed: (error) => this.failed(error),
         });
+        this.matrix = product.ramifies ? new MatrixTable(this.settings, { changed: () => this.changed("rows") }) : undefined;
         this.growth = new Growth({
             posed: (age) => {
                 this.stage.posed();
@@ -230,6 +239,8 @@ class Page {
     }
 
     private changed(name: string): void {
+        // Who names a matrix, or asks for a higher order, leaves the rows of one's own.
+        if (name === "matrix" || name === "blend" || name === "toward" || name === "order") this.settings.rows = undefined;
         this.writeAddress(name);
         if (name === "age") this.bench.readGraph();
         this.controls.show();
@@ -365,7 +376,7 @@ class Page {
         const mix = this.settings.morph ? this.settings.mix : asked && this.canShow(asked) ? asked : (this.gallery.species[0]?.id ?? "");
         const refit = mix !== before || !this.grown;
         this.settings.mix = mix;
-        faults.push(...this.settings.read(query));
+        faults.push(...this.settings.read(query), ...this.settings.readMatrix(query));
         this.written = undefined;
         this.begin(refit);
         if (asked && asked !== mix) faults.push({ parameter: this.product.kind, detail: `'${asked}' is no ${this.product.kind} here` });
@@ -397,7 +408,10 @@ class Page {
         if (this.growth.ready) this.controls.show();
         this.growth.take(grown.model);
         this.markPlay();
-        if (!grown.draft) this.controls.clearFaults();
+        if (!grown.draft) {
+            this.controls.clearFaults();
+            this.matrix?.clearFaults();
+        }
         this.showFaults(this.faults);
         this.showNumbers(grown);
         this.showDimensions();
@@ -445,13 +459,13 @@ class Page {
         const { above, width, depth } = this.stage.size;
         byId("dimensions").textContent = this.product.lies
             ? `${centimetres(depth, 1)} long, ${centimetres(width, 1)} wide`
-            : `${centimetres(above, 1)} tall, ${centimetres(Math.max(width, depth), 1)} across`;
+            : `${length(above)} tall, ${length(Math.max(width, depth))} across`;
     }
 
     private showScale(): void {
         const { metres, pixels } = scaleBar(this.stage.pixelsPerMetre, 50);
         byId("scale-bar").style.width = `${pixels.toFixed(1)}px`;
-        const text = centimetres(metres);
+        const text = metres < 1 ? centimetres(metres) : `${metres} m`;
         const label = byId("scale-text");
         if (label.textContent !== text) label.textContent = text;
         label.title = `At the depth of the ${this.product.noun}. Lines on the ground every ${centimetres(this.stage.ruling)}.`;
@@ -701,7 +715,7 @@ function paintStage(stage: Stage, dusk: boolean): void {
 function dressPage(product: Product): void {
     const canvas = byId("canvas");
     canvas.setAttribute("aria-label", (canvas.getAttribute("aria-label") ?? "").replace("mushroom", product.noun));
-    for (const mode of ["species", "morph", "leaf"]) {
+    for (const mode of ["species", "morph", "leaf", "tree"]) {
         const current = mode === product.kind;
         if (current) byId(`mode-${mode}`).setAttribute("aria-current", "page");
         else byId(`mode-${mode}`).removeAttribute("aria-current");

@@ -20,7 +20,14 @@ interface Sampler {
     wrapT?: number;
 }
 
+interface LinkedMaterial {
+    normalTexture?: { index: number };
+    occlusionTexture?: { index: number };
+    pbrMetallicRoughness?: { baseColorTexture?: { index: number } };
+}
+
 interface LinkedJson {
+    materials?: LinkedMaterial[];
     textures?: { source?: number; sampler?: number }[];
     images?: { uri?: string }[];
     samplers?: Sampler[];
@@ -31,6 +38,18 @@ const wrappings: Record<number, Wrapping> = { 33071: 1001, 33648: 1002, 10497: 1
 /** "base_color" of "/v1/surfaces/mushrooms/amanita_muscaria/base_color.jpg?…". */
 function roleOf(uri: string): string {
     return /([^/?]+)\.\w+(?:\?|$)/.exec(uri)?.[1] ?? uri;
+}
+
+/** "base_color" of the first material, "base_color 1" of the one after it. */
+function ofMaterial(role: string, material: number): string {
+    return material > 0 ? `${role} ${material}` : role;
+}
+
+/** The material that a texture belongs to. */
+function materialOf(json: LinkedJson, texture: number): number {
+    const found = (json.materials ?? []).findIndex(({ normalTexture, occlusionTexture, pbrMetallicRoughness }) =>
+        [normalTexture, occlusionTexture, pbrMetallicRoughness?.baseColorTexture].some((one) => one?.index === texture));
+    return Math.max(found, 0);
 }
 
 export class Paint {
@@ -52,7 +71,7 @@ export class Paint {
                     const definition = json.textures?.[index];
                     const uri = json.images?.[definition?.source ?? -1]?.uri;
                     if (!uri || uri.startsWith("data:")) return null;
-                    const role = roleOf(uri);
+                    const role = ofMaterial(roleOf(uri), materialOf(json, index));
                     addresses.set(role, new URL(uri, location.href).href);
                     return Promise.resolve(this.texture(role, json.samplers?.[definition?.sampler ?? -1] ?? {}));
                 },
@@ -68,14 +87,15 @@ export class Paint {
 
     /** A finished model stands on the stage: drafts after it start in its paint. */
     adopt(model: Object3D): void {
-        for (const mesh of meshesOf(model)) {
-            if (!(mesh.material instanceof MeshStandardMaterial)) continue;
-            const { map, normalMap, roughnessMap } = mesh.material;
+        const materials = [...new Set(meshesOf(model).map(({ material }) => material))];
+        for (const [number, material] of materials.entries()) {
+            if (!(material instanceof MeshStandardMaterial)) continue;
+            const { map, normalMap, roughnessMap } = material;
             for (const [role, from] of [["base_color", map], ["normal", normalMap], ["orm", roughnessMap]] as const) {
                 if (!from || from.userData["shared"]) continue;
                 from.userData["shared"] = true;
                 from.userData["lent"] = true;
-                this.put(role, from.image as ImageBitmap, from);
+                this.put(ofMaterial(role, number), from.image as ImageBitmap, from);
             }
         }
         this.wanted = new Map();
@@ -149,7 +169,7 @@ function blank(role: string): HTMLCanvasElement {
     canvas.width = canvas.height = 4;
     const context = canvas.getContext("2d");
     if (context) {
-        context.fillStyle = { normal: "#8080ff", orm: "#ffc800" }[role] ?? "#e8dcc6";
+        context.fillStyle = { normal: "#8080ff", orm: "#ffc800" }[role.split(" ")[0] ?? ""] ?? "#e8dcc6";
         context.fillRect(0, 0, 4, 4);
     }
     return canvas;

@@ -16,6 +16,8 @@ export interface Product {
     directions: Directions;
     /** What of it is never sunk into the ground. */
     lies: boolean;
+    /** Whether it grows from a matrix, which may be one's own. */
+    ramifies: boolean;
     list: () => Promise<Species[]>;
 }
 
@@ -32,6 +34,7 @@ export const mushrooms: Product = {
     lives: true,
     directions: standing,
     lies: false,
+    ramifies: false,
     list: async () => (await getJson<{ species: Species[] }>("/v1/species")).species,
 };
 
@@ -42,13 +45,26 @@ export const leaves: Product = {
     lives: false,
     directions: lying,
     lies: true,
-    list: async () => {
-        const { leaves: presets } = await getJson<{ leaves: Preset[] }>("/v1/leaves");
-        return presets.map(({ id, name, links }) => ({ id, common_name: name, scientific_name: "", ...(links && { links }) }));
-    },
+    ramifies: false,
+    list: async () => listed((await getJson<{ leaves: Preset[] }>("/v1/leaves")).leaves),
 };
 
-export const products: readonly Product[] = [mushrooms, leaves];
+export const trees: Product = {
+    noun: "tree",
+    kind: "tree",
+    path: "/v1/trees",
+    lives: false,
+    directions: standing,
+    lies: false,
+    ramifies: true,
+    list: async () => listed((await getJson<{ trees: Preset[] }>("/v1/trees")).trees),
+};
+
+export const products: readonly Product[] = [mushrooms, leaves, trees];
+
+function listed(presets: readonly Preset[]): Species[] {
+    return presets.map(({ id, name, links }) => ({ id, common_name: name, scientific_name: "", ...(links && { links }) }));
+}
 
 /** What a page's query is about. */
 export function productOf(query: URLSearchParams): Product {

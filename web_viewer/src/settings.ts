@@ -3,6 +3,7 @@
 import { arcsText, readArcs, type Arc } from "./arcs";
 import { canonicalMix, fewestMembers, mostMembers, readShares, sharesText, type Share } from "./mix";
 import { mushrooms, products, type Product } from "./products";
+import { readRows, rowsText } from "./rows";
 import { fault, parsed, type Field, type Value } from "./schema";
 
 export interface Fault {
@@ -29,12 +30,14 @@ export interface Wanted {
 }
 
 /** The page's own query names, which are no parameters of what grows. */
-const pageNames = new Set([...products.map(({ kind }) => kind), "shot", "morph", "arcs", "sheet"]);
+const pageNames = new Set([...products.map(({ kind }) => kind), "shot", "morph", "arcs", "sheet", "rows"]);
 
 export class Settings {
     mix: string;
     /** While the bench is open; `mix` is then what its shares make. */
     morph: Morph | undefined;
+    /** A matrix of one's own, told in a body; undefined for the one of the settings. */
+    rows: readonly (readonly number[])[] | undefined;
     readonly values = new Map<string, Value>();
 
     constructor(readonly fields: readonly Field[], mix: string, readonly product: Product = mushrooms) {
@@ -59,6 +62,7 @@ export class Settings {
     /** Another species brings its own shape: what was set on top of the last one's is dropped. */
     choose(mix: string): void {
         this.mix = mix;
+        this.rows = undefined;
         for (const field of this.fields) {
             if (field.owner) this.values.delete(field.name);
         }
@@ -112,6 +116,14 @@ export class Settings {
 
     /** The model, with the designer's own arcs where there are any. */
     wanted(replaced: ReadonlyMap<string, Value> = new Map()): Wanted {
+        if (this.rows) {
+            const address = `${this.product.path}.glb`;
+            // What the matrix is and how high it reaches is said by the rows.
+            const { matrix: _, blend: __, order, ...rest } = this.nested(replaced);
+            const reached = Math.min(Number(order ?? this.rows.length + 1), this.rows.length + 1);
+            const body = JSON.stringify({ preset: this.mix, ...rest, order: reached, rows: this.rows });
+            return { address, body, key: address + body };
+        }
         const [a, b] = this.morph?.shares ?? [];
         const between = this.morph?.shares.length === 2 && a && b && a.weight > 0 && b.weight > 0;
         if (!between || !this.morph?.arcs.length) {
@@ -162,7 +174,17 @@ export class Settings {
         const shot = kept.get("shot");
         const arcs = this.morph?.shares.length === 2 && this.morph.arcs.length ? `&arcs=${arcsText(this.morph.arcs)}` : "";
         const what = this.morph ? `morph=${sharesText(this.morph.shares)}${arcs}` : `${this.product.kind}=${this.mix}`;
-        return `?${what}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
+        const rows = this.rows ? `&rows=${rowsText(this.rows)}` : "";
+        return `?${what}${rows}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
+    }
+
+    /** Reads the matrix of one's own out of the page's query. */
+    readMatrix(query: URLSearchParams): Fault[] {
+        this.rows = undefined;
+        const text = query.get("rows");
+        if (text === null || !this.product.ramifies) return [];
+        this.rows = readRows(text);
+        return this.rows ? [] : [{ parameter: "rows", detail: `'${text}' is no matrix: rows of 2, 3 and so on shares, as in 0.5,0.5;0.25,0.5,0.25` }];
     }
 
     /** Reads the bench's part of the page's query; `known` says whether a species is there. */

@@ -1,0 +1,105 @@
+// Trees on the page, in headless Chromium against a running server (SPOREPRINT_URL).
+import assert from "node:assert/strict";
+import { readFile } from "node:fs/promises";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+
+const base = serverUrl();
+let browser;
+let folder;
+
+before(async () => {
+    folder = await screenshotFolder();
+    browser = await launchBrowser();
+});
+
+after(() => browser?.close());
+
+async function open(t, query) {
+    const context = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce", acceptDownloads: true });
+    t.after(() => context.close());
+    const page = await context.newPage();
+    const heard = listen(page);
+    await page.goto(`${base}/${query}`);
+    await ready(page);
+    await page.locator("#form details:not([open]) summary").evaluateAll((all) => all.forEach((one) => one.click()));
+    return { page, heard };
+}
+
+const parameters = (page) => Object.fromEntries(new URL(page.url()).searchParams);
+const counts = (page) => page.evaluate(() => window.sporeprint.counts);
+
+function quiet(heard) {
+    assert.deepEqual(heard.console, []);
+    assert.deepEqual(heard.failed, []);
+}
+
+test("the tree bench offers every preset, every parameter of the schema, and the matrix in force", async (t) => {
+    const { page, heard } = await open(t, "?tree&lod=2");
+    const { trees } = await (await fetch(`${base}/v1/trees`)).json();
+    assert.deepEqual(await page.locator("#gallery button").evaluateAll((all) => all.map((one) => one.dataset.species)), trees.map(({ id }) => id));
+    const schema = await (await fetch(`${base}/v1/trees/schema`)).json();
+    const names = (object, prefix = "") => Object.entries(object.properties).flatMap(([key, sub]) =>
+        sub.properties ? names(sub, `${prefix}${key}.`) : sub.type === "array" ? [] : [prefix + key]);
+    const shown = await page.locator("#form .control").evaluateAll((all) => all.map((one) => one.dataset.name));
+    assert.deepEqual([...shown].sort(), names(schema).sort());
+    assert.equal(await page.locator("#mode-tree").getAttribute("aria-current"), "page");
+    assert.match(await page.locator("#dimensions").textContent(), /^[\d.]+ m tall, [\d.]+ m across$/);
+    assert.equal((await counts(page)).drawCalls, 2, "bark and leaves");
+    assert.equal((await counts(page)).textures, 6);
+    const { matrix } = await (await fetch(`${base}/v1/trees/broadleaf.json?lod=2`)).json();
+    const cells = await page.locator("#matrix td input").evaluateAll((all) => all.map((one) => Number(one.value)));
+    assert.deepEqual(cells, matrix.flat().map((share) => Number(share.toFixed(4))));
+    await page.screenshot({ path: path.join(folder, "tree_bench.png") });
+    quiet(heard);
+});
+
+test("a change of the table grows a tree of one's own matrix, which stands in the page's address", async (t) => {
+    const { page, heard } = await open(t, "?tree=birch&lod=2");
+    const before = (await counts(page)).triangles;
+    const entry = page.locator('#matrix input[data-cell="0-1"]');
+    await entry.fill("0.6");
+    await entry.press("Enter");
+    await ready(page);
+    assert.equal(await page.locator('#matrix input[data-cell="0-0"]').inputValue(), "0.4", "the row sums to one");
+    assert.match(parameters(page).rows, /^0\.4,0\.6;/);
+    assert.notEqual((await counts(page)).triangles, before);
+    assert.ok(heard.requests.some((url) => url.endsWith("/v1/trees.glb")));
+    assert.equal(await page.locator("#copy-url").isDisabled(), true, "no address says it");
+    await page.reload();
+    await ready(page);
+    assert.equal(await page.locator('#matrix input[data-cell="0-1"]').inputValue(), "0.6");
+    await page.getByRole("button", { name: "Back to the preset" }).click();
+    await ready(page);
+    assert.equal((await counts(page)).triangles, before);
+    assert.equal(parameters(page).rows, undefined);
+    quiet(heard);
+});
+
+test("what cannot be is said under the table by its row, and the last tree stays", async (t) => {
+    const { page, heard } = await open(t, "?tree=herb&lod=3");
+    const entry = page.locator('#matrix input[data-cell="1-2"]');
+    await entry.fill("0");
+    await entry.press("Enter");
+    await page.locator("#matrix .fault:not([hidden])").waitFor();
+    assert.match(await page.locator("#matrix .fault").textContent(), /Order 3: .*hardly ever end/);
+    assert.ok(heard.failed.every((line) => line.endsWith(": 422")), heard.failed.join());
+    assert.ok((await counts(page)).triangles > 100);
+});
+
+test("the file that is saved is that of the shown address, and brings its settings back", async (t) => {
+    const { page, heard } = await open(t, "?tree=poplar&autumn=0.5&lod=3");
+    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    assert.equal(download.suggestedFilename(), "poplar-1.glb");
+    const saved = await readFile(await download.path());
+    const served = Buffer.from(await (await fetch(`${base}/v1/trees/poplar.glb?autumn=0.5&lod=3`)).arrayBuffer());
+    assert.ok(saved.equals(served));
+    await page.goto(`${base}/?leaf=oak&lod=3`);
+    await ready(page);
+    await page.locator("#file").setInputFiles({ name: "poplar.glb", mimeType: "model/gltf-binary", buffer: saved });
+    await page.waitForURL(/tree=poplar/);
+    await ready(page);
+    assert.deepEqual(parameters(page), { tree: "poplar", autumn: "0.5", lod: "3" });
+    assert.deepEqual(heard.failed, []);
+});
