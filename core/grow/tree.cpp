@@ -41,7 +41,8 @@ void finish(Mesh& mesh, const TreeParams& params) {
 // not away from its twig.
 std::vector<PlacedLeaf> leaves_of(const Tree& tree, const TreeParams& params) {
     const std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
-    std::vector<PlacedLeaf> left = thinned(all, leaf_share(params.lod));
+    std::vector<PlacedLeaf> left =
+        thinned(all, leaf_share(params.lod, static_cast<double>(all.size())));
     if (params.lod < 2) return left;
     const double middle = 0.5 * shape_of(leaf_of(params)).length;
     for (std::size_t i = 0; i < left.size(); ++i)
@@ -77,7 +78,7 @@ Estimate estimate(const TreeOrder& order) {
                                                 " twigs; at most " + std::to_string(most_leaves) +
                                                 " are placed");
     const TreeCount bark = count_of_bark(look.shape, params.lod);
-    const auto leaves = static_cast<std::uint64_t>(std::ceil(leaf_share(params.lod) * all));
+    const auto leaves = static_cast<std::uint64_t>(std::ceil(leaf_share(params.lod, all) * all));
     const std::uint64_t triangles = leaf_triangles(params.lod, leaves);
     Estimate e;
     e.vertices = static_cast<std::uint64_t>(bark.vertices) + leaves * (triangles + 2);

@@ -43,9 +43,11 @@ LeafParams leaf_of(const TreeParams& params) {
     return leaf;
 }
 
-double leaf_share(int lod) {
-    constexpr std::array<double, 4> shares = {1.0, 0.4, 0.12, 0.03};
-    return shares[static_cast<std::size_t>(std::clamp(lod, 0, 3))];
+double leaf_share(int lod, double leaves) {
+    constexpr std::array<double, 4> shares = {1.0, 0.4, 0.12, 0.03},
+                                    least = {0.0, 400.0, 160.0, 50.0};
+    const auto level = static_cast<std::size_t>(std::clamp(lod, 0, 3));
+    return leaves > 0.0 ? std::max(shares[level], std::min(1.0, least[level] / leaves)) : 1.0;
 }
 
 std::size_t leaf_triangles(int lod, std::size_t leaves) {

@@ -120,8 +120,9 @@ void without_unused_rows(TreeParams& params);
 /// and with images of the tree's size. So its images are those of that leaf alone.
 [[nodiscard]] LeafParams leaf_of(const TreeParams& params);
 
-/// Share of the leaves that are left at a level of detail; they are larger by as much.
-[[nodiscard]] double leaf_share(int lod);
+/// Share of so many leaves that are left at a level of detail; they are larger by as much. Of few leaves more are left: large ones
+/// would be all that is seen of a herb.
+[[nodiscard]] double leaf_share(int lod, double leaves);
 
 /// Triangles of a leaf at a level of detail, by how many of them are left: 8, 12 or 16.
 [[nodiscard]] std::size_t leaf_triangles(int lod, std::size_t leaves);
