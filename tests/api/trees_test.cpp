@@ -265,12 +265,12 @@ TEST_F(TreesTest, what_is_too_much_is_422_with_its_size_before_any_work) {
     EXPECT_EQ(generated(), 0u);
 
     ServiceOptions options;
-    options.most_vertices = 1000;
+    options.most_vertices = 3000;
     options.most_texels = 6 * 256 * 256;
     Service poor(built_in_atlas(), options);
     const Answer answer = handle(poor, get(oak));
     expect_problem(answer, 422);
-    EXPECT_TRUE(names(answer, "lod", "at most 1000"));
+    EXPECT_TRUE(names(answer, "lod", "at most 3000"));
     EXPECT_TRUE(names(answer, "texture_size"));
     EXPECT_TRUE(names(handle(poor, body(R"({"preset":"broadleaf"})")), "/lod"));
     const Answer image = handle(poor, get("/v1/surfaces/trees/birch/normal.jpg"));
