@@ -277,6 +277,8 @@ struct Wardrobe {
     }
 };
 
+constexpr const char* instancing = "EXT_mesh_gpu_instancing";
+
 /// Names of the extensions that are used, each once.
 struct Extensions {
     std::vector<std::string> names;
@@ -284,12 +286,14 @@ struct Extensions {
     void use(const std::string& name) {
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-    /// From a comma on.
+    /// From a comma on. What readers must know stands in both lists.
     [[nodiscard]] std::string json() const {
         if (names.empty()) return {};
-        std::string list;
+        std::string list, must;
         for (const std::string& name : names) append_quoted(list += next(list), name);
-        return ",\"extensionsUsed\":[" + list + "]";
+        if (std::find(names.begin(), names.end(), instancing) != names.end())
+            must = std::string(",\"extensionsRequired\":[\"") + instancing + "\"]";
+        return ",\"extensionsUsed\":[" + list + "]" + must;
     }
 };
 
@@ -353,14 +357,43 @@ std::string material_json(const GlbMaterial& material, Wardrobe& wardrobe, Table
     return json + "}" + shine_of(material.look, first, used) + "}";
 }
 
-std::string node_json(const GlbNode& node, std::size_t meshes) {
-    const glm::vec3 translation(node.translation), scale(node.scale);
-    const glm::vec4 rotation(node.rotation);
-    if (node.mesh >= meshes) throw GenerationError("a node shows a mesh that there is not");
-    if (!(std::abs(glm::dot(node.rotation, node.rotation) - 1.0) < 1e-6))
+void expect_place(const glm::dvec4& rotation, const glm::vec3& scale) {
+    if (!(std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-6))
         throw GenerationError("the rotation of a node is no unit quaternion");
     if (!(std::abs(scale.x * scale.y * scale.z) > 0.0F))
         throw GenerationError("a node has a scale of nothing");
+}
+
+/// The places of a node's instances.
+struct Crowd {
+    std::shared_ptr<const Bytes> bytes;
+    std::string attributes;  ///< members
+};
+
+Crowd crowd_of(const std::vector<GlbPlace>& places, Tables& tables) {
+    const std::size_t n = places.size();
+    Chunk chunk(n * (12 + 16 + 12));
+    Crowd out;
+    for (const GlbPlace& place : places) {
+        expect_place(place.rotation, glm::vec3(place.scale));
+        put(chunk.at, glm::vec3(place.translation));
+    }
+    for (const GlbPlace& place : places) put(chunk.at, glm::vec4(place.rotation));
+    for (const GlbPlace& place : places) put(chunk.at, glm::vec3(place.scale));
+    append(out.attributes += "\"TRANSLATION\":",
+           tables.accessor(n, float_component, "VEC3", n * 12));
+    append(out.attributes += ",\"ROTATION\":", tables.accessor(n, float_component, "VEC4", n * 16));
+    append(out.attributes += ",\"SCALE\":", tables.accessor(n, float_component, "VEC3", n * 12));
+    out.bytes = std::move(chunk.bytes);
+    return out;
+}
+
+/// instances  attributes of its instances, if it has any
+std::string node_json(const GlbNode& node, std::size_t meshes, const std::string& instances) {
+    const glm::vec3 translation(node.translation), scale(node.scale);
+    const glm::vec4 rotation(node.rotation);
+    if (node.mesh >= meshes) throw GenerationError("a node shows a mesh that there is not");
+    expect_place(node.rotation, scale);
     std::string json = "{\"name\":";
     append_quoted(json, node.name);
     append(json += ",\"mesh\":", node.mesh);
@@ -372,6 +405,9 @@ std::string node_json(const GlbNode& node, std::size_t meshes) {
         json += ']';
     }
     if (scale != glm::vec3(1.0F)) append_corner(json += ",\"scale\":", scale);
+    if (!instances.empty())
+        json += std::string(",\"extensions\":{\"") + instancing + "\":{\"attributes\":{" +
+                instances + "}}}";
     return json + "}";
 }
 
@@ -426,8 +462,15 @@ Body glb(const GlbScene& scene) {
         meshes += ",\"primitives\":[" + primitives + "]" + poses(mesh) + "}";
     }
     std::string nodes, roots;
+    Extensions used;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        (nodes += next(nodes)) += node_json(scene.nodes[i], scene.meshes.size());
+        Crowd crowd;
+        if (!scene.nodes[i].instances.empty()) {
+            crowd = crowd_of(scene.nodes[i].instances, tables);
+            geometries.emplace_back(std::move(crowd.bytes));
+            used.use(instancing);
+        }
+        (nodes += next(nodes)) += node_json(scene.nodes[i], scene.meshes.size(), crowd.attributes);
         append(roots += next(roots), i);
     }
     Film clip;
@@ -438,7 +481,6 @@ Body glb(const GlbScene& scene) {
     }
     // The views of images come after those of all accessors.
     Wardrobe wardrobe;
-    Extensions used;
     std::string materials;
     for (const GlbMaterial& material : scene.materials)
         (materials += next(materials)) += material_json(material, wardrobe, tables, used);

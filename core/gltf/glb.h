@@ -56,6 +56,13 @@ struct GlbMesh {
     std::vector<GlbPrimitive> primitives;  ///< with as many targets each
 };
 
+/// Where a mesh stands.
+struct GlbPlace {
+    glm::dvec3 translation{0.0};
+    glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
+    glm::dvec3 scale{1.0};
+};
+
 /// A mesh at a place; many nodes may show the same one.
 struct GlbNode {
     std::string name;
@@ -63,6 +70,8 @@ struct GlbNode {
     glm::dvec3 translation{0.0};
     glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
     glm::dvec3 scale{1.0};
+    /// EXT_mesh_gpu_instancing: the mesh stands at each of these places of the node instead, and readers must know how.
+    std::vector<GlbPlace> instances = {};
 };
 
 /// What a file shows.
@@ -79,8 +88,8 @@ struct GlbScene {
 /// the same images share their textures. Of a node what is the identity is left out.
 /// Targets are dense: positions and normals move nearly everywhere, so a sparse accessor would be the larger one.
 ///
-/// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its targets, the clip, then each image
-///          with its padding
+/// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its targets, the instances of each node
+///          that has some, the clip, then each image with its padding
 /// throws   GenerationError for a scene without nodes, an empty mesh, one that lacks what its material needs, a number that names no
 ///          mesh or material, a rotation that is no unit quaternion, a scale of nothing, targets or a clip that do not fit, or a file
 ///          of more than 2^32 - 1 bytes

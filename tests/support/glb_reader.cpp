@@ -145,6 +145,30 @@ bool has_foreign_extensions(const tinygltf::Model& model) {
                        });
 }
 
+constexpr const char* instancing = "EXT_mesh_gpu_instancing";
+
+std::vector<ReadInstance> read_instances(const tinygltf::Model& model,
+                                         const tinygltf::Value& extension) {
+    const auto read = [&]<class V>(const char* name, const V&) {
+        const tinygltf::Value& attributes = extension.Get("attributes");
+        if (!attributes.Has(name)) {
+            ADD_FAILURE() << "instances have no " << name;
+            return std::vector<V>();
+        }
+        return vectors<V>(model, attributes.Get(name).GetNumberAsInt());
+    };
+    const auto translations = read("TRANSLATION", glm::vec3());
+    const auto rotations = read("ROTATION", glm::vec4());
+    const auto scales = read("SCALE", glm::vec3());
+    EXPECT_EQ(translations.size(), rotations.size());
+    EXPECT_EQ(translations.size(), scales.size());
+    std::vector<ReadInstance> found;
+    for (std::size_t i = 0; i < std::min({translations.size(), rotations.size(), scales.size()});
+         ++i)
+        found.push_back({translations[i], rotations[i], scales[i]});
+    return found;
+}
+
 void expect_layout(const Bytes& file) {
     EXPECT_EQ(word(file, 0), 0x46546C67u) << "glTF";
     EXPECT_EQ(word(file, 4), 2u);
@@ -237,6 +261,11 @@ ReadScene expect_scene(const Bytes& file) {
     EXPECT_TRUE(reader.LoadBinaryFromMemory(&model, &error, &warning, file.data(),
                                             static_cast<unsigned>(file.size())))
         << error << warning;
+    found.required = model.extensionsRequired;
+    if (found.required == std::vector<std::string>{instancing}) {
+        model.extensionsRequired.clear();
+        std::erase(model.extensionsUsed, instancing);
+    }
     EXPECT_FALSE(has_foreign_extensions(model));
     for (const auto& view : model.bufferViews) EXPECT_EQ(view.byteOffset % 4, 0u);
     for (const auto& mesh : model.meshes) {
@@ -271,7 +300,12 @@ ReadScene expect_scene(const Bytes& file) {
     for (const int root : model.scenes.at(0).nodes) {
         const auto& node = model.nodes.at(static_cast<std::size_t>(root));
         EXPECT_LT(node.mesh, static_cast<int>(model.meshes.size())) << node.name;
-        found.nodes.push_back({node.name, node.mesh, node.translation, node.rotation, node.scale});
+        found.nodes.push_back(
+            {node.name, node.mesh, node.translation, node.rotation, node.scale, {}});
+        if (const auto many = node.extensions.find(instancing); many != node.extensions.end()) {
+            EXPECT_EQ(found.required.size(), 1u);
+            found.nodes.back().instances = read_instances(model, many->second);
+        }
     }
     EXPECT_EQ(found.nodes.size(), model.nodes.size());
     for (const auto& image : model.images) {

@@ -59,10 +59,18 @@ struct ReadMaterial {
     int wrap_s = 0;
 };
 
+/// Where EXT_mesh_gpu_instancing stands a mesh.
+struct ReadInstance {
+    glm::vec3 translation{0.0f};
+    glm::vec4 rotation{0.0f};
+    glm::vec3 scale{0.0f};
+};
+
 struct ReadNode {
     std::string name;
     int mesh = -1;
     std::vector<double> translation, rotation, scale;  ///< empty where nothing is said
+    std::vector<ReadInstance> instances;
 };
 
 /// A file of any number of meshes, as tinygltf reads it.
@@ -72,10 +80,11 @@ struct ReadScene {
     std::vector<ReadNode> nodes;             ///< those of the scene, in its order
     std::vector<std::array<int, 2>> images;  ///< width and height of each; -1 of linked ones
     std::vector<std::string> uris;
+    std::vector<std::string> required;  ///< extensions that readers must know
 };
 
 /// Reads a file of many meshes and expects what expect_glb() expects of one: layout, bounds, valid closed meshes, indices of
-/// materials and meshes in range, no extension but those of materials.
+/// materials and meshes in range, no extension but those of materials, and that of instances where nodes have some.
 ReadScene expect_scene(const Bytes& file);
 
 /// Reads `file`. What went wrong stands in `trouble`.

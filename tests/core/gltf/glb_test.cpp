@@ -354,6 +354,28 @@ TEST(Glb, NodesShowMeshesWhereTheyAreAndLeaveOutTheIdentity) {
     EXPECT_EQ(found.nodes[2].scale, Numbers{});
 }
 
+TEST(Glb, InstancesOfANodeReadBackAsTheyWere) {
+    Group group;
+    const std::vector<GlbPlace> places = {
+        {{0.5, -1.0, 0.25}, {0.0, 0.6, 0.0, 0.8}, glm::dvec3(2.0)},
+        {{3.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, glm::dvec3(0.5)}};
+    group.scene.nodes.resize(2);
+    group.scene.nodes[1] = {.name = "many", .mesh = 1, .instances = places};
+    const ReadScene found = expect_scene(joined(glb(group.scene)));
+    EXPECT_EQ(found.required, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
+    ASSERT_EQ(found.nodes.size(), 2u);
+    EXPECT_TRUE(found.nodes[0].instances.empty());
+    ASSERT_EQ(found.nodes[1].instances.size(), 2u);
+    for (std::size_t i = 0; i < 2; ++i) {
+        EXPECT_EQ(found.nodes[1].instances[i].translation, glm::vec3(places[i].translation));
+        EXPECT_EQ(found.nodes[1].instances[i].rotation, glm::vec4(places[i].rotation));
+        EXPECT_EQ(found.nodes[1].instances[i].scale, glm::vec3(places[i].scale));
+    }
+    EXPECT_TRUE(expect_scene(joined(glb(Group().scene))).required.empty());
+    group.scene.nodes[1].instances[1].rotation.w = 0.9;
+    EXPECT_THROW((void)glb(group.scene), GenerationError);
+}
+
 TEST(Glb, ASceneOfOneMeshIsTheFileOfThatMesh) {
     const Group group;
     GlbParts parts = parts_of("one");
