@@ -231,7 +231,10 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     }
     SweptBody body;
     Sweeper sweeper(mesh, deformer, skin, cuts.turns(), options.textured);
-    body.stem = sweeper.face(Part::stem, outline.rings(CurveName::stem, lod));
+    body.stem = sweeper.face(
+        Part::stem, options.stem.empty()
+                        ? outline.rings(CurveName::stem, lod)
+                        : std::vector<OutlineSample>(options.stem.begin(), options.stem.end()));
     const LowerFace lower(individual, lod);
     body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, lod));
     body.cap = sweeper.face(Part::cap, outline.rings(CurveName::cap, lod));

@@ -1,6 +1,9 @@
 // Turns an individual into a mesh: the outline swept round the axis, with deformation, waves and ornaments.
 #pragma once
 
+#include <span>
+#include <vector>
+
 #include "core/build/axis.h"
 #include "core/build/detail.h"
 #include "core/build/free_form.h"
@@ -42,6 +45,8 @@ struct SweepOptions {
     bool textured = true;  ///< whether texture coordinates and tangents are made
     bool keep_absent =
         false;  ///< whether triangles of what is absent stay, without area: then all ages have the same triangles
+    /// Rings that are swept in place of the stem's own, from the axis to its end (share 1); none: its own.
+    std::span<const OutlineSample> stem = {};
 };
 
 /// Mesh of an individual at a level of detail, 0..3.

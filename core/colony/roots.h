@@ -27,28 +27,29 @@ constexpr const char* name(RootField field) {
     return nullptr;
 }
 
-/// Every control of the source.
+/// Every control of the source. `Maybe` is Plain where roots are grown and std::optional in a request.
 /// source [Torres] "Root and Stems Generation"
-struct ColonyRoots {
-    RootField field = RootField::noise;
-    double field_scale = 0.35;
-    double heading_deg = 0.0;
-    int arms = 3;
-    double segment_length = 0.03;
-    double decay = 0.03;
-    int depth = 14;
-    double branch_distance = 0.12;
-    double branch_jitter_deg = 20.0;
-    double root_radius = 0.006;
-    double area_decay = 1.0;
-    double stem_height = 0.07;
-    double stem_decay = 0.03;
-    double stem_probability = 0.25;
-    double stem_displacement = 0.015;
-    int stem_segments = 5;
+template <template <class> class M>
+struct ColonyRootsOf {
+    M<RootField> field = preset<M>(RootField::noise);
+    M<double> field_scale = preset<M>(0.35);
+    M<double> heading_deg = preset<M>(0.0);
+    M<int> arms = preset<M>(3);
+    M<double> segment_length = preset<M>(0.03);
+    M<double> decay = preset<M>(0.03);
+    M<int> depth = preset<M>(14);
+    M<double> branch_distance = preset<M>(0.12);
+    M<double> branch_jitter_deg = preset<M>(20.0);
+    M<double> root_radius = preset<M>(0.006);
+    M<double> area_decay = preset<M>(1.0);
+    M<double> stem_height = preset<M>(0.07);
+    M<double> stem_decay = preset<M>(0.03);
+    M<double> stem_probability = preset<M>(0.25);
+    M<double> stem_displacement = preset<M>(0.015);
+    M<int> stem_segments = preset<M>(5);
 
     static constexpr void fields(auto visit) {
-        using C = ColonyRoots;
+        using C = ColonyRootsOf;
         visit(&C::field, Info{.name = "field", .doc = "What roots take their headings from."});
         visit(&C::field_scale,
               Info{.name = "field_scale",
@@ -123,9 +124,10 @@ struct ColonyRoots {
         visit(&C::stem_segments,
               Info{.name = "stem_segments", .min = 1, .max = 16, .doc = "Segments of a stem."});
     }
-    bool operator==(const ColonyRoots&) const = default;
+    bool operator==(const ColonyRootsOf&) const = default;
 };
-static_assert(well_described<ColonyRoots>());
+using ColonyRoots = ColonyRootsOf<Plain>;
+static_assert(well_described<ColonyRoots>() && well_described<ColonyRootsOf<Maybe>>());
 
 /// Most root nodes that are grown.
 inline constexpr std::size_t most_root_nodes = 20'000;

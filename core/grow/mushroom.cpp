@@ -12,7 +12,10 @@ namespace sporeprint {
 
 namespace {
 
-/// That of the species with the most weight, so that the order of a mix changes nothing.
+bool textured(const MushroomOrder& order) { return order.params.textures != Textures::none; }
+
+}  // namespace
+
 std::string name_of(const Individual& individual) {
     const auto most = std::max_element(
         individual.parts.begin(), individual.parts.end(),
@@ -20,7 +23,6 @@ std::string name_of(const Individual& individual) {
     return most == individual.parts.end() || most->id.empty() ? "mushroom" : most->id;
 }
 
-// What the file says of light beyond its images. Slime and water are a clear coat; hairs shine in the cap's own colours.
 MaterialLook look_of(const Model& model) {
     const Material& material = model.material;
     const auto light = [](Colour colour) {
@@ -37,10 +39,6 @@ MaterialLook look_of(const Model& model) {
     look.glow = model.ornaments.glow * light(material.glow_colour);
     return look;
 }
-
-bool textured(const MushroomOrder& order) { return order.params.textures != Textures::none; }
-
-}  // namespace
 
 Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
     return estimate(order, resolve(order, atlas, memo.morphs));

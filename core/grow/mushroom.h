@@ -17,6 +17,12 @@ namespace sporeprint {
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
 
+/// What it is called in a file: the species with the most weight, so that the order of a mix changes nothing.
+[[nodiscard]] std::string name_of(const Individual& individual);
+
+/// What the file says of light beyond its images. Slime and water are a clear coat; hairs shine in the cap's own colours.
+[[nodiscard]] MaterialLook look_of(const Model& model);
+
 using Mushroom = Grown;
 
 /// Grows a mushroom.

@@ -45,6 +45,10 @@ enum Purpose : std::uint32_t {
     root_field = 70,          ///< what the roots of a colony follow
     root_branches = 71,       ///< where they branch
     root_stems = 72,          ///< which of their nodes bear a stem
+    colony_seeds = 73,        ///< the different individuals of a colony
+    colony_places = 74,       ///< where they stand in habits without roots
+    colony_postures = 75,     ///< how each is turned, and which of them it is
+    colony_thinning = 76,     ///< which stems go where there are more than asked for
     cap_paint = 101,
     hymenium = 102,  ///< places of gills, ridges, pores and spines
     stem_paint = 103,
@@ -104,6 +108,10 @@ enum Purpose : std::uint32_t {
         case root_field:
         case root_branches:
         case root_stems:
+        case colony_seeds:
+        case colony_places:
+        case colony_postures:
+        case colony_thinning:
         case cap_paint:
         case hymenium:
         case stem_paint:

@@ -1,7 +1,7 @@
 // Compares a hash of each of many whole GLB files with the one written down, or writes them down.
 //   golden_hashes check FILE     golden_hashes bless FILE
 // A line of the file: generator_version species age lod texture_size hash; a leaf has its preset and autumn in their
-// place, a tree its preset and seed.
+// place, a tree its preset and seed, a colony its species and the number of individuals.
 
 #include <xxhash.h>
 
@@ -13,6 +13,7 @@
 #include <memory>
 #include <string>
 
+#include "core/grow/colony.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/tree.h"
@@ -66,7 +67,31 @@ void add_trees(Hashes& hashes) {
             }
 }
 
-/// Each species at several ages and every level of detail, small; and once as a game would ask for it. Then leaves and trees.
+/// Each species' colony in its own habit, at every level of detail, small; and two on roots, instanced.
+void add_colonies(Hashes& hashes, const Atlas& atlas) {
+    const auto add = [&](const std::string& id, const std::string& called, ColonyParams params) {
+        params.texture_size.value = 128;
+        hashes[line_of("colony/" + called, params.count, params.lod, 128)] =
+            hash_of(grow_colony({.mix = {{id, 1000}}, .params = params}, atlas).glb);
+    };
+    for (const AtlasEntry& entry : atlas.entries())
+        for (int lod = 0; lod < 4; ++lod) {
+            ColonyParams params;
+            params.count = 9;
+            params.distinct = 3;
+            params.lod = lod;
+            add(entry.species.id.string(), entry.species.id.string(), params);
+        }
+    for (const char* id : {"hypholoma_fasciculare", "lycoperdon_perlatum"}) {
+        ColonyParams params;
+        params.count = 64;
+        params.habit = Habit::rooted;
+        params.instancing = Instancing::gpu;
+        add(id, std::string(id) + "/rooted", params);
+    }
+}
+
+/// Each species at several ages and every level of detail, small; and once as a game would ask for it. Then leaves, trees and colonies.
 Hashes hashes_of_today() {
     const auto atlas = built_in_atlas();
     Hashes hashes;
@@ -85,6 +110,7 @@ Hashes hashes_of_today() {
     }
     add_leaves(hashes);
     add_trees(hashes);
+    add_colonies(hashes, *atlas);
     return hashes;
 }
 

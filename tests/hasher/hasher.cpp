@@ -1,5 +1,6 @@
 // Prints a hash of the GLB of each of many random requests, from core alone, until `count` of them were grown;
-// what a species cannot have is refused, and printed too; then a fifth as many leaves, and a tenth as many trees. Builds by other compilers and runs with other
+// what a species cannot have is refused, and printed too; then a fifth as many leaves, a tenth as many trees, and a fifth as many
+// colonies. Builds by other compilers and runs with other
 // instruction sets must print the same text: tests/hasher/four_ways.sh compares them.
 //   hasher [count] [simd name]     hasher --simd-names
 
@@ -13,6 +14,7 @@
 #include <type_traits>
 #include <vector>
 
+#include "core/grow/colony.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/tree.h"
@@ -145,6 +147,32 @@ void print_tree(std::uint32_t number) {
     }
 }
 
+/// Prints the line of a colony of one species, or that it cannot be.
+void print_colony(std::uint32_t number, const Atlas& atlas) {
+    Random random(number, 0x636f6c6f);
+    const auto& entries = atlas.entries();
+    ColonyOrder order;
+    order.mix = {{entries[random.bits() % entries.size()].species.id.string(), 1000}};
+    ColonyParams& params = order.params;
+    params.seed = random.bits();
+    params.count = static_cast<int>(random.uniform(1.0, 48.0));
+    params.distinct = static_cast<int>(random.uniform(1.0, 6.0));
+    params.age = random.uniform();
+    params.size = random.uniform(0.25, 4.0);
+    params.lod = static_cast<int>(random.bits() % 4);
+    params.texture_size.value = 128;
+    if (random.bits() % 2 == 0) params.habit = static_cast<Habit>(random.bits() % 5);
+    if (random.bits() % 2 == 0) params.instancing = Instancing::gpu;
+    const std::string request = "colony/" + order.mix.front().id + '?' + query_text(params);
+    try {
+        const Grown colony = grow_colony(order, atlas);
+        std::printf("%016llx %8zu  %s\n", static_cast<unsigned long long>(hash_of(colony.glb)),
+                    size_of(colony.glb), request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
 }  // namespace
 
 int main(int argc, char** argv) try {
@@ -171,6 +199,7 @@ int main(int argc, char** argv) try {
     }
     for (std::uint32_t number = 0; number < count / 5; ++number) print_leaf(number);
     for (std::uint32_t number = 0; number < count / 10; ++number) print_tree(number);
+    for (std::uint32_t number = 0; number < count / 5; ++number) print_colony(number, *atlas);
     return 0;
 } catch (const std::exception& error) {
     std::fprintf(stderr, "hasher: %s\n", error.what());

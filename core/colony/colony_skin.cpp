@@ -1,0 +1,167 @@
+#include "core/colony/colony_skin.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "core/mesh/index_order.h"
+#include "core/mesh/tangents.h"
+#include "core/skeleton/skin.h"
+#include "core/surface/charts.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Where the skin of a stem ends below its junction, in radii: its round end reaches half a radius further.
+constexpr double short_of_cap = 0.8;
+/// How deep a stem that stands on no root begins in the ground, in radii.
+constexpr double below_ground = 1.6;
+/// Segments of a stem are no shorter than this, in radii: cleaning would cut it there; on a root the fork takes up some more.
+constexpr double least_segment = 2.7, least_on_root = 3.6;
+/// Nodes whose twice subdivided skin has some 60,000 triangles.
+constexpr std::size_t most_near_nodes = 210;
+/// A strip that rises by more than this many of its radii is no root.
+constexpr double risen = 3.2;
+
+/// Where each distance along a strip lies on the image, in images: to and fro. Turns fall on the rings that lie next to them.
+class ToAndFro {
+  public:
+    /// rings  distances, rising; length > 0
+    ToAndFro(const std::vector<double>& rings, double length) {
+        double turned_at = 0.0;
+        int turns = 0;
+        for (std::size_t i = 0; i < rings.size(); ++i) {
+            const double images = (rings[i] - turned_at) / length;
+            // The nearer of two rings about the end of an image.
+            const bool ends =
+                i + 1 < rings.size() && i > 0 && images > 0.25 &&
+                std::abs(images - 1.0) <= std::abs((rings[i + 1] - turned_at) / length - 1.0);
+            if (!ends) continue;
+            knots_.push_back({rings[i], ++turns});
+            turned_at = rings[i];
+        }
+        length_ = length;
+    }
+
+    [[nodiscard]] double at(double distance) const {
+        double from = 0.0;
+        int turns = 0;
+        for (const Knot& knot : knots_) {
+            if (distance <= knot.at) {
+                const double share = (distance - from) / (knot.at - from);
+                return turns % 2 == 0 ? share : 1.0 - share;
+            }
+            from = knot.at;
+            turns = knot.turns;
+        }
+        const double share = std::min(std::max((distance - from) / length_, 0.0), 1.0);
+        return turns % 2 == 0 ? share : 1.0 - share;
+    }
+
+  private:
+    struct Knot {
+        double at;
+        int turns;
+    };
+    std::vector<Knot> knots_;
+    double length_ = 1.0;
+};
+
+void dress(SkinnedSkeleton& made, double painted_length) {
+    Mesh& mesh = made.mesh;
+    const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
+    mesh.texture_coordinates.resize(mesh.positions.size());
+    std::size_t vertex = 0;
+    std::vector<double> rings;
+    for (std::uint32_t s = 0; s < made.strips.size(); ++s) {
+        const Scaffold::Strip& strip = made.strips[s];
+        const double length = std::max(strip.length, 1e-9);
+        const std::size_t first = vertex;
+        double low = 1e9, high = -1e9, begins = 0.0, ends = 0.0;
+        rings.clear();
+        for (; vertex < made.strip_of.size() && made.strip_of[vertex] == s; ++vertex) {
+            const auto y = static_cast<double>(mesh.positions[vertex].y);
+            const double along = std::min(std::max(made.places[vertex].y, 0.0), length);
+            low = std::min(low, y);
+            high = std::max(high, y);
+            // The end that has more of its height at its half.
+            begins += y * (length - along);
+            ends += y * along;
+            rings.push_back(along);
+        }
+        std::sort(rings.begin(), rings.end());
+        rings.erase(std::unique(rings.begin(), rings.end(),
+                                [&](double a, double b) { return b - a < 1e-6 * length; }),
+                    rings.end());
+        const bool stem = high - low > risen * strip.radius;
+        double sum_begins = 0.0, sum_ends = 0.0;
+        for (std::size_t i = first; i < vertex; ++i) {
+            const double along = std::min(std::max(made.places[i].y, 0.0), length);
+            sum_begins += length - along;
+            sum_ends += along;
+        }
+        const bool upwards = begins * sum_ends <= ends * sum_begins;
+        const ToAndFro root(rings, painted_length);
+        for (std::size_t i = first; i < vertex; ++i) {
+            const double along = std::min(std::max(made.places[i].y, 0.0), length);
+            const double share =
+                stem ? (upwards ? along / length : 1.0 - along / length) : root.at(along);
+            const TexturePoint at =
+                strip_point(chart, share, std::min(std::max(made.places[i].x, 0.0), 1.0));
+            mesh.texture_coordinates[i] = {at.u, at.v};
+        }
+    }
+    add_tangents(mesh);
+}
+
+}  // namespace
+
+Skeleton colony_limbs(const ColonySite& site, const std::vector<ColonyMember>& members,
+                      const ColonyParams& params, const ColonyNature& nature, int segments) {
+    Skeleton limbs;
+    const bool on_roots = nature.habit == Habit::rooted && nature.roots == RootsShown::shown;
+    if (on_roots) limbs = site.ground;
+    if (!nature.capped) return limbs;
+    for (const ColonyMember& member : members) {
+        const ColonyPlace& place = site.places[member.place];
+        const auto at = [&](double t) {
+            return place.foot + t * member.rise + t * t * member.swing;
+        };
+        // A neck widens to its cap; a cap that is too small for its stem takes the end of it.
+        const double top = place.radius * std::min(params.cap_scale, 1.0);
+        const double height = glm::length(at(1.0) - place.foot);
+        std::uint32_t below = place.number;
+        if (!on_roots) {
+            const glm::dvec3 way = glm::normalize(member.rise);
+            below = static_cast<std::uint32_t>(limbs.nodes.size());
+            limbs.nodes.push_back({place.foot - below_ground * place.radius * way, place.radius});
+        }
+        const double least = on_roots ? least_on_root : least_segment;
+        const int room = static_cast<int>((height - short_of_cap * top) / (least * place.radius));
+        const int count = std::max(1, std::min(segments, room));
+        const double end = 1.0 - short_of_cap * top / glm::length(member.rise + 2.0 * member.swing);
+        for (int i = 1; i <= count; ++i) {
+            const auto above = static_cast<std::uint32_t>(limbs.nodes.size());
+            limbs.nodes.push_back({at(end * i / count), i == count ? top : place.radius});
+            limbs.limbs.push_back({below, above});
+            below = above;
+        }
+    }
+    return limbs;
+}
+
+int skin_levels(std::size_t nodes, int lod) {
+    return std::max((nodes <= most_near_nodes ? 2 : 1) - lod, 0);
+}
+
+Mesh colony_skin(const Skeleton& limbs, const SkinDress& wanted) {
+    if (limbs.nodes.empty()) return {};
+    SkinnedSkeleton made =
+        skinned(cleaned(limbs).skeleton, skin_levels(limbs.nodes.size(), wanted.lod));
+    if (wanted.textured) dress(made, wanted.painted_length);
+    order_for_vertex_cache(made.mesh);
+    return std::move(made.mesh);
+}
+
+}  // namespace sporeprint

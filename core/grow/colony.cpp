@@ -1,0 +1,343 @@
+#include "core/grow/colony.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <string>
+#include <utility>
+
+#include "core/build/budget.h"
+#include "core/build/sweep.h"
+#include "core/colony/colony_skin.h"
+#include "core/grow/mushroom.h"
+#include "core/math/random.h"
+#include "core/mesh/index_order.h"
+#include "core/model/purposes.h"
+#include "core/params/messages.h"
+#include "core/params/reader.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Root nodes that a request may come to: of more, nobody sees the single ones.
+constexpr double most_colony_nodes = 6000.0;
+/// Nodes of a stem by level of detail, at most.
+constexpr std::array<int, 4> stem_nodes = {16, 8, 3, 2};
+/// Quads that a node of the skeleton comes to before subdivision, about.
+constexpr double quads_per_node = 9.0;
+
+/// Level of detail of the caps that decide who gives way.
+constexpr int room_lod = 1;
+
+int cap_lod(int lod) { return std::min(lod + 1, 3); }
+
+bool textured(const ColonyOrder& order) { return order.params.textures != Textures::none; }
+
+/// One of the individuals; the others stand for the place that they have by age.
+MushroomOrder individual_order(const ColonyOrder& order, int which) {
+    const ColonyParams& params = order.params;
+    MushroomOrder own;
+    own.mix = order.mix;
+    own.params.seed =
+        Random(params.seed, purposes::colony_seeds, static_cast<std::uint32_t>(which)).bits();
+    own.params.age =
+        params.distinct > 1 ? params.age * (1.0 - 0.5 * which / (params.distinct - 1)) : params.age;
+    own.params.lod = cap_lod(params.lod);
+    own.params.textures = params.textures;
+    return own;
+}
+
+/// An individual without a variation of its own: what a colony's lengths follow.
+Individual typical(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
+    MushroomOrder own = individual_order(order, 0);
+    own.params.variation = 0.0;
+    return resolve(own, atlas, memo.morphs);
+}
+
+StemFit fit_of(const Individual& individual, const ColonyNature& nature) {
+    StemFit fit = stem_fit(individual);
+    // Threads bear what has no stem.
+    if (!nature.capped) fit.radius = std::max(0.12 * fit.cap_radius, 0.0002);
+    return fit;
+}
+
+/// Whole individuals need the room of the widest of their meshes, however their outline is turned: an earthstar shrinks when old.
+StemFit wide_enough(StemFit fit, const Mesh& mesh, bool first) {
+    const Bounds box = bounds(mesh);
+    const glm::dvec3 size = glm::dvec3(box.max) - glm::dvec3(box.min);
+    fit.cap_radius = std::max(first ? 0.0 : fit.cap_radius, 0.5 * std::max(size.x, size.z));
+    fit.height = std::max(first ? 0.0 : fit.height, size.y);
+    return fit;
+}
+
+ColonyRoots growth_of(const ColonyParams& params, const ColonyNature& nature, const StemFit& fit) {
+    const ColonyRoots growth = colony_growth(params, nature, fit);
+    if (nature.habit == Habit::rooted && expected_root_nodes(growth) > most_colony_nodes)
+        throw Impossible("/branch_distance",
+                         "the roots would have about " +
+                             number_text(std::floor(expected_root_nodes(growth) + 0.5)) +
+                             " nodes; at most " + number_text(most_colony_nodes) +
+                             " are grown in a colony");
+    return growth;
+}
+
+int segments_of(const ColonyRoots& growth, int lod) {
+    return std::min(growth.stem_segments, stem_nodes[static_cast<std::size_t>(lod)]);
+}
+
+std::uint64_t image_texels(const ColonyOrder& order) {
+    const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
+    return textured(order) ? 3 * side * side : 0;
+}
+
+std::uint64_t bytes_of(const ColonyOrder& order, std::uint64_t vertices, std::uint64_t triangles,
+                       std::uint64_t members) {
+    const std::uint64_t place = order.params.instancing == Instancing::gpu ? 40 : 150;
+    return estimated_bytes(vertices, triangles, order.params.textures, image_texels(order) / 3) +
+           place * members + 700 * static_cast<std::uint64_t>(order.params.distinct);
+}
+
+/// Every control at its value.
+ColonyParams effective_params(ColonyParams params, const ColonyNature& nature,
+                              const ColonyRoots& growth, const StemFit& fit) {
+    params.habit = nature.habit;
+    params.roots = nature.roots;
+    if (nature.habit == Habit::tier) params.trunk_radius = trunk_radius(params, fit);
+    // Those that the habit has.
+    const bool rooted = nature.habit == Habit::rooted, stems = nature.capped;
+    if (rooted) {
+        params.growth.field = growth.field;
+        params.growth.field_scale = growth.field_scale;
+        params.growth.heading_deg = growth.heading_deg;
+        params.growth.arms = growth.arms;
+        params.growth.segment_length = growth.segment_length;
+        params.growth.decay = growth.decay;
+        params.growth.depth = growth.depth;
+        params.growth.branch_distance = growth.branch_distance;
+        params.growth.branch_jitter_deg = growth.branch_jitter_deg;
+        params.growth.area_decay = growth.area_decay;
+        params.growth.stem_probability = growth.stem_probability;
+        if (stems) params.growth.stem_decay = growth.stem_decay;
+    }
+    params.growth.root_radius = growth.root_radius;
+    if (stems) {
+        params.growth.stem_height = growth.stem_height;
+        params.growth.stem_displacement = growth.stem_displacement;
+        params.growth.stem_segments = growth.stem_segments;
+    }
+    return params;
+}
+
+/// A rotation as a unit quaternion x, y, z, w.
+glm::dvec4 quaternion_of(const glm::dmat3& m) {
+    // Of its four squares the largest, so that nothing is divided by little.
+    const std::array<double, 4> squares = {
+        1.0 + m[0][0] - m[1][1] - m[2][2], 1.0 - m[0][0] + m[1][1] - m[2][2],
+        1.0 - m[0][0] - m[1][1] + m[2][2], 1.0 + m[0][0] + m[1][1] + m[2][2]};
+    const auto most = static_cast<std::size_t>(std::max_element(squares.begin(), squares.end()) -
+                                               squares.begin());
+    const double xy = m[0][1] + m[1][0], yz = m[1][2] + m[2][1], zx = m[2][0] + m[0][2];
+    const double wx = m[1][2] - m[2][1], wy = m[2][0] - m[0][2], wz = m[0][1] - m[1][0];
+    const std::array<glm::dvec4, 4> rows = {{{squares[0], xy, zx, wx},
+                                             {xy, squares[1], yz, wy},
+                                             {zx, yz, squares[2], wz},
+                                             {wx, wy, wz, squares[3]}}};
+    const glm::dvec4 row = rows[most];
+    return row / std::sqrt(row.x * row.x + row.y * row.y + row.z * row.z + row.w * row.w);
+}
+
+/// One node for each individual, or for each model with all its likes.
+void stand_members(GlbScene& scene, const Colony& colony, const std::string& name,
+                   const std::vector<std::size_t>& mesh_of) {
+    const bool gpu = colony.effective.instancing == Instancing::gpu;
+    std::vector<std::size_t> node_of(colony.models.size(), scene.nodes.max_size());
+    for (const ColonyMember& member : colony.members) {
+        const Posture& at = member.posture;
+        const GlbPlace place{at.at, quaternion_of(at.turn), glm::dvec3(at.scale)};
+        GlbNode node{.name = name, .mesh = mesh_of[member.model]};
+        if (!gpu) {
+            node.translation = place.translation;
+            node.rotation = place.rotation;
+            node.scale = place.scale;
+            scene.nodes.push_back(std::move(node));
+            continue;
+        }
+        std::size_t& index = node_of[member.model];
+        if (index == scene.nodes.max_size()) {
+            index = scene.nodes.size();
+            scene.nodes.push_back(std::move(node));
+        }
+        scene.nodes[index].instances.push_back(place);
+    }
+}
+
+}  // namespace
+
+Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
+    const ColonyParams& params = order.params;
+    const ColonyNature nature = colony_nature(order, atlas);
+    const Individual individual = typical(order, atlas, memo);
+    const ColonyRoots growth = growth_of(params, nature, fit_of(individual, nature));
+    const auto count = static_cast<std::uint64_t>(params.count);
+    const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
+    const MeshCount one = budget_of(individual, cap_lod(params.lod)).count;
+    double nodes = 0.0;
+    if (nature.roots == RootsShown::shown) nodes += 1.2 * expected_root_nodes(growth) + 20.0;
+    if (nature.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
+    // Where the number of nodes is by chance, the finer skin.
+    const auto least =
+        static_cast<std::size_t>(nature.roots == RootsShown::shown ? 0.6 * nodes : nodes);
+    const double quads =
+        nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, params.lod)));
+    Estimate e;
+    e.vertices = distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads);
+    e.triangles = distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads);
+    e.texels = image_texels(order) * static_cast<std::uint64_t>(atlases_held(paint_order(order)));
+    e.bytes = bytes_of(order, e.vertices, e.triangles, count);
+    return e;
+}
+
+Estimate measured(const ColonyOrder& order, const Colony& colony) {
+    Estimate e;
+    e.vertices = colony.skin.positions.size();
+    e.triangles = colony.skin.triangles();
+    for (const Mesh& model : colony.models) {
+        e.vertices += model.positions.size();
+        e.triangles += model.triangles();
+    }
+    e.texels = image_texels(order) * static_cast<std::uint64_t>(atlases_held(paint_order(order)));
+    e.bytes = bytes_of(order, e.vertices, e.triangles, colony.members.size());
+    return e;
+}
+
+Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop& workshop) {
+    const ColonyParams& params = order.params;
+    workshop.observer(Step::resolve);
+    const ColonyNature nature = colony_nature(order, atlas);
+    const Individual individual = typical(order, atlas, workshop.memo);
+    StemFit fit = fit_of(individual, nature);
+    const double painted_length = fit.length;
+
+    workshop.observer(Step::build);
+    Colony colony;
+    std::vector<ColonyModel> models;
+    for (int which = 0; which < params.distinct; ++which) {
+        stop_if_asked(workshop);
+        const MushroomOrder own = individual_order(order, which);
+        Individual one = resolve(own, atlas, workshop.memo.morphs);
+        // All wear the images of one mushroom, so that what is drawn by its seed stands where it is painted.
+        one.effective.seed = params.seed;
+        // Whoever gives way does so at every level of detail alike.
+        const auto grown = [&](int lod, bool dressed) {
+            if (nature.capped)
+                return cap_mesh(
+                    one,
+                    {.lod = lod, .neck = std::max(params.cap_scale, 1.0), .textured = dressed});
+            Mesh mesh = swept_mesh(one, lod, {.textured = dressed});
+            order_for_vertex_cache(mesh);
+            return mesh;
+        };
+        colony.models.push_back(grown(own.params.lod, textured(order)));
+        const Mesh& own_mesh = colony.models.back();
+        const Mesh near = own.params.lod == room_lod ? Mesh() : grown(room_lod, false);
+        const Mesh& judged = own.params.lod == room_lod ? own_mesh : near;
+        if (!nature.capped) fit = wide_enough(fit, judged, which == 0);
+        models.push_back({Room(judged), nature.capped ? stem_fit(one).radius : fit.radius});
+    }
+    stop_if_asked(workshop);
+
+    const ColonyRoots growth = growth_of(params, nature, fit);
+    const ColonySite site = colony_site(params, nature, growth, fit);
+    colony.members = settled(site, models, params, nature);
+    const Skeleton limbs =
+        colony_limbs(site, colony.members, params, nature, segments_of(growth, params.lod));
+    stop_if_asked(workshop);
+    colony.skin = colony_skin(limbs, {params.lod, painted_length, textured(order)});
+    colony.effective = effective_params(params, nature, growth, fit);
+    colony.junction = fit.radius;
+
+    for (glm::vec3& place : colony.skin.positions) place *= static_cast<float>(params.size);
+    std::vector<bool> shown(colony.models.size(), false);
+    for (ColonyMember& member : colony.members) {
+        member.posture.at *= params.size;
+        member.posture.scale *= params.size;
+        shown[member.model] = true;
+    }
+    for (std::size_t i = 0; i < shown.size(); ++i)
+        if (!shown[i]) colony.models[i] = {};
+    if (colony.members.empty() && colony.skin.positions.empty())
+        throw Impossible("/stem_probability", "no root node of this seed bears anything");
+    return colony;
+}
+
+Bounds bounds(const Colony& colony) {
+    constexpr float far = 1e9F;
+    Bounds box{glm::vec3(far), glm::vec3(-far)};
+    const auto add = [&](const glm::vec3& at) {
+        box.min = glm::min(box.min, at);
+        box.max = glm::max(box.max, at);
+    };
+    for (const glm::vec3& at : colony.skin.positions) add(at);
+    for (const ColonyMember& member : colony.members)
+        for (const glm::vec3& at : colony.models[member.model].positions)
+            add(glm::vec3(member.posture.world(glm::dvec3(at))));
+    return box;
+}
+
+std::uint64_t drawn_triangles(const Colony& colony) {
+    std::uint64_t triangles = colony.skin.triangles();
+    for (const ColonyMember& member : colony.members)
+        triangles += colony.models[member.model].triangles();
+    return triangles;
+}
+
+MushroomOrder paint_order(const ColonyOrder& order) {
+    MushroomOrder own;
+    own.mix = order.mix;
+    own.params.seed = order.params.seed;
+    own.params.age = order.params.age;
+    own.params.lod = cap_lod(order.params.lod);
+    own.params.texture_size = order.params.texture_size;
+    own.params.textures = order.params.textures;
+    return own;
+}
+
+PaintRecipe paint_recipe(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
+    PaintRecipe recipe = paint_recipe(paint_order(order), atlas, memo);
+    // The images' size is that of the colony's level of detail, what is painted on them that of its caps'.
+    for (PaintShare& share : recipe)
+        share.painting.side = order.params.texture_size >> order.params.lod;
+    return recipe;
+}
+
+Grown grow_colony(const ColonyOrder& order, const Atlas& atlas, const Extras& extras,
+                  const Workshop& workshop) {
+    const Colony colony = colony_parts(order, atlas, workshop);
+    const Individual individual = typical(order, atlas, workshop.memo);
+    const std::string name = name_of(individual);
+    GlbMaterial material{.name = name, .look = look_of(individual.model)};
+    const auto images = wear_images(
+        material, order.params.textures, extras.image_addresses, workshop,
+        [&] { return painted_images(paint_recipe(order, atlas, workshop.memo), workshop); });
+    workshop.observer(Step::pack);
+    GlbScene scene;
+    scene.extras_json =
+        extras_json(extras, write(colony.effective), bounds(colony), drawn_triangles(colony));
+    scene.materials.push_back(material);
+    if (!colony.skin.positions.empty()) {
+        scene.nodes.push_back({.name = "stems"});
+        scene.meshes.push_back({"stems", {{&colony.skin, 0, {}}}});
+    }
+    std::vector<std::size_t> mesh_of(colony.models.size(), 0);
+    for (std::size_t i = 0; i < colony.models.size(); ++i) {
+        if (colony.models[i].positions.empty()) continue;
+        mesh_of[i] = scene.meshes.size();
+        scene.meshes.push_back({name + " " + std::to_string(i + 1), {{&colony.models[i], 0, {}}}});
+    }
+    stand_members(scene, colony, name, mesh_of);
+    const Estimate e = measured(order, colony);
+    return {glb(scene), e.vertices, e.triangles};
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,151 @@
+#include "core/colony/colony_skin.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <vector>
+
+#include "core/surface/charts.h"
+#include "tests/support/meshes.h"
+
+namespace sporeprint {
+namespace {
+
+constexpr const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
+
+double along_image(const glm::vec2& at) {
+    return ((static_cast<double>(at.x) - chart.u) / chart.width - chart.inset) /
+           (1.0 - 2.0 * chart.inset);
+}
+
+/// Individuals that stand as their places say.
+std::vector<ColonyMember> unmoved(const ColonySite& site) {
+    std::vector<ColonyMember> members(site.places.size());
+    for (std::size_t i = 0; i < members.size(); ++i) {
+        members[i].place = i;
+        members[i].rise = site.places[i].rise;
+        members[i].swing = site.places[i].swing;
+    }
+    return members;
+}
+
+Skeleton pole(double length, int nodes, const glm::dvec3& along) {
+    Skeleton limbs;
+    for (int i = 0; i <= nodes; ++i) {
+        limbs.nodes.push_back({length * i / nodes * along, 0.004});
+        if (i > 0)
+            limbs.limbs.push_back(
+                {static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i)});
+    }
+    return limbs;
+}
+
+TEST(ColonySkin, IsClosedAndWearsTheStemOfItsSpecies) {
+    ColonyParams params;
+    params.habit = Habit::rooted;
+    ColonyNature nature;
+    nature.habit = Habit::rooted;
+    nature.roots = RootsShown::shown;
+    const StemFit fit{0.004, 0.08, 0.085, 0.03};
+    const ColonySite site = colony_site(params, nature, colony_growth(params, nature, fit), fit);
+    const std::vector<ColonyMember> members = unmoved(site);
+    ASSERT_GT(members.size(), 5U);
+    for (int lod = 0; lod < 4; ++lod) {
+        const Mesh mesh =
+            colony_skin(colony_limbs(site, members, params, nature, 5), {lod, fit.length, true});
+        expect_valid(mesh);
+        for (const glm::vec2& at : mesh.texture_coordinates) {
+            EXPECT_GT(static_cast<double>(at.x), chart.u + 0.9 * chart.inset * chart.width);
+            EXPECT_LT(static_cast<double>(at.x), chart.u + chart.width);
+            EXPECT_GT(static_cast<double>(at.y), chart.v + 0.9 * chart.inset * chart.height);
+            EXPECT_LT(static_cast<double>(at.y), chart.v + chart.height);
+        }
+    }
+}
+
+TEST(ColonySkin, AStemWearsOneImageFromTheGroundToItsTop) {
+    for (const double way : {1.0, -1.0}) {
+        const Mesh mesh = colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true});
+        const double low = std::min(0.0, 0.2 * way);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+            const double height = (static_cast<double>(mesh.positions[i].y) - low) / 0.2;
+            EXPECT_NEAR(along_image(mesh.texture_coordinates[i]), std::clamp(height, 0.0, 1.0),
+                        0.03);
+        }
+    }
+}
+
+// Along a root the image goes to and fro at its own scale, and nowhere stands still.
+TEST(ColonySkin, ARootWearsImagesToAndFro) {
+    constexpr double painted = 0.085, length = 3.4 * painted;
+    const Mesh mesh = colony_skin(pole(length, 12, {1.0, 0.0, 0.0}), {0, painted, true});
+    std::map<int, double> by_ring;  // distance in tenths of millimetres -> place on the image
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const double x = mesh.positions[i].x;
+        if (x > 0.01 && x < length - 0.01)  // between the round ends
+            by_ring[static_cast<int>(std::floor(x * 1e4 + 0.5))] =
+                along_image(mesh.texture_coordinates[i]);
+    }
+    ASSERT_GT(by_ring.size(), 30U);
+    int turns = 0;
+    double before = 0.0, way = 1.0;
+    int at = 0;
+    for (const auto& [ring, share] : by_ring) {
+        if (at > 0 && ring - at > 2) {
+            const double slope = (share - before) / ((ring - at) * 1e-4) * painted;
+            EXPECT_GT(std::abs(slope), 0.6) << "at " << ring * 1e-4;
+            EXPECT_LT(std::abs(slope), 1.5) << "at " << ring * 1e-4;
+            if (slope * way < 0.0) {
+                ++turns;
+                way = -way;
+                EXPECT_TRUE(before < 0.001 || before > 0.999) << "it turns where an image ends";
+            }
+        }
+        at = ring;
+        before = share;
+    }
+    EXPECT_EQ(turns, 3);
+}
+
+TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
+    ColonyParams params;
+    for (const Habit habit : {Habit::tuft, Habit::troop, Habit::tier})
+        for (const double thick : {0.002, 0.004, 0.016}) {
+            ColonyNature nature;
+            nature.habit = habit;
+            const StemFit fit{thick, 0.08, 0.085, 0.03};
+            const ColonySite site =
+                colony_site(params, nature, colony_growth(params, nature, fit), fit);
+            const std::vector<ColonyMember> members = unmoved(site);
+            const Mesh mesh =
+                colony_skin(colony_limbs(site, members, params, nature, 8), {0, fit.length, true});
+            expect_valid(mesh);
+            EXPECT_EQ(pieces(mesh).size(), members.size())
+                << name(habit) << " " << thick << ": no stem falls apart";
+            if (habit == Habit::tier) continue;  // unmoved they grow through each other there
+            for (const ColonyMember& member : members) {
+                const ColonyPlace& place = site.places[member.place];
+                const glm::dvec3 top = place.at(1.0), along = glm::normalize(place.along(1.0));
+                double nearest = -1e9;
+                for (const glm::vec3& p : mesh.positions) {
+                    const glm::dvec3 from = glm::dvec3(p) - top;
+                    const double up = glm::dot(from, along);
+                    if (glm::length(from - up * along) < 0.3 * place.radius &&
+                        std::abs(up) < 3.0 * place.radius)
+                        nearest = std::max(nearest, up);
+                }
+                EXPECT_LT(nearest, 0.0) << "under the junction";
+                EXPECT_GT(nearest, -0.9 * place.radius) << "and above the bottom of the neck";
+            }
+        }
+}
+
+TEST(ColonySkin, WithoutStemsOrRootsThereIsNone) {
+    EXPECT_TRUE(colony_skin({}, {}).positions.empty());
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,196 @@
+#include "core/colony/habit.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <vector>
+
+namespace sporeprint {
+namespace {
+
+// A mushroom with a cap of 60 mm on a stem of 80 x 8 mm.
+constexpr StemFit fit{0.004, 0.08, 0.085, 0.03};
+
+ColonyNature nature_of(Habit habit, bool capped = true) {
+    ColonyNature nature;
+    nature.habit = habit;
+    nature.capped = capped;
+    if (habit == Habit::rooted) nature.roots = RootsShown::shown;
+    return nature;
+}
+
+ColonySite site_of(const ColonyParams& params, const ColonyNature& nature) {
+    return colony_site(params, nature, colony_growth(params, nature, fit), fit);
+}
+
+TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
+    ColonyParams params;
+    params.count = 256;
+    params.seed = 7;
+    const ColonyNature nature = nature_of(Habit::rooted);
+    const ColonyRoots growth = colony_growth(params, nature, fit);
+    const ColonySkeleton source = colony_skeleton(growth, params.seed);
+    const ColonySite site = colony_site(params, nature, growth, fit);
+    ASSERT_EQ(site.places.size(), source.stems.size());
+    ASSERT_EQ(site.ground.nodes.size(), source.root_nodes);
+    EXPECT_EQ(site.ground.limbs.size() + 1, site.ground.nodes.size()) << "a tree";
+    std::map<std::uint32_t, const ColonySkeleton::Stem*> by_root;
+    for (const ColonySkeleton::Stem& stem : source.stems) by_root[stem.root] = &stem;
+    for (const ColonyPlace& place : site.places) {
+        ASSERT_TRUE(by_root.contains(place.number));
+        const ColonySkeleton::Stem& stem = *by_root[place.number];
+        EXPECT_EQ(place.radius, stem.radius);
+        const double last = static_cast<double>(stem.nodes.size());
+        for (std::size_t i = 0; i < stem.nodes.size(); ++i) {
+            const glm::dvec3 there = source.skeleton.nodes[stem.nodes[i]].place;
+            EXPECT_LT(glm::distance(place.at((static_cast<double>(i) + 1.0) / last), there), 1e-12);
+        }
+        EXPECT_LT(glm::distance(glm::normalize(place.along(1.0)), stem.along), 1e-12);
+    }
+}
+
+// Of more stems than asked for each has the same chance: over many seeds the ones kept lie as far out as all do.
+TEST(ColonyHabit, ThinningPrefersNoPlace) {
+    ColonyParams params;
+    const ColonyNature nature = nature_of(Habit::rooted);
+    double all = 0.0, kept = 0.0;
+    std::size_t stems = 0, places = 0;
+    for (params.seed = 1; params.seed <= 300; ++params.seed) {
+        params.count = 256;
+        for (const ColonyPlace& place : site_of(params, nature).places) {
+            all += place.share;
+            ++stems;
+        }
+        params.count = 6;
+        const ColonySite thinned = site_of(params, nature);
+        EXPECT_LE(thinned.places.size(), 6U);
+        for (const ColonyPlace& place : thinned.places) {
+            kept += place.share;
+            ++places;
+        }
+    }
+    ASSERT_GT(places, 1000U);
+    // Shares lie evenly in 0..1 or so: three deviations of their mean.
+    EXPECT_NEAR(kept / static_cast<double>(places), all / static_cast<double>(stems),
+                3.0 * 0.3 / std::sqrt(static_cast<double>(places)));
+}
+
+TEST(ColonyHabit, EveryOtherHabitStandsAsManyAsAskedFor) {
+    for (const Habit habit : {Habit::tuft, Habit::troop, Habit::ring, Habit::tier})
+        for (const bool capped : {true, false})
+            for (const int count : {1, 2, 24, 256}) {
+                ColonyParams params;
+                params.count = count;
+                const ColonySite site = site_of(params, nature_of(habit, capped));
+                EXPECT_EQ(site.places.size(), static_cast<std::size_t>(count));
+                for (const ColonyPlace& place : site.places) {
+                    EXPECT_GT(place.radius, 0.0);
+                    EXPECT_GE(place.share, 0.0);
+                    EXPECT_LE(place.share, 1.0);
+                    EXPECT_EQ(place.rise != glm::dvec3(0.0), capped);
+                }
+            }
+}
+
+TEST(ColonyHabit, ATuftRisesFromOneBaseAndLeansOut) {
+    ColonyParams params;
+    params.count = 10;
+    const ColonyNature nature = nature_of(Habit::tuft);
+    const ColonySite site = site_of(params, nature);
+    double foot = 0.0, top = 0.0;
+    for (const ColonyPlace& place : site.places) {
+        const glm::dvec3 head = place.at(1.0);
+        const double in = glm::length(place.foot), out = std::hypot(head.x, head.z);
+        foot = std::max(foot, in);
+        top = std::max(top, out);
+        if (place.share > 0.3) {
+            EXPECT_GT(out, in);
+        }
+        // It has turned up again where it bears its cap.
+        EXPECT_GT(glm::normalize(place.along(1.0)).y, glm::normalize(place.along(0.0)).y - 1e-9);
+        EXPECT_GT(glm::normalize(place.along(1.0)).y, 0.75);
+    }
+    EXPECT_LT(foot, 0.4 * top);
+    // Fused: most feet lie on another.
+    int fused = 0;
+    for (const ColonyPlace& one : site.places) {
+        double nearest = 1e9;
+        for (const ColonyPlace& other : site.places)
+            if (&one != &other)
+                nearest = std::min(nearest,
+                                   glm::distance(one.foot, other.foot) - one.radius - other.radius);
+        fused += nearest < 0.5 * one.radius ? 1 : 0;
+    }
+    EXPECT_GE(fused, 6);
+}
+
+TEST(ColonyHabit, ATroopKeepsADistance) {
+    ColonyParams params;
+    params.count = 64;
+    const ColonySite site = site_of(params, nature_of(Habit::troop));
+    double nearest = 1e9, sum = 0.0;
+    for (const ColonyPlace& one : site.places) {
+        double own = 1e9;
+        for (const ColonyPlace& other : site.places)
+            if (&one != &other) own = std::min(own, glm::distance(one.foot, other.foot));
+        nearest = std::min(nearest, own);
+        sum += own;
+    }
+    EXPECT_GT(nearest, fit.cap_radius);
+    EXPECT_GT(sum / 64.0, 1.6 * fit.cap_radius) << "in the mean caps hardly touch";
+}
+
+TEST(ColonyHabit, ARingIsRound) {
+    ColonyParams params;
+    params.count = 48;
+    const ColonySite site = site_of(params, nature_of(Habit::ring));
+    const double radius = 2.4 * fit.cap_radius * 48 / (2.0 * 3.14159265);
+    std::vector<double> angles;
+    for (const ColonyPlace& place : site.places) {
+        EXPECT_NEAR(glm::length(place.foot), radius, 0.35 * 6.0 * fit.cap_radius);
+        angles.push_back(std::atan2(place.foot.z, place.foot.x));
+    }
+    std::sort(angles.begin(), angles.end());
+    for (std::size_t i = 1; i < angles.size(); ++i)
+        EXPECT_LT(angles[i] - angles[i - 1], 1.7 * 2.0 * 3.14159265 / 48) << "no gap";
+}
+
+TEST(ColonyHabit, ATierStandsOnItsTrunk) {
+    for (const bool capped : {true, false}) {
+        ColonyParams params;
+        params.trunk_radius = 0.11;
+        ColonyNature nature = nature_of(Habit::tier, capped);
+        nature.lateral = !capped;
+        const ColonySite site = site_of(params, nature);
+        for (const ColonyPlace& place : site.places) {
+            const glm::dvec3 from_axis = place.foot + glm::dvec3(0.0, 0.0, 0.11);
+            EXPECT_NEAR(std::hypot(from_axis.x, from_axis.z), 0.11, 1e-12);
+            EXPECT_GT(glm::dot(place.outwards, from_axis), 0.1099) << "it faces away from it";
+            if (!capped) continue;
+            EXPECT_GT(glm::dot(glm::normalize(place.along(0.0)), place.outwards), 0.999);
+            EXPECT_GT(glm::normalize(place.along(1.0)).y, 0.95) << "stems turn up";
+        }
+    }
+}
+
+TEST(ColonyHabit, WhatIsAskedForStandsBeforeWhatSuitsTheSpecies) {
+    ColonyParams params;
+    const ColonyNature nature = nature_of(Habit::rooted);
+    const ColonyRoots own = colony_growth(params, nature, fit);
+    EXPECT_EQ(own.root_radius, fit.radius);
+    EXPECT_EQ(own.stem_height, fit.height);
+    params.growth.root_radius = 0.008;
+    params.growth.stem_height = 0.2;
+    params.growth.depth = 5;
+    const ColonyRoots asked = colony_growth(params, nature, fit);
+    EXPECT_EQ(asked.root_radius, 0.008);
+    EXPECT_EQ(asked.stem_height, 0.2);
+    EXPECT_EQ(asked.depth, 5);
+    EXPECT_EQ(asked.segment_length, 2.0 * own.segment_length) << "caps are twice as wide";
+}
+
+}  // namespace
+}  // namespace sporeprint

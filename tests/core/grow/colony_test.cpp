@@ -1,0 +1,387 @@
+#include "core/grow/colony.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <map>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <vector>
+
+#include "core/params/corners.h"
+#include "core/params/query.h"
+#include "tests/support/effort.h"
+#include "tests/support/glb_reader.h"
+#include "tests/support/intrusion.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint {
+namespace {
+
+Workshop remembering() {
+    Workshop workshop;
+    workshop.memo.morphs = kept_morphs();
+    return workshop;
+}
+
+ColonyOrder colony_of(const std::string& id, int count = 12, int distinct = 4) {
+    ColonyOrder order;
+    order.mix = {{id, 1000}};
+    order.params.count = count;
+    order.params.distinct = distinct;
+    order.params.textures = Textures::none;
+    return order;
+}
+
+Colony parts_of(const ColonyOrder& order) { return colony_parts(order, atlas(), remembering()); }
+Grown grown(const ColonyOrder& order) { return grow_colony(order, atlas(), {}, remembering()); }
+
+class EveryColony : public ::testing::TestWithParam<std::string> {};
+INSTANTIATE_TEST_SUITE_P(Species, EveryColony, ::testing::ValuesIn(species_ids()),
+                         [](const auto& one) { return one.param; });
+
+TEST_P(EveryColony, ReadsBackFromItsFileAtEveryLevel) {
+    std::size_t before = ~std::size_t{0};
+    for (int lod = 0; lod < 4; ++lod) {
+        ColonyOrder order = colony_of(GetParam(), 9, 3);
+        order.params.lod = lod;
+        const Grown colony = grown(order);
+        const ReadScene found = expect_scene(joined(colony.glb));
+        EXPECT_TRUE(found.required.empty());
+        EXPECT_LE(found.meshes.size(), 4U) << "three caps and a skin";
+        EXPECT_EQ(found.materials.size(), 1U);
+        std::size_t vertices = 0, triangles = 0;
+        for (const auto& mesh : found.meshes) {
+            ASSERT_EQ(mesh.size(), 1U);
+            vertices += mesh[0].mesh.positions.size();
+            triangles += mesh[0].mesh.triangles();
+        }
+        EXPECT_EQ(vertices, colony.vertices);
+        EXPECT_EQ(triangles, colony.triangles);
+        EXPECT_LE(triangles, before);
+        before = triangles;
+        std::vector<bool> shown(found.meshes.size(), false);
+        for (const ReadNode& node : found.nodes) shown[static_cast<std::size_t>(node.mesh)] = true;
+        EXPECT_EQ(std::count(shown.begin(), shown.end(), false), 0) << "nothing is stored unseen";
+    }
+}
+
+TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
+    for (const bool rooted : {false, true})
+        for (const int lod : {0, 2}) {
+            ColonyOrder order = colony_of(GetParam(), 20, 5);
+            order.params.lod = lod;
+            if (rooted && colony_nature(order, atlas()).lateral) continue;
+            if (rooted) order.params.habit = Habit::rooted;
+            const Estimate e = estimate(order, atlas(), remembering().memo);
+            const Grown colony = grown(order);
+            const auto bytes = static_cast<double>(size_of(colony.glb));
+            EXPECT_GT(static_cast<double>(e.vertices), 0.8 * static_cast<double>(colony.vertices));
+            EXPECT_GT(static_cast<double>(e.triangles),
+                      0.8 * static_cast<double>(colony.triangles));
+            EXPECT_GT(static_cast<double>(e.bytes), 0.8 * bytes) << rooted << lod;
+            EXPECT_LT(static_cast<double>(e.bytes), 6.0 * bytes) << rooted << lod;
+        }
+}
+
+TEST_P(EveryColony, IsTheSameAtEveryLevelOfDetail) {
+    ColonyOrder order = colony_of(GetParam());
+    const Colony near = parts_of(order);
+    ASSERT_FALSE(near.members.empty());
+    for (int lod = 1; lod < 4; ++lod) {
+        order.params.lod = lod;
+        const Colony far = parts_of(order);
+        ASSERT_EQ(far.members.size(), near.members.size());
+        for (std::size_t i = 0; i < near.members.size(); ++i) {
+            EXPECT_EQ(far.members[i].model, near.members[i].model);
+            EXPECT_EQ(far.members[i].posture.at, near.members[i].posture.at);
+            EXPECT_EQ(far.members[i].posture.turn, near.members[i].posture.turn);
+        }
+        EXPECT_LT(distance(bounds(far), bounds(near)), 0.06 * diagonal(bounds(near))) << lod;
+    }
+}
+
+/// How deep any individual of a colony reaches into another, in diameters of the smaller one; stems included.
+double deepest(const Colony& colony) {
+    std::vector<std::optional<Solid>> solids;
+    std::vector<std::vector<glm::dvec3>> samples;
+    std::vector<double> reach, across;
+    for (const Mesh& model : colony.models) {
+        solids.emplace_back();
+        if (!model.positions.empty()) solids.back().emplace(model);
+        samples.push_back(samples_of(model));
+        double far = 0.0, wide = 0.0;
+        for (const glm::vec3& p : model.positions) {
+            far = std::max(far, glm::length(glm::dvec3(p)));
+            wide = std::max(wide, std::sqrt(static_cast<double>(p.x * p.x + p.z * p.z)));
+        }
+        reach.push_back(far);
+        across.push_back(2.0 * wide);
+    }
+    double worst = 0.0;
+    for (const ColonyMember& one : colony.members)
+        for (const ColonyMember& other : colony.members) {
+            if (&one == &other) continue;
+            const double far = glm::length(one.posture.at - other.posture.at);
+            if (far >
+                one.posture.scale * reach[one.model] + other.posture.scale * reach[other.model])
+                continue;
+            const double diameter = std::min(one.posture.scale * across[one.model],
+                                             other.posture.scale * across[other.model]);
+            for (const glm::dvec3& point : samples[one.model]) {
+                const glm::dvec3 at = other.posture.own(one.posture.world(point));
+                worst = std::max(worst,
+                                 solids[other.model]->depth(at) * other.posture.scale / diameter);
+            }
+        }
+    return worst;
+}
+
+// What the next tests measure with: caps set into each other are seen, and by how much.
+TEST(ColonyCaps, ThatReachIntoEachOtherAreMeasured) {
+    Colony colony = parts_of(colony_of("lycoperdon_perlatum", 2, 1));
+    ASSERT_EQ(colony.members.size(), 2U);
+    EXPECT_EQ(deepest(colony), 0.0);
+    const double across = 2.0 * bounds(colony.models[0]).max.x * colony.members[0].posture.scale;
+    colony.members[1].posture = colony.members[0].posture;
+    colony.members[1].posture.at.x += 0.9 * across;
+    EXPECT_GT(deepest(colony), 0.02);
+    EXPECT_LT(deepest(colony), 0.12);
+    colony.members[1].posture.at.x -= 0.5 * across;
+    EXPECT_GT(deepest(colony), 0.2);
+}
+
+TEST(ColonyCaps, NoneReachesIntoAnotherByMoreThanAFiftieth) {
+    const std::array<const char*, 5> species = {"hypholoma_fasciculare", "armillaria_mellea",
+                                                "mycena_haematopus", "macrolepiota_procera",
+                                                "cantharellus_cibarius"};
+    std::size_t made = 0, steps = 0;
+    const auto seeds = static_cast<std::uint32_t>(effort(100));
+    for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
+        ColonyOrder order = colony_of(species[seed % species.size()], 24, 6);
+        order.params.seed = seed;
+        if (seed % 2 == 0) {
+            order.params.habit = Habit::rooted;
+            order.params.growth.stem_probability = 0.5;
+        } else {
+            order.params.habit = Habit::tuft;
+        }
+        const Colony colony = parts_of(order);
+        EXPECT_LT(deepest(colony), 0.02) << order.mix[0].id << " seed " << seed;
+        made += colony.members.size();
+        for (const ColonyMember& member : colony.members) steps += member.steps > 0 ? 1 : 0;
+    }
+    EXPECT_GT(made, 14U * seeds) << "most find room";
+    EXPECT_GT(steps, seeds) << "and many had to give way, or nothing was tried";
+}
+
+TEST(ColonyCaps, WholeIndividualsKeepApartToo) {
+    for (const char* id : {"lycoperdon_perlatum", "trametes_versicolor", "pleurotus_ostreatus",
+                           "geastrum_triplex", "tremella_mesenterica"})
+        for (const std::uint32_t seed : {1U, 2U, 3U}) {
+            ColonyOrder order = colony_of(id, 20, 5);
+            order.params.seed = seed;
+            const Colony colony = parts_of(order);
+            EXPECT_LT(deepest(colony), 0.02) << id << seed;
+            EXPECT_GT(colony.members.size(), 9U) << id;
+        }
+}
+
+// The law of the source holds for every stem that did not have to give way.
+TEST(ColonyCaps, StandOnTheirStemsAsTheSourceSays) {
+    ColonyOrder order = colony_of("hypholoma_fasciculare", 64, 1);
+    order.params.habit = Habit::rooted;
+    order.params.cap_scale = 0.8;
+    const Colony colony = parts_of(order);
+    const ColonyRootsOf<Maybe>& growth = colony.effective.growth;
+    std::size_t unmoved = 0;
+    for (const ColonyMember& member : colony.members) {
+        if (member.steps > 0) continue;
+        ++unmoved;
+        EXPECT_NEAR(glm::length(member.swing) * (glm::length(member.swing) > 0 ? 1.0 : 0.0),
+                    glm::length(member.swing) > 0 ? *growth.stem_displacement : 0.0, 1e-12);
+        EXPECT_LE(member.rise.y, *growth.stem_height + 1e-12);
+        const glm::dvec3 axis = member.posture.turn[1];
+        EXPECT_LT(glm::length(axis - glm::normalize(member.rise + 2.0 * member.swing)), 1e-12)
+            << "its frame is that of its stem";
+        // As wide as the stem at the junction, times cap_scale: height falls as exp(-decay), radius as exp(-decay / 2).
+        const double depth = std::log(*growth.stem_height / member.rise.y) / *growth.stem_decay;
+        const double radius =
+            *growth.root_radius * std::exp(-0.5 * *growth.decay * *growth.area_decay * depth);
+        EXPECT_NEAR(member.posture.scale * colony.junction, 0.8 * radius, 0.35 * radius);
+    }
+    EXPECT_GT(unmoved, 5U);
+}
+
+TEST(ColonyCaps, GrowWithCapScaleAndColoniesWithSize) {
+    ColonyOrder order = colony_of("mycena_galericulata", 1, 1);
+    order.params.habit = Habit::troop;
+    const Colony one = parts_of(order);
+    order.params.cap_scale = 2.0;
+    const Colony wide = parts_of(order);
+    EXPECT_NEAR(wide.members[0].posture.scale, 2.0 * one.members[0].posture.scale, 1e-12);
+    order.params.size = 3.0;
+    const Colony large = parts_of(order);
+    EXPECT_LT(distance(bounds(large), {3.0F * bounds(wide).min, 3.0F * bounds(wide).max}), 1e-5);
+}
+
+TEST(ColonyFile, BytesGrowWithTheDistinctNotWithTheCount) {
+    const auto bytes = [](int count, int distinct, Instancing instancing) {
+        ColonyOrder order = colony_of("lycoperdon_perlatum", count, distinct);
+        order.params.instancing = instancing;
+        order.params.habit = Habit::troop;
+        return static_cast<double>(size_of(grown(order).glb));
+    };
+    const double few = bytes(16, 4, Instancing::nodes);
+    EXPECT_LT(bytes(128, 4, Instancing::nodes) - few, 112 * 260.0);
+    EXPECT_LT(bytes(128, 4, Instancing::gpu) - bytes(16, 4, Instancing::gpu), 112 * 41.0 + 64.0);
+    EXPECT_GT(bytes(128, 8, Instancing::nodes), 1.8 * few);
+}
+
+TEST(ColonyFile, InstancesStandWhereNodesDo) {
+    for (const char* id : {"armillaria_mellea", "trametes_versicolor"}) {
+        ColonyOrder order = colony_of(id);
+        const ReadScene nodes = expect_scene(joined(grown(order).glb));
+        order.params.instancing = Instancing::gpu;
+        const ReadScene gpu = expect_scene(joined(grown(order).glb));
+        EXPECT_EQ(gpu.required, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
+        EXPECT_EQ(gpu.meshes.size(), nodes.meshes.size());
+        std::map<int, std::vector<ReadInstance>> by_mesh;
+        for (const ReadNode& node : gpu.nodes)
+            for (const ReadInstance& instance : node.instances)
+                by_mesh[node.mesh].push_back(instance);
+        std::map<int, std::size_t> seen;
+        const auto value = [](const std::vector<double>& of, std::size_t i, double rest) {
+            return static_cast<float>(of.empty() ? rest : of[i]);
+        };
+        for (const ReadNode& node : nodes.nodes) {
+            if (node.name == "stems") continue;
+            ASSERT_LT(seen[node.mesh], by_mesh[node.mesh].size());
+            const ReadInstance& instance = by_mesh[node.mesh][seen[node.mesh]++];
+            for (int k = 0; k < 3; ++k) {
+                const auto i = static_cast<std::size_t>(k);
+                EXPECT_EQ(instance.translation[k], value(node.translation, i, 0.0));
+                EXPECT_EQ(instance.rotation[k], value(node.rotation, i, 0.0));
+                EXPECT_EQ(instance.scale[k], value(node.scale, i, 1.0));
+            }
+        }
+    }
+}
+
+TEST(ColonyFile, ItsPosturesAreThoseOfItsNodes) {
+    const ColonyOrder order = colony_of("armillaria_mellea", 6, 2);
+    const Colony colony = parts_of(order);
+    const ReadScene found = expect_scene(joined(grown(order).glb));
+    ASSERT_EQ(found.nodes.size(), colony.members.size() + 1);
+    for (std::size_t i = 0; i < colony.members.size(); ++i) {
+        const ReadNode& node = found.nodes[i + 1];
+        const Posture& posture = colony.members[i].posture;
+        const glm::dvec3 point(0.01, 0.02, -0.03);
+        // v + 2 q x (q x v + w v)
+        const glm::dvec3 q(node.rotation[0], node.rotation[1], node.rotation[2]);
+        const glm::dvec3 turned =
+            point + 2.0 * glm::cross(q, glm::cross(q, point) + node.rotation[3] * point);
+        const glm::dvec3 at(node.translation[0], node.translation[1], node.translation[2]);
+        EXPECT_LT(glm::length(at + node.scale[0] * turned - posture.world(point)), 1e-6);
+    }
+}
+
+TEST(ColonyFile, AllWearTheImagesOfOneMushroom) {
+    ColonyOrder order = colony_of("armillaria_mellea", 5, 2);
+    order.params.textures = Textures::embedded;
+    order.params.texture_size.value = 256;
+    order.params.lod = 1;
+    const ReadScene found = expect_scene(joined(grown(order).glb));
+    EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {128, 128})))
+        << "the size of the colony's level";
+    for (const auto& mesh : found.meshes)
+        EXPECT_EQ(mesh[0].attributes,
+                  (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
+    order.params.textures = Textures::linked;
+    EXPECT_TRUE(names(refusal([&] { (void)grown(order); }), "/textures"));
+}
+
+TEST(ColonyFile, IsTheSameEveryTimeAndAnotherForEverySeed) {
+    ColonyOrder order = colony_of("hypholoma_fasciculare");
+    order.params.habit = Habit::rooted;
+    const Bytes once = joined(grown(order).glb);
+    EXPECT_EQ(once, joined(grown(order).glb));
+    order.params.seed = 2;
+    EXPECT_NE(once, joined(grown(order).glb));
+}
+
+TEST(ColonyFile, MixesAreOneMushroomManyTimes) {
+    ColonyOrder order = colony_of("", 8, 3);
+    order.mix = {{"armillaria_mellea", 500}, {"hypholoma_fasciculare", 500}};
+    (void)expect_scene(joined(grown(order).glb));
+    order.mix = {{"armillaria_mellea", 500}, {"trametes_versicolor", 500}};
+    EXPECT_EQ(colony_nature(order, atlas()).habit, Habit::tier);
+    (void)expect_scene(joined(grown(order).glb));
+}
+
+TEST(ColonyFile, TellsWhatWasMade) {
+    ColonyOrder order = colony_of("hypholoma_fasciculare", 64, 4);
+    order.params.habit = Habit::rooted;
+    const Colony colony = parts_of(order);
+    EXPECT_LT(colony.members.size(), 64U) << "there are not as many stems";
+    EXPECT_EQ(colony.effective.count, 64);
+    EXPECT_EQ(colony.effective.habit, Habit::rooted);
+    ColonyRootsOf<Maybe>::fields([&](auto member, const Info& info) {
+        EXPECT_TRUE(colony.effective.growth.*member) << info.name;
+    });
+    // Asked for again, it is the same colony.
+    ColonyOrder again = order;
+    again.params = colony.effective;
+    const Colony second = parts_of(again);
+    EXPECT_EQ(second.members.size(), colony.members.size());
+    EXPECT_TRUE(same_bits(second.skin, colony.skin));
+}
+
+TEST(ColonyBudget, IsCheckedBeforeAnyWork) {
+    ColonyOrder order = colony_of("hypholoma_fasciculare");
+    order.params.habit = Habit::rooted;
+    order.params.growth.depth = 60;
+    order.params.growth.branch_distance = 0.005;
+    EXPECT_TRUE(
+        names(refusal([&] { (void)estimate(order, atlas()); }), "/branch_distance", "nodes"));
+    EXPECT_TRUE(names(refusal([&] { (void)parts_of(order); }), "/branch_distance", "nodes"));
+    Workshop stopped = remembering();
+    std::stop_source source;
+    source.request_stop();
+    stopped.stop = source.get_token();
+    EXPECT_THROW((void)colony_parts(colony_of("hypholoma_fasciculare"), atlas(), stopped),
+                 Cancelled);
+}
+
+// Every control at both its ends makes a valid colony, or is refused for a reason.
+TEST(ColonyCorners, AreValidOrRefusedByName) {
+    for (const char* id : {"hypholoma_fasciculare", "lycoperdon_perlatum", "trametes_versicolor"})
+        for (const bool rooted : {true, false}) {
+            ColonyOrder order = colony_of(id, 5, 2);
+            order.params.lod = 1;
+            if (rooted && std::string(id) == "trametes_versicolor") continue;
+            if (rooted) order.params.habit = Habit::rooted;
+            corners(order.params, [&](const std::string& path) {
+                SCOPED_TRACE(std::string(id) + path);
+                if (path == "/textures") return;
+                try {
+                    const Colony colony = parts_of(order);
+                    if (!colony.skin.positions.empty()) expect_valid(colony.skin);
+                    for (const ColonyMember& member : colony.members)
+                        EXPECT_TRUE(std::isfinite(member.posture.at.y) &&
+                                    member.posture.scale > 0.0);
+                } catch (const InvalidInput& refused) {
+                    EXPECT_FALSE(refused.problems().empty());
+                }
+            });
+        }
+}
+
+}  // namespace
+}  // namespace sporeprint
