@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "api/answers.h"
+#include "api/colonies.h"
 #include "api/morphs.h"
 #include "api/mushrooms.h"
 #include "api/presets.h"
@@ -56,6 +57,10 @@ struct Resource {
 /// A mushroom as GLB or JSON, by address or by body.
 [[nodiscard]] Plan plan_mushroom(Context& context, const Request& request, MushroomRequest asked,
                                  Faults& faults);
+
+/// A colony as GLB or JSON, by address or by body.
+[[nodiscard]] Plan plan_colony(Context& context, const Request& request, ColonyRequest asked,
+                               Faults& faults);
 
 /// The correspondence of two species.
 [[nodiscard]] Plan plan_morph(Context& context, const Request& request, const MorphRequest& asked,

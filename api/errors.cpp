@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 
+#include "core/colony/colony_order.h"
 #include "core/model/request.h"
 #include "core/params/query.h"
 #include "core/plant/tree_order.h"
@@ -52,16 +53,7 @@ std::string count_of(std::span<const Problem> problems, int status) {
 
 template <class T>
 bool is_field_of(std::string_view key) {
-    bool found = false;
-    const T* none = nullptr;
-    T::fields([&](auto member, const Info& info) {
-        using Member = std::remove_cvref_t<decltype(none->*member)>;
-        if constexpr (Described<Member>) {
-            if (*info.name == '\0') found = found || is_field_of<Member>(key);
-        }
-        found = found || key == info.name;
-    });
-    return found;
+    return key_count<T>(key) > 0;  // those of inlined members too
 }
 
 }  // namespace
@@ -127,7 +119,8 @@ std::string parameter_name(std::string_view pointer, bool posted) {
     if (!pointer.starts_with('/'))
         return pointer.empty() && posted ? std::string() : std::string(pointer);
     const std::string_view first = pointer.substr(1, pointer.find('/', 1) - 1);
-    const bool of_params = is_field_of<MushroomParams>(first) || is_field_of<TreeParams>(first);
+    const bool of_params = is_field_of<MushroomParams>(first) || is_field_of<ColonyParams>(first) ||
+                           is_field_of<TreeParams>(first);
     if (posted)
         return first == "model" || first == "mix" || of_params ? std::string(pointer)
                                                                : "/model" + std::string(pointer);

@@ -11,6 +11,7 @@
 #include "api/presets.h"
 #include "api/routes.h"
 #include "api/surfaces.h"
+#include "core/colony/colony_order.h"
 #include "core/model/request.h"
 #include "core/model/species.h"
 #include "core/params/schema.h"
@@ -151,6 +152,11 @@ Value parameters_of(const Route& route, const Atlas& atlas) {
             add_query_parameters(schema<MushroomParams>(), "", parameters);
             parameters.push(version_parameter());
             break;
+        case Endpoint::colony_glb:
+        case Endpoint::colony_json:
+            add_query_parameters(schema<ColonyParams>(), "", parameters);
+            parameters.push(version_parameter());
+            break;
         case Endpoint::leaf_glb:
         case Endpoint::leaf_json:
             add_query_parameters(leaf_params_schema(), "", parameters);
@@ -193,16 +199,20 @@ Value version_member() {
         {{"type", "string"}, {"description", "Version token; another than today's is 410."}});
 }
 
+/// A mix as a body has it.
+Value mix_schema() {
+    return object({{"type", "object"},
+                   {"minProperties", 1},
+                   {"maxProperties", most_species},
+                   {"additionalProperties", object({{"type", "number"}, {"exclusiveMinimum", 0}})},
+                   {"description", "Species ids and their weights."}});
+}
+
 /// Body of POST /v1/mushrooms.glb: mix or model, beside the nested parameters.
 Value order_schema() {
     Value out = schema<MushroomParams>();
     Value properties = object({
-        {"mix",
-         object({{"type", "object"},
-                 {"minProperties", 1},
-                 {"maxProperties", most_species},
-                 {"additionalProperties", object({{"type", "number"}, {"exclusiveMinimum", 0}})},
-                 {"description", "Species ids and their weights."}})},
+        {"mix", mix_schema()},
         {"model", reference("schemas/model")},
         {"v", version_member()},
     });
@@ -211,6 +221,17 @@ Value order_schema() {
     out.set("properties", std::move(properties));
     out.set("oneOf", Value(Value::Array{object({{"required", Value(Value::Array{"mix"})}}),
                                         object({{"required", Value(Value::Array{"model"})}})}));
+    return out;
+}
+
+/// Body of POST /v1/colonies.glb.
+Value colony_order_schema() {
+    Value out = schema<ColonyParams>();
+    Value properties = object({{"mix", mix_schema()}, {"v", version_member()}});
+    for (const auto& [key, property] : out.find("properties")->members())
+        properties.set(key, property);
+    out.set("properties", std::move(properties));
+    out.set("required", Value(Value::Array{"mix"}));
     return out;
 }
 
@@ -298,6 +319,16 @@ Value schemas() {
         {"mushroom_order", order_schema()},
         {"morph_order", morph_order_schema()},
         {"morph", morph_schema()},
+        {"colony_params", schema<ColonyParams>()},
+        {"colony_order", colony_order_schema()},
+        {"colony_description",
+         objects({{"canonical", text},
+                  {"v", text},
+                  {"mix", list_of(objects({{"id", text}, {"weight", typed("number")}}))},
+                  {"made", whole},
+                  {"effective", reference("schemas/colony_params")},
+                  {"estimate", estimate},
+                  {"bounds_m", bounds}})},
         {"leaf_params", leaf_params_schema()},
         {"leaf_order", preset_order_schema<Leaves>(leaf_params_schema())},
         {"leaf_list",
@@ -374,6 +405,8 @@ Value body_schema(Endpoint endpoint) {
             return reference("schemas/leaf_list");
         case Endpoint::leaf_json:
             return reference("schemas/leaf_description");
+        case Endpoint::colony_json:
+            return reference("schemas/colony_description");
         case Endpoint::tree_list:
             return reference("schemas/tree_list");
         case Endpoint::tree_json:
@@ -381,11 +414,14 @@ Value body_schema(Endpoint endpoint) {
         case Endpoint::mushroom_schema:
         case Endpoint::leaf_schema:
         case Endpoint::tree_schema:
+        case Endpoint::colony_schema:
         case Endpoint::openapi:
             return typed("object");
         case Endpoint::mushroom_glb:
         case Endpoint::mushroom_post:
         case Endpoint::morph_post:
+        case Endpoint::colony_glb:
+        case Endpoint::colony_post:
         case Endpoint::leaf_glb:
         case Endpoint::leaf_post:
         case Endpoint::tree_glb:
@@ -417,6 +453,7 @@ std::set<int> problems_of(Endpoint endpoint) {
         case Endpoint::leaf_schema:
         case Endpoint::tree_list:
         case Endpoint::tree_schema:
+        case Endpoint::colony_schema:
             return {400, 405, 414, 429, 431, 500, 503};
         case Endpoint::asset:
         case Endpoint::species:
@@ -425,6 +462,7 @@ std::set<int> problems_of(Endpoint endpoint) {
             return {400, 405, 408, 411, 413, 414, 415, 429, 431, 500, 503, 504};
         case Endpoint::mushroom_post:
         case Endpoint::morph_post:
+        case Endpoint::colony_post:
         case Endpoint::leaf_post:
         case Endpoint::tree_post:
             return {400, 404, 405, 408, 410, 411, 413, 414, 415, 422, 429, 431, 500, 503, 504};
@@ -441,6 +479,9 @@ bool is_made(Endpoint endpoint) {
         case Endpoint::mushroom_post:
         case Endpoint::morph:
         case Endpoint::morph_post:
+        case Endpoint::colony_glb:
+        case Endpoint::colony_json:
+        case Endpoint::colony_post:
         case Endpoint::leaf_glb:
         case Endpoint::leaf_json:
         case Endpoint::leaf_post:
@@ -464,6 +505,11 @@ Value taken(Endpoint endpoint, const Atlas& atlas) {
                 {{"schema", reference("schemas/mushroom_order")},
                  {"example",
                   object({{"mix", object({{example_id(atlas), 1}})}, {"age", 0.6}, {"seed", 7}})}});
+        case Endpoint::colony_post:
+            return object({{"schema", reference("schemas/colony_order")},
+                           {"example", object({{"mix", object({{example_id(atlas), 1}})},
+                                               {"count", 12},
+                                               {"seed", 7}})}});
         case Endpoint::leaf_post:
             return object(
                 {{"schema", reference("schemas/leaf_order")},
@@ -534,6 +580,8 @@ Value operation(const Route& route, const Atlas& atlas) {
 
 Value mushroom_schema() { return schema_document<MushroomParams>("Parameters of a mushroom"); }
 
+Value colony_schema() { return schema_document<ColonyParams>("Parameters of a colony"); }
+
 Value leaf_schema() {
     return from_preset<LeafShape, LeafPalette>(schema_document<LeafParams>("Parameters of a leaf"));
 }
@@ -567,8 +615,8 @@ Value openapi(const Atlas& atlas, std::string_view version) {
         {"info", object({{"title", "Sporeprint"},
                          {"version", version},
                          {"description",
-                          "Grows mushrooms, leaves and trees on demand and answers with game-ready "
-                          "GLB files. The "
+                          "Grows mushrooms, colonies, leaves and trees on demand and answers with "
+                          "game-ready GLB files. The "
                           "same request gives the same bytes. "
                           "For pictures, never for identifying mushrooms to eat."},
                          {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},

@@ -14,6 +14,9 @@ namespace sporeprint::api {
 /// JSON Schema of a mushroom's query parameters, nested: the page's controls.
 [[nodiscard]] Value mushroom_schema();
 
+/// The same for a colony.
+[[nodiscard]] Value colony_schema();
+
 /// The same for a leaf: what a preset brings has no default, but "x-default-from": "preset".
 [[nodiscard]] Value leaf_schema();
 

@@ -13,7 +13,7 @@ namespace {
 constexpr const char* json = "application/json";
 constexpr const char* glb = "model/gltf-binary";
 
-constexpr std::array<Route, 30> table = {{
+constexpr std::array<Route, 34> table = {{
     {Endpoint::page, "GET", "/", "page", "The viewer page.", "text/html", ""},
     {Endpoint::docs, "GET", "/docs", "docs", "A page that shows this document.", "text/html", ""},
     {Endpoint::asset, "GET", "/assets/{name}", "asset", "A file of the viewer page.",
@@ -38,6 +38,16 @@ constexpr std::array<Route, 30> table = {{
      "Correspondence of two species: both outlines, what of one becomes what of the other, and "
      "whether any morph between them crosses itself.",
      json, ""},
+    {Endpoint::colony_schema, "GET", "/v1/colonies/schema", "colony_schema",
+     "JSON Schema of the query parameters of a colony.", "application/schema+json", ""},
+    {Endpoint::colony_glb, "GET", "/v1/colonies/{mix}.glb", "get_colony",
+     "Grows a colony: roots, stems and caps, each cap stored once.", glb, ""},
+    {Endpoint::colony_json, "GET", "/v1/colonies/{mix}.json", "describe_colony",
+     "What would be grown: canonical address, how many found room, effective parameters, cost and "
+     "bounds.",
+     json, ""},
+    {Endpoint::colony_post, "POST", "/v1/colonies.glb", "post_colony",
+     "Grows a colony from a body: a mix and what is to differ from its habit.", glb, json},
     {Endpoint::leaf_list, "GET", "/v1/leaves", "list_leaves", "The leaves to begin with.", json,
      ""},
     {Endpoint::leaf_schema, "GET", "/v1/leaves/schema", "leaf_schema",

@@ -20,7 +20,7 @@ namespace {
 
 bool kept_by_key(const Key& key) {
     return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.") ||
-           key.starts_with("tree.");
+           key.starts_with("tree.") || key.starts_with("colony.");
 }
 
 /// "queue;dur=0.01, build;dur=2.5" of the steps that were taken.
@@ -159,6 +159,17 @@ Plan Service::Parts::plan(const Request& request) {
             const SpeciesPair pair = read_pair(match.captured[0], match.captured[1], atlas, faults);
             return plan_mushroom(context, request, read_morph(pair, request.body, faults), faults);
         }
+        case Endpoint::colony_schema:
+            return shelf.colony_schema(request, target, faults);
+        case Endpoint::colony_glb:
+        case Endpoint::colony_json: {
+            ColonyRequest asked = read_colony(match.captured[0], target.query, atlas, faults);
+            asked.product = route.endpoint == Endpoint::colony_glb ? Product::glb : Product::json;
+            return plan_colony(context, request, std::move(asked), faults);
+        }
+        case Endpoint::colony_post:
+            refuse_query(target, faults);
+            return plan_colony(context, request, read_colony(request.body, atlas, faults), faults);
         case Endpoint::leaf_list:
             return shelf.leaf_list(request, target, faults);
         case Endpoint::leaf_schema:

@@ -30,6 +30,7 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
     if (atlas_->entries().size() > 1)  // an example: any two will do
         links.set("morph", "/v1/morphs/" + atlas_->entries()[0].species.id.string() + '/' +
                                atlas_->entries()[1].species.id.string());
+    links.set("colony_schema", "/v1/colonies/schema");
     links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
     links.set("trees", "/v1/trees").set("tree_schema", "/v1/trees/schema");
     links.set("openapi", "/openapi.json").set("docs", "/docs");
@@ -41,6 +42,7 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
     about_ = json_document(root);
     species_list_ = json_document(api::species_list(*atlas_));
     schema_ = json_document(api::mushroom_schema(), "application/schema+json");
+    colony_schema_ = json_document(api::colony_schema(), "application/schema+json");
     leaf_list_ = json_document(preset_list<Leaves>());
     leaf_schema_ = json_document(api::leaf_schema(), "application/schema+json");
     tree_list_ = json_document(preset_list<Trees>());
@@ -82,6 +84,10 @@ Answer Shelf::about(const Request& request, const Target& target, Faults& faults
 
 Answer Shelf::mushroom_schema(const Request& request, const Target& target, Faults& faults) const {
     return plain(request, target, schema_, faults);
+}
+
+Answer Shelf::colony_schema(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, colony_schema_, faults);
 }
 
 Answer Shelf::leaf_list(const Request& request, const Target& target, Faults& faults) const {

@@ -32,6 +32,8 @@ class Shelf {
     [[nodiscard]] Answer about(const Request& request, const Target& target, Faults& faults) const;
     [[nodiscard]] Answer mushroom_schema(const Request& request, const Target& target,
                                          Faults& faults) const;
+    [[nodiscard]] Answer colony_schema(const Request& request, const Target& target,
+                                       Faults& faults) const;
     [[nodiscard]] Answer leaf_list(const Request& request, const Target& target,
                                    Faults& faults) const;
     [[nodiscard]] Answer leaf_schema(const Request& request, const Target& target,
@@ -58,8 +60,8 @@ class Shelf {
     std::shared_ptr<const Atlas> atlas_;
     const Answers& answers_;
     std::map<std::string, Document, std::less<>> assets_, species_;
-    Document about_, species_list_, schema_, leaf_list_, leaf_schema_, tree_list_, tree_schema_,
-        openapi_, hint_;
+    Document about_, species_list_, schema_, colony_schema_, leaf_list_, leaf_schema_, tree_list_,
+        tree_schema_, openapi_, hint_;
 };
 
 }  // namespace sporeprint::api

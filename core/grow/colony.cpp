@@ -75,10 +75,9 @@ ColonyRoots growth_of(const ColonyParams& params, const ColonyNature& nature, co
     const ColonyRoots growth = colony_growth(params, nature, fit);
     if (nature.habit == Habit::rooted && expected_root_nodes(growth) > most_colony_nodes)
         throw Impossible("/branch_distance",
-                         "the roots would have about " +
-                             number_text(std::floor(expected_root_nodes(growth) + 0.5)) +
-                             " nodes; at most " + number_text(most_colony_nodes) +
-                             " are grown in a colony");
+                         "the roots would have more nodes than the " +
+                             number_text(most_colony_nodes) +
+                             " that are grown in a colony; branch less often, or lower depth");
     return growth;
 }
 
