@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "api/colonies.h"
 #include "api/morphs.h"
 #include "api/mushrooms.h"
 #include "api/presets.h"
@@ -78,6 +79,22 @@ void read_as_morph(std::string_view text, const Atlas& atlas) {
            "a morph is the same from either side");
 }
 
+void read_as_colony(std::string_view text, const Atlas& atlas) {
+    const auto key = [&](const ColonyOrder& one) {
+        return api::key_of(one, api::Product::glb, api::version_token(one.mix, atlas));
+    };
+    api::Faults faults;
+    const ColonyOrder order = api::read_colony(text, atlas, faults).order;
+    if (!faults.empty()) return;
+    Value own = write(order.params);
+    Value mix = Value::object();
+    for (const MixPart& part : order.mix) mix.set(part.id, part.weight);
+    own.set("mix", std::move(mix));
+    api::Faults none;
+    const ColonyOrder again = api::read_colony(dump(own), atlas, none).order;
+    expect(none.empty() && key(again) == key(order), "a colony reads back from its own text");
+}
+
 template <class Kind>
 void read_as(std::string_view text) {
     using Order = typename Kind::Order;
@@ -111,6 +128,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     read_as_mushroom(text, *atlas);
     read_as_morph(text, *atlas);
+    read_as_colony(text, *atlas);
     read_as<api::Leaves>(text);
     read_as<api::Trees>(text);
     return 0;

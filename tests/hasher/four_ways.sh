@@ -32,11 +32,13 @@ done | xargs -P "$jobs" -L 1 sh -c '"$0" "$1" "$2" > "$3" || echo "failed: $?" >
 reference=build/hash/out/g++:-O3:auto
 leaves=$(grep -cE '^[0-9a-f]{16} .* leaf/' "$reference" || true)
 trees=$(grep -cE '^[0-9a-f]{16} .* tree/' "$reference" || true)
-mushrooms=$(($(grep -cE '^[0-9a-f]{16} ' "$reference" || true) - leaves - trees))
-if [ "$mushrooms" -eq "$requests" ] && [ "$leaves" -ge $((requests / 10)) ] && [ "$trees" -ge $((requests / 20)) ]; then
-    verdict ok "$mushrooms random mushrooms, $leaves leaves, $trees trees"
+colonies=$(grep -cE '^[0-9a-f]{16} .* colony/' "$reference" || true)
+mushrooms=$(($(grep -cE '^[0-9a-f]{16} ' "$reference" || true) - leaves - trees - colonies))
+found="$mushrooms of $requests random mushrooms, $leaves leaves, $trees trees, $colonies colonies"
+if [ "$mushrooms" -eq "$requests" ] && [ "$leaves" -ge $((requests / 10)) ] && [ "$trees" -ge $((requests / 20)) ] && [ "$colonies" -ge $((requests / 20)) ]; then
+    verdict ok "$found"
 else
-    verdict bad "$mushrooms of $requests random mushrooms, $leaves leaves, $trees trees"
+    verdict bad "$found"
 fi
 for out in build/hash/out/*; do
     if cmp -s "$reference" "$out"; then
