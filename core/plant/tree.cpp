@@ -165,7 +165,7 @@ void TreeTopology::check(const std::string& path, std::vector<Problem>& problems
 
 RamificationMatrix matrix_of(const TreeTopology& topology) {
     const int order = std::max(2, topology.order);
-    const RamificationMatrix matrix = named_matrix(topology.matrix, topology, order);
+    RamificationMatrix matrix = named_matrix(topology.matrix, topology, order);
     if (!(topology.blend > 0.0)) return matrix;
     return blended(matrix, named_matrix(topology.toward, topology, order), topology.blend);
 }
