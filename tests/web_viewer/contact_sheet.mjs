@@ -5,10 +5,11 @@
 //     --species a,b         rows (all species); a mix is written with + for its commas: a:0.5+b:0.5
 //     --leaves              leaves instead of mushrooms: rows are presets, --species names some of them
 //     --trees               trees instead of mushrooms
+//     --colonies            colonies instead of mushrooms: rows are those of --species, else one of each habit
 //     --ages 0,0.3,0.6,1    columns, each list is crossed with the others
 //     --seeds 1,2
 //     --lods 0,2
-//     --views three-quarter,front,side,top,below
+//     --views three-quarter,front,side,top,below; of colonies also roots
 //     --set name=value      any other parameter for every cell; may be repeated
 //     --vary name=v1,v2     any other parameter as columns; may be repeated
 //     --each a+b:name=v1,v2 one row for a parameter, its values for each of the species; may be repeated, instead of rows by species
@@ -48,6 +49,7 @@ function readArguments(argv) {
         if (argv[i] === "--wireframe") options.wireframe = true;
         else if (argv[i] === "--leaves") options.leaves = true;
         else if (argv[i] === "--trees") options.trees = true;
+        else if (argv[i] === "--colonies") options.colonies = true;
         else if (argv[i] === "--growth") options.growth = true;
         else if (take[argv[i]] && argv[i + 1] !== undefined) take[argv[i]](argv[++i]);
         else if (/^https?:/.test(argv[i]) && !options.base) options.base = argv[i].replace(/\/+$/, "");
@@ -58,8 +60,18 @@ function readArguments(argv) {
 }
 
 const options = readArguments(process.argv.slice(2));
-const [kind, list] = options.leaves ? ["leaf", "leaves"] : options.trees ? ["tree", "trees"] : ["species", "species"];
+const [kind, list] = options.leaves ? ["leaf", "leaves"] : options.trees ? ["tree", "trees"] : [options.colonies ? "colony" : "species", "species"];
 const species = options.species ?? (await (await fetch(`${options.base}/v1/${list}`)).json())[list].map(({ id }) => id);
+
+/** What colonies are looked at when no species is named: two of each habit, two mixes, two from afar. */
+const habits = {
+    rooted: ["hypholoma_fasciculare?habit=rooted", "mycena_haematopus:0.5,laccaria_amethystina:0.5?habit=rooted"],
+    tuft: ["armillaria_mellea", "hypholoma_fasciculare:0.6,amanita_muscaria:0.4"],
+    troop: ["cantharellus_cibarius", "lycoperdon_perlatum"],
+    ring: ["marasmius_oreades?habit=ring", "infundibulicybe_geotropa?habit=ring"],
+    tier: ["trametes_versicolor", "pleurotus_ostreatus"],
+    "far off": ["hypholoma_fasciculare?habit=rooted&lod=2", "trametes_versicolor?lod=2"],
+};
 
 let columns = [{ query: options.set, label: [] }];
 for (const [name, values] of options.vary) {
@@ -77,6 +89,14 @@ const table = options.each.length
         shown: mixes.flatMap((mix) => values.flatMap((value) => columns.map(({ query, label }) => ({
             mix, query: [...query, `${name}=${value}`], label: [mix.replaceAll("_", " "), value, ...label],
         })))),
+    }))
+    : options.colonies && !options.species
+    ? Object.entries(habits).map(([title, colonies]) => ({
+        title,
+        shown: colonies.flatMap((colony) => columns.map(({ query, label }) => {
+            const [mix, own] = colony.split("?");
+            return { mix, query: [...query, ...(own?.split("&") ?? [])], label: [mix.replaceAll("_", " "), ...label] };
+        })),
     }))
     : species.map((mix) => ({ title: mix.replaceAll("_", " "), shown: columns.map((column) => ({ mix, ...column })) }));
 const views = options.views ?? ["three-quarter"];
@@ -156,9 +176,9 @@ async function ownSheet() {
             try {
                 await go(page, address);
                 facts = await page.evaluate(() => {
-                    const { size, counts } = window.sporeprint;
+                    const { size, counts, made } = window.sporeprint;
                     const cm = (metres) => (metres * 100).toFixed(1);
-                    return `${cm(size.height)} x ${cm(Math.max(size.width, size.depth))} cm, ${counts.triangles} tri`;
+                    return `${cm(size.height)} x ${cm(Math.max(size.width, size.depth))} cm, ${counts.triangles} tri${made ? `, ${made.made} of ${made.asked}` : ""}`;
                 });
             } catch (error) {
                 broken += 1;

@@ -47,6 +47,11 @@ const schema = {
 const fields = page.groupsOf(schema).flatMap((group) => group.fields);
 const named = (name) => fields.find((field) => field.name === name);
 
+test("what stands at the top level is about what grows: an individual or a whole colony", () => {
+    assert.equal(page.groupsOf(schema)[0].label, "Individual");
+    assert.equal(page.groupsOf(schema, page.colonies.whole)[0].label, "Colony");
+});
+
 test("every parameter of the schema becomes a field under its query name, except v", () => {
     assert.deepEqual(fields.map((field) => field.name).sort(), [
         "age", "deformation.bend_deg", "glow", "hymenium.count", "hymenium.form", "hymenium.per_mm", "lod", "seed", "texture_size", "textures",
@@ -102,6 +107,8 @@ test("a page's query and a canonical address say what grew", () => {
     assert.equal(page.productOf(new URLSearchParams("seed=7")), page.mushrooms);
     assert.deepEqual(page.grownAt("/v1/leaves/oak.glb"), { product: page.leaves, id: "oak" });
     assert.equal(page.grownAt("/v1/mushrooms/a:0.5,b:0.5.json").id, "a:0.5,b:0.5");
+    assert.equal(page.productOf(new URLSearchParams("colony=a:0.5,b:0.5")), page.colonies);
+    assert.deepEqual(page.grownAt("/v1/colonies/a:0.5,b:0.5.glb"), { product: page.colonies, id: "a:0.5,b:0.5" });
     assert.equal(page.grownAt("/v1/morphs/a/b.glb"), undefined);
 });
 

@@ -2,7 +2,8 @@
 import { Vector3, type Box3, type PerspectiveCamera } from "three";
 
 export const viewNames = ["three-quarter", "front", "side", "top", "below"] as const;
-export type ViewName = (typeof viewNames)[number];
+/** "roots": from above, without the caps that stand in the way. */
+export type ViewName = (typeof viewNames)[number] | "roots";
 
 /** Unit direction from the model to the eye, by azimuth from +Z to +X and elevation, degrees. */
 function towards(azimuth: number, elevation: number): Vector3 {
@@ -19,7 +20,16 @@ export const standing: Directions = {
     front: towards(0, 4),
     side: towards(90, 4),
     top: towards(0, 89.9),
+    roots: towards(0, 89.9),
     below: towards(24, -38),
+};
+
+/** Of many that stand side by side: from higher up, so that those behind are seen over those before them. */
+export const spread: Directions = {
+    ...standing,
+    "three-quarter": towards(32, 27),
+    front: towards(0, 12),
+    side: towards(90, 12),
 };
 
 /** Of what lies on the ground along +Z: its tip is up in the picture. */
@@ -28,6 +38,7 @@ export const lying: Directions = {
     front: towards(0, 12),
     side: towards(90, 8),
     top: towards(180, 89.9),
+    roots: towards(180, 89.9),
     below: towards(160, -60),
 };
 

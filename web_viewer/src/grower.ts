@@ -16,11 +16,20 @@ export interface Grown {
     wanted: Wanted;
 }
 
+/** What the service tells of a model, as far as the page shows it. */
+export interface Resource {
+    effective?: unknown;
+    /** In force, of a tree. */
+    matrix?: number[][];
+    /** Individuals of a colony. */
+    made?: number;
+}
+
 export interface GrowerEvents {
     progress: (progress: Progress | { stage: "unpacking" } | { stage: "idle" }) => void;
     /** Puts the model on the stage; `current` says whether it is still wanted. */
     show: (grown: Grown, refit: boolean, current: () => boolean) => Promise<boolean>;
-    effective: (resource: { effective?: unknown; matrix?: number[][] }) => void;
+    effective: (resource: Resource) => void;
     failed: (error: RequestFailed) => void;
 }
 
@@ -162,7 +171,7 @@ export class Grower {
         this.events.failed(known);
     }
 
-    private async readEffective(signal: AbortSignal): Promise<{ effective?: unknown; matrix?: number[][] } | undefined> {
+    private async readEffective(signal: AbortSignal): Promise<Resource | undefined> {
         try {
             return await getJson(this.settings.address(".json"), signal);
         } catch {

@@ -1,18 +1,18 @@
 // The page: puts gallery, stage, controls and service together.
 import "./app.css";
 import { Bench } from "./bench";
-import { centimetres, length, scaleBar, viewNames, type ViewName } from "./camera";
+import { centimetres, length, scaleBar, type ViewName } from "./camera";
 import { Controls } from "./controls";
 import { byId, grouped, kilobytes, make } from "./dom";
 import { factLine, Gallery, type Species } from "./gallery";
 import { Grower, type Grown } from "./grower";
 import { Growth } from "./growth";
 import { getJson, RequestFailed, send, type ProblemItem, type Progress } from "./http";
-import { readShares } from "./mix";
+import { fewestMembers, mostMembers, readShares, sharesText } from "./mix";
 import { MatrixTable } from "./matrix";
 import { countsOf, paintOf } from "./model";
 import { Paint } from "./paint";
-import { groupsOf, words, type Schema, type Value } from "./schema";
+import { groupsOf, valueAt, words, type Schema, type Value } from "./schema";
 import { grownAt, mushrooms, productOf, type Product } from "./products";
 import { mixPattern, Settings, type Fault } from "./settings";
 import { Sheet, sheetButtons, type SheetKind } from "./sheet";
@@ -34,6 +34,8 @@ interface TestHandle {
     readonly counts: { triangles: number; vertices: number; drawCalls: number; textures: number };
     /** The age that a clip shows now, and whether it runs. */
     readonly growth: { age: number | undefined; playing: boolean };
+    /** Individuals of a colony: how many there was room for, and how many were asked for. */
+    readonly made: { made: number; asked: number } | undefined;
     /** Metres. */
     readonly size: { above: number; width: number; height: number; depth: number };
 }
@@ -89,6 +91,8 @@ class Page {
     private readonly playButton = make("button", { type: "button", id: "play", class: "play" });
     private readonly lods = new Map<number, HTMLButtonElement>();
     private grown: Grown | undefined;
+    /** Individuals of a colony that were made and asked for, once the service said so. */
+    made: { made: number; asked: number } | undefined;
     private faults: Fault[] = [];
     private written: { name: string; at: number } | undefined;
     private writing: ReturnType<typeof setTimeout> | undefined;
@@ -100,7 +104,7 @@ class Page {
         schema: Schema,
         species: readonly Species[],
     ) {
-        const groups = groupsOf(schema);
+        const groups = groupsOf(schema, product.whole);
         const fields = groups.flatMap((group) => group.fields);
         this.settings = new Settings(fields, species[0]?.id ?? "", product);
         this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
@@ -136,6 +140,10 @@ class Page {
             effective: (resource) => {
                 this.controls.show(resource.effective);
                 this.matrix?.serve(resource.matrix);
+                this.made = resource.made === undefined
+                    ? undefined
+                    : { made: resource.made, asked: Number(valueAt(resource.effective, "count") ?? resource.made) };
+                this.showDimensions();
             },
             failed: (error) => this.failed(error),
         });
@@ -183,6 +191,12 @@ class Page {
         this.begin(true);
     }
 
+    /** Looks from a named side. */
+    view(name: ViewName, atOnce = true): void {
+        this.stage.view(name, atOnce);
+        byId("views").querySelector('[data-view="roots"]')?.setAttribute("aria-pressed", String(name === "roots"));
+    }
+
     /** From one species to the bench and back; what was mixed goes along. */
     private makeModes(): void {
         if (!this.product.lives) return;
@@ -208,6 +222,7 @@ class Page {
     private showMode(): void {
         const { morph } = this.settings;
         document.documentElement.classList.toggle("morphing", morph !== undefined);
+        if (this.product.ofSpecies) this.linkMix();
         if (!this.product.lives) return;
         for (const [id, on] of [["mode-species", !morph], ["mode-morph", Boolean(morph)]] as const) {
             if (on) byId(id).setAttribute("aria-current", "page");
@@ -221,6 +236,17 @@ class Page {
         // On the bench sheets are what one comes for; beside a lone species they are one thing more to take along.
         (morph ? byId("bench") : byId("form")).after(byId("sheets"));
         this.gallery.letter(morph?.shares.map(({ id }) => id) ?? []);
+    }
+
+    /** What stands here goes along to the colony of it and back. */
+    private linkMix(): void {
+        const { mix } = this.settings;
+        byId("mode-colony").setAttribute("href", `?colony=${mix}`);
+        if (this.product.lives) return;
+        const shares = readShares(mix) ?? [];
+        byId("mode-species").setAttribute("href", `?species=${mix}`);
+        if (shares.length >= fewestMembers && shares.length <= mostMembers) byId("mode-morph").setAttribute("href", `?morph=${sharesText(shares)}`);
+        byId("mode-morph").hidden = shares.length < fewestMembers || shares.length > mostMembers;
     }
 
     private sheetChanged(kind: SheetKind | undefined): void {
@@ -379,7 +405,7 @@ class Page {
         faults.push(...this.settings.read(query), ...this.settings.readMatrix(query));
         this.written = undefined;
         this.begin(refit);
-        if (asked && asked !== mix) faults.push({ parameter: this.product.kind, detail: `'${asked}' is no ${this.product.kind} here` });
+        if (asked && asked !== mix) faults.push({ parameter: this.product.kind, detail: `'${asked}' is no ${this.product.ofSpecies ? "species" : this.product.kind} here` });
         this.showFaults(faults);
         const sheet = query.get("sheet");
         if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) this.sheet.show(sheet);
@@ -414,6 +440,7 @@ class Page {
         }
         this.showFaults(this.faults);
         this.showNumbers(grown);
+        if (grown.draft) this.made = undefined;
         this.showDimensions();
         for (const id of ["download", "copy-url", "copy-curl"]) {
             byId<HTMLButtonElement>(id).disabled = grown.draft;
@@ -460,6 +487,7 @@ class Page {
         byId("dimensions").textContent = this.product.lies
             ? `${centimetres(depth, 1)} long, ${centimetres(width, 1)} wide`
             : `${length(above)} tall, ${length(Math.max(width, depth))} across`;
+        if (this.made) byId("dimensions").append(` · ${this.made.made} of ${this.made.asked} made`);
     }
 
     private showScale(): void {
@@ -525,11 +553,12 @@ class Page {
 
     private makeTools(): void {
         const labels: Record<ViewName, string> = {
-            "three-quarter": "¾", front: "Front", side: "Side", top: "Top", below: "Below",
+            "three-quarter": "¾", front: "Front", side: "Side", top: "Top", below: "Below", roots: "Roots",
         };
-        for (const name of viewNames) {
-            const button = make("button", { type: "button", title: `Look from: ${name}` }, labels[name]);
-            button.addEventListener("click", () => this.stage.view(name, false));
+        for (const name of this.product.views) {
+            const title = name === "roots" ? "Roots and stems from above, without what stands on them" : `Look from: ${name}`;
+            const button = make("button", { type: "button", title, "data-view": name }, labels[name]);
+            button.addEventListener("click", () => this.view(name, false));
             byId("views").append(button);
         }
         const lod = this.settings.field("lod");
@@ -694,7 +723,7 @@ class Page {
             const model = links?.model ?? `${this.product.path}/${id}.glb`;
             return { id, address: query ? `${model}${model.includes("?") ? "&" : "?"}${query}` : model };
         });
-        await makeThumbnails(models, this.product.directions, (id, picture) => this.gallery.picture(id, picture), this.thumbnails.signal);
+        await makeThumbnails(models, this.product.portraits, (id, picture) => this.gallery.picture(id, picture), this.thumbnails.signal);
         document.documentElement.dataset["gallery"] = "complete";
     }
 }
@@ -715,7 +744,7 @@ function paintStage(stage: Stage, dusk: boolean): void {
 function dressPage(product: Product): void {
     const canvas = byId("canvas");
     canvas.setAttribute("aria-label", (canvas.getAttribute("aria-label") ?? "").replace("mushroom", product.noun));
-    for (const mode of ["species", "morph", "leaf", "tree"]) {
+    for (const mode of ["species", "morph", "leaf", "tree", "colony"]) {
         const current = mode === product.kind;
         if (current) byId(`mode-${mode}`).setAttribute("aria-current", "page");
         else byId(`mode-${mode}`).removeAttribute("aria-current");
@@ -723,6 +752,7 @@ function dressPage(product: Product): void {
     if (product === mushrooms) return;
     // Only mushrooms have something between them, a life to play and a season.
     byId("mode-morph").hidden = byId("sheets").hidden = true;
+    if (product.ofSpecies) return;
     byId<HTMLInputElement>("find").placeholder = "Name…";
     byId("gallery").parentElement?.setAttribute("aria-label", words(product.kind));
     byId("find").setAttribute("aria-label", `Find a ${product.noun}`);
@@ -741,7 +771,7 @@ async function open(): Promise<void> {
             await page.settled();
             await stage.drawn();
         },
-        view: (name) => stage.view(name),
+        view: (name) => page.view(name),
         get renderer() {
             const { render, memory } = stage.renderer.info;
             return { frames: render.frame, calls: render.calls, triangles: render.triangles, ...memory };
@@ -751,6 +781,9 @@ async function open(): Promise<void> {
         },
         get growth() {
             return page.growing;
+        },
+        get made() {
+            return page.made;
         },
         get size() {
             return stage.size;

@@ -1,5 +1,5 @@
 // A parsed GLB on its way to the stage and off it again: reading, measuring, counting, freeing.
-import { Box3, Mesh, MeshStandardMaterial, Texture, type Material, type Object3D } from "three";
+import { Box3, InstancedMesh, Mesh, MeshStandardMaterial, Texture, type Material, type Object3D } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { Paint } from "./paint";
 
@@ -69,13 +69,20 @@ export async function parseModel(bytes: ArrayBuffer, paint?: Paint): Promise<Obj
 
 export function countsOf(model: Object3D): Counts {
     const counts = { triangles: 0, vertices: 0, drawCalls: 0, textures: texturesOf(model).size };
-    for (const { geometry } of meshesOf(model)) {
+    for (const mesh of meshesOf(model)) {
+        const { geometry } = mesh;
+        const times = mesh instanceof InstancedMesh ? mesh.count : 1;
         const vertices = geometry.getAttribute("position")?.count ?? 0;
-        counts.vertices += vertices;
-        counts.triangles += (geometry.index?.count ?? vertices) / 3;
+        counts.vertices += times * vertices;
+        counts.triangles += (times * (geometry.index?.count ?? vertices)) / 3;
         counts.drawCalls += 1;
     }
     return counts;
+}
+
+/** What the caps of a colony stand on, roots and stems; undefined where nothing is but individuals. */
+export function stemsOf(model: Object3D): Object3D | undefined {
+    return model.children.find(({ name }) => name === "stems");
 }
 
 /** Bounds of the vertices themselves, metres. */

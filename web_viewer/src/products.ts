@@ -1,19 +1,27 @@
-// What the page grows: mushrooms, or what grows from a preset. Where each has its routes, its list and its words.
-import { lying, standing, type Directions } from "./camera";
+// What the page grows: mushrooms and colonies of them, or what grows from a preset. Where each has its routes, its list and its words.
+import { lying, spread, standing, type Directions, type ViewName, viewNames } from "./camera";
 import type { Species } from "./gallery";
 import { getJson } from "./http";
 
 export interface Product {
     /** "mushroom": what one of them is called. */
     noun: string;
+    /** What its parameters are about. */
+    whole: string;
     /** What names one of its list: "species", also in the page's query. */
     kind: string;
     /** Where the service grows it. */
     path: string;
     /** Whether two of them have something between them, and a growth. */
     lives: boolean;
+    /** Whether it is of a species of the atlas or a mix of them. */
+    ofSpecies: boolean;
+    /** The views that its buttons offer. */
+    views: readonly ViewName[];
     /** Where to stand, by the name of a view. */
     directions: Directions;
+    /** The same for the pictures of its list. */
+    portraits: Directions;
     /** What of it is never sunk into the ground. */
     lies: boolean;
     /** Whether it grows from a matrix, which may be one's own. */
@@ -29,21 +37,45 @@ interface Preset {
 
 export const mushrooms: Product = {
     noun: "mushroom",
+    whole: "individual",
     kind: "species",
     path: "/v1/mushrooms",
     lives: true,
+    ofSpecies: true,
+    views: viewNames,
     directions: standing,
+    portraits: standing,
     lies: false,
     ramifies: false,
-    list: async () => (await getJson<{ species: Species[] }>("/v1/species")).species,
+    list: listSpecies,
+};
+
+/** Many of a species or mix; the list shows one of each. */
+export const colonies: Product = {
+    noun: "colony",
+    whole: "colony",
+    kind: "colony",
+    path: "/v1/colonies",
+    lives: false,
+    ofSpecies: true,
+    views: [...viewNames, "roots"],
+    directions: spread,
+    portraits: standing,
+    lies: false,
+    ramifies: false,
+    list: listSpecies,
 };
 
 export const leaves: Product = {
     noun: "leaf",
+    whole: "individual",
     kind: "leaf",
     path: "/v1/leaves",
     lives: false,
+    ofSpecies: false,
+    views: viewNames,
     directions: lying,
+    portraits: lying,
     lies: true,
     ramifies: false,
     list: async () => listed((await getJson<{ leaves: Preset[] }>("/v1/leaves")).leaves),
@@ -51,16 +83,24 @@ export const leaves: Product = {
 
 export const trees: Product = {
     noun: "tree",
+    whole: "individual",
     kind: "tree",
     path: "/v1/trees",
     lives: false,
+    ofSpecies: false,
+    views: viewNames,
     directions: standing,
+    portraits: standing,
     lies: false,
     ramifies: true,
     list: async () => listed((await getJson<{ trees: Preset[] }>("/v1/trees")).trees),
 };
 
-export const products: readonly Product[] = [mushrooms, leaves, trees];
+export const products: readonly Product[] = [mushrooms, leaves, trees, colonies];
+
+async function listSpecies(): Promise<Species[]> {
+    return (await getJson<{ species: Species[] }>("/v1/species")).species;
+}
 
 function listed(presets: readonly Preset[]): Species[] {
     return presets.map(({ id, name, links }) => ({ id, common_name: name, scientific_name: "", ...(links && { links }) }));

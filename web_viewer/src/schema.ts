@@ -162,8 +162,9 @@ function propertiesOf(schema: Schema, root: Schema): Map<string, Schema> {
     return found;
 }
 
-/** All parameters in schema order; nested objects become dotted names and groups of their own. */
-export function groupsOf(root: Schema): Group[] {
+/** All parameters in schema order; nested objects become dotted names and groups of their own. `whole` names the group
+ *  of those at the top level. */
+export function groupsOf(root: Schema, whole = "individual"): Group[] {
     const groups = new Map<string, Group>();
     const groupAt = (key: string, label: string, description = ""): Group => {
         const made = groups.get(key) ?? { key, label, description, fields: [] };
@@ -184,7 +185,7 @@ export function groupsOf(root: Schema): Group[] {
             if (hidden.has(name)) continue;
             const groupKey = at.slice(0, -1).join(".") || (sub["x-group"] ?? fileGroup(name));
             const field = fieldOf(name, at.at(-1) ?? name, groupKey, sub, own);
-            if (field) groupAt(groupKey, words(groupKey || "individual")).fields.push(field);
+            if (field) groupAt(groupKey, words(groupKey || whole)).fields.push(field);
         }
     };
     walk(resolved(root, root), [], "");
@@ -193,7 +194,7 @@ export function groupsOf(root: Schema): Group[] {
 
 /** Top-level parameters about the file rather than the individual stand in a group of their own. */
 function fileGroup(name: string): string {
-    return /^(lod|textures?|texture_size|animation|frames)$/.test(name) ? "file" : "";
+    return /^(lod|textures?|texture_size|animation|frames|instancing)$/.test(name) ? "file" : "";
 }
 
 /** Reads "deformation.bend_deg" out of the nested `effective` of a resource. */

@@ -19,7 +19,7 @@ import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { fittingDistance, pixelsPerMetre, type Directions, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
-import { boundsOf, disposeModel, setWireframe, texturesOf } from "./model";
+import { boundsOf, disposeModel, setWireframe, stemsOf, texturesOf } from "./model";
 import { niceStep } from "./schema";
 
 /** Light from the upper left, as in the plates of field guides. */
@@ -100,6 +100,9 @@ export class Stage {
     private readonly contact = new ContactShadow();
     private model: Object3D | undefined;
     private bounds = new Box3();
+    /** What is to be in the picture: the bounds, or those of roots and stems. */
+    private framed = new Box3();
+    private bared = false;
     private requested = false;
     private flight = 0;
     private wireframe_ = false;
@@ -177,6 +180,7 @@ export class Stage {
         this.model = model;
         if (this.style.lies) model.position.y = -boundsOf(model).min.y;
         this.bounds = boundsOf(model);
+        this.bareRoots();
         this.scene.add(model);
         if (old) {
             this.scene.remove(old);
@@ -196,6 +200,11 @@ export class Stage {
 
     /** Looks from a named side, at once. */
     view(name: ViewName, atOnce = true): void {
+        if (this.bared !== (name === "roots")) {
+            this.bared = !this.bared;
+            this.bareRoots();
+            this.castContact();
+        }
         this.fit(name, atOnce);
     }
 
@@ -206,10 +215,17 @@ export class Stage {
             ? this.style.directions[name].clone()
             : this.camera.position.clone().sub(this.controls.target).normalize();
         if (direction.lengthSq() === 0) direction.copy(this.style.directions["three-quarter"]);
-        const centre = this.bounds.getCenter(new Vector3());
+        const centre = this.framed.getCenter(new Vector3());
         const margin = this.style.bare ? { x: 0.06, y: 0.06 } : this.host.clientWidth < 520 ? { x: 0.12, y: 0.3 } : { x: 0.14, y: 0.26 };
-        const distance = fittingDistance(this.bounds, direction, this.camera, margin);
+        const distance = fittingDistance(this.framed, direction, this.camera, margin);
         this.moveTo(centre, direction.multiplyScalar(distance).add(centre), atOnce || this.style.calm);
+    }
+
+    /** Takes the individuals of a colony off their roots and stems, or puts them back. */
+    private bareRoots(): void {
+        const stems = this.model && stemsOf(this.model);
+        this.framed = this.bared && stems ? boundsOf(stems) : this.bounds;
+        for (const node of this.model?.children ?? []) node.visible = !this.bared || !stems || node === stems;
     }
 
     /** Asks for one frame; many asks in one moment make one frame. */
@@ -269,7 +285,7 @@ export class Stage {
     }
 
     private outOfPicture(): boolean {
-        const ball = this.bounds.getBoundingSphere(new Sphere());
+        const ball = this.framed.getBoundingSphere(new Sphere());
         const seen = ball.radius / (this.camera.position.distanceTo(ball.center) || 1);
         const half = Math.tan((this.camera.fov * Math.PI) / 360) * Math.min(1, this.camera.aspect);
         const off = this.controls.target.distanceTo(ball.center) / ball.radius;
