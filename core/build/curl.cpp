@@ -40,7 +40,7 @@ glm::dvec3 Curl::moved(bool cap, double at, double angle) const {
     if (none()) return glm::dvec3(0.0);
     const double high = height(cap, at, cuts_->cap_end(angle), cuts_->lower_end(angle));
     if (high <= 0.0) return glm::dvec3(0.0);
-    const std::vector<double>& turns = cuts_->turns();
+    const std::vector<double>& turns = cuts_->laid();
     double turn = angle / (2.0 * pi);
     turn -= std::floor(turn);
     const auto next = static_cast<std::size_t>(std::upper_bound(turns.begin(), turns.end(), turn) -

@@ -82,6 +82,16 @@ Cuts::Cuts(const Individual& individual, int lod) {
         phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
     }
     place_columns(notches, amounts, carries.inside, detail_of(lod).columns);
+    laid_ = turns_;
+    const auto turn_of = [this](std::size_t k) { return k == turns_.size() ? 1.0 : turns_[k]; };
+    for (const Between& column : between_) {
+        double on_ways = 0.0;
+        for (const Way& way : ways(column))
+            on_ways +=
+                way.weight * (turn_of(way.left) +
+                              closed_width * way.share * (turn_of(way.right) - turn_of(way.left)));
+        laid_[column.column] = on_ways + column.open * (turns_[column.column] - on_ways);
+    }
     if (none()) return;
     for (const double turn : turns_) depths_.push_back(cut_at(whole_turn * turn));
     depths_.push_back(depths_.front());

@@ -55,6 +55,9 @@ class Cuts {
     /// Places of the columns, in turns, rising from 0. Equal for all amounts.
     [[nodiscard]] const std::vector<double>& turns() const { return turns_; }
 
+    /// Where the columns stand once those of closed cuts are laid, in turns, rising from 0.
+    [[nodiscard]] const std::vector<double>& laid() const { return laid_; }
+
     /// A column that stands between even ones. As far as its cut is closed it lies on the straight way between the columns that count
     /// beside it: even ones and those of open cuts. While others open it lies on several ways, by their weights.
     struct Between {
@@ -85,7 +88,7 @@ class Cuts {
                        int inside, int even);
 
     std::vector<Open> open_;
-    std::vector<double> turns_;
+    std::vector<double> turns_, laid_;
     std::vector<double> depths_;  // of the columns and, again, the first; empty when nothing is cut
     std::vector<Between> between_;
     std::vector<Way> ways_;

@@ -67,11 +67,11 @@ WornSolids::WornSolids(Mesh& mesh, const FaceGrid& cap, const Individual& indivi
 
 WornSolids::Spot WornSolids::spot(double share, double turn) const {
     turn -= std::floor(turn);
-    const auto column = static_cast<std::size_t>(
-        std::upper_bound(cuts_.turns().begin(), cuts_.turns().end(), turn) - cuts_.turns().begin() -
-        1);
-    const double next = column + 1 == columns_ ? 1.0 : cuts_.turns()[column + 1];
-    const double v = (turn - cuts_.turns()[column]) / (next - cuts_.turns()[column]);
+    const auto column =
+        static_cast<std::size_t>(std::upper_bound(cuts_.laid().begin(), cuts_.laid().end(), turn) -
+                                 cuts_.laid().begin() - 1);
+    const double next = column + 1 == columns_ ? 1.0 : cuts_.laid()[column + 1];
+    const double v = (turn - cuts_.laid()[column]) / (next - cuts_.laid()[column]);
     const auto above = std::upper_bound(cap_.shares.begin(), cap_.shares.end(), share);
     const std::size_t ring = std::min(
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - cap_.shares.begin() - 1, 0)),

@@ -112,7 +112,7 @@ TEST_F(ServiceTest, unknown_species_and_routes_are_told_what_was_probably_meant)
     expect_problem(route, 404);
     EXPECT_NE(text_of(route).find("did you mean '/v1/species'?"), std::string::npos);
     expect_problem(ask("/v1/species/xyzzy"), 404);
-    expect_problem(ask("/v1/colonies/" + id + ".glb"), 404);
+    expect_problem(ask("/v1/moulds/" + id + ".glb"), 404);
     expect_problem(ask("/nothing?a=1"), 404);
     expect_problem(ask("/assets/none.js"), 404);
 }
