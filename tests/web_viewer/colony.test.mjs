@@ -108,11 +108,11 @@ test("roots are seen from above, without the caps, until another view is taken",
 });
 
 test("a mix goes along from the bench to its colony and back", async (t) => {
-    const { page, heard } = await open(t, "?morph=mycena_haematopus:0.5,laccaria_amethystina:0.5&lod=3&texture_size=128");
+    const { page, heard } = await open(t, "?morph=mycena_sanguinolenta:0.5,amanita_muscaria:0.5&lod=3&texture_size=128");
     await page.locator("#mode-colony").click();
     await page.waitForURL(/colony=/);
     await ready(page);
-    const mix = "laccaria_amethystina:0.5,mycena_haematopus:0.5";
+    const mix = "amanita_muscaria:0.5,mycena_sanguinolenta:0.5";
     assert.equal(parameters(page).colony, mix);
     assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 2);
     assert.match(await page.locator("#common-name").textContent(), / × /);
@@ -125,7 +125,7 @@ test("a mix goes along from the bench to its colony and back", async (t) => {
 });
 
 test("a colony repeated by the graphics card is counted and framed as that of nodes", async (t) => {
-    const { page, heard } = await open(t, `?colony=armillaria_mellea&count=8&distinct=2&${small}`);
+    const { page, heard } = await open(t, `?colony=coprinus_comatus&count=8&distinct=2&${small}`);
     const nodes = await page.evaluate(() => ({ ...window.sporeprint.counts, ...window.sporeprint.size }));
     await page.locator('select[name="instancing"]').selectOption("gpu");
     await ready(page);
@@ -138,22 +138,22 @@ test("a colony repeated by the graphics card is counted and framed as that of no
 });
 
 test("the file that is saved is that of the copied address, and brings its settings back", async (t) => {
-    const { page, heard } = await open(t, `?colony=marasmius_oreades&seed=3&habit=ring&lod=2&texture_size=128`);
+    const { page, heard } = await open(t, `?colony=russula_vinosa&seed=3&habit=ring&lod=2&texture_size=128`);
     await page.context().grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
     const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
-    assert.match(download.suggestedFilename(), /^marasmius_oreades.*\.glb$/);
+    assert.match(download.suggestedFilename(), /^russula_vinosa.*\.glb$/);
     const saved = await readFile(await download.path());
     await page.locator("#copy-url").click();
     await page.waitForFunction(() => document.querySelector("#status").textContent === "URL copied");
     const address = await page.evaluate(() => navigator.clipboard.readText());
-    assert.match(address, /\/v1\/colonies\/marasmius_oreades\.glb\?seed=3&habit=ring&lod=2&texture_size=128&v=/);
+    assert.match(address, /\/v1\/colonies\/russula_vinosa\.glb\?seed=3&habit=ring&lod=2&texture_size=128&v=/);
     assert.ok(saved.equals(Buffer.from(await (await fetch(address)).arrayBuffer())));
     await page.goto(`${base}/?leaf=oak&lod=3`);
     await ready(page);
     await page.locator("#file").setInputFiles({ name: "ring.glb", mimeType: "model/gltf-binary", buffer: saved });
-    await page.waitForURL(/colony=marasmius/);
+    await page.waitForURL(/colony=russula/);
     await ready(page);
-    assert.deepEqual(parameters(page), { colony: "marasmius_oreades", seed: "3", habit: "ring", lod: "2", texture_size: "128" });
+    assert.deepEqual(parameters(page), { colony: "russula_vinosa", seed: "3", habit: "ring", lod: "2", texture_size: "128" });
     assert.deepEqual(heard.failed, []);
 });
 
@@ -170,7 +170,7 @@ test("who asks for fewer individuals by keys is told how many of them were made"
 });
 
 test("five ways to grow fit in every width, and a colony in 360 pixels", async (t) => {
-    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare:0.5,armillaria_mellea:0.5&lod=3&texture_size=128`, { width: 360, height: 740 });
+    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare:0.5,coprinus_comatus:0.5&lod=3&texture_size=128`, { width: 360, height: 740 });
     for (const width of [320, 360, 460, 461, 560, 680, 681, 900, 901, 1100, 1280]) {
         await page.setViewportSize({ width, height: 740 });
         const over = await page.evaluate(() => [...document.querySelectorAll("main *, aside *, header *, footer")]
