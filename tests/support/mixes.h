@@ -30,7 +30,8 @@ inline std::vector<SpeciesPair> species_pairs() {
     return pairs;
 }
 
-/// At least `most` pairs in which every species comes equally often, or all there are. The ids stand in a ring, and each is paired with
+/// At least `most` pairs in which every species comes equally often, or all there are; `most` evenly spread ones if there are more
+/// species than that. The ids stand in a ring, and each is paired with
 /// those some steps on: next to it are its kin by name, and half the ring away are strangers.
 inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
     const auto ids = species_ids();
@@ -40,7 +41,12 @@ inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
         const std::size_t steps = rounds == 1 ? all / 2 + 1 : 1 + round * (all - 1) / (rounds - 1);
         for (std::size_t i = 0; i < n; ++i) pairs.insert(std::minmax(ids[i], ids[(i + steps) % n]));
     }
-    return {pairs.begin(), pairs.end()};
+    if (most >= n) return {pairs.begin(), pairs.end()};
+    std::vector<SpeciesPair> few;
+    for (std::size_t i = 0; i < most; ++i)
+        few.push_back(
+            *std::next(pairs.begin(), static_cast<std::ptrdiff_t>(i * pairs.size() / most)));
+    return few;
 }
 
 /// Two to eight different species, by id.
