@@ -4,10 +4,12 @@
 #include <array>
 #include <fstream>
 #include <iterator>
+#include <system_error>
 #include <utility>
 
 #include "api/encoding.h"
 #include "api/text.h"
+#include "core/params/problems.h"
 
 namespace sporeprint::api {
 
@@ -82,7 +84,10 @@ Document json_document(const Value& value, std::string_view content_type) {
 
 std::map<std::string, Document, std::less<>> read_assets(const std::filesystem::path& folder) {
     std::map<std::string, Document, std::less<>> out;
-    for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    std::error_code error;
+    const std::filesystem::directory_iterator entries(folder, error);
+    if (error) throw InvalidInput(folder.string(), "the folder cannot be read: " + error.message());
+    for (const auto& entry : entries) {
         const std::string name = entry.path().filename().string();
         if (!entry.is_regular_file() || name.starts_with('.') || entry.file_size() > largest_asset)
             continue;

@@ -41,7 +41,7 @@ inline constexpr const char* revalidated = "no-cache";
 
 /// The files of a folder by name, read once. Names that begin with '.' and files over 64 MB are left out.
 ///
-/// throws  std::filesystem::filesystem_error if the folder cannot be read
+/// throws  InvalidInput if the folder cannot be read
 [[nodiscard]] std::map<std::string, Document, std::less<>> read_assets(
     const std::filesystem::path& folder);
 

@@ -401,6 +401,17 @@ TEST(ServiceAssets, the_page_and_its_files_are_served) {
     EXPECT_EQ(size_of(head.body), size_of(page.body));
 }
 
+TEST(ServiceAssets, a_folder_that_is_not_there_is_named) {
+    ServiceOptions options;
+    options.assets = "/there/is/no/such/page";
+    try {
+        Service service(built_in_atlas(), options);
+        FAIL() << "started without its page";
+    } catch (const InvalidInput& error) {
+        EXPECT_EQ(error.problems().front().path, "/there/is/no/such/page");
+    }
+}
+
 TEST_F(ServiceTest, without_a_page_the_root_gives_a_hint) {
     const Answer answer = ask("/");
     EXPECT_EQ(answer.status, 200);
