@@ -72,17 +72,16 @@ void dress(SkinnedSkeleton& made, double painted_length) {
     Mesh& mesh = made.mesh;
     const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
     mesh.texture_coordinates.resize(mesh.positions.size());
-    std::size_t vertex = 0;
     std::vector<double> rings;
-    for (std::uint32_t s = 0; s < made.strips.size(); ++s) {
+    for (std::size_t s = 0; s < made.strips.size(); ++s) {
         const Scaffold::Strip& strip = made.strips[s];
         const double length = std::max(strip.length, 1e-9);
-        const std::size_t first = vertex;
+        const std::size_t first = made.begins[s], last = made.begins[s + 1];
         double low = 1e9, high = -1e9, begins = 0.0, ends = 0.0;
         rings.clear();
-        for (; vertex < made.strip_of.size() && made.strip_of[vertex] == s; ++vertex) {
-            const auto y = static_cast<double>(mesh.positions[vertex].y);
-            const double along = std::min(std::max(made.places[vertex].y, 0.0), length);
+        for (std::size_t i = first; i < last; ++i) {
+            const auto y = static_cast<double>(mesh.positions[i].y);
+            const double along = std::min(std::max(made.places[i].y, 0.0), length);
             low = std::min(low, y);
             high = std::max(high, y);
             // The end that has more of its height at its half.
@@ -96,14 +95,14 @@ void dress(SkinnedSkeleton& made, double painted_length) {
                     rings.end());
         const bool stem = high - low > risen * strip.radius;
         double sum_begins = 0.0, sum_ends = 0.0;
-        for (std::size_t i = first; i < vertex; ++i) {
+        for (std::size_t i = first; i < last; ++i) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
             sum_begins += length - along;
             sum_ends += along;
         }
         const bool upwards = begins * sum_ends <= ends * sum_begins;
         const ToAndFro root(rings, painted_length);
-        for (std::size_t i = first; i < vertex; ++i) {
+        for (std::size_t i = first; i < last; ++i) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
             const double share =
                 stem ? (upwards ? along / length : 1.0 - along / length) : root.at(along);
@@ -158,7 +157,8 @@ int skin_levels(std::size_t nodes, int lod) {
 Mesh colony_skin(const Skeleton& limbs, const SkinDress& wanted) {
     if (limbs.nodes.empty()) return {};
     SkinnedSkeleton made =
-        skinned(cleaned(limbs).skeleton, skin_levels(limbs.nodes.size(), wanted.lod));
+        skinned(cleaned(limbs).skeleton, skin_levels(limbs.nodes.size(), wanted.lod),
+                wanted.textured ? SkinPlaces::told : SkinPlaces::left_out);
     if (wanted.textured) dress(made, wanted.painted_length);
     order_for_vertex_cache(made.mesh);
     return std::move(made.mesh);

@@ -133,13 +133,15 @@ Mesh bark_of(const Tree& tree, int lod) {
         if (part.limbs.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
         append(bark, skin.mesh);
-        for (std::size_t i = 0; i < skin.places.size(); ++i) {
-            // There and back: so the image meets itself wherever it ends.
-            const double girth = 2.0 * pi * skin.strips[skin.strip_of[i]].radius;
-            const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
-            const double whole = 2.0 * std::floor(0.5 * images);
-            bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
-                                                  1.0 - std::abs(1.0 - (images - whole)));
+        for (std::size_t s = 0; s < skin.strips.size(); ++s) {
+            const double girth = 2.0 * pi * skin.strips[s].radius;
+            for (std::uint32_t i = skin.begins[s]; i < skin.begins[s + 1]; ++i) {
+                // There and back: so the image meets itself wherever it ends.
+                const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
+                const double whole = 2.0 * std::floor(0.5 * images);
+                bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
+                                                      1.0 - std::abs(1.0 - (images - whole)));
+            }
         }
     }
     add_tangents(bark);

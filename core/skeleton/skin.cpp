@@ -58,12 +58,16 @@ class Copies {
   public:
     explicit Copies(std::size_t points) : last_(points, 0) {}
 
-    void begin_strip(std::size_t vertices) { others_ = static_cast<std::uint32_t>(vertices); }
+    void begin_strip(std::uint32_t vertices) {
+        others_ = vertices;
+        before_.clear();
+    }
 
     /// The vertex of a point on a side (0..3), or, where there is none yet, `vertices`, the next one.
     std::uint32_t find_or_add(std::uint32_t point, std::uint32_t side, std::uint32_t vertices) {
         std::uint32_t& last = last_[point];
-        for (std::uint32_t copy = last; copy > 4 * others_ + 3; copy = before_[copy / 4 - 1])
+        for (std::uint32_t copy = last; copy > 4 * others_ + 3;
+             copy = before_[copy / 4 - 1 - others_])
             if (copy % 4 == side) return copy / 4 - 1;
         before_.push_back(last);
         last = 4 * (vertices + 1) + side;
@@ -72,9 +76,10 @@ class Copies {
 
   private:
     // A copy is four times its vertex, counted from one, and its side.
-    std::vector<std::uint32_t> last_;    // of each point
-    std::vector<std::uint32_t> before_;  // of each vertex: the copy of the same point before it
-    std::uint32_t others_ = 0;           // vertices of strips that were made before
+    std::vector<std::uint32_t> last_;  // of each point
+    std::vector<std::uint32_t>
+        before_;                // of each vertex of the strip: the copy of its point before it
+    std::uint32_t others_ = 0;  // vertices of strips that were made before
 };
 
 // Of each point, by area.
@@ -98,7 +103,8 @@ std::vector<glm::dvec3> normals_of(const Subdivided& fine) {
 }
 
 template <class Patch>
-SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int levels) {
+SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int levels,
+                         SkinPlaces places) {
     const std::vector<glm::dvec3> normals = normals_of<Patch>(fine);
     const std::vector<std::array<glm::dvec2, 9>> inner = places_of_patches(levels);
     const std::size_t share = inner.size();
@@ -112,11 +118,10 @@ SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int lev
     const std::size_t about = fine.points.size() + fine.points.size() / 8;
     mesh.positions.reserve(about);
     mesh.normals.reserve(about);
-    made.places.reserve(about);
-    made.strip_of.reserve(about);
-    for (std::uint32_t s = 0; s < coarse.strips.size(); ++s) {
-        const Scaffold::Strip& strip = coarse.strips[s];
-        copies.begin_strip(mesh.positions.size());
+    if (places == SkinPlaces::told) made.places.reserve(about);
+    made.begins.push_back(0);
+    for (const Scaffold::Strip& strip : coarse.strips) {
+        copies.begin_strip(made.begins.back());
         for (std::size_t p = strip.first * share; p < (strip.first + strip.quads) * share; ++p) {
             typename Patch::Points vertices = Patch::points_of(fine, p);
             for (std::size_t i = 0; i < vertices.size(); ++i) {
@@ -129,26 +134,26 @@ SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int lev
                 if (vertices[i] != next) continue;
                 mesh.positions.emplace_back(fine.points[point]);
                 mesh.normals.emplace_back(normals[point]);
-                made.places.push_back(place);
-                made.strip_of.push_back(s);
+                if (places == SkinPlaces::told) made.places.push_back(place);
             }
             for (const auto& [a, b, c, d] : Patch::quads)
                 for (const std::size_t corner : {a, b, c, a, c, d}) *index++ = vertices[corner];
         }
+        made.begins.push_back(static_cast<std::uint32_t>(mesh.positions.size()));
     }
     return made;
 }
 
 }  // namespace
 
-SkinnedSkeleton skinned(const Skeleton& clean, int levels) {
+SkinnedSkeleton skinned(const Skeleton& clean, int levels, SkinPlaces places) {
     Scaffold coarse = scaffold(clean, levels);
     QuadMesh quads = {std::move(coarse.points), std::move(coarse.quads)};
     if (levels == 0) {
         const Subdivided same = {std::move(quads.points), std::move(quads.quads), {}, 0, 0};
-        return cut_open<Whole>(coarse, same, levels);
+        return cut_open<Whole>(coarse, same, levels, places);
     }
-    return cut_open<Divided>(coarse, subdivided(std::move(quads), levels), levels);
+    return cut_open<Divided>(coarse, subdivided(std::move(quads), levels), levels, places);
 }
 
 }  // namespace sporeprint

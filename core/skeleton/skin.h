@@ -10,10 +10,14 @@ namespace sporeprint {
 struct SkinnedSkeleton {
     /// Positions, unit normals (by area, the same on both sides of a seam) and indices.
     Mesh mesh;
-    std::vector<Scaffold::Place> places;  ///< of each vertex
+    std::vector<Scaffold::Place> places;  ///< of each vertex; empty if they were not asked for
     std::vector<Scaffold::Strip> strips;
-    std::vector<std::uint32_t> strip_of;  ///< of each vertex
+    /// Vertices of strip s are begins[s]..begins[s + 1].
+    std::vector<std::uint32_t> begins;
 };
+
+/// Whether a skin tells the places of its vertices, as texture coordinates need them.
+enum class SkinPlaces { told, left_out };
 
 /// Subdivides the scaffold of a clean skeleton after Catmull and Clark.
 ///
@@ -21,6 +25,7 @@ struct SkinnedSkeleton {
 /// returns  closed once equal positions are welded
 /// throws   Impossible with broken_limits()
 /// cost     O(nodes 4^levels)
-[[nodiscard]] SkinnedSkeleton skinned(const Skeleton& clean, int levels);
+[[nodiscard]] SkinnedSkeleton skinned(const Skeleton& clean, int levels,
+                                      SkinPlaces places = SkinPlaces::told);
 
 }  // namespace sporeprint

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <vector>
 
+#include "core/gltf/glb.h"
 #include "core/math/random.h"
 #include "core/plant/ramification.h"
 #include "core/skeleton/skin.h"
@@ -47,6 +48,19 @@ BENCHMARK(skin_of_roots)
     ->Arg(10000)
     ->Unit(benchmark::kMillisecond)
     ->Complexity();
+
+// What Blender's Skin and Subdivision modifiers and its glTF exporter do to the same graph (README.md has the figures).
+void skeleton_to_glb(benchmark::State& state) {
+    const Skeleton skeleton = roots(static_cast<std::uint32_t>(state.range(0)));
+    std::size_t bytes = 0;
+    for (auto _ : state) {
+        const SkinnedSkeleton made = skinned(cleaned(skeleton).skeleton, 2, SkinPlaces::left_out);
+        bytes =
+            size_of(glb(made.mesh, {.name = "roots", .image_addresses = {}, .extras_json = ""}));
+    }
+    state.counters["bytes"] = static_cast<double>(bytes);
+}
+BENCHMARK(skeleton_to_glb)->Arg(1000)->Arg(5000)->Unit(benchmark::kMillisecond);
 
 void dealt_tree(benchmark::State& state) {
     const RamificationMatrix matrix = random_binary_matrix(7);
