@@ -3,14 +3,16 @@
 #include <xxhash.h>
 #include <zlib.h>
 
+#include <memory>
 #include <new>
 
 #include "api/text.h"
 
 namespace sporeprint::api {
 
-std::string digest_of(std::string_view text) {
-    const XXH128_hash_t hash = XXH3_128bits(text.data(), text.size());
+namespace {
+
+std::string digits_of(XXH128_hash_t hash) {
     XXH128_canonical_t bytes;
     XXH128_canonicalFromHash(&bytes, hash);
     std::string out;
@@ -19,6 +21,21 @@ std::string digest_of(std::string_view text) {
         out += "0123456789abcdef"[byte & 15];
     }
     return out;
+}
+
+}  // namespace
+
+std::string digest_of(std::string_view text) {
+    return digits_of(XXH3_128bits(text.data(), text.size()));
+}
+
+std::string digest_of(const Body& body) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         &XXH3_freeState);
+    if (!state) throw std::bad_alloc();
+    XXH3_128bits_reset(state.get());
+    for (const Slice& slice : body) XXH3_128bits_update(state.get(), slice.data(), slice.size);
+    return digits_of(XXH3_128bits_digest(state.get()));
 }
 
 std::string etag_of(std::string_view key) { return '"' + digest_of(key) + '"'; }

@@ -8,8 +8,9 @@
 
 namespace sporeprint::api {
 
-/// 32 hexadecimal digits of the XXH3-128 of a text.
+/// 32 hexadecimal digits of the XXH3-128 of a text, or of a body as if it were one.
 [[nodiscard]] std::string digest_of(std::string_view text);
+[[nodiscard]] std::string digest_of(const Body& body);
 
 /// Strong entity tag, with its quotes, of what `key` (canonical text, generator version, templates) names.
 [[nodiscard]] std::string etag_of(std::string_view key);

@@ -150,19 +150,28 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
     auto run = [&store, weigh = cost ? nullptr : std::move(resource.weigh),
                 make = std::move(resource.make), head = std::move(head), key = resource.key](
                    std::stop_token stop, const Observer& observer, const Parallel& parallel) {
+        Answer answer = head;
+        const auto finished = [&](std::string status) {
+            if (!status.empty()) status += ", ";
+            const bool stored = store.answers.fits(weight_of(answer) + key.size() + entry_overhead);
+            set_header(answer, "Cache-Status", status + cache_member("sporeprint", false, stored));
+            return std::move(answer);
+        };
+        // What was made before is possible and within its budget.
+        if (store.directory)
+            if (std::optional<Slice> written = store.directory->find(key)) {
+                answer.body = {*std::move(written)};
+                return finished(cache_member("sporeprint-store", true, false));
+            }
         Loan loan(store, std::move(stop), observer, parallel);
         if (weigh) {
             observer(Step::resolve);
             static_cast<void>(weigh(loan.workshop().memo));
         }
-        Answer answer = head;
         answer.body = make(loan);
         ++store.counters.generated;
-        std::string status = loan.cache_status();
-        if (!status.empty()) status += ", ";
-        const bool stored = store.answers.fits(weight_of(answer) + key.size() + entry_overhead);
-        set_header(answer, "Cache-Status", status + cache_member("sporeprint", false, stored));
-        return answer;
+        if (store.directory) store.directory->insert(key, answer.body);
+        return finished(loan.cache_status());
     };
     return Job{std::move(resource.key), cost.value_or(resource.guess), std::move(run)};
 }

@@ -18,6 +18,8 @@ struct ServiceOptions {
     std::size_t image_cache_bytes = 128u << 20;
     std::size_t morph_cache_bytes = 16u << 20;
     std::filesystem::path assets;  ///< folder of the built page; empty for none
+    std::filesystem::path store;   ///< folder that finished files are kept in; empty for none
+    std::uint64_t store_bytes = std::uint64_t{1} << 30;
     std::string allow_origin = "*";
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
     std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB
@@ -33,6 +35,8 @@ struct Counters {
     std::atomic<std::uint64_t> glb_cache_bytes{0}, glb_cache_entries{0}, glb_evictions{0};
     std::atomic<std::uint64_t> image_cache_bytes{0}, image_cache_entries{0}, image_evictions{0};
     std::atomic<std::uint64_t> morph_cache_bytes{0}, morph_cache_entries{0}, morph_evictions{0};
+    std::atomic<std::uint64_t> store_hits{0}, store_misses{0}, store_damaged{0}, store_unwritten{0};
+    std::atomic<std::uint64_t> store_bytes{0}, store_entries{0}, store_evictions{0};
 };
 
 /// How a planned job came to its answer, for Cache-Status.

@@ -44,7 +44,9 @@ Store::Store(const ServiceOptions& options)
     : answers(options.cache_bytes, [](const Kept& answer) { return api::weight_of(*answer); }),
       images(options.image_cache_bytes, [](const Painted& painted) { return weight_of(painted); }),
       morphs(options.morph_cache_bytes,
-             [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }) {}
+             [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }) {
+    if (!options.store.empty()) directory.emplace(options.store, options.store_bytes);
+}
 
 void Store::measure() {
     const CacheStats of_answers = answers.stats(), of_images = images.cache().stats(),
@@ -58,6 +60,15 @@ void Store::measure() {
     counters.morph_cache_bytes = of_morphs.bytes;
     counters.morph_cache_entries = of_morphs.entries;
     counters.morph_evictions = of_morphs.evictions;
+    if (!directory) return;
+    const DirectoryStats of_directory = directory->stats();
+    counters.store_hits = of_directory.hits;
+    counters.store_misses = of_directory.misses;
+    counters.store_damaged = of_directory.damaged;
+    counters.store_unwritten = of_directory.unwritten;
+    counters.store_bytes = of_directory.bytes;
+    counters.store_entries = of_directory.entries;
+    counters.store_evictions = of_directory.evictions;
 }
 
 Memo kept_only(Store& store) {

@@ -13,6 +13,7 @@
 
 #include "api/answers.h"
 #include "api/cache.h"
+#include "api/directory_store.h"
 #include "api/service.h"
 #include "core/grow/workshop.h"
 
@@ -27,6 +28,8 @@ using Morph = std::shared_ptr<const MorphSet>;
 using Painted = std::variant<Images, Painting>;
 
 /// The caches of a service. Thread-safe.
+///
+/// throws  InvalidInput from the constructor if the folder of finished files cannot be written
 struct Store {
     explicit Store(const ServiceOptions& options);
 
@@ -36,6 +39,7 @@ struct Store {
     Cache<Kept> answers;
     RememberingCache<Painted> images;
     RememberingCache<Morph> morphs;
+    std::optional<DirectoryStore> directory;  ///< none unless asked for
     Counters counters;
     std::atomic<std::uint64_t> inspections{0};  ///< uploads so far, to tell them apart
 };

@@ -109,6 +109,8 @@ int serve(const Options& options) {
     service_options.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
     service_options.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
     service_options.assets = page_folder(options);
+    service_options.store = options.store.string();
+    service_options.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
     service_options.allow_origin = options.allow_origin.string();
     api::Service service(atlas, service_options);
 

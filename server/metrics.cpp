@@ -154,19 +154,27 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
         .count(counters.painting_hits, {{"cache", "paintings"}, {"result", "hit"}})
         .count(counters.painting_misses, {{"cache", "paintings"}, {"result", "miss"}})
         .count(counters.morph_hits, {{"cache", "morphs"}, {"result", "hit"}})
-        .count(counters.morph_misses, {{"cache", "morphs"}, {"result", "miss"}});
+        .count(counters.morph_misses, {{"cache", "morphs"}, {"result", "miss"}})
+        .count(counters.store_hits, {{"cache", "store"}, {"result", "hit"}})
+        .count(counters.store_misses, {{"cache", "store"}, {"result", "miss"}});
     now.family("sporeprint_cache_bytes", "Bytes kept", gauge)
         .count(counters.glb_cache_bytes, {{"cache", "glb"}})
         .count(counters.image_cache_bytes, {{"cache", "images"}})
-        .count(counters.morph_cache_bytes, {{"cache", "morphs"}});
+        .count(counters.morph_cache_bytes, {{"cache", "morphs"}})
+        .count(counters.store_bytes, {{"cache", "store"}});
     now.family("sporeprint_cache_entries", "Entries kept", gauge)
         .count(counters.glb_cache_entries, {{"cache", "glb"}})
         .count(counters.image_cache_entries, {{"cache", "images"}})
-        .count(counters.morph_cache_entries, {{"cache", "morphs"}});
+        .count(counters.morph_cache_entries, {{"cache", "morphs"}})
+        .count(counters.store_entries, {{"cache", "store"}});
     now.family("sporeprint_cache_evictions_total", "Entries given up for others", counter)
         .count(counters.glb_evictions, {{"cache", "glb"}})
         .count(counters.image_evictions, {{"cache", "images"}})
-        .count(counters.morph_evictions, {{"cache", "morphs"}});
+        .count(counters.morph_evictions, {{"cache", "morphs"}})
+        .count(counters.store_evictions, {{"cache", "store"}});
+    now.family("sporeprint_store_faults_total", "Kept files lost: damaged, or not written", counter)
+        .count(counters.store_damaged, {{"fault", "damaged"}})
+        .count(counters.store_unwritten, {{"fault", "unwritten"}});
 
     now.family("sporeprint_workers", "Compute slots", gauge).count(gauges.workers);
     now.family("sporeprint_workers_busy", "Compute slots at work", gauge)

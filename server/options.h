@@ -38,6 +38,8 @@ struct Options {
     int threads = 0;
     Text<1023> atlas;
     Text<1023> assets;
+    Text<1023> store;
+    int store_mb = 1024;
     int metrics_port = 0;
     LogLevel log_level = LogLevel::info;
     Text<15> simd = "auto";
@@ -77,6 +79,15 @@ struct Options {
         visit(&O::assets,
               Info{.name = "assets",
                    .doc = "Folder of the built page; found beside the program by itself."});
+        visit(&O::store,
+              Info{.name = "store",
+                   .doc = "Folder that finished files are kept in for the next start; none by "
+                          "itself. Made if it is missing."});
+        visit(&O::store_mb, Info{.name = "store_mb",
+                                 .unit = "MiB",
+                                 .min = 1,
+                                 .max = 1048576,
+                                 .doc = "Room for the files of that folder."});
         visit(&O::metrics_port,
               Info{.name = "metrics_port",
                    .min = 0,
