@@ -52,13 +52,22 @@ double gradation(GradationLaw law, double ratio) {
 }
 
 LeafColourist::Season LeafColourist::season(const LeafColours& colours) {
-    return {colours, linear(colours.vein), linear(colours.inner), linear(colours.border),
-            linear(colours.tip)};
+    Season made = {colours,
+                   linear(colours.vein),
+                   linear(colours.inner),
+                   linear(colours.border),
+                   linear(colours.tip),
+                   {}};
+    LimbPlace beyond;
+    beyond.affinity = beyond.homothety = 1.0;
+    made.beyond = blade(made, beyond);
+    return made;
 }
 
 LeafColourist::LeafColourist(const LeafPalette& palette)
     : seasons_{season(palette.summer), season(palette.turning), season(palette.fallen)},
-      paler_below_(palette.paler_below) {}
+      paler_below_(palette.paler_below),
+      widest_(std::max(palette.summer.vein_width, palette.fallen.vein_width)) {}
 
 glm::dvec3 LeafColourist::blade(const Season& season, const LimbPlace& place) {
     const LeafColours& colours = season.colours;
@@ -68,31 +77,39 @@ glm::dvec3 LeafColourist::blade(const Season& season, const LimbPlace& place) {
                  colours.homothety_share * gradation(colours.homothety, place.homothety));
 }
 
-glm::dvec3 LeafColourist::at(const LimbPlace& place, double autumn, bool upper) const {
+LeafColourist::Faces LeafColourist::at(const LimbPlace& place, double autumn) const {
     // What is far from veins turns first: by up to a third of a season.
-    const double far = std::clamp(0.6 * place.affinity + 0.4 * place.homothety, 0.0, 1.0);
+    constexpr double lag = 0.17, whole = 0.5 - lag;
     const auto turned = [&](double begin, double depth) {
-        constexpr double lag = 0.17;
-        return smooth_step(begin + lag * (1.0 - depth), begin + 0.5 - lag * depth, autumn);
+        const double t =
+            std::clamp((autumn - begin - lag * (1.0 - depth)) * (1.0 / whole), 0.0, 1.0);
+        return t * t * (3.0 - 2.0 * t);
     };
     const auto seasonal = [&](const auto& of, double depth) {
-        return mixed(mixed(of(seasons_[0]), of(seasons_[1]), turned(0.0, depth)), of(seasons_[2]),
-                     turned(0.5, depth));
+        const double fallen = turned(0.5, depth);
+        if (fallen >= 1.0) return of(seasons_[2]);
+        const double turning = turned(0.0, depth);
+        glm::dvec3 colour = of(seasons_[turning >= 1.0 ? 1 : 0]);
+        if (turning > 0.0 && turning < 1.0) colour = mixed(colour, of(seasons_[1]), turning);
+        return fallen > 0.0 ? mixed(colour, of(seasons_[2]), fallen) : colour;
     };
-    glm::dvec3 colour = seasonal([&](const Season& one) { return blade(one, place); }, far);
-    const glm::dvec3 vein = seasonal([](const Season& one) { return one.vein; }, 0.0);
-    const double line = (1.0 - autumn) * vein_share(seasons_[0].colours, place) +
-                        autumn * vein_share(seasons_[2].colours, place);
-    colour = mixed(colour, vein, line);
-    if (upper) return colour;
-    const double grey = (colour.r + colour.g + colour.b) / 3.0;
-    const glm::dvec3 pale(0.6 * grey + 0.3);
-    return mixed(colour, mixed(colour, pale, 0.6), paler_below_);
+    const double far = std::clamp(0.6 * place.affinity + 0.4 * place.homothety, 0.0, 1.0);
+    const bool beyond = place.affinity >= 1.0 && place.homothety >= 1.0;
+    glm::dvec3 colour =
+        seasonal([&](const Season& one) { return beyond ? one.beyond : blade(one, place); }, far);
+    if (place.from_main < 0.5 * widest_ || place.from_side < 0.25 * widest_) {
+        const double line = (1.0 - autumn) * vein_share(seasons_[0].colours, place) +
+                            autumn * vein_share(seasons_[2].colours, place);
+        colour = mixed(colour, seasonal([](const Season& one) { return one.vein; }, 0.0), line);
+    }
+    const glm::dvec3 pale(0.6 * ((colour.r + colour.g + colour.b) * (1.0 / 3.0)) + 0.3);
+    return {colour, mixed(colour, mixed(colour, pale, 0.6), paler_below_)};
 }
 
 glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place, double autumn,
                        bool upper) {
-    return LeafColourist(palette).at(place, autumn, upper);
+    const LeafColourist::Faces faces = LeafColourist(palette).at(place, autumn);
+    return upper ? faces.upper : faces.lower;
 }
 
 double leaf_autumn(double autumn, double spread, std::uint32_t seed, std::uint32_t leaf) {

@@ -93,22 +93,26 @@ class LeafColourist {
   public:
     explicit LeafColourist(const LeafPalette& palette);
 
-    /// Linear colour of a place of the limb.
-    ///
+    /// Linear colours of both faces at a place, 0..1.
+    struct Faces {
+        glm::dvec3 upper, lower;
+    };
+
     /// autumn   0 summer, 0.5 turning, 1 fallen. Leaves turn from their border and tip inwards, veins last
-    /// returns  linear red, green, blue, 0..1
-    [[nodiscard]] glm::dvec3 at(const LimbPlace& place, double autumn, bool upper) const;
+    [[nodiscard]] Faces at(const LimbPlace& place, double autumn) const;
 
   private:
     struct Season {
         LeafColours colours;
         glm::dvec3 vein, inner, border, tip;
+        glm::dvec3 beyond;  ///< of the limb's border
     };
     [[nodiscard]] static Season season(const LeafColours& colours);
     [[nodiscard]] static glm::dvec3 blade(const Season& season, const LimbPlace& place);
 
     std::array<Season, 3> seasons_;  ///< summer, turning, fallen
     double paler_below_;
+    double widest_;  ///< of all veins in summer and when fallen
 };
 
 /// The same for one place.

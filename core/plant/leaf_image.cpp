@@ -1,6 +1,7 @@
 #include "core/plant/leaf_image.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -15,37 +16,229 @@ namespace {
 
 constexpr int rows_per_piece = 32;
 constexpr int finest_row = 512;  // points that show the veins of a leaf whole
-// Features of blotches and of the net between veins, to the length of a limb.
-constexpr float blotches = 7.0F, net = 60.0F;
 
 std::uint8_t byte(double share) {
-    return static_cast<std::uint8_t>(std::floor(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5));
+    return static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5);
 }
 
 // sRGB of linear light in 4096 steps: finer than its 256 bytes, but for the darkest.
-const std::vector<std::uint8_t>& encoded_table() {
-    static const std::vector<std::uint8_t> table = [] {
-        std::vector<std::uint8_t> made;
-        for (int i = 0; i <= 4096; ++i) made.push_back(byte(linear_to_srgb(i / 4096.0)));
+const std::array<std::uint8_t, 4097>& encoded_table() {
+    static const std::array<std::uint8_t, 4097> table = [] {
+        std::array<std::uint8_t, 4097> made{};
+        for (std::size_t i = 0; i < made.size(); ++i)
+            made[i] = byte(linear_to_srgb(static_cast<double>(i) / 4096.0));
         return made;
     }();
     return table;
 }
 
-std::uint8_t encoded(double linear) {
-    return encoded_table()[static_cast<std::size_t>(std::clamp(linear, 0.0, 1.0) * 4096.0 + 0.5)];
-}
-
 // 1 on a line, 0 beside it, round between.
-double bead(double distance, double width) { return 1.0 - smooth_step(0.0, width, distance); }
+double bead(double distance, double width) {
+    return distance < width ? 1.0 - smooth_step(0.0, width, distance) : 0.0;
+}
 
 // How far a vein lies in the limb here, 0..1.
 double vein_depth(const LimbPlace& place) {
     const double main = bead(place.from_main, 0.028 * (1.0 - 0.7 * place.homothety));
-    const double side =
-        bead(place.from_side, 0.014) * (1.0 - smooth_step(0.7, 1.1, place.along_side));
+    double side = bead(place.from_side, 0.014);
+    if (side > 0.0) side *= 1.0 - smooth_step(0.7, 1.1, place.along_side);
     return std::max(main, 0.6 * side);
 }
+
+struct Texel {
+    glm::dvec3 light{0.0};
+    double occlusion = 0.0, roughness = 0.0;
+
+    void add(double share, const glm::dvec3& colour, double occluded, double rough) {
+        light += colour;
+        occlusion += share * occluded;
+        roughness += share * rough;
+    }
+};
+
+// Paints images row by row.
+class LeafPainter {
+  public:
+    LeafPainter(const LeafShape& shape, const LeafPalette& palette, double autumn,
+                std::uint32_t seed, std::size_t side)
+        : reader_(limb_of(shape.venation, leaf_steps(shape.venation, 0))),
+          chart_(chart_of(reader_.limb())),
+          colourist_(palette),
+          autumn_(autumn),
+          relief_(shape.relief),
+          seed_(seed),
+          count_(side),
+          points_(std::clamp<std::size_t>(finest_row / side, 1, most_points)),
+          share_(1.0 / static_cast<double>(points_ * points_)) {
+        LimbPlace vein;
+        vein.from_side = 0.0;
+        petiole_ = colourist_.at(vein, autumn_).upper;
+        heights_.assign(count_ * count_ / 2, 0.0F);
+        images_.side = static_cast<int>(side);
+        for (Bytes& image : images_.rgb) image.assign(3 * count_ * count_, 0);
+        for (std::size_t i = 0; i < count_ / 2 * points_; ++i) {
+            bool upper = false;
+            columns_.push_back(chart_.place({along(i), 0.0}, upper).x);
+            for (std::size_t k = 0; k < 2; ++k)
+                across_[k].push_back(static_cast<float>(columns_.back() + 8.0) * features[k]);
+        }
+    }
+
+    // Colour, occlusion, roughness, and how far the upper face stands out.
+    void colour_row(std::size_t y) {
+        std::array<Line, most_points> lines;
+        for (std::size_t i = 0; i < points_; ++i) lines[i] = line_at(y * points_ + i);
+        const std::size_t half = count_ / 2;
+        const bool of_petiole =
+            (static_cast<double>(y) + 0.5) / static_cast<double>(count_) > petiole_strip;
+        for (std::size_t x = 0; x < half; ++x) {
+            Texel upper, lower;
+            double height = 0.0;
+            for (std::size_t i = 0; i < points_; ++i)
+                for (std::size_t point = x * points_; point < (x + 1) * points_; ++point) {
+                    if (of_petiole)
+                        add_petiole(lines[i], point, upper);
+                    else
+                        add_faces(lines[i], point, upper, lower, height);
+                }
+            put_texel(y * count_ + x, upper);
+            // The strip of the petiole goes on where both halves meet.
+            if (of_petiole)
+                put_texel((y + 1) * count_ - 1 - x, upper);
+            else
+                put_texel(y * count_ + half + x, lower);
+            heights_[y * half + x] = static_cast<float>(height);
+        }
+    }
+
+    // The slopes of the upper face and, the other way, of the lower one.
+    void normal_row(std::size_t y) {
+        const std::size_t half = count_ / 2;
+        const float* here = &heights_[y * half];
+        const float* above = y == 0 ? here : here - half;
+        const float* below = y + 1 == count_ ? here : here + half;
+        const double texels = 0.5 * chart_.scale * static_cast<double>(count_);
+        std::vector<double> along(half), across(half), size(half);
+        for (std::size_t x = 1; x + 1 < half; ++x)
+            along[x] =
+                texels * (static_cast<double>(here[x - 1]) - static_cast<double>(here[x + 1]));
+        for (std::size_t x = 0; x < half; ++x) {
+            across[x] = texels * (static_cast<double>(below[x]) - static_cast<double>(above[x]));
+            size[x] = 1.0 / std::sqrt(along[x] * along[x] + across[x] * across[x] + 1.0);
+        }
+        std::uint8_t* upper = &images_.rgb[1][3 * y * count_];
+        std::uint8_t* lower = upper + 3 * half;
+        for (std::size_t x = 0; x < half; ++x)
+            put_normals(upper + 3 * x, lower + 3 * x, along[x] * size[x], across[x] * size[x],
+                        size[x]);
+        // The faces lie side by side, and their slopes are no slope between them: each has one at its outer border alone.
+        const auto outer = [&](std::uint8_t* at, std::size_t x, double slope, double sign) {
+            const double one = 1.0 / std::sqrt(slope * slope + across[x] * across[x] + 1.0);
+            std::array<std::uint8_t, 3> other{};
+            put_normals(at, other.data(), sign * slope * one, sign * across[x] * one, one);
+        };
+        const auto slope = [&](std::size_t left) {
+            return texels * (static_cast<double>(here[left]) - static_cast<double>(here[left + 1]));
+        };
+        outer(upper, 0, slope(0), 1.0);
+        outer(lower + 3 * (half - 1), half - 1, slope(half - 2), -1.0);
+    }
+
+    [[nodiscard]] RawImages take() { return std::move(images_); }
+
+  private:
+    // Blotches, and the net between veins, to the length of a limb.
+    static constexpr std::array<float, 2> features = {7.0F, 60.0F};
+
+    static constexpr std::size_t most_points = 4;
+
+    // A line of points: where it lies, its noise, and where its last point lay.
+    struct Line {
+        double y = 0.0;
+        std::vector<float> spots, cells;
+        LimbReader::Trail trail;
+    };
+
+    // Of components -1..1.
+    static void put_normals(std::uint8_t* upper, std::uint8_t* lower, double x, double y,
+                            double z) {
+        const auto part = [](double share) {
+            return static_cast<std::uint8_t>((0.5 + 0.5 * share) * 255.0 + 0.5);
+        };
+        upper[0] = part(x);
+        upper[1] = part(y);
+        lower[0] = part(-x);
+        lower[1] = part(-y);
+        upper[2] = lower[2] = part(z);
+    }
+
+    void put_texel(std::size_t at, const Texel& texel) {
+        std::uint8_t* colour = &images_.rgb[0][3 * at];
+        for (int k = 0; k < 3; ++k)
+            colour[k] = encoded_[static_cast<std::size_t>(
+                static_cast<int>(std::clamp(texel.light[k], 0.0, 1.0) * 4096.0 + 0.5))];
+        images_.rgb[2][3 * at] = byte(texel.occlusion);
+        images_.rgb[2][3 * at + 1] = byte(texel.roughness);
+    }
+
+    [[nodiscard]] double along(std::size_t point) const {
+        const std::size_t texel = point / points_, in_texel = point % points_;
+        const double offset = (static_cast<double>(in_texel) + 0.5) / static_cast<double>(points_);
+        return (static_cast<double>(texel) + offset) / static_cast<double>(count_);
+    }
+
+    [[nodiscard]] std::vector<float> noise(std::size_t feature, double y) const {
+        const std::vector<float>& x = across_[feature];
+        std::vector<float> out(x.size());
+        gradient_noise(
+            x, std::vector<float>(x.size(), static_cast<float>(y + 8.0) * features[feature]),
+            seed_ * 2U + static_cast<std::uint32_t>(feature), out);
+        return out;
+    }
+
+    [[nodiscard]] Line line_at(std::size_t line) const {
+        bool upper = false;
+        const double y = chart_.place({0.0, along(line)}, upper).y;
+        return {y, noise(0, y), noise(1, y), {}};
+    }
+
+    // Both faces show the same places, and blotches go through the leaf: what is seen is looked up once for the two.
+    void add_faces(Line& line, std::size_t point, Texel& upper, Texel& lower,
+                   double& height) const {
+        const auto blotch = static_cast<double>(line.spots[point]);
+        const auto cell = static_cast<double>(line.cells[point]);
+        const LimbPlace place = reader_.at({columns_[point], line.y}, line.trail);
+        const double depth = vein_depth(place);
+        const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
+        const LeafColourist::Faces faces = colourist_.at(place, own);
+        const double shade = share_ * (1.0 + 0.16 * blotch + 0.1 * cell);
+        const double rough = 0.08 * cell + 0.2 * autumn_;
+        upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.5 + rough);
+        lower.add(share_, shade * faces.lower, 1.0, 0.75 + rough);
+        height -= share_ * relief_ * (0.006 * depth - 0.0006 * cell);
+    }
+
+    void add_petiole(const Line& line, std::size_t point, Texel& texel) const {
+        const double shade = share_ * (0.8 + 0.2 * static_cast<double>(line.spots[point]));
+        const auto cell = static_cast<double>(line.cells[point]);
+        texel.add(share_, shade * petiole_, 1.0, 0.75 + 0.08 * cell + 0.2 * autumn_);
+    }
+
+    LimbReader reader_;
+    LeafChart chart_;
+    LeafColourist colourist_;
+    const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
+    double autumn_, relief_;
+    std::uint32_t seed_;
+    std::size_t count_;   // texels in a row
+    std::size_t points_;  // across a texel, which is wider than a vein in small images
+    double share_;        // of a point in its texel
+    glm::dvec3 petiole_{0.0};
+    std::vector<double> columns_;               // of the plane of the limb, by point
+    std::array<std::vector<float>, 2> across_;  // the same in features of noise
+    std::vector<float> heights_;  // of the upper face, outwards, in lengths of the limb
+    RawImages images_;
+};
 
 }  // namespace
 
@@ -59,17 +252,7 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
     if (!(autumn >= 0.0 && autumn <= 1.0)) report(problems, "/autumn", "is outside 0..1");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
-    const LimbReader reader(limb_of(shape.venation, leaf_steps(shape.venation, 0)));
-    const LeafChart chart = chart_of(reader.limb());
-    const LeafColourist colourist(palette);
-    const auto count = static_cast<std::size_t>(side);
-    RawImages images;
-    images.side = side;
-    for (Bytes& image : images.rgb) image.assign(3 * count * count, 0);
-    std::vector<float> heights(count * count, 0.0F);  // outwards, in lengths of the limb
-    const auto along = [&](std::size_t i) {
-        return (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    };
+    LeafPainter painter(shape, palette, autumn, seed, static_cast<std::size_t>(side));
     const auto in_pieces = [&](const auto& row) {
         std::vector<std::function<void()>> pieces;
         for (int first = 0; first < side; first += rows_per_piece)
@@ -79,99 +262,9 @@ RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette, double
             });
         parallel(pieces);
     };
-
-    // A texel of a small image is wider than a vein: it is the mean of several points.
-    const auto points = static_cast<std::size_t>(std::clamp(finest_row / side, 1, 4));
-    const std::size_t half = count / 2;
-    const double share = 1.0 / static_cast<double>(points * points);
-    in_pieces([&](std::size_t y) {
-        struct Texel {
-            glm::dvec3 light{0.0};
-            double height = 0.0, occlusion = 0.0, roughness = 0.0;
-        };
-        std::vector<Texel> row(count);
-        const bool of_petiole = along(y) > petiole_strip;
-        for (std::size_t line = 0; line < points; ++line) {
-            const auto offset = [&](std::size_t i) {
-                return (static_cast<double>(i) + 0.5) / static_cast<double>(points);
-            };
-            const double v = (static_cast<double>(y) + offset(line)) / static_cast<double>(count);
-            // Both faces show the same places, and blotches go through the leaf: what is seen is looked up once for the two.
-            std::vector<glm::dvec2> places(half * points);
-            std::vector<float> across(places.size()), down(places.size());
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                const std::size_t column = i / points;
-                const double u =
-                    (static_cast<double>(column) + offset(i % points)) / static_cast<double>(count);
-                bool upper = false;
-                places[i] = chart.place({u, v}, upper);
-                across[i] = static_cast<float>(places[i].x + 8.0);
-                down[i] = static_cast<float>(places[i].y + 8.0);
-            }
-            const auto noise = [&](float scale, std::uint32_t purpose) {
-                std::vector<float> a = across, b = down, out(places.size());
-                for (float& one : a) one *= scale;
-                for (float& one : b) one *= scale;
-                gradient_noise(a, b, seed * 2U + purpose, out);
-                return out;
-            };
-            const std::vector<float> spots = noise(blotches, 0U), cells = noise(net, 1U);
-            for (std::size_t i = 0; i < places.size(); ++i) {
-                const auto blotch = static_cast<double>(spots[i]);
-                const auto cell = static_cast<double>(cells[i]);
-                LimbPlace place;
-                double depth = 0.0, own = autumn;
-                if (of_petiole) {
-                    place.from_side = 0.0;
-                } else {
-                    place = reader.at(places[i]);
-                    depth = vein_depth(place);
-                    own = std::clamp(autumn + blotch * autumn * (1.0 - autumn), 0.0, 1.0);
-                }
-                for (const bool upper : {true, false}) {
-                    // The strip of the petiole goes on where both halves meet.
-                    const std::size_t x = i / points;
-                    Texel& texel = row[upper ? x : of_petiole ? count - 1 - x : half + x];
-                    const double shade =
-                        of_petiole ? 0.8 + 0.2 * blotch : 1.0 + 0.16 * blotch + 0.1 * cell;
-                    texel.light += share * shade * colourist.at(place, own, upper || of_petiole);
-                    texel.occlusion += share * (upper ? 1.0 - 0.25 * shape.relief * depth : 1.0);
-                    texel.roughness +=
-                        share * ((upper && !of_petiole ? 0.5 : 0.75) + 0.08 * cell + 0.2 * autumn);
-                    const double relief = shape.relief * (0.006 * depth - 0.0006 * cell);
-                    if (!of_petiole) texel.height += share * (upper ? -relief : relief);
-                }
-            }
-        }
-        for (std::size_t x = 0; x < count; ++x) {
-            const std::size_t texel = y * count + x;
-            for (std::size_t k = 0; k < 3; ++k)
-                images.rgb[0][3 * texel + k] = encoded(row[x].light[static_cast<int>(k)]);
-            heights[texel] = static_cast<float>(row[x].height);
-            images.rgb[2][3 * texel] = byte(row[x].occlusion);
-            images.rgb[2][3 * texel + 1] = byte(row[x].roughness);
-        }
-    });
-    const double texels = chart.scale * static_cast<double>(side);
-    in_pieces([&](std::size_t y) {
-        for (std::size_t x = 0; x < count; ++x) {
-            const auto height = [&](std::size_t i, std::size_t k) {
-                return static_cast<double>(heights[k * count + i]);
-            };
-            const std::size_t left = x == 0 ? x : x - 1, right = std::min(x + 1, count - 1);
-            const std::size_t above = y == 0 ? y : y - 1, below = std::min(y + 1, count - 1);
-            // The faces lie side by side, and their slopes are no slope between them.
-            const bool border = along(left) < 0.5 && along(right) > 0.5;
-            const double slope_x =
-                border ? 0.0 : 0.5 * texels * (height(right, y) - height(left, y));
-            const double slope_y = 0.5 * texels * (height(x, above) - height(x, below));
-            const glm::dvec3 normal = glm::normalize(glm::dvec3(-slope_x, -slope_y, 1.0));
-            for (int k = 0; k < 3; ++k)
-                images.rgb[1][3 * (y * count + x) + static_cast<std::size_t>(k)] =
-                    byte(0.5 + 0.5 * normal[k]);
-        }
-    });
-    return images;
+    in_pieces([&](std::size_t y) { painter.colour_row(y); });
+    in_pieces([&](std::size_t y) { painter.normal_row(y); });
+    return painter.take();
 }
 
 }  // namespace sporeprint

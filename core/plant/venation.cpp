@@ -413,6 +413,13 @@ std::vector<glm::dvec2> border_of(const Limb& limb) {
 namespace {
 
 constexpr std::size_t directions = 2048;
+constexpr double per_radian = static_cast<double>(directions) / (2.0 * pi);
+
+constexpr double near_sine =
+    0.0125;  // of a point to the direction of the last one: four directions
+
+// In directions, from straight back on to the left.
+double direction_of(const glm::dvec2& p) { return (arc_tangent(-p.x, p.y) + pi) * per_radian; }
 
 }  // namespace
 
@@ -420,24 +427,33 @@ LimbReader::LimbReader(Limb limb) : limb_(std::move(limb)), reach_(directions + 
     const std::vector<glm::dvec2> border = border_of(limb_);
     for (const Lobe& lobe : limb_.lobes) {
         turns_.push_back(sine_cosine(lobe.turn));
-        for (std::size_t side = 0; side < 2; ++side)
-            rays_.push_back({sine_cosine(lobe.base_angle[side]),
-                             lobe.base_angle[side] == lobe.side_angle[side]});
+        for (std::size_t side = 0; side < 2; ++side) {
+            const SineCosine root = sine_cosine(lobe.base_angle[side]);
+            Half half;
+            half.root = root;
+            half.tip = sine_cosine(lobe.side_angle[side]);
+            half.cotangent = root.cosine / root.sine;
+            half.parallel = lobe.base_angle[side] == lobe.side_angle[side];
+            const HalfLobe& drawn = lobe.halves[side];
+            for (std::size_t i = 0; i + 1 < drawn.feet.size(); ++i)
+                half.slopes.push_back((drawn.heights[i + 1] - drawn.heights[i]) /
+                                      (drawn.feet[i + 1] - drawn.feet[i]));
+            halves_.push_back(std::move(half));
+        }
     }
-    const double scale = static_cast<double>(directions) / (2.0 * pi);
     // Directions are turns to the left of the middle main vein.
-    const auto direction = [&](const glm::dvec2& p) {
-        return (arc_tangent(-p.x, p.y) + pi) * scale;
-    };
+    for (std::size_t k = 0; k <= directions; ++k) {
+        const SineCosine ray = sine_cosine(static_cast<double>(k) / per_radian - pi);
+        rays_.emplace_back(-ray.sine, ray.cosine);
+    }
     for (std::size_t i = 1; i + 1 < border.size(); ++i) {
         const glm::dvec2 a = border[i], b = border[i + 1];
-        const double from = direction(a), to = direction(b);
+        const double from = direction_of(a), to = direction_of(b);
         if (std::abs(from - to) > 0.5 * directions) continue;
         const double low = std::min(from, to), high = std::max(from, to);
         for (auto k = static_cast<std::size_t>(std::max(0.0, std::floor(low)));
              k <= directions && static_cast<double>(k) <= high + 1.0; ++k) {
-            const SineCosine ray = sine_cosine(static_cast<double>(k) / scale - pi);
-            const glm::dvec2 along(-ray.sine, ray.cosine);
+            const glm::dvec2& along = rays_[k];
             const double across = cross(along, b - a);
             if (std::abs(across) < 1e-12) continue;
             const double t = std::clamp(-cross(along, a) / across, 0.0, 1.0);
@@ -446,9 +462,47 @@ LimbReader::LimbReader(Limb limb) : limb_(std::move(limb)), reach_(directions + 
     }
 }
 
+// Turn to the left of the middle main vein, and how far the border reaches there.
+double LimbReader::turn_of(const glm::dvec2& point, double distance, Trail& trail,
+                           double& reach) const {
+    const glm::dvec2& ray = rays_[trail.direction];
+    const double sine = cross(ray, point) / distance, z = sine * sine;
+    double where = 0.0;
+    if (z < near_sine * near_sine && glm::dot(ray, point) > 0.0) {
+        // The arc of a small sine: what is left out is below 1e-17.
+        const double arc = sine * (1.0 + z * (1.0 / 6.0 + z * (3.0 / 40.0 + z * (15.0 / 336.0))));
+        where = static_cast<double>(trail.direction) + arc * per_radian;
+        if (where < 0.0) where += static_cast<double>(directions);
+        if (where >= static_cast<double>(directions)) where -= static_cast<double>(directions);
+    } else {
+        where = std::max(direction_of(point), 0.0);
+    }
+    const std::size_t k =
+        std::min(static_cast<std::size_t>(static_cast<int>(where)), directions - 1);
+    if (z > 0.25 * near_sine * near_sine) trail.direction = k;
+    reach = reach_[k] + (where - static_cast<double>(k)) * (reach_[k + 1] - reach_[k]);
+    return where / per_radian - pi;
+}
+
+double LimbReader::border_over(const HalfLobe& half, double foot, Trail& trail) const {
+    if (!(foot >= half.feet.front() && foot < half.feet.back())) return 0.0;
+    std::size_t i = std::min(trail.corner, half.feet.size() - 2);
+    while (foot < half.feet[i]) --i;
+    while (foot >= half.feet[i + 1]) ++i;
+    trail.corner = i;
+    return half.heights[i] + (foot - half.feet[i]) * halves_[trail.half].slopes[i];
+}
+
 LimbPlace LimbReader::at(const glm::dvec2& point) const {
+    Trail trail;
+    return at(point, trail);
+}
+
+LimbPlace LimbReader::at(const glm::dvec2& point, Trail& trail) const {
     LimbPlace place;
-    const double turn = arc_tangent(-point.x, point.y);
+    const double distance = glm::length(point);
+    double reach = reach_[directions / 2], turn = 0.0;
+    if (distance > 0.0) turn = turn_of(point, distance, trail, reach);
     while (place.lobe + 1 < limb_.lobes.size() &&
            turn > limb_.lobes[place.lobe].turn + limb_.lobes[place.lobe].halves[0].limit)
         ++place.lobe;
@@ -458,49 +512,77 @@ LimbPlace LimbReader::at(const glm::dvec2& point) const {
     const double left = -turned.cosine * point.x - turned.sine * point.y;
     place.side = left >= 0.0 ? 0 : 1;
     const HalfLobe& half = lobe.halves[place.side];
-    const Rays& rays = rays_[2 * place.lobe + place.side];
+    const Half& known = halves_[2 * place.lobe + place.side];
+    if (trail.half != 2 * place.lobe + place.side) {
+        trail.half = 2 * place.lobe + place.side;
+        trail.known = 0;
+    }
     place.from_main = std::abs(left);
     // The foot whose ray goes through the point: rays part, so there is one at most.
-    const auto excess = [&](double foot, const SineCosine& ray) {
-        return foot + place.from_main * ray.cosine / ray.sine - along;
-    };
-    const double at_root = excess(0.0, rays.root);
-    SineCosine at = rays.root;
-    if (rays.parallel) {
+    const double at_root = place.from_main * known.cotangent - along;
+    SineCosine at = known.root;
+    if (known.parallel) {
         place.foot = -at_root;
-    } else {
-        // Newton from the steep end; the excess never falls, so what leaves the bracket is halved instead.
-        double low = 0.0, high = lobe.reach, value = at_root;
-        for (int step = 0; step < 24; ++step) {
-            (value < 0.0 ? low : high) = place.foot;
-            const double falls = 2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) *
-                                 (1.0 - place.foot / lobe.reach) / lobe.reach;
-            const double slope = 1.0 + place.from_main * falls / (at.sine * at.sine);
-            const double next = place.foot - value / slope;
-            const double moved =
-                (next >= low && next <= high ? next : 0.5 * (low + high)) - place.foot;
-            place.foot += moved;
+    } else if (lobe.reach + place.from_main * known.tip.cosine / known.tip.sine <= along) {
+        // Beyond the tip.
+        place.foot = lobe.reach;
+        at = known.tip;
+        trail.known = 0;
+    } else if (at_root < 0.0) {
+        // Newton from where the last feet point to, or the steep end; the excess never falls, so what leaves the bracket is halved
+        // instead.
+        double low = 0.0, high = lobe.reach;
+        if (trail.known > 0) {
+            const std::array<double, 3>& f = trail.feet;
+            const double next = trail.known == 1   ? f[0]
+                                : trail.known == 2 ? 2.0 * f[0] - f[1]
+                                                   : 3.0 * (f[0] - f[1]) + f[2];
+            place.foot = std::clamp(next, low, high);
             at = sine_cosine(lobe.angle(place.side, place.foot));
-            if (std::abs(moved) < 1e-10) break;
-            value = excess(place.foot, at);
         }
+        const double bend =
+            2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) / lobe.reach;
+        for (int step = 0; step < 48; ++step) {
+            const double value = place.foot + place.from_main * at.cosine / at.sine - along;
+            (value < 0.0 ? low : high) = place.foot;
+            const double slope = 1.0 + place.from_main * bend * (1.0 - place.foot / lobe.reach) /
+                                           (at.sine * at.sine);
+            const double next = place.foot - value / slope, before = place.foot;
+            place.foot = next >= low && next <= high ? next : 0.5 * (low + high);
+            const double moved = place.foot - before;
+            const double turning =
+                lobe.angle(place.side, place.foot) - lobe.angle(place.side, before);
+            if (std::abs(moved) < 1e-7) {
+                // As exact as the feet are: the square of what is left.
+                at = {at.sine + turning * (at.cosine - 0.5 * turning * at.sine),
+                      at.cosine - turning * (at.sine + 0.5 * turning * at.cosine)};
+                break;
+            }
+            at = sine_cosine(lobe.angle(place.side, place.foot));
+        }
+        trail.feet = {place.foot, trail.feet[0], trail.feet[1]};
+        trail.known = std::min(trail.known + 1, trail.feet.size());
+    } else {
+        trail.known = 0;
     }
     place.height = place.from_main / at.sine;
-    const double border = half.height(place.foot);
+    const double border = border_over(half, place.foot, trail);
     place.inside =
         place.foot >= 0.0 && place.foot <= lobe.reach && place.height <= border && at_root <= 0.0;
     place.affinity = border > 0.0 ? place.height / border : 1.0;
-    const double where = (turn + pi) * (static_cast<double>(directions) / (2.0 * pi));
-    const auto k = std::min(static_cast<std::size_t>(std::max(where, 0.0)), directions - 1);
-    const double t = where - static_cast<double>(k);
-    const double reach = reach_[k] + t * (reach_[k + 1] - reach_[k]);
-    place.homothety = reach > 0.0 ? std::min(glm::length(point) / reach, 1.0) : 1.0;
-    for (const HalfLobe::SideVein& vein : half.side_veins) {
-        const double from = std::abs(place.foot - vein.foot) * at.sine;
-        if (from >= place.from_side) continue;
-        place.from_side = from;
-        place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
-    }
+    place.homothety = reach > 0.0 ? std::min(distance / reach, 1.0) : 1.0;
+    if (half.side_veins.empty()) return place;
+    // The nearest is one of the two on whose feet's sides the foot lies.
+    const std::vector<HalfLobe::SideVein>& veins = half.side_veins;
+    std::size_t next = std::min(trail.vein, veins.size());
+    while (next > 0 && place.foot < veins[next - 1].foot) --next;
+    while (next < veins.size() && place.foot >= veins[next].foot) ++next;
+    trail.vein = next;
+    const bool above = next == veins.size() || (next > 0 && place.foot - veins[next - 1].foot <=
+                                                                veins[next].foot - place.foot);
+    const HalfLobe::SideVein& vein = veins[above ? next - 1 : next];
+    place.from_side = std::abs(place.foot - vein.foot) * at.sine;
+    place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
     return place;
 }
 

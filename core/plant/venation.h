@@ -210,21 +210,37 @@ struct LimbPlace {
 /// Answers places of one limb; what can be known beforehand is.
 class LimbReader {
   public:
+    /// What is known of the last point asked for, from which one beside it is found at once. A trail is no part of an answer, but for
+    /// its rounding.
+    struct Trail {
+        std::size_t direction = 0, half = 0, corner = 0, vein = 0;
+        std::array<double, 3> feet{};  ///< the last ones on this half, newest first
+        std::size_t known = 0;         ///< of them
+    };
+
     explicit LimbReader(Limb limb);
     [[nodiscard]] LimbPlace at(const glm::dvec2& point) const;
+    /// The same, for points in even steps along a line.
+    [[nodiscard]] LimbPlace at(const glm::dvec2& point, Trail& trail) const;
     [[nodiscard]] const Limb& limb() const { return limb_; }
 
   private:
-    /// Direction of side veins at the root, and whether it is theirs everywhere.
-    struct Rays {
-        SineCosine root;
+    /// Direction of side veins at the root and the tip, and whether they are one; how steep the border is from each corner on.
+    struct Half {
+        SineCosine root{0.0, 1.0}, tip{0.0, 1.0};
+        double cotangent = 0.0;
         bool parallel = true;
+        std::vector<double> slopes;
     };
+    [[nodiscard]] double turn_of(const glm::dvec2& point, double distance, Trail& trail,
+                                 double& reach) const;
+    [[nodiscard]] double border_over(const HalfLobe& half, double foot, Trail& trail) const;
 
     Limb limb_;
     std::vector<SineCosine> turns_;  ///< of each lobe
-    std::vector<Rays> rays_;         ///< of each half: 2 lobe + side
-    std::vector<double> reach_;      ///< farthest place of the border by direction from the root
+    std::vector<Half> halves_;       ///< 2 lobe + side
+    std::vector<glm::dvec2> rays_;   ///< directions from the root
+    std::vector<double> reach_;      ///< farthest place of the border along each
 };
 
 }  // namespace sporeprint

@@ -3,6 +3,7 @@
 #include <benchmark/benchmark.h>
 
 #include "core/colony/roots.h"
+#include "core/plant/leaf_image.h"
 #include "core/plant/tree.h"
 #include "core/skeleton/skin.h"
 
@@ -16,6 +17,16 @@ void leaf(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(leaf_mesh(preset.shape, 0).positions.data());
 }
 BENCHMARK(leaf)->DenseRange(0, 6)->Unit(benchmark::kMicrosecond);
+
+// Both faces and the petiole, three images of 1024, not encoded.
+void leaf_painting(benchmark::State& state) {
+    const LeafPreset& preset = leaf_presets()[static_cast<std::size_t>(state.range(0))];
+    state.SetLabel(preset.id);
+    for (auto _ : state)
+        benchmark::DoNotOptimize(
+            leaf_images(preset.shape, preset.palette, 0.5, 1, 1024).rgb[0].data());
+}
+BENCHMARK(leaf_painting)->DenseRange(0, 6)->Unit(benchmark::kMillisecond);
 
 // Order 7, 2,731 twigs: skeleton, bark at the finest level, one leaf to a twig.
 void tree_of_order_7(benchmark::State& state) {

@@ -221,6 +221,29 @@ TEST(Venation, PlacesOfTheLimbAreReadBack) {
     }
 }
 
+TEST(Venation, PlacesAreTheSameByWhateverTrail) {
+    Random random(9, 1);
+    const std::size_t draws = effort(1000, 40);
+    for (std::size_t i = 0; i < draws; ++i) {
+        const LimbReader reader(limb_of(drawn<Venation>(random), 2));
+        const double y = random.uniform(-0.3, 1.1), step = random.uniform(0.0005, 0.05);
+        LimbReader::Trail trail;
+        for (double x = -1.2; x < 1.2; x += step) {
+            const LimbPlace on = reader.at({x, y}, trail), alone = reader.at({x, y});
+            SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
+            ASSERT_EQ(on.lobe, alone.lobe);
+            ASSERT_EQ(on.side, alone.side);
+            ASSERT_EQ(on.inside, alone.inside);
+            ASSERT_NEAR(on.homothety, alone.homothety, 1e-11);
+            ASSERT_NEAR(on.foot, alone.foot, 1e-11);
+            if (on.inside) {
+                ASSERT_NEAR(on.affinity, alone.affinity, 1e-8);
+            }
+            ASSERT_NEAR(on.from_side, alone.from_side, 1e-10);
+        }
+    }
+}
+
 TEST(Venation, HomothetyIsOneOnTheBorder) {
     Venation venation;
     venation.lobes.value = 3;
