@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/plant/leaf.h"
 #include "tests/support/draws.h"
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
@@ -191,6 +192,16 @@ TEST(Venation, BordersAreSimpleAndVeinsApartWhateverIsAskedFor) {
                         << i;
                 }
     }
+}
+
+TEST(Venation, BordersOfPresetsAreSimpleAtEveryLevelOfDetail) {
+    for (const LeafPreset& preset : leaf_presets())
+        for (int lod = 0; lod < leaf_lods; ++lod) {
+            const std::vector<glm::dvec2> border =
+                border_of(limb_of(preset.shape.venation, leaf_steps(preset.shape.venation, lod)));
+            EXPECT_EQ(meetings(border), 0U) << preset.id << ", " << lod;
+            EXPECT_GT(area(border), 0.0) << preset.id << ", " << lod;
+        }
 }
 
 TEST(Venation, PlacesOfTheLimbAreReadBack) {

@@ -111,6 +111,16 @@ int folded(const Scaffold& coarse) {
     return count;
 }
 
+double volume_of(const Scaffold& coarse) {
+    double sixfold = 0.0;
+    for (const auto& [a, b, c, d] : coarse.quads) {
+        const glm::dvec3 &p = coarse.points[a], &q = coarse.points[c];
+        sixfold += glm::dot(p, glm::cross(coarse.points[b], q)) +
+                   glm::dot(p, glm::cross(q, coarse.points[d]));
+    }
+    return sixfold / 6.0;
+}
+
 // Radius of the circle as large as the mesh's section with the plane through `at` across `along`, near `at`.
 double section_radius(const Mesh& mesh, const glm::dvec3& at, const glm::dvec3& along,
                       double near) {
@@ -183,17 +193,18 @@ TEST(SkinnedSkeleton, RadiiAlongLimbsFollowTheLaw) {
         star({{1, 0, 0}, {0, 1, 0}, {0, 0, 1}}, 0.04),
         {{{{0, 0, 0}, 0.03}, {{0.4, 0, 0}, 0.05}, {{0.8, 0.3, 0}, 0.02}, {{0.9, 0.9, 0.3}, 0.02}},
          {{0, 1}, {1, 2}, {2, 3}}}};
-    for (const Skeleton& skeleton : skeletons) {
-        const CleanSkeleton clean = cleaned(skeleton);
-        const SkinnedSkeleton made = skinned(clean.skeleton, 2);
+    for (std::size_t i = 0; i < 2 * skeletons.size(); ++i) {
+        const CleanSkeleton clean = cleaned(skeletons[i / 2]);
+        const int levels = 2 + static_cast<int>(i % 2);
+        const SkinnedSkeleton made = skinned(clean.skeleton, levels);
         for (const Skeleton::Limb& limb : clean.skeleton.limbs) {
             const Skeleton::Node &a = clean.skeleton.nodes[limb.from],
                                  &b = clean.skeleton.nodes[limb.to];
             const double length = glm::distance(a.place, b.place);
             const glm::dvec3 along = (b.place - a.place) / length;
-            for (int i = 0; i <= 10; ++i) {
+            for (int step = 0; step <= 10; ++step) {
                 const double from = 2.0 * a.radius, to = length - 2.0 * b.radius;
-                const double s = from + (to - from) * (i + 0.013) / 10.1;
+                const double s = from + (to - from) * (step + 0.013) / 10.1;
                 const double law = a.radius + (b.radius - a.radius) * s / length;
                 EXPECT_NEAR(section_radius(made.mesh, a.place + s * along, along, 3.0 * law), law,
                             0.05 * law)
@@ -211,6 +222,7 @@ TEST(SkinnedSkeleton, OfAnyGraphIsWatertight) {
         EXPECT_TRUE(broken_limits(clean.skeleton).empty());
         const Scaffold coarse = scaffold(clean.skeleton, 2);
         expect_manifold(clean.skeleton, coarse);
+        EXPECT_GT(volume_of(coarse), 0.0);
         folds += folded(coarse);
         quads += static_cast<int>(coarse.quads.size());
         if (seed % 50 == 0)
@@ -247,6 +259,52 @@ TEST(SkinnedSkeleton, WhatMakesNoForkBeginsInside) {
         (void)scaffold(star({{0, -1, 0}, {0.1, 1, 0}, {-0.1, 1, 0}}, 0.05), 2);
     });
     EXPECT_TRUE(names(problems, "/limbs/2", "too sharp an angle"));
+}
+
+TEST(SkinnedSkeleton, EachLimitIsNamedWhereItIsBroken) {
+    const auto refused = [](const Skeleton& skeleton, const char* path, const char* words) {
+        const auto problems = refusal([&] { (void)scaffold(skeleton, 2); });
+        EXPECT_TRUE(names(problems, path, words)) << words;
+        // Cleaning mends it.
+        EXPECT_TRUE(broken_limits(cleaned(skeleton).skeleton).empty()) << words;
+    };
+    refused(star({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, 0.05), "/limbs/3",
+            "is the fourth of its node");
+    Skeleton y = star({{0, -1, 0}, {0.7, 0.7, 0}, {-0.7, 0.7, 0}}, 0.05);
+    EXPECT_TRUE(broken_limits(y).empty());
+    y.nodes[3].radius = 0.02;
+    refused(y, "/limbs/2", "is much thinner than the others of its node");
+    y.nodes[3].radius = 0.15;
+    refused(y, "/limbs/2", "is much thicker than its fork");
+    y.nodes[3] = {{-0.12, 0.12, 0}, 0.05};
+    refused(y, "/limbs/2", "is too short to leave its forks");
+    y.nodes[3].place = {0.01, 0.0, 0.01};
+    refused(y, "/limbs/2", "joins nodes that lie on each other");
+    const double up = std::sin(0.7), out = std::cos(0.7);
+    refused(
+        star({{out, up, 0}, {-0.5 * out, up, 0.866 * out}, {-0.5 * out, up, -0.866 * out}}, 0.02),
+        "/limbs/2", "leans too far to the side of the others");
+    refused(star({{0, 1, 0}, {0.3, 1, 0}}, 0.02), "/limbs/1", "too sharp an angle");
+}
+
+TEST(SkinnedSkeleton, RefusesGraphsBeyondAllBoundsBeforeAnyWork) {
+    Skeleton crowd;
+    crowd.nodes.resize(most_skeleton_nodes + 1, {{0, 0, 0}, 0.01});
+    EXPECT_TRUE(names(refusal([&] { (void)cleaned(crowd); }), "/nodes",
+                      "200001 nodes; at most 200000 are skinned"));
+    const double infinite = std::numeric_limits<double>::infinity();
+    EXPECT_TRUE(names(refusal([&] {
+                          (void)cleaned({{{{0, -2e4, 0}, 1}}, {}});
+                      }),
+                      "/nodes/0/place", "-20000 is outside"));
+    EXPECT_TRUE(names(refusal([&] {
+                          (void)cleaned({{{{0, 0, infinite}, 1}}, {}});
+                      }),
+                      "/nodes/0/place", "outside"));
+    EXPECT_TRUE(names(refusal([&] {
+                          (void)cleaned({{{{0, 0, 0}, 2e3}}, {}});
+                      }),
+                      "/nodes/0/radius", "2000 is outside"));
 }
 
 TEST(SkinnedSkeleton, RefusesGraphsThatAreNone) {
