@@ -105,6 +105,13 @@ fs::path program_folder() {
     return error ? fs::path() : program.parent_path();
 }
 
+void raise_descriptor_limit() {
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return;
+    limit.rlim_cur = limit.rlim_max;
+    setrlimit(RLIMIT_NOFILE, &limit);  // if not, connections end when there are no more
+}
+
 void bound_malloc() { mallopt(M_ARENA_MAX, 2); }
 
 }  // namespace sporeprint::server

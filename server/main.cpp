@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -100,6 +101,7 @@ int serve(const Options& options) {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by every thread made from here on
     signal(SIGPIPE, SIG_IGN);
 
+    raise_descriptor_limit();
     force_simd(options.simd);
     const std::shared_ptr<const Atlas> atlas =
         options.atlas.empty() ? built_in_atlas() : atlas_from(options.atlas.string());
@@ -125,12 +127,13 @@ int serve(const Options& options) {
     TransportOptions transport_options;
     transport_options.host = options.host.string();
     transport_options.port = options.port;
+    transport_options.workers = std::max<std::size_t>(granted_processors(), 4);
     Transport transport(transport_options, reception.handlers());
     std::optional<Transport> metrics_transport;
     if (options.metrics_port != 0) {
         transport_options.port = options.metrics_port;
-        transport_options.threads = 8;
-        transport_options.waiting = 32;
+        transport_options.workers = 2;
+        transport_options.most_connections = 64;
         metrics_transport.emplace(transport_options, reception.metrics_handlers());
     }
     reception.watch(&transport);

@@ -110,8 +110,8 @@ Metrics::Metrics(std::string version, std::string generator_version)
 
 Metrics::~Metrics() = default;
 
-void Metrics::served(const Served& served, std::string_view route) {
-    const std::string label(route);
+void Metrics::served(const Served& served) {
+    const std::string& label = served.label;
     parts_->requests
         .Add({{"route", label},
               {"method", method_label(served.method)},
@@ -186,9 +186,11 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
     now.family("sporeprint_queue_depth", "Work waiting for a slot", gauge).count(gauges.queue);
     now.family("sporeprint_queue_limit", "Work that may wait for a slot", gauge)
         .count(gauges.queue_limit);
-    now.family("sporeprint_connections", "Connections", gauge)
-        .count(gauges.connections.open, {{"state", "open"}})
-        .count(gauges.connections.waiting, {{"state", "waiting"}});
+    now.family("sporeprint_connections", "Connections, by what they do", gauge);
+    for (std::size_t i = 0; i < Transport::phases.size(); ++i)
+        now.count(gauges.connections.connections[i], {{"state", Transport::phases[i]}});
+    now.family("sporeprint_requests_waiting", "Requests that wait for a worker", gauge)
+        .count(gauges.connections.queue);
     now.family("sporeprint_connections_refused_total", "Connections turned away", counter)
         .count(gauges.connections.refused);
     now.family("sporeprint_ready", "Whether /readyz says so", gauge).count(gauges.ready ? 1u : 0u);

@@ -29,9 +29,9 @@ class Metrics {
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
-    /// One request. `route` is the template of its path, "UNKNOWN" when there is none: the number
+    /// One request. Its label is the template of its path, "UNKNOWN" when there is none: the number
     /// of time series must not depend on what strangers ask for.
-    void served(const Served& served, std::string_view route);
+    void served(const Served& served);
 
     /// One flight's steps, by those it took.
     void made(const api::Timing& timing);

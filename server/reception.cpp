@@ -1,8 +1,7 @@
 #include "server/reception.h"
 
-#include <condition_variable>
+#include <chrono>
 #include <exception>
-#include <mutex>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -16,9 +15,6 @@ namespace sporeprint::server {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-/// How often a waiting request looks whether its client is still there.
-constexpr std::chrono::milliseconds between_looks{100};
 
 constexpr std::string_view own_paths[] = {"/livez", "/readyz", "/metrics"};
 
@@ -39,13 +35,13 @@ bool is_own(std::string_view path) {
 }
 
 /// The template of a request's route, for the metrics.
-std::string route_of(const Served& served) {
-    const std::string_view path = path_of(served.target);
+std::string route_of(std::string_view method, std::string_view target) {
+    const std::string_view path = path_of(target);
     if (is_own(path)) return std::string(path);
     std::vector<Problem> ignored;
-    const api::Target target = api::split_target(served.target, ignored);
-    for (const std::string_view method : {std::string_view(served.method), std::string_view("GET")})
-        if (const api::Match match = api::match_route(method, target.segments); match.route)
+    const api::Target asked = api::split_target(target, ignored);
+    for (const std::string_view tried : {method, std::string_view("GET")})
+        if (const api::Match match = api::match_route(tried, asked.segments); match.route)
             return match.route->pattern;
     return "UNKNOWN";
 }
@@ -72,9 +68,7 @@ Reception::Reception(api::Service& service, Metrics& metrics, Log& log, Receptio
 
 Handlers Reception::handlers() {
     Handlers handlers;
-    handlers.answer = [this](const api::Request& request, const Gone& gone) {
-        return answer(request, gone);
-    };
+    handlers.answer = [this](const std::shared_ptr<Visit>& visit) { answer(visit); };
     handlers.refuse = [this](const api::Request& request, int status, std::string_view detail) {
         std::vector<api::Header> extra;
         if (status == 503) extra.emplace_back("Retry-After", "1");
@@ -83,16 +77,21 @@ Handlers Reception::handlers() {
     handlers.most_body = [this](std::string_view method, std::string_view target) {
         return service_.most_body(method, target);
     };
+    handlers.label = [](std::string_view method, std::string_view target) {
+        return route_of(method, target);
+    };
     handlers.served = [this](const Served& served) { report(served); };
     return handlers;
 }
 
 Handlers Reception::metrics_handlers() {
     Handlers handlers = this->handlers();
-    handlers.answer = [this](const api::Request& request, const Gone&) {
+    handlers.answer = [this](const std::shared_ptr<Visit>& visit) {
+        const api::Request& request = visit->request();
         const std::string_view path = path_of(request.target);
-        if (is_own(path)) return housekeeping(request, path, true);
-        return service_.problem(request, 404, "only /metrics, /livez and /readyz are here");
+        visit->reply(is_own(path) ? housekeeping(request, path, true)
+                                  : service_.problem(request, 404,
+                                                     "only /metrics, /livez and /readyz are here"));
     };
     handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
     return handlers;
@@ -102,20 +101,39 @@ bool Reception::is_ready() const {
     return ready_ && slots_.waiting() * 10 < slots_.longest_queue() * 9;
 }
 
-api::Answer Reception::answer(const api::Request& request, const Gone& gone) {
+void Reception::answer(const std::shared_ptr<Visit>& visit) {
+    const api::Request& request = visit->request();
     const std::string_view path = path_of(request.target);
-    if (is_own(path)) return housekeeping(request, path, options_.metrics);
+    if (is_own(path)) return visit->reply(housekeeping(request, path, options_.metrics));
     std::optional<Answers::Glance> glance(std::in_place, flights_);
     std::variant<api::Answer, api::Job> planned = service_.plan(request);
-    if (api::Answer* answer = std::get_if<api::Answer>(&planned)) return std::move(*answer);
+    if (api::Answer* answer = std::get_if<api::Answer>(&planned))
+        return visit->reply(std::move(*answer));
 
-    struct Arrival {
-        std::mutex mutex;
-        std::condition_variable changed;
-        std::optional<Answers::Landing> landing;
-    };
-    const auto arrival = std::make_shared<Arrival>();
-    const auto job = std::make_shared<const api::Job>(std::move(std::get<api::Job>(planned)));
+    const std::optional<Answers::Seat> seat = board(visit, std::move(std::get<api::Job>(planned)));
+    glance.reset();
+    if (!seat) {
+        metrics_.rejected("queue");
+        return visit->reply(service_.problem(
+            request, 503, "too much is being made; try again in a moment", {{"Retry-After", "1"}}));
+    }
+    visit->wait([this, visit, seat = *seat](Visit::Over why) {
+        if (!flights_.leave(seat)) return;  // it has landed
+        const bool left = why == Visit::Over::left;
+        metrics_.rejected(left ? "left" : "deadline");
+        if (left) {
+            api::Answer nobody;
+            nobody.status = client_left;
+            return visit->reply(std::move(nobody));
+        }
+        visit->reply(
+            service_.problem(visit->request(), 504, "this took longer than a request may"));
+    });
+}
+
+std::optional<Reception::Answers::Seat> Reception::board(const std::shared_ptr<Visit>& visit,
+                                                         api::Job asked) {
+    const auto job = std::make_shared<const api::Job>(std::move(asked));
     const Clock::time_point boarded = Clock::now();
     const auto work = [this, job, boarded](std::stop_token stop) {
         const double queue =
@@ -130,41 +148,10 @@ api::Answer Reception::answer(const api::Request& request, const Gone& gone) {
         service_.finish(job->key, made.answer);
         return made;
     };
-    const auto seat = flights_.board(job->key, work, [arrival](const Answers::Landing& landing) {
-        const std::lock_guard lock(arrival->mutex);
-        arrival->landing = landing;
-        arrival->changed.notify_all();
+    // Delivered by a worker of the transport: a slot is for making.
+    return flights_.board(job->key, work, [this, visit](const Answers::Landing& landing) {
+        visit->reply_with([this, visit, landing] { return delivered(visit->request(), landing); });
     });
-    glance.reset();
-    if (!seat) {
-        metrics_.rejected("queue");
-        return service_.problem(request, 503, "too much is being made; try again in a moment",
-                                {{"Retry-After", "1"}});
-    }
-
-    const Clock::time_point deadline = boarded + options_.deadline;
-    std::unique_lock lock(arrival->mutex);
-    while (!arrival->landing) {
-        const Clock::time_point look = std::min(deadline, Clock::now() + between_looks);
-        if (arrival->changed.wait_until(lock, look, [&] { return arrival->landing.has_value(); }))
-            break;
-        lock.unlock();
-        const bool late = Clock::now() >= deadline;
-        const bool left = gone();
-        if ((late || left) && flights_.leave(*seat)) {
-            metrics_.rejected(left ? "left" : "deadline");
-            if (left) {
-                api::Answer nobody;
-                nobody.status = client_left;
-                return nobody;
-            }
-            return service_.problem(request, 504, "this took longer than a request may");
-        }
-        lock.lock();
-    }
-    const Answers::Landing landing = std::move(*arrival->landing);
-    lock.unlock();
-    return delivered(request, landing);
 }
 
 api::Answer Reception::delivered(const api::Request& request, const Answers::Landing& landing) {
@@ -211,7 +198,7 @@ api::Answer Reception::plain(const api::Request& request, const std::string& tex
 }
 
 void Reception::report(const Served& served) {
-    metrics_.served(served, route_of(served));
+    metrics_.served(served);
     log_.request(served);
 }
 

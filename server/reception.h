@@ -1,13 +1,12 @@
 // The reception: what stands between sockets and service. Health and metrics are answered at once,
-// kept answers too; work goes to the flights, and who asked for it waits here, not longer than
-// allowed.
+// kept answers too; work goes to the flights, and who asked for it is answered when it lands.
 #pragma once
 
 #include <atomic>
-#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "api/service.h"
@@ -22,10 +21,8 @@ namespace sporeprint::server {
 struct ReceptionOptions {
     std::size_t slots = 1;            ///< jobs at once
     std::size_t longest_queue = 128;  ///< jobs that wait for a slot; 503 beyond
-    std::size_t most_waiters =
-        192;  ///< requests that wait for jobs; fewer than the transport's threads
-    std::chrono::milliseconds deadline{20'000};  ///< 504 beyond
-    bool metrics = true;                         ///< whether /metrics is answered here
+    std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
+    bool metrics = true;              ///< whether /metrics is answered here
 };
 
 class Reception {
@@ -60,7 +57,8 @@ class Reception {
     };
     using Answers = Flights<Made>;
 
-    api::Answer answer(const api::Request& request, const Gone& gone);
+    void answer(const std::shared_ptr<Visit>& visit);
+    std::optional<Answers::Seat> board(const std::shared_ptr<Visit>& visit, api::Job job);
     api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);
     api::Answer delivered(const api::Request& request, const Answers::Landing& landing);
     api::Answer plain(const api::Request& request, const std::string& text,

@@ -1,20 +1,17 @@
-// The transport: sockets in, answers out. cpp-httplib parses requests that have passed our own
-// strict bounds and formats the heads of answers; reading, waiting and sending are done here.
+// The transport: sockets in, answers out. One thread owns every socket; a few workers call those
+// above, who may answer at once or later; whoever waits holds no thread.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <chrono>
-#include <condition_variable>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <functional>
 #include <memory>
-#include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
-#include <vector>
 
 #include "api/http.h"
 
@@ -23,15 +20,17 @@ namespace sporeprint::server {
 struct TransportOptions {
     std::string host = "127.0.0.1";
     int port = 8080;                            ///< 0: any that is free
-    std::size_t threads = 256;                  ///< one per connection that is open
-    std::size_t waiting = 512;                  ///< connections that wait for a thread
+    std::size_t workers = 4;                    ///< threads that call the handlers
+    std::size_t longest_queue = 1024;           ///< requests that wait for a worker; 503 beyond
+    std::size_t most_connections = 4096;        ///< open at once; 503 beyond
     int backlog = 1024;                         ///< connections the kernel keeps for us
     std::size_t most_requests = 1000;           ///< on one connection
     std::size_t most_body_memory = 256u << 20;  ///< bytes of large bodies, all together
-    std::chrono::milliseconds idle{2000};       ///< for the first byte of a request
+    std::chrono::milliseconds idle{30'000};     ///< for the first byte of a request
     std::chrono::milliseconds silence{2000};    ///< between two bytes of a request
     std::chrono::milliseconds head{5000};       ///< for a whole head
     std::chrono::milliseconds body{10000};      ///< for a body of up to 256 kB; else in proportion
+    std::chrono::milliseconds answer{20'000};   ///< until Visit::wait() is told that it is late
     std::chrono::milliseconds blocked_write{5000};  ///< without the client taking a byte
     std::chrono::milliseconds farewell{100};        ///< accepting goes on for so long in drain()
 };
@@ -39,6 +38,7 @@ struct TransportOptions {
 /// What happened to one request, for the log and the metrics.
 struct Served {
     std::string method, target, id, peer;
+    std::string label;        ///< what Handlers::label() said of it
     int status = 0;           ///< 499: the client left before its answer was made
     std::uint64_t bytes = 0;  ///< of head and body that went out
     double milliseconds = 0;  ///< from the last byte of the request to the last of the answer
@@ -49,24 +49,67 @@ struct Served {
 /// Status of an answer that is not sent, because nobody waits for it any more.
 inline constexpr int client_left = 499;
 
-/// Whether the client has closed its end; may be asked at any time while a request is handled.
-using Gone = std::function<bool()>;
+/// One request that waits for its answer. Held by whoever will answer; used on any thread. When the
+/// last who holds it lets it go unanswered, the client gets a bare 500.
+class Visit {
+  public:
+    enum class Over { left, late };  ///< the client is gone; it has waited too long
+
+    Visit() = default;
+    Visit(const Visit&) = delete;
+    Visit& operator=(const Visit&) = delete;
+    virtual ~Visit() = default;
+
+    [[nodiscard]] virtual const api::Request& request() const = 0;
+
+    /// Whether the client has left.
+    [[nodiscard]] virtual bool gone() const = 0;
+
+    /// Answers, with status client_left for nobody. Only the first answer counts.
+    virtual void reply(api::Answer answer) = 0;
+
+    /// Answers with what `make` returns; it is called on a worker.
+    virtual void reply_with(std::function<api::Answer()> make) = 0;
+
+    /// Once, when the answer will come later: `over` is called on a worker if the client leaves or
+    /// TransportOptions::answer has passed before there is one; perhaps at once.
+    virtual void wait(std::function<void(Over)> over) = 0;
+};
 
 /// What the transport asks of those above it; all are called on many threads at once. Whatever they
 /// throw is caught: an exception of `answer` or `refuse` becomes a bare 500.
 struct Handlers {
-    std::function<api::Answer(const api::Request&, const Gone&)> answer;
+    /// Answers a request, now or later; must not wait for others.
+    std::function<void(const std::shared_ptr<Visit>&)> answer;
+    /// A problem that the transport itself has found. This and all below must not take long: they
+    /// are called by the thread that serves all connections.
     std::function<api::Answer(const api::Request&, int status, std::string_view detail)> refuse;
     std::function<std::size_t(std::string_view method, std::string_view target)> most_body;
+    /// A name for requests of this kind, of which there are few.
+    std::function<std::string(std::string_view method, std::string_view target)> label;
     std::function<void(const Served&)> served;
 };
 
+class Library;
+class Reactor;
+
 class Transport {
   public:
+    /// What a connection is doing.
+    enum class Phase { idle, head, body, busy, writing, parting };
+    static constexpr std::array<const char*, 6> phases = {"idle", "head",    "body",
+                                                          "busy", "writing", "parting"};
+
     struct Load {
-        std::size_t open = 0;       ///< connections that have a thread
-        std::size_t waiting = 0;    ///< connections that wait for one
-        std::uint64_t refused = 0;  ///< connections closed because too many waited
+        std::array<std::size_t, phases.size()> connections{};  ///< by Phase
+        std::size_t queue = 0;                                 ///< requests that wait for a worker
+        std::uint64_t refused = 0;  ///< connections turned away because there were too many
+
+        [[nodiscard]] std::size_t open() const {
+            std::size_t sum = 0;
+            for (const std::size_t count : connections) sum += count;
+            return sum;
+        }
     };
 
     /// Binds and listens; nothing is accepted before start().
@@ -89,35 +132,12 @@ class Transport {
     [[nodiscard]] Load load() const;
 
   private:
-    class Listener;
-    class Connection;
-
-    void accept_all();
-    bool admit(int socket);
-    bool hire();  ///< one more thread, if there may be one; the lock is held
-    void turn_away(int socket);
-    void serve_connections();
-    std::string new_id();
-    bool crowded() const { return crowded_.load(std::memory_order_relaxed); }
-
     TransportOptions options_;
     Handlers handlers_;
-    std::unique_ptr<Listener> listener_;
+    std::unique_ptr<Library> library_;
+    std::unique_ptr<Reactor> reactor_;
     std::atomic<bool> draining_{false};
-    std::atomic<bool> crowded_{false};
-    std::atomic<std::size_t> body_memory_{0};
-    std::atomic<std::uint64_t> refused_{0};
-    std::uint64_t id_prefix_ = 0;
-    std::atomic<std::uint64_t> last_id_{0};
-    int wake_ = -1;  ///< an eventfd, readable from drain() on
-
-    mutable std::mutex mutex_;
-    std::condition_variable arrived_;
-    std::deque<int> waiting_;
-    std::size_t idle_ = 0, busy_ = 0;
-    bool closed_ = false;
-    std::vector<std::jthread> threads_;
-    std::jthread acceptor_;
+    std::jthread thread_;
 };
 
 }  // namespace sporeprint::server

@@ -32,11 +32,11 @@ TEST(Health, IsTheStatusOfTheAnswer) {
     TransportOptions options;
     options.port = 0;
     Handlers handlers;
-    handlers.answer = [](const api::Request& request, const Gone&) {
+    handlers.answer = [](const std::shared_ptr<Visit>& visit) {
         api::Answer answer;
-        answer.status = request.target == "/livez" ? 200 : 503;
+        answer.status = visit->request().target == "/livez" ? 200 : 503;
         answer.body = {slice_of("x")};
-        return answer;
+        visit->reply(std::move(answer));
     };
     handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
     handlers.served = [](const Served&) {};

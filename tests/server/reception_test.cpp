@@ -3,8 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <functional>
 #include <memory>
+#include <mutex>
+#include <optional>
 #include <thread>
+#include <utility>
 
 #include "core/atlas/atlas.h"
 
@@ -16,29 +22,63 @@ using namespace std::chrono_literals;
 const std::string small = "/v1/mushrooms/amanita_muscaria.glb?lod=3&texture_size=128&seed=";
 const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=1024&seed=";
 
-/// Sanitizers make everything slow.
-ReceptionOptions patient() {
-    ReceptionOptions options;
-    options.deadline = 5min;
-    return options;
-}
+/// A visit without a transport: whoever makes it waits for its answer.
+class Guest final : public Visit {
+  public:
+    explicit Guest(api::Request request) : request_(std::move(request)) {}
+
+    const api::Request& request() const override { return request_; }
+    bool gone() const override { return false; }
+    void reply(api::Answer answer) override {
+        const std::lock_guard lock(mutex_);
+        if (!answer_) answer_ = std::move(answer);
+        changed_.notify_all();
+    }
+    void reply_with(std::function<api::Answer()> make) override { reply(make()); }
+    void wait(std::function<void(Over)> over) override {
+        const std::lock_guard lock(mutex_);
+        over_ = std::move(over);
+    }
+
+    /// Sanitizers make everything slow: five minutes are for ever.
+    api::Answer answer(std::chrono::milliseconds patience = 5min, Over then = Over::late) {
+        std::unique_lock lock(mutex_);
+        if (!changed_.wait_for(lock, patience, [&] { return answer_.has_value(); })) {
+            const auto over = std::exchange(over_, nullptr);
+            lock.unlock();
+            over(then);
+            lock.lock();
+            changed_.wait(lock, [&] { return answer_.has_value(); });
+        }
+        over_ = nullptr;  // it may hold this
+        return *answer_;
+    }
+
+  private:
+    const api::Request request_;
+    std::mutex mutex_;
+    std::condition_variable changed_;
+    std::optional<api::Answer> answer_;
+    std::function<void(Over)> over_;
+};
 
 /// The real service behind a reception, asked without sockets.
 struct House {
-    explicit House(ReceptionOptions options = patient())
-        : reception(service, metrics, log, options) {
+    explicit House(ReceptionOptions options = {}) : reception(service, metrics, log, options) {
         handlers = reception.handlers();
         reception.open();
     }
 
-    api::Answer ask(
-        const std::string& target, const std::string& method = "GET",
-        const Gone& gone = [] { return false; }) {
+    api::Answer ask(const std::string& target, const std::string& method = "GET",
+                    std::chrono::milliseconds patience = 5min,
+                    Visit::Over then = Visit::Over::late) {
         api::Request request;
         request.method = method;
         request.target = target;
         request.id = "test";
-        return handlers.answer(request, gone);
+        const auto guest = std::make_shared<Guest>(std::move(request));
+        handlers.answer(guest);
+        return guest->answer(patience, then);
     }
 
     api::Service service{built_in_atlas(), {}};
@@ -62,7 +102,7 @@ std::string header(const api::Answer& answer, std::string_view name) {
 }
 
 TEST(Reception, MakesOnceWhatManyAskForAtTheSameTime) {
-    ReceptionOptions options = patient();
+    ReceptionOptions options;
     options.slots = 4;
     House house(options);
     std::atomic<int> collapsed{0}, good{0};
@@ -124,7 +164,7 @@ TEST(Reception, CountsForPrometheus) {
     served.milliseconds = 3;
     for (const char* target :
          {"/v1/species/amanita_muscaria", "/nowhere", "/nowhere/else", "/livez"}) {
-        served.target = target;
+        served.label = house.handlers.label("GET", target);
         house.handlers.served(served);
     }
     const api::Answer answer = house.ask("/metrics");
@@ -141,7 +181,7 @@ TEST(Reception, CountsForPrometheus) {
 }
 
 TEST(Reception, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
-    ReceptionOptions options = patient();
+    ReceptionOptions options;
     options.metrics = false;
     House house(options);
     EXPECT_EQ(house.ask("/metrics").status, 404);
@@ -152,7 +192,7 @@ TEST(Reception, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
 }
 
 TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
-    ReceptionOptions options = patient();
+    ReceptionOptions options;
     options.longest_queue = 0;
     House house(options);
     std::atomic<int> good{0}, turned_away{0};
@@ -178,10 +218,8 @@ TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
 }
 
 TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
-    ReceptionOptions options = patient();
-    options.deadline = 1ms;
-    House late(options);
-    const api::Answer answer = late.ask(heavy + "1");
+    House late;
+    const api::Answer answer = late.ask(heavy + "1", "GET", 1ms);
     EXPECT_EQ(answer.status, 504);
     EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
 
@@ -192,7 +230,7 @@ TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
     while (text_of(left.ask("/metrics")).find("sporeprint_waiters 60\n") == std::string::npos &&
            left.service.counters().generated < 30)
         std::this_thread::yield();
-    EXPECT_EQ(left.ask(heavy + "1000", "GET", [] { return true; }).status, client_left);
+    EXPECT_EQ(left.ask(heavy + "1000", "GET", 0ms, Visit::Over::left).status, client_left);
     crowd.clear();
     EXPECT_EQ(left.service.counters().generated, 60u) << "nobody made what nobody waits for";
     EXPECT_NE(text_of(left.ask("/metrics")).find("{reason=\"left\"} 1\n"), std::string::npos);

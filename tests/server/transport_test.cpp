@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 
+#include "server/deadlines.h"
 #include "tests/server/raw_client.h"
 
 namespace sporeprint::server {
@@ -28,13 +29,25 @@ api::Answer text_answer(const std::string& text, int status = 200) {
     return answer;
 }
 
+using Gone = std::function<bool()>;
+
 /// A transport on a free port whose answers the test decides.
 struct Fixture {
     explicit Fixture(std::function<api::Answer(const api::Request&, const Gone&)> answer,
-                     TransportOptions options = patient()) {
+                     TransportOptions options = patient())
+        : Fixture(
+              [answer = std::move(answer)](const std::shared_ptr<Visit>& visit) {
+                  visit->reply(answer(visit->request(), [&] { return visit->gone(); }));
+              },
+              options) {}
+
+    Fixture(std::function<void(const std::shared_ptr<Visit>&)> answer, TransportOptions options) {
         options.port = 0;
         Handlers handlers;
         handlers.answer = std::move(answer);
+        handlers.label = [](std::string_view method, std::string_view) {
+            return "some " + std::string(method);
+        };
         handlers.refuse = [](const api::Request&, int status, std::string_view detail) {
             api::Answer refusal = text_answer(std::string(detail), status);
             refusal.headers[0].second = "application/problem+json";
@@ -111,6 +124,7 @@ TEST(Transport, AnswersOneRequestAfterAnotherOnOneConnection) {
     EXPECT_GT(served.bytes, 100u);
     EXPECT_TRUE(served.complete);
     EXPECT_EQ(served.id.size(), 16u);
+    EXPECT_EQ(served.label, "some GET");
 }
 
 TEST(Transport, AnswersPipelinedRequestsInOrder) {
@@ -347,9 +361,17 @@ TEST(Transport, SurvivesHandlersThatThrow) {
     TransportOptions options = Fixture::patient();
     options.port = 0;
     Handlers handlers;
-    handlers.answer = [](const api::Request& request, const Gone&) -> api::Answer {
-        if (request.target == "/odd") throw 42;
-        throw std::runtime_error("secret detail");
+    handlers.answer = [](const std::shared_ptr<Visit>& visit) {
+        const std::string& target = visit->request().target;
+        if (target == "/forgotten") return;
+        if (target == "/odd") throw 42;
+        if (target == "/later")
+            visit->reply_with([]() -> api::Answer { throw std::runtime_error("secret later"); });
+        else
+            throw std::runtime_error("secret detail");
+    };
+    handlers.label = [](std::string_view, std::string_view) -> std::string {
+        throw std::runtime_error("secret name");
     };
     handlers.refuse = [](const api::Request&, int, std::string_view) -> api::Answer {
         throw std::runtime_error("secret too");
@@ -361,7 +383,7 @@ TEST(Transport, SurvivesHandlersThatThrow) {
     Transport transport(options, handlers);
     transport.start();
     RawClient client(transport.port());
-    for (const char* target : {"/", "/odd"}) {
+    for (const char* target : {"/", "/odd", "/later", "/forgotten"}) {
         const auto answer = client.ask("GET " + std::string(target) + " HTTP/1.1\r\n\r\n");
         EXPECT_EQ(answer.status, 500);
         EXPECT_EQ(answer.head.find("secret"), std::string::npos);
@@ -438,47 +460,123 @@ TEST(Transport, RefusesAPortThatIsTaken) {
 
 TEST(Transport, MakesRoomWhenConnectionsIdle) {
     TransportOptions options = Fixture::patient();
-    options.threads = 4;
+    options.most_connections = 4;
     Fixture server(echo, options);
     std::vector<std::unique_ptr<RawClient>> kept;
     for (int i = 0; i < 4; ++i) {
         kept.push_back(std::make_unique<RawClient>(server.port()));
         EXPECT_EQ(kept.back()->ask("GET / HTTP/1.1\r\n\r\n").status, 200);
+        std::this_thread::sleep_for(2 * Deadlines::tick);
     }
-    const auto begun = Clock::now();
     RawClient late(server.port());
     EXPECT_EQ(late.ask("GET / HTTP/1.1\r\n\r\n").status, 200);
-    EXPECT_LT(Clock::now() - begun, 30s) << "an idle connection gives its thread up";
+    EXPECT_TRUE(kept[0]->ends()) << "the one that has waited longest gives its place up";
+    EXPECT_EQ(kept[1]->ask("GET / HTTP/1.1\r\n\r\n").status, 200) << "the others do not";
+    EXPECT_EQ(server.transport->load().refused, 0u);
 }
+
+/// Handlers that keep who asks until the test answers them.
+struct Waiting {
+    void operator()(const std::shared_ptr<Visit>& visit) {
+        const std::lock_guard lock(mutex);
+        visits.push_back(visit);
+        changed.notify_all();
+    }
+    void await(std::size_t count) {
+        std::unique_lock lock(mutex);
+        EXPECT_TRUE(changed.wait_for(lock, 20s, [&] { return visits.size() >= count; }));
+    }
+    void answer_all(const std::string& text) {
+        const std::lock_guard lock(mutex);
+        for (const auto& visit : visits) visit->reply(text_answer(text));
+        visits.clear();
+    }
+    std::mutex mutex;
+    std::condition_variable changed;
+    std::vector<std::shared_ptr<Visit>> visits;
+};
 
 TEST(Transport, TurnsAwayWhatItCannotHold) {
     TransportOptions options = Fixture::patient();
-    options.threads = 2;
-    options.waiting = 2;
-    std::counting_semaphore<> gate(0);
-    Fixture server(
-        [&](const api::Request&, const Gone&) {
-            gate.acquire();
-            return text_answer("late");
-        },
-        options);
+    options.most_connections = 4;
+    options.workers = 1;
+    Waiting waiting;
+    Fixture server(std::ref(waiting), options);
     std::vector<std::unique_ptr<RawClient>> clients;
     for (std::size_t i = 0; i < 4; ++i) {
         clients.push_back(std::make_unique<RawClient>(server.port()));
         clients.back()->send("GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
-        const std::size_t open = std::min<std::size_t>(i + 1, 2);
-        for (int k = 0; k < 2000; ++k) {
-            const Transport::Load load = server.transport->load();
-            if (load.open == open && load.waiting == i + 1 - open) break;
-            std::this_thread::sleep_for(5ms);
-        }
     }
+    waiting.await(4);  // one worker, and all four wait: who waits holds no thread
+    const auto load = server.transport->load();
+    EXPECT_EQ(load.open(), 4u);
+    EXPECT_EQ(load.connections[static_cast<std::size_t>(Transport::Phase::busy)], 4u);
     RawClient surplus(server.port());
     surplus.send("GET / HTTP/1.1\r\n\r\n");
-    EXPECT_EQ(surplus.receive().status, 503);
+    const auto refusal = surplus.receive();
+    EXPECT_EQ(refusal.status, 503);
+    EXPECT_EQ(refusal.header("Connection"), "close");
     EXPECT_EQ(server.transport->load().refused, 1u);
-    gate.release(4);
+    waiting.answer_all("late");
     for (auto& client : clients) EXPECT_EQ(client->receive().body, "late");
+}
+
+TEST(Transport, RefusesWhenTooManyWaitForAWorker) {
+    TransportOptions options = Fixture::patient();
+    options.workers = 1;
+    options.longest_queue = 1;
+    std::counting_semaphore<> gate(0), begun(0);
+    Fixture server(
+        [&](const api::Request&, const Gone&) {
+            begun.release();
+            gate.acquire();
+            return text_answer("late");
+        },
+        options);
+    RawClient first(server.port()), second(server.port());
+    first.send("GET / HTTP/1.1\r\n\r\n");
+    begun.acquire();
+    second.send("GET / HTTP/1.1\r\n\r\n");
+    for (int i = 0; i < 2000 && server.transport->load().queue == 0; ++i)
+        std::this_thread::sleep_for(5ms);
+    RawClient surplus(server.port());
+    EXPECT_EQ(surplus.ask("GET / HTTP/1.1\r\n\r\n").status, 503);
+    gate.release(2);
+    EXPECT_EQ(first.receive().body, "late");
+    EXPECT_EQ(second.receive().body, "late");
+}
+
+TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
+    TransportOptions options = Fixture::patient();
+    options.answer = 100ms;
+    std::atomic<int> late{0}, left{0};
+    Fixture server(
+        [&](const std::shared_ptr<Visit>& visit) {
+            visit->wait([&, visit](Visit::Over why) {
+                ++(why == Visit::Over::late ? late : left);
+                EXPECT_EQ(visit->gone(), why == Visit::Over::left);
+                visit->reply(text_answer("", why == Visit::Over::late ? 504 : client_left));
+                visit->reply(text_answer("the first answer counts"));
+            });
+        },
+        options);
+    RawClient patient(server.port());
+    EXPECT_EQ(patient.ask("GET /1 HTTP/1.1\r\n\r\n").status, 504);
+    EXPECT_EQ(patient.ask("GET /2 HTTP/1.1\r\n\r\n").status, 504) << "the connection goes on";
+    EXPECT_EQ(late, 2);
+    options.answer = 60s;
+    Fixture slow(
+        [&](const std::shared_ptr<Visit>& visit) {
+            visit->wait([&, visit](Visit::Over why) {
+                ++(why == Visit::Over::late ? late : left);
+                visit->reply(text_answer("", client_left));
+            });
+        },
+        options);
+    { RawClient(slow.port()).send("GET / HTTP/1.1\r\n\r\n"); }
+    EXPECT_EQ(slow.wait_for_served().status, client_left);
+    EXPECT_EQ(late, 2);
+    EXPECT_EQ(left, 1);
 }
 
 TEST(Transport, DrainsWhatHasBegun) {

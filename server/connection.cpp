@@ -1,0 +1,432 @@
+#include "server/connection.h"
+
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <random>
+#include <utility>
+
+namespace sporeprint::server {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t small_body = 256u << 10;      ///< not counted against most_body_memory
+constexpr std::size_t head_at_once = 16u << 10;     ///< bytes received while a head is awaited
+constexpr std::size_t most_in_a_turn = 256u << 10;  ///< bytes received before others come first
+constexpr std::size_t most_discarded = 16u << 20;   ///< bytes of a refused request read and dropped
+constexpr milliseconds discarding{1000};            ///< at most so long
+constexpr milliseconds moment{500};                 ///< for whoever has just come to say something
+constexpr milliseconds second_thoughts{100};        ///< a closed writing end counts after so long
+constexpr std::size_t slowest = 16 * 1024;  ///< bytes a second that an answer must go out at
+
+bool is_proper_id(std::string_view id) {
+    return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '_' || c == '-';
+    });
+}
+
+/// Spreads a counter over 64 bits, so that ids cannot be guessed from one another at a glance.
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+/// Adds to a counter that only this thread writes.
+void add(std::atomic<std::size_t>& counter, std::size_t change) {
+    counter.store(counter.load(std::memory_order_relaxed) + change, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+Hall::Hall(const TransportOptions& the_options, Backroom& the_back)
+    : options(the_options), back(the_back), now(Clock::now()), deadlines(now) {
+    std::random_device entropy;
+    id_prefix_ = (static_cast<std::uint64_t>(entropy()) << 32) | entropy();
+}
+
+std::string Hall::new_id() {
+    const std::uint64_t x = mixed(id_prefix_ + ++last_id_);
+    std::string text(16, '0');
+    for (std::size_t i = 0; i < 16; ++i) text[15 - i] = "0123456789abcdef"[(x >> (4 * i)) & 15];
+    return text;
+}
+
+Connection::Connection(Hall& hall, int socket, std::string peer)
+    : hall_(hall), socket_(socket), peer_(std::move(peer)), began_(hall.now) {
+    add(hall_.phases[static_cast<std::size_t>(phase_)], 1);
+    const milliseconds patience =
+        hall_.back.draining ? 2 * hall_.options.farewell : hall_.options.idle;
+    put_off_until(hall_.now + patience);
+}
+
+Connection::~Connection() {
+    add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
+    hall_.body_memory -= body_memory_;
+    ::close(socket_);
+}
+
+// --- What the reactor tells ---------------------------------------------------------------------
+
+bool Connection::happened(std::uint32_t events) {
+    if ((events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) readable_ = true;
+    if ((events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) != 0) writable_ = true;
+    if ((events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) left_ = true;
+    if (phase_ == Phase::busy && left_) {
+        if ((events & (EPOLLHUP | EPOLLERR)) != 0)
+            client_has_left();
+        else
+            put_off_until(std::min(deadline(), hall_.now + second_thoughts));
+    }
+    return advance();
+}
+
+bool Connection::go_on() {
+    on_the_list_ = false;
+    return advance();
+}
+
+bool Connection::is_late() {
+    switch (phase_) {
+        case Phase::idle:
+            return !in_.empty();  // what has come is answered when its turn comes
+        case Phase::parting:
+            return false;
+        case Phase::head: {
+            Scan scan = scan_head(in_);
+            method_ = std::move(scan.head.method);
+            target_ = std::move(scan.head.target);
+            id_ = hall_.new_id();
+            return refuse(408, "the head of the request did not arrive in time") != Step::end &&
+                   advance();
+        }
+        case Phase::body:
+            return refuse(408, "the body did not arrive in time") != Step::end && advance();
+        case Phase::busy:
+            if (left_)
+                client_has_left();
+            else if (const auto exchange = exchange_.lock())
+                exchange->end(Visit::Over::late);
+            return true;  // the answer comes, and is not waited for any longer than that
+        case Phase::writing:
+            report(false);
+            return false;
+    }
+    return false;
+}
+
+bool Connection::answered(Reply reply) {
+    label_ = std::move(reply.label);
+    const auto sending = std::make_shared<const Sending>(std::move(reply.sending));
+    return send(sending) != Step::end && advance();
+}
+
+bool Connection::drain() {
+    if (phase_ != Phase::idle) return true;
+    // Who has been answered may go; who has just come gets a moment to say what for.
+    put_off_until(
+        std::min(deadline(), served_ > 0 ? hall_.now : hall_.now + 2 * hall_.options.farewell));
+    return true;
+}
+
+bool Connection::turn_away() {
+    id_ = hall_.new_id();
+    return refuse(503, "too many connections; try again in a moment") != Step::end && advance();
+}
+
+bool Connection::may_make_room() const {
+    return phase_ == Phase::idle && in_.empty() && !readable_ &&
+           (served_ > 0 || hall_.now - began_ >= moment);
+}
+
+// --- Its course ---------------------------------------------------------------------------------
+
+bool Connection::advance() {
+    taken_ = 0;
+    for (;;) {
+        Step step = Step::wait;
+        switch (phase_) {
+            case Phase::idle:
+            case Phase::head:
+                step = read_head();
+                break;
+            case Phase::body:
+                step = read_body();
+                break;
+            case Phase::busy:
+                break;
+            case Phase::writing:
+                step = write();
+                break;
+            case Phase::parting:
+                step = discard();
+                break;
+        }
+        if (step != Step::on) return step != Step::end;
+    }
+}
+
+Connection::Step Connection::read_head() {
+    const bool worth_a_look =
+        in_.find('\n', scanned_) != std::string::npos || in_.size() > longest_uri;
+    if (in_.size() > scanned_) {
+        if (phase_ == Phase::idle) {
+            began_ = hall_.now;
+            enter(Phase::head);
+        }
+        scanned_ = in_.size();
+        if (worth_a_look) {
+            Scan scan = scan_head(in_);
+            if (scan.state != Scan::State::incomplete) return begin(std::move(scan));
+        }
+        put_off_until(std::min(began_ + hall_.options.head, hall_.now + hall_.options.silence));
+    }
+    switch (receive(&in_, head_at_once)) {
+        case Received::some:
+            return Step::on;
+        case Received::none:
+            return Step::wait;
+        case Received::closed:
+            return Step::end;
+    }
+    return Step::end;
+}
+
+Connection::Step Connection::begin(Scan scan) {
+    Head& head = scan.head;
+    request_ = api::Request();
+    request_.method = std::move(head.method);
+    request_.target = std::move(head.target);
+    request_.headers = std::move(head.headers);
+    method_ = request_.method;
+    target_ = request_.target;
+    const std::string_view asked_id = request_.header("X-Request-Id");
+    id_ = is_proper_id(asked_id) ? std::string(asked_id) : hall_.new_id();
+    request_.id = id_;
+    if (scan.state == Scan::State::refused) return refuse(scan.status, scan.detail);
+    in_.erase(0, scan.used);
+    scanned_ = 0;
+    closing_ = !head.keep_alive || served_ + 1 >= hall_.options.most_requests;
+
+    const std::uint64_t length = head.content_length.value_or(0);
+    if (length == 0) return dispatch();
+    std::size_t most = 0;
+    try {
+        most = hall_.back.handlers.most_body(method_, target_);
+    } catch (...) {  // then none
+    }
+    if (length > most)
+        return refuse(413, "the body has " + std::to_string(length) + " bytes; at most " +
+                               std::to_string(most) + " are taken here");
+    body_length_ = static_cast<std::size_t>(length);
+    if (body_length_ > small_body) {
+        if (hall_.body_memory + body_length_ > hall_.options.most_body_memory)
+            return refuse(503, "too many large bodies are being received; try again");
+        body_memory_ = body_length_;
+        hall_.body_memory += body_memory_;
+    }
+    if (head.expects_continue && in_.size() < body_length_) {
+        // Left out when the client has not even read the answers before: it need not wait for it.
+        constexpr std::string_view go = "HTTP/1.1 100 Continue\r\n\r\n";
+        const ssize_t sent = ::send(socket_, go.data(), go.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent >= 0 && static_cast<std::size_t>(sent) < go.size()) return Step::end;
+    }
+    enter(Phase::body);
+    last_ = hall_.now + hall_.options.body * static_cast<int>(1 + body_length_ / small_body);
+    return Step::on;
+}
+
+Connection::Step Connection::read_body() {
+    std::string& body = request_.body;
+    if (!in_.empty()) {
+        const std::size_t there = std::min(body_length_ - body.size(), in_.size());
+        body.append(in_, 0, there);
+        in_.erase(0, there);
+    }
+    if (body.size() >= body_length_) return dispatch();
+    put_off_until(std::min(last_, hall_.now + hall_.options.silence));
+    if (taken_ >= most_in_a_turn) return yield();
+    switch (receive(&body, body_length_ - body.size())) {
+        case Received::some:
+            return Step::on;
+        case Received::none:
+            return Step::wait;
+        case Received::closed:
+            return Step::end;
+    }
+    return Step::end;
+}
+
+Connection::Step Connection::dispatch() {
+    ready_ = Clock::now();
+    const auto exchange =
+        std::make_shared<Exchange>(hall_.back, *this, std::move(request_), closing_);
+    bool taken = false;
+    try {
+        taken = hall_.back.workers.offer([exchange] { exchange->start(); });
+    } catch (...) {  // no memory: refused below, if there is enough for that
+    }
+    if (!taken) {
+        exchange->drop();
+        return refuse(503, "too many requests are waiting; try again in a moment");
+    }
+    exchange_ = exchange;
+    enter(Phase::busy);
+    put_off_until(hall_.now + (left_ ? second_thoughts : hall_.options.answer));
+    return Step::wait;
+}
+
+Connection::Step Connection::refuse(int status, std::string_view detail) {
+    closing_ = unread_ = true;
+    ready_ = Clock::now();
+    request_ = api::Request();
+    api::Request request;
+    request.method = method_;
+    request.target = target_;
+    request.id = id_;
+    label_ = hall_.back.label(method_, target_);
+    const auto refusal = [&] { return hall_.back.refusal(request, status, detail); };
+    return send(std::make_shared<const Sending>(hall_.back.library.send(
+        "GET / HTTP/1.1", refusal, [&](int) { return refusal(); }, [] { return true; })));
+}
+
+Connection::Step Connection::send(const std::shared_ptr<const Sending>& sending) {
+    const api::Answer& answer = sending->answer;
+    closing_ = closing_ || sending->closing;
+    status_ = answer.status;
+    cache_.clear();
+    for (const auto& [name, value] : answer.headers)
+        if (same_token(name, "Cache-Status")) cache_ = value;
+    out_.begin(sending);
+    if (status_ == client_left || sending->head.empty()) {
+        report(false);
+        return Step::end;
+    }
+    out_.add(sending->head.data(), sending->head.size());
+    if (sending->with_body) out_.add(answer.body);
+    last_ =
+        hall_.now + 4 * hall_.options.blocked_write + std::chrono::seconds(out_.total() / slowest);
+    enter(Phase::writing);
+    return Step::on;
+}
+
+Connection::Step Connection::write() {
+    if (!writable_) return Step::wait;
+    const std::uint64_t had = out_.sent();
+    switch (out_.send(socket_)) {
+        case Outgoing::Progress::failed:
+            report(false);
+            return Step::end;
+        case Outgoing::Progress::blocked:
+            writable_ = false;
+            if (had == 0 || out_.sent() > had)
+                put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
+            return Step::wait;
+        case Outgoing::Progress::more:
+            put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
+            return yield();
+        case Outgoing::Progress::done:
+            break;
+    }
+    report(true);
+    if (closing_) return part();
+    ++served_;
+    began_ = hall_.now;
+    enter(Phase::idle);
+    put_off_until(hall_.back.draining ? hall_.now : hall_.now + hall_.options.idle);
+    return in_.empty() ? Step::on : yield();
+}
+
+/// Ends the connection: at once, or when the client has stopped sending, as a reset in answer to
+/// what was not read would destroy its answer.
+Connection::Step Connection::part() {
+    if (in_.empty() && !unread_ && !readable_) return Step::end;
+    ::shutdown(socket_, SHUT_WR);
+    enter(Phase::parting);
+    discarded_ = in_.size();
+    in_ = std::string();
+    put_off_until(hall_.now + discarding);
+    return Step::on;
+}
+
+Connection::Step Connection::discard() {
+    if (discarded_ > most_discarded) return Step::end;
+    if (taken_ >= most_in_a_turn) return yield();
+    const std::size_t had = taken_;
+    switch (receive(nullptr, hall_.received.size())) {
+        case Received::some:
+            discarded_ += taken_ - had;
+            return Step::on;
+        case Received::none:
+            return Step::wait;
+        case Received::closed:
+            return Step::end;
+    }
+    return Step::end;
+}
+
+Connection::Step Connection::yield() {
+    if (!on_the_list_) hall_.again.push_back(this);
+    on_the_list_ = true;
+    return Step::wait;
+}
+
+// --- Its parts ----------------------------------------------------------------------------------
+
+Connection::Received Connection::receive(std::string* to, std::size_t most) {
+    if (!readable_) return Received::none;
+    most = std::min(most, hall_.received.size());
+    const ssize_t got = ::recv(socket_, hall_.received.data(), most, MSG_DONTWAIT);
+    if (got == 0) return Received::closed;
+    if (got < 0) {
+        if (errno == EINTR) return Received::some;
+        if (errno != EAGAIN) return Received::closed;
+        readable_ = false;
+        return Received::none;
+    }
+    const auto bytes = static_cast<std::size_t>(got);
+    // All that was there: the next byte is told of, unless it is the end, which has been told of.
+    if (bytes < most && !left_) readable_ = false;
+    if (to) to->append(hall_.received.data(), bytes);
+    taken_ += bytes;
+    return Received::some;
+}
+
+void Connection::enter(Phase phase) {
+    add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
+    add(hall_.phases[static_cast<std::size_t>(phase)], 1);
+    phase_ = phase;
+}
+
+void Connection::client_has_left() {
+    if (const auto exchange = exchange_.lock()) exchange->end(Visit::Over::left);
+}
+
+void Connection::report(bool complete) {
+    Served& served = hall_.served;
+    served.method = method_;
+    served.target = target_;
+    served.id = id_;
+    served.peer = peer_;
+    served.label = label_;
+    served.status = status_;
+    served.bytes = out_.sent();
+    served.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - ready_).count();
+    served.cache = cache_;
+    served.complete = complete;
+    try {
+        hall_.back.handlers.served(served);
+    } catch (...) {  // a request that cannot be logged has still been answered
+    }
+    out_.end();
+    hall_.body_memory -= body_memory_;
+    body_memory_ = 0;
+}
+
+}  // namespace sporeprint::server

@@ -1,0 +1,122 @@
+// One connection: from the bytes that have come to requests, from answers to the bytes that go out.
+// It never waits; the reactor tells it what has happened, on one thread.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "server/deadlines.h"
+#include "server/exchange.h"
+#include "server/head.h"
+#include "server/outgoing.h"
+#include "server/transport.h"
+
+namespace sporeprint::server {
+
+/// What all connections of a reactor have in common. Used on its thread; `phases` may be read on
+/// any.
+struct Hall {
+    Hall(const TransportOptions& the_options, Backroom& the_back);
+
+    [[nodiscard]] std::string new_id();
+
+    const TransportOptions& options;
+    Backroom& back;
+    Clock::time_point now;  ///< of this round of the loop
+    Deadlines deadlines;
+    std::size_t body_memory = 0;
+    std::vector<Connection*> again;  ///< have more to do, when the others have had their turn
+    std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};
+    std::array<char, 64 * 1024> received;  ///< by the call at hand
+    Served served;                         ///< kept for its memory
+
+  private:
+    std::uint64_t id_prefix_;
+    std::uint64_t last_id_ = 0;
+};
+
+/// Each call that returns bool says whether the connection goes on; if not, destroy it.
+class Connection final : public Timed {
+  public:
+    using Phase = Transport::Phase;
+
+    /// socket  does not block; closed by the destructor
+    Connection(Hall& hall, int socket, std::string peer);
+    ~Connection() override;
+
+    [[nodiscard]] bool happened(std::uint32_t events);  ///< of epoll, edge-triggered
+    [[nodiscard]] bool go_on();                         ///< it was on the list of those to go on
+    [[nodiscard]] bool is_late();                       ///< its deadline has come
+    [[nodiscard]] bool answered(Reply reply);
+    [[nodiscard]] bool drain();      ///< the server ends
+    [[nodiscard]] bool turn_away();  ///< there are too many: says so, and ends soon
+
+    /// Whether it may be closed to make room: it waits for a request, and has for a while.
+    [[nodiscard]] bool may_make_room() const;
+
+    /// While it is busy it must not be destroyed: its answer comes yet.
+    [[nodiscard]] Phase phase() const { return phase_; }
+    [[nodiscard]] bool is_on_the_list() const { return on_the_list_; }
+
+    std::size_t place = 0;  ///< where the reactor keeps it
+    bool ended = false;     ///< to be destroyed at the end of this round
+
+  private:
+    enum class Step { on, wait, end };
+    enum class Received { some, none, closed };
+
+    bool advance();
+    Step read_head();
+    Step begin(Scan scan);
+    Step read_body();
+    Step dispatch();
+    Step refuse(int status, std::string_view detail);
+    Step send(const std::shared_ptr<const Sending>& sending);
+    Step write();
+    Step part();
+    Step discard();
+    Step yield();
+
+    Received receive(std::string* to, std::size_t most);
+    void enter(Phase phase);
+    void put_off_until(Clock::time_point deadline) { hall_.deadlines.set(*this, deadline); }
+    void await_request();
+    void report(bool complete);
+    void client_has_left();
+
+    Hall& hall_;
+    int socket_;
+    std::string peer_;
+    Phase phase_ = Phase::idle;
+    bool readable_ = false, writable_ = true;
+    bool left_ = false;  ///< the client has closed its writing end, or all
+    bool on_the_list_ = false;
+    bool closing_ = false;  ///< after this answer
+    bool unread_ = false;   ///< what still comes is of a refused request
+    std::size_t served_ = 0;
+    std::string in_;
+    std::size_t scanned_ = 0;  ///< bytes of in_ that have been looked at
+    std::size_t taken_ = 0;    ///< bytes received in this turn
+    Clock::time_point began_;  ///< the phase, as far as deadlines count from there
+
+    // The request at hand.
+    std::string method_, target_, id_, label_;
+    api::Request request_;
+    std::size_t body_length_ = 0, body_memory_ = 0;
+    Clock::time_point last_;   ///< when body or answer must be through
+    Clock::time_point ready_;  ///< when its last byte had come
+    std::weak_ptr<Exchange> exchange_;
+    Outgoing out_;
+    int status_ = 0;
+    std::string cache_;
+    std::size_t discarded_ = 0;
+};
+
+}  // namespace sporeprint::server

@@ -1,0 +1,100 @@
+// A request between the thread that owns the sockets and those that answer it: it goes to a worker,
+// its answer comes back through a mailbox.
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "api/http.h"
+#include "server/library.h"
+#include "server/transport.h"
+#include "server/workers.h"
+
+namespace sporeprint::server {
+
+class Connection;
+
+struct Reply {
+    Connection* to = nullptr;  ///< lives until it has got this
+    Sending sending;
+    std::string label;
+};
+
+/// Replies from any thread to the one that owns the connections, which it wakes.
+class Mailbox {
+  public:
+    /// throws  std::runtime_error when the system has no descriptor left
+    Mailbox();
+    ~Mailbox();
+    Mailbox(const Mailbox&) = delete;
+    Mailbox& operator=(const Mailbox&) = delete;
+
+    void post(Reply reply);
+    void wake();
+
+    /// All that has come, and quiet until more comes.
+    [[nodiscard]] std::vector<Reply> take();
+
+    [[nodiscard]] int descriptor() const { return descriptor_; }  ///< readable when there is mail
+
+  private:
+    int descriptor_;
+    std::mutex mutex_;
+    std::vector<Reply> replies_;
+};
+
+/// What stands behind the reactor; all may be used on any thread.
+struct Backroom {
+    const Handlers& handlers;
+    Library& library;
+    Workers& workers;
+    Mailbox& mailbox;
+    std::atomic<bool> draining{false};
+
+    /// handlers.refuse, or a bare status when it throws.
+    [[nodiscard]] api::Answer refusal(const api::Request& request, int status,
+                                      std::string_view detail) const;
+
+    /// handlers.label, or nothing when it throws.
+    [[nodiscard]] std::string label(std::string_view method, std::string_view target) const;
+};
+
+class Exchange final : public Visit, public std::enable_shared_from_this<Exchange> {
+  public:
+    /// from     gets exactly one reply, unless drop() comes first
+    /// closing  whether the connection ends after this
+    Exchange(Backroom& back, Connection& from, api::Request request, bool closing)
+        : back_(back), from_(&from), request_(std::move(request)), closing_(closing) {}
+    ~Exchange() override;
+
+    void start();        ///< on a worker
+    void end(Over why);  ///< the client has left, or has waited long enough
+    void drop();         ///< there will be no reply
+
+    [[nodiscard]] const api::Request& request() const override { return request_; }
+    [[nodiscard]] bool gone() const override { return gone_; }
+    void reply(api::Answer answer) override;
+    void reply_with(std::function<api::Answer()> make) override;
+    void wait(std::function<void(Over)> over) override;
+
+  private:
+    [[nodiscard]] bool claim();  ///< whether nobody has answered before
+
+    Backroom& back_;
+    Connection* from_;
+    api::Request request_;
+    bool closing_;
+    std::string label_;
+    std::atomic<bool> gone_{false}, answered_{false};
+    std::mutex mutex_;
+    std::optional<Over> over_;
+    std::function<void(Over)> tell_;  ///< may hold this exchange: let go when it is answered
+};
+
+}  // namespace sporeprint::server

@@ -1,0 +1,44 @@
+// Bytes on their way into a socket that does not wait: pieces of memory that somebody keeps, sent
+// with as few calls as the socket takes them. Nothing is copied.
+#pragma once
+
+#include <sys/uio.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/bytes.h"
+
+namespace sporeprint::server {
+
+class Outgoing {
+  public:
+    enum class Progress { done, more, blocked, failed };
+
+    /// Forgets what was there. What is added below must live as long as `keeper`.
+    void begin(std::shared_ptr<const void> keeper);
+
+    void add(const void* data, std::size_t size);
+    void add(const Body& body);
+
+    /// Sends what the socket takes now; `more` when it took so much that others come first.
+    Progress send(int socket);
+
+    /// Lets go of the memory; sent() stays.
+    void end();
+
+    [[nodiscard]] std::uint64_t sent() const { return sent_; }    ///< bytes, since begin()
+    [[nodiscard]] std::uint64_t total() const { return total_; }  ///< bytes added
+
+  private:
+    std::shared_ptr<const void> keeper_;
+    std::vector<iovec> parts_;
+    std::size_t first_ = 0;
+    std::uint64_t sent_ = 0, total_ = 0;
+};
+
+}  // namespace sporeprint::server

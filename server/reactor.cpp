@@ -1,0 +1,237 @@
+#include "server/reactor.h"
+
+#include <arpa/inet.h>
+#include <fcntl.h>
+#include <netinet/in.h>
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace sporeprint::server {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t turned_away_at_once = 256;  ///< connections beyond the limit that are told so
+constexpr int accepted_in_a_turn = 64;
+constexpr milliseconds pause{10};  ///< of accepting, when the system is out of memory or buffers
+
+int spare_descriptor() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
+
+std::string text_of(const sockaddr_storage& address) {
+    std::array<char, INET6_ADDRSTRLEN> text{};
+    const void* bytes =
+        address.ss_family == AF_INET6
+            ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr)
+            : &reinterpret_cast<const sockaddr_in&>(address).sin_addr;
+    return inet_ntop(address.ss_family, bytes, text.data(), text.size()) ? text.data() : "";
+}
+
+}  // namespace
+
+Reactor::Reactor(const TransportOptions& options, const Handlers& handlers, Library& library)
+    : options_(options),
+      library_(library),
+      back_{handlers, library, workers_, mailbox_},
+      hall_(options, back_),
+      workers_(options.workers, options.longest_queue) {
+    epoll_ = epoll_create1(EPOLL_CLOEXEC);
+    epoll_event mail{};
+    mail.events = EPOLLIN;
+    mail.data.ptr = &mailbox_;
+    if (epoll_ < 0 || epoll_ctl(epoll_, EPOLL_CTL_ADD, mailbox_.descriptor(), &mail) != 0) {
+        const int why = errno;
+        if (epoll_ >= 0) ::close(epoll_);
+        throw std::runtime_error(std::string("Cannot make an epoll: ") + std::strerror(why));
+    }
+    spare_ = spare_descriptor();
+}
+
+Reactor::~Reactor() {
+    if (spare_ >= 0) ::close(spare_);
+    ::close(epoll_);
+}
+
+void Reactor::drain() {
+    back_.draining = true;
+    mailbox_.wake();
+}
+
+Transport::Load Reactor::load() const {
+    Transport::Load load;
+    for (std::size_t i = 0; i < load.connections.size(); ++i)
+        load.connections[i] = hall_.phases[i].load(std::memory_order_relaxed);
+    load.queue = workers_.waiting();
+    load.refused = refused_;
+    return load;
+}
+
+template <class Call>
+void Reactor::let(Connection& connection, Call&& call) {
+    if (connection.ended) return;
+    bool goes_on = false;
+    try {
+        goes_on = call(connection);
+    } catch (...) {  // out of memory: this connection ends, the server does not
+        goes_on = connection.phase() == Connection::Phase::busy;
+    }
+    if (goes_on) return;
+    connection.ended = true;
+    ended_.push_back(&connection);
+}
+
+void Reactor::run() {
+    std::array<epoll_event, 256> events;
+    std::vector<Connection*> again;
+    const std::function<void(Timed&)> late = [this](Timed& timed) {
+        let(static_cast<Connection&>(timed), [](Connection& one) { return one.is_late(); });
+    };
+    watch_listener(true);
+    while (!draining_ || farewell_end_ != Clock::time_point::max() || !connections_.empty()) {
+        const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()),
+                                     milliseconds_to_wait());
+        hall_.now = Clock::now();
+        bool called = false;
+        for (int i = 0; i < count; ++i) {
+            const epoll_event& event = events[static_cast<std::size_t>(i)];
+            if (event.data.ptr == &mailbox_)
+                called = true;
+            else if (event.data.ptr == &library_)
+                accept_all();
+            else
+                let(*static_cast<Connection*>(event.data.ptr),
+                    [&](Connection& one) { return one.happened(event.events); });
+        }
+        if (called) {
+            for (Reply& reply : mailbox_.take()) {
+                Connection& to = *reply.to;
+                let(to, [&](Connection& one) { return one.answered(std::move(reply)); });
+            }
+            if (back_.draining && !draining_) begin_to_drain();
+        }
+        hall_.deadlines.expire(hall_.now, late);
+        again.clear();
+        again.swap(hall_.again);
+        for (Connection* one : again)
+            let(*one, [](Connection& connection) { return connection.go_on(); });
+        if (hall_.now >= accepting_again_) watch_listener(true);
+        if (hall_.now >= farewell_end_) stop_listening();
+        bury();
+    }
+}
+
+int Reactor::milliseconds_to_wait() const {
+    if (!hall_.again.empty()) return 0;
+    const Clock::time_point until =
+        std::min({hall_.deadlines.next(), farewell_end_, accepting_again_});
+    if (until == Clock::time_point::max()) return -1;
+    const auto left = std::chrono::ceil<milliseconds>(until - Clock::now()).count();
+    return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
+}
+
+// --- Accepting ----------------------------------------------------------------------------------
+
+void Reactor::watch_listener(bool watch) {
+    accepting_again_ = watch ? Clock::time_point::max() : hall_.now + pause;
+    if (library_.socket() < 0) return;
+    epoll_event event{};
+    event.events = EPOLLIN;
+    event.data.ptr = &library_;
+    epoll_ctl(epoll_, watch ? EPOLL_CTL_ADD : EPOLL_CTL_DEL, library_.socket(), &event);
+}
+
+void Reactor::accept_all() {
+    for (int i = 0; i < accepted_in_a_turn && library_.socket() >= 0; ++i) {
+        sockaddr_storage address{};
+        socklen_t size = sizeof address;
+        const int socket = ::accept4(library_.socket(), reinterpret_cast<sockaddr*>(&address),
+                                     &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
+        if (socket >= 0) {
+            welcome(socket, text_of(address));
+        } else if (errno == EMFILE || errno == ENFILE) {
+            survive_exhaustion();
+        } else if (errno != EINTR && errno != ECONNABORTED) {
+            if (errno != EAGAIN) watch_listener(false);
+            return;
+        }
+    }
+}
+
+void Reactor::welcome(int socket, std::string peer) {
+    const std::size_t open = connections_.size() - ended_.size();
+    const bool full = open >= options_.most_connections && !make_room();
+    if (full) ++refused_;
+    if (full && open >= options_.most_connections + turned_away_at_once) {
+        ::close(socket);
+        return;
+    }
+    auto made = std::make_unique<Connection>(hall_, socket, std::move(peer));
+    Connection& connection = *made;
+    connection.place = connections_.size();
+    connections_.push_back(std::move(made));
+    epoll_event event{};
+    event.events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET;
+    event.data.ptr = &connection;
+    let(connection, [&](Connection& one) {
+        if (epoll_ctl(epoll_, EPOLL_CTL_ADD, socket, &event) != 0) return false;
+        return !full || one.turn_away();
+    });
+}
+
+/// Ends the connection that has waited longest for a request.
+bool Reactor::make_room() {
+    Connection* longest = nullptr;
+    for (const auto& one : connections_)
+        if (!one->ended && one->may_make_room() &&
+            (!longest || one->deadline() < longest->deadline()))
+            longest = one.get();
+    if (!longest) return false;
+    let(*longest, [](Connection&) { return false; });
+    return true;
+}
+
+void Reactor::survive_exhaustion() {
+    if (spare_ >= 0) ::close(spare_);
+    const int surplus = ::accept4(library_.socket(), nullptr, nullptr, SOCK_CLOEXEC);
+    if (surplus >= 0) ::close(surplus);
+    ++refused_;
+    spare_ = spare_descriptor();
+    if (spare_ < 0) watch_listener(false);
+}
+
+// --- Ending -------------------------------------------------------------------------------------
+
+void Reactor::begin_to_drain() {
+    draining_ = true;
+    farewell_end_ = hall_.now + options_.farewell;
+    for (const auto& one : connections_)
+        let(*one, [](Connection& connection) { return connection.drain(); });
+}
+
+void Reactor::stop_listening() {
+    accept_all();
+    farewell_end_ = Clock::time_point::max();
+    library_.close();
+}
+
+void Reactor::bury() {
+    for (Connection* one : ended_) {
+        if (one->is_on_the_list()) std::erase(hall_.again, one);
+        const std::size_t place = one->place;
+        std::swap(connections_[place], connections_.back());
+        connections_[place]->place = place;
+        connections_.pop_back();
+    }
+    ended_.clear();
+}
+
+}  // namespace sporeprint::server

@@ -1,0 +1,66 @@
+// The reactor: one thread that owns every socket and waits for all of them at once.
+#pragma once
+
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+#include "server/connection.h"
+#include "server/exchange.h"
+#include "server/library.h"
+#include "server/transport.h"
+#include "server/workers.h"
+
+namespace sporeprint::server {
+
+class Reactor {
+  public:
+    /// library  listens; outlives this, as options and handlers do
+    ///
+    /// throws  std::runtime_error when the system has no descriptor left
+    Reactor(const TransportOptions& options, const Handlers& handlers, Library& library);
+    ~Reactor();
+    Reactor(const Reactor&) = delete;
+    Reactor& operator=(const Reactor&) = delete;
+
+    /// Serves until drain() has been called and the last connection has ended.
+    void run();
+
+    void drain();  ///< on any thread
+
+    [[nodiscard]] Transport::Load load() const;  ///< on any thread
+
+  private:
+    [[nodiscard]] int milliseconds_to_wait() const;
+    void accept_all();
+    void welcome(int socket, std::string peer);
+    bool make_room();
+    void survive_exhaustion();
+    void begin_to_drain();
+    void stop_listening();
+    void watch_listener(bool watch);
+    void bury();
+
+    /// Calls one of a connection's functions; the connection ends when that says so.
+    template <class Call>
+    void let(Connection& connection, Call&& call);
+
+    const TransportOptions& options_;
+    Library& library_;
+    Mailbox mailbox_;
+    Backroom back_;
+    Hall hall_;
+    Workers workers_;  ///< ends before what it uses
+    int epoll_ = -1;
+    int spare_ = -1;  ///< given up to accept and close what comes when descriptors run out
+    bool draining_ = false;
+    Clock::time_point farewell_end_ = Clock::time_point::max();
+    Clock::time_point accepting_again_ = Clock::time_point::max();  ///< after a pause
+    std::vector<std::unique_ptr<Connection>> connections_;
+    std::vector<Connection*> ended_;
+    std::atomic<std::uint64_t> refused_{0};
+};
+
+}  // namespace sporeprint::server
