@@ -387,6 +387,10 @@ TEST(ServiceAssets, the_page_and_its_files_are_served) {
     EXPECT_EQ(page.status, 200);
     EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
     EXPECT_EQ(header(page, "Cache-Control"), "no-cache");
+    EXPECT_EQ(header(page, "Content-Security-Policy"), "frame-ancestors 'self'");
+    EXPECT_EQ(header(page, "Cross-Origin-Opener-Policy"), "same-origin");
+    EXPECT_EQ(header(page, "Referrer-Policy"), "same-origin");
+    EXPECT_EQ(header(handle(service, get("/assets/favicon.svg")), "Content-Security-Policy"), "");
     EXPECT_NE(text_of(page).find("page"), std::string::npos);
     EXPECT_NE(text_of(handle(service, get("/docs"))).find("docs"), std::string::npos);
     const Answer script = handle(service, get("/assets/app-3F9A1C02.js"));
