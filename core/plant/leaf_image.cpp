@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -45,6 +46,9 @@ double vein_depth(const LimbPlace& place) {
     return std::max(main, 0.6 * side);
 }
 
+// Of a place beyond the border.
+constexpr LimbPlace beyond_limb = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
+
 struct Texel {
     glm::dvec3 light{0.0};
     double occlusion = 0.0, roughness = 0.0;
@@ -69,7 +73,8 @@ class LeafPainter {
           seed_(seed),
           count_(side),
           points_(std::clamp<std::size_t>(finest_row / side, 1, most_points)),
-          share_(1.0 / static_cast<double>(points_ * points_)) {
+          share_(1.0 / static_cast<double>(points_ * points_)),
+          tile_(std::max<std::size_t>(side / most_tiles, 1)) {
         LimbPlace vein;
         vein.from_side = 0.0;
         petiole_ = colourist_.at(vein, autumn_).upper;
@@ -82,16 +87,33 @@ class LeafPainter {
             for (std::size_t k = 0; k < 2; ++k)
                 across_[k].push_back(static_cast<float>(columns_.back() + 8.0) * features[k]);
         }
+        find_limb();
+        const LeafColourist::Faces beyond = colourist_.at(beyond_limb, autumn_);
+        for (const bool upper : {true, false}) {
+            const Painted flat = painted_texel(
+                {upper ? beyond.upper : beyond.lower, 1.0, (upper ? 0.5 : 0.75) + 0.2 * autumn_});
+            for (std::size_t x = 0; x < count_ / 2; ++x) {
+                flat_[0].insert(flat_[0].end(), flat.begin(), flat.begin() + 3);
+                flat_[1].insert(flat_[1].end(), {byte(0.5), byte(0.5), byte(1.0)});
+                flat_[2].insert(flat_[2].end(), {flat[3], flat[4], 0});
+            }
+        }
     }
 
     // Colour, occlusion, roughness, and how far the upper face stands out.
     void colour_row(std::size_t y) {
-        std::array<Line, most_points> lines;
-        for (std::size_t i = 0; i < points_; ++i) lines[i] = line_at(y * points_ + i);
         const std::size_t half = count_ / 2;
         const bool of_petiole =
             (static_cast<double>(y) + 0.5) / static_cast<double>(count_) > petiole_strip;
+        const Span painted = of_petiole ? Span{0, half} : spans_[y / tile_];
+        for (const std::size_t image : {0, 2})
+            std::copy(flat_[image].begin(), flat_[image].end(),
+                      &images_.rgb[image][3 * y * count_]);
+        std::array<Line, most_points> lines;
+        for (std::size_t i = 0; i < points_ && painted.first < painted.last; ++i)
+            lines[i] = line_at(y * points_ + i, painted);
         for (std::size_t x = 0; x < half; ++x) {
+            if (!of_petiole && !shown_[y / tile_ * (half / tile_) + x / tile_]) continue;
             Texel upper, lower;
             double height = 0.0;
             for (std::size_t i = 0; i < points_; ++i)
@@ -101,12 +123,13 @@ class LeafPainter {
                     else
                         add_faces(lines[i], point, upper, lower, height);
                 }
-            put_texel(y * count_ + x, upper);
+            const Painted one = painted_texel(upper);
+            put_texel(y * count_ + x, one);
             // The strip of the petiole goes on where both halves meet.
             if (of_petiole)
-                put_texel((y + 1) * count_ - 1 - x, upper);
+                put_texel((y + 1) * count_ - 1 - x, one);
             else
-                put_texel(y * count_ + half + x, lower);
+                put_texel(y * count_ + half + x, painted_texel(lower));
             heights_[y * half + x] = static_cast<float>(height);
         }
     }
@@ -114,21 +137,33 @@ class LeafPainter {
     // The slopes of the upper face and, the other way, of the lower one.
     void normal_row(std::size_t y) {
         const std::size_t half = count_ / 2;
+        std::uint8_t* upper = &images_.rgb[1][3 * y * count_];
+        std::uint8_t* lower = upper + 3 * half;
+        // What is flat has no slope.
+        Span span = spans_[y / tile_];
+        for (const std::size_t row :
+             {y - std::min<std::size_t>(y, 1), std::min(y + 1, count_ - 1)}) {
+            span.first = std::min(span.first, spans_[row / tile_].first);
+            span.last = std::max(span.last, spans_[row / tile_].last);
+        }
+        span.first -= std::min<std::size_t>(span.first, 1);
+        span.last = std::min(span.last + 1, half);
+        std::copy(flat_[1].begin(), flat_[1].end(), upper);
+        if (span.first >= span.last) return;
         const float* here = &heights_[y * half];
         const float* above = y == 0 ? here : here - half;
         const float* below = y + 1 == count_ ? here : here + half;
         const double texels = 0.5 * chart_.scale * static_cast<double>(count_);
         std::vector<double> along(half), across(half), size(half);
-        for (std::size_t x = 1; x + 1 < half; ++x)
+        for (std::size_t x = std::max<std::size_t>(span.first, 1);
+             x < std::min(span.last, half - 1); ++x)
             along[x] =
                 texels * (static_cast<double>(here[x - 1]) - static_cast<double>(here[x + 1]));
-        for (std::size_t x = 0; x < half; ++x) {
+        for (std::size_t x = span.first; x < span.last; ++x) {
             across[x] = texels * (static_cast<double>(below[x]) - static_cast<double>(above[x]));
             size[x] = 1.0 / std::sqrt(along[x] * along[x] + across[x] * across[x] + 1.0);
         }
-        std::uint8_t* upper = &images_.rgb[1][3 * y * count_];
-        std::uint8_t* lower = upper + 3 * half;
-        for (std::size_t x = 0; x < half; ++x)
+        for (std::size_t x = span.first; x < span.last; ++x)
             put_normals(upper + 3 * x, lower + 3 * x, along[x] * size[x], across[x] * size[x],
                         size[x]);
         // The faces lie side by side, and their slopes are no slope between them: each has one at its outer border alone.
@@ -140,8 +175,8 @@ class LeafPainter {
         const auto slope = [&](std::size_t left) {
             return texels * (static_cast<double>(here[left]) - static_cast<double>(here[left + 1]));
         };
-        outer(upper, 0, slope(0), 1.0);
-        outer(lower + 3 * (half - 1), half - 1, slope(half - 2), -1.0);
+        if (span.first == 0) outer(upper, 0, slope(0), 1.0);
+        if (span.last == half) outer(lower + 3 * (half - 1), half - 1, slope(half - 2), -1.0);
     }
 
     [[nodiscard]] RawImages take() { return std::move(images_); }
@@ -152,12 +187,65 @@ class LeafPainter {
 
     static constexpr std::size_t most_points = 4;
 
-    // A line of points: where it lies, its noise, and where its last point lay.
+    // Beside the limb as much is painted as mipmaps of a quarter of the images' sides mix in, in lengths of it: what lies beyond is
+    // flat. It is looked up in tiles.
+    static constexpr double margin = 0.016;
+    static constexpr std::size_t most_tiles = 64;
+
+    // Columns of a half.
+    struct Span {
+        std::size_t first = 0, last = 0;
+    };
+
+    // A line of points: where it lies, its noise from a point on, and where its last point lay.
     struct Line {
         double y = 0.0;
+        std::size_t from = 0;
         std::vector<float> spots, cells;
         LimbReader::Trail trail;
     };
+
+    // Colour, occlusion and roughness.
+    using Painted = std::array<std::uint8_t, 5>;
+
+    // Tiles that the limb's border goes through or beside, and those inside of it.
+    void find_limb() {
+        const std::size_t rows = count_ / tile_, columns = rows / 2;
+        shown_.assign(rows * columns, false);
+        const auto tile_of = [&](double texture, std::size_t most) {
+            const double at = texture * static_cast<double>(rows);
+            return std::min(static_cast<std::size_t>(std::max(at, 0.0)), most - 1);
+        };
+        const auto show = [&](const glm::dvec2& place) {
+            const glm::dvec2 low = chart_.texture_point(place + glm::dvec2(-margin, margin), true);
+            const glm::dvec2 high = chart_.texture_point(place + glm::dvec2(margin, -margin), true);
+            for (std::size_t i = tile_of(low.y, rows); i <= tile_of(high.y, rows); ++i)
+                for (std::size_t j = tile_of(low.x, columns); j <= tile_of(high.x, columns); ++j)
+                    shown_[i * columns + j] = true;
+        };
+        const std::vector<glm::dvec2> border = border_of(reader_.limb());
+        for (std::size_t i = 0; i < border.size(); ++i) {
+            const glm::dvec2 from = border[i], way = border[(i + 1) % border.size()] - from;
+            const double steps = std::floor(glm::length(way) / margin) + 1.0;
+            for (double step = 0.0; step < steps; step += 1.0) show(from + (step / steps) * way);
+        }
+        for (std::size_t i = 0; i < rows; ++i) {
+            LimbReader::Trail trail;
+            Span span{count_, 0};
+            for (std::size_t j = 0; j < columns; ++j) {
+                bool upper = false;
+                const auto middle = [&](std::size_t tile) {
+                    return (static_cast<double>(tile) + 0.5) / static_cast<double>(rows);
+                };
+                if (reader_.at(chart_.place({middle(j), middle(i)}, upper), trail).inside)
+                    shown_[i * columns + j] = true;
+                if (!shown_[i * columns + j]) continue;
+                span.first = std::min(span.first, j * tile_);
+                span.last = (j + 1) * tile_;
+            }
+            spans_.push_back(span);
+        }
+    }
 
     // Of components -1..1.
     static void put_normals(std::uint8_t* upper, std::uint8_t* lower, double x, double y,
@@ -172,13 +260,17 @@ class LeafPainter {
         upper[2] = lower[2] = part(z);
     }
 
-    void put_texel(std::size_t at, const Texel& texel) {
-        std::uint8_t* colour = &images_.rgb[0][3 * at];
-        for (int k = 0; k < 3; ++k)
-            colour[k] = encoded_[static_cast<std::size_t>(
+    [[nodiscard]] Painted painted_texel(const Texel& texel) const {
+        const auto colour = [&](int k) {
+            return encoded_[static_cast<std::size_t>(
                 static_cast<int>(std::clamp(texel.light[k], 0.0, 1.0) * 4096.0 + 0.5))];
-        images_.rgb[2][3 * at] = byte(texel.occlusion);
-        images_.rgb[2][3 * at + 1] = byte(texel.roughness);
+        };
+        return {colour(0), colour(1), colour(2), byte(texel.occlusion), byte(texel.roughness)};
+    }
+
+    void put_texel(std::size_t at, const Painted& texel) {
+        std::copy_n(texel.begin(), 3, &images_.rgb[0][3 * at]);
+        std::copy_n(texel.begin() + 3, 2, &images_.rgb[2][3 * at]);
     }
 
     [[nodiscard]] double along(std::size_t point) const {
@@ -187,26 +279,28 @@ class LeafPainter {
         return (static_cast<double>(texel) + offset) / static_cast<double>(count_);
     }
 
-    [[nodiscard]] std::vector<float> noise(std::size_t feature, double y) const {
-        const std::vector<float>& x = across_[feature];
-        std::vector<float> out(x.size());
-        gradient_noise(
-            x, std::vector<float>(x.size(), static_cast<float>(y + 8.0) * features[feature]),
-            seed_ * 2U + static_cast<std::uint32_t>(feature), out);
+    [[nodiscard]] std::vector<float> noise(std::size_t feature, double y, const Span& span) const {
+        const std::size_t points = (span.last - span.first) * points_;
+        const std::span<const float> x =
+            std::span(across_[feature]).subspan(span.first * points_, points);
+        std::vector<float> out(points);
+        gradient_noise(x,
+                       std::vector<float>(points, static_cast<float>(y + 8.0) * features[feature]),
+                       seed_ * 2U + static_cast<std::uint32_t>(feature), out);
         return out;
     }
 
-    [[nodiscard]] Line line_at(std::size_t line) const {
+    [[nodiscard]] Line line_at(std::size_t line, const Span& span) const {
         bool upper = false;
         const double y = chart_.place({0.0, along(line)}, upper).y;
-        return {y, noise(0, y), noise(1, y), {}};
+        return {y, span.first * points_, noise(0, y, span), noise(1, y, span), {}};
     }
 
     // Both faces show the same places, and blotches go through the leaf: what is seen is looked up once for the two.
     void add_faces(Line& line, std::size_t point, Texel& upper, Texel& lower,
                    double& height) const {
-        const auto blotch = static_cast<double>(line.spots[point]);
-        const auto cell = static_cast<double>(line.cells[point]);
+        const auto blotch = static_cast<double>(line.spots[point - line.from]);
+        const auto cell = static_cast<double>(line.cells[point - line.from]);
         const LimbPlace place = reader_.at({columns_[point], line.y}, line.trail);
         const double depth = vein_depth(place);
         const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
@@ -219,8 +313,9 @@ class LeafPainter {
     }
 
     void add_petiole(const Line& line, std::size_t point, Texel& texel) const {
-        const double shade = share_ * (0.8 + 0.2 * static_cast<double>(line.spots[point]));
-        const auto cell = static_cast<double>(line.cells[point]);
+        const double shade =
+            share_ * (0.8 + 0.2 * static_cast<double>(line.spots[point - line.from]));
+        const auto cell = static_cast<double>(line.cells[point - line.from]);
         texel.add(share_, shade * petiole_, 1.0, 0.75 + 0.08 * cell + 0.2 * autumn_);
     }
 
@@ -236,6 +331,10 @@ class LeafPainter {
     glm::dvec3 petiole_{0.0};
     std::vector<double> columns_;               // of the plane of the limb, by point
     std::array<std::vector<float>, 2> across_;  // the same in features of noise
+    std::size_t tile_;                          // texels across
+    std::vector<bool> shown_;                   // by row and column of tiles: all that is not flat
+    std::vector<Span> spans_;                   // of each row of tiles
+    std::array<Bytes, 3> flat_;                 // a row of each image where no leaf is
     std::vector<float> heights_;  // of the upper face, outwards, in lengths of the limb
     RawImages images_;
 };

@@ -13,7 +13,7 @@ namespace sporeprint {
 /// autumn   0 summer, 0.5 turning, 1 fallen
 /// seed     the blotches of this leaf
 /// side     16..2048 texels, a power of two
-/// returns  three RGB images, coloured beyond the border too, so that mips bleed nothing in
+/// returns  three RGB images, painted a little beyond the border and flat from there on, so that mips bleed nothing in
 /// throws   InvalidInput with all that check() finds, or for another side (path "/side")
 /// cost     O(side^2)
 [[nodiscard]] RawImages leaf_images(const LeafShape& shape, const LeafPalette& palette,

@@ -49,6 +49,32 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
     }
 }
 
+TEST(LeafImage, IsFlatWhereNoLeafIsAndPaintedBesideIt) {
+    const LeafPreset& maple = *leaf_preset("maple");
+    const RawImages images = leaf_images(maple.shape, maple.palette, 0.5, 1, side);
+    const Limb limb = limb_of(maple.shape.venation, leaf_steps(maple.shape.venation, 0));
+    const LeafChart chart = chart_of(limb);
+    LimbPlace beyond;
+    beyond.affinity = beyond.homothety = 1.0;
+    beyond.from_main = 1e9;
+    for (const bool upper : {true, false}) {
+        const glm::dvec3 wanted = leaf_colour(maple.palette, beyond, 0.5, upper);
+        // Above the leaf.
+        const glm::dvec2 away(upper ? 0.2 : 0.7, 0.05);
+        for (int k = 0; k < 3; ++k)
+            EXPECT_NEAR(texel(images, 0, away)[k], linear_to_srgb(wanted[k]), 0.004);
+        EXPECT_EQ(texel(images, 1, away), glm::dvec3(128.0, 128.0, 255.0) / 255.0);
+        // What lies beside the border is as bright and dark as the leaf.
+        std::size_t flat = 0, beside = 0;
+        for (const glm::dvec2& place : border_of(limb)) {
+            const glm::dvec2 at = chart.texture_point(1.01 * place, upper);
+            flat += texel(images, 0, at) == texel(images, 0, away);
+            ++beside;
+        }
+        EXPECT_LT(flat, beside / 10);
+    }
+}
+
 TEST(LeafImage, NormalsAreUnitVectorsThatLeanFromVeins) {
     const LeafPreset& birch = *leaf_preset("birch");
     const RawImages images = leaf_images(birch.shape, birch.palette, 0.0, 1, side);
