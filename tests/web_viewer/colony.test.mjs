@@ -7,21 +7,23 @@ import { launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./sup
 
 const base = serverUrl();
 let browser;
+let shared; // so that pictures of the gallery are drawn once
 let folder;
 let ids;
 
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
+    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
     ids = (await (await fetch(`${base}/v1/species`)).json()).species.map(({ id }) => id);
 });
 
 after(() => browser?.close());
 
-async function open(t, query, viewport = { width: 960, height: 560 }) {
-    const context = await browser.newContext({ viewport, reducedMotion: "reduce", acceptDownloads: true });
-    t.after(() => context.close());
-    const page = await context.newPage();
+async function open(t, query, viewport = undefined) {
+    const page = await shared.newPage();
+    t.after(() => page.close());
+    if (viewport) await page.setViewportSize(viewport);
     const heard = listen(page);
     await page.goto(`${base}/${query}`);
     await ready(page);

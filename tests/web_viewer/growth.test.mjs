@@ -7,19 +7,21 @@ import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, server
 const base = serverUrl();
 const species = "boletus_edulis";
 let browser;
+let shared; // so that pictures of the gallery are drawn once
 let folder;
 
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
+    shared = await browser.newContext({ viewport: { width: 960, height: 560 } });
 });
 
 after(() => browser?.close());
 
 async function open(t, query = "", reducedMotion = "no-preference") {
-    const context = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion });
-    t.after(() => context.close());
-    const page = await context.newPage();
+    const page = await shared.newPage();
+    t.after(() => page.close());
+    await page.emulateMedia({ reducedMotion });
     const heard = listen(page);
     await page.goto(`${base}/?species=${species}${query}`);
     await ready(page);

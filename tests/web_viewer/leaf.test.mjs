@@ -7,19 +7,20 @@ import { launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./sup
 
 const base = serverUrl();
 let browser;
+let shared; // so that pictures of the gallery are drawn once
 let folder;
 
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
+    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
 });
 
 after(() => browser?.close());
 
 async function open(t, query) {
-    const context = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce", acceptDownloads: true });
-    t.after(() => context.close());
-    const page = await context.newPage();
+    const page = await shared.newPage();
+    t.after(() => page.close());
     const heard = listen(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
