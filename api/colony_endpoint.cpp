@@ -74,6 +74,7 @@ Plan plan_colony(Context& context, const Request& request, ColonyRequest asked, 
     resource.type = type_of(product);
     resource.file_name = file_name(*order, product);
     resource.asked_version = std::move(asked.version);
+    resource.is_linked = product == Product::glb && order->params.textures == Textures::linked;
     resource.weigh = [&context, order, product](const Memo& memo) {
         const Estimate cost = estimate(*order, *context.atlas, memo);
         refuse_over_budget(context.options, cost, order->mix.size() > 1);

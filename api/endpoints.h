@@ -36,6 +36,7 @@ struct Resource {
     std::string address;  ///< canonical address without version; empty if no GET has it
     std::string file_name;
     std::optional<std::string> asked_version;
+    bool is_linked = false;  ///< names addresses of its images
 
     /// What making it costs. Throws InvalidInput or Impossible, with paths of core, for all of it that can be told without
     /// making it; asks only `morphs` of the Memo.

@@ -105,6 +105,7 @@ Plan plan_mushroom(Context& context, const Request& request, MushroomRequest ask
     resource.type = type_of(product);
     resource.file_name = file_name(*order, product);
     resource.asked_version = std::move(asked.version);
+    resource.is_linked = product == Product::glb && order->params.textures == Textures::linked;
     resource.weigh = [&context, order, product](const Memo& memo) {
         return cost_of(weighed(context, *order, memo), product);
     };

@@ -26,6 +26,7 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> a
     resource.type = type_of(product);
     resource.file_name = preset_file_name(*order, product);
     resource.asked_version = std::move(asked.version);
+    resource.is_linked = product == Product::glb && order->params.textures == Textures::linked;
     resource.weigh = [&context, order, product](const Memo&) {
         const Estimate cost = estimate(*order);
         refuse_over_budget(context.options, cost);

@@ -100,6 +100,10 @@ std::vector<Problem> named(const InvalidInput& input, bool posted) {
 }
 
 Plan plan_resource(Context& context, const Request& request, Resource resource, Faults& faults) {
+    if (resource.is_linked && context.options.signed_addresses)
+        faults.add(422, request.method == "POST" ? "/textures" : "textures",
+                   "addresses are signed here, and those of linked images are not; ask for "
+                   "embedded or none");
     if (!faults.empty()) return context.answers.problem(request, faults);
     if (resource.asked_version && *resource.asked_version != resource.version)
         return superseded(context, request, resource, faults);
@@ -112,7 +116,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
                     {"ETag", etag},
                     {"Cache-Control", cache_control(versioned)},
                     {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
-    if (!resource.address.empty())
+    if (!resource.address.empty() && !context.options.signed_addresses)
         head.headers.emplace_back("Content-Location",
                                   with_version(resource.address, resource.version));
     const auto not_modified = [&] {

@@ -105,6 +105,48 @@ bool served_below(const Route& route) {
 
 }  // namespace
 
+bool makes(Endpoint endpoint) {
+    switch (endpoint) {
+        case Endpoint::page:
+        case Endpoint::docs:
+        case Endpoint::asset:
+        case Endpoint::root:
+        case Endpoint::species_list:
+        case Endpoint::species:
+        case Endpoint::mushroom_schema:
+        case Endpoint::colony_schema:
+        case Endpoint::leaf_list:
+        case Endpoint::leaf_schema:
+        case Endpoint::tree_list:
+        case Endpoint::tree_schema:
+        case Endpoint::openapi:
+        case Endpoint::livez:
+        case Endpoint::readyz:
+        case Endpoint::metrics:
+            return false;
+        case Endpoint::mushroom_glb:
+        case Endpoint::mushroom_json:
+        case Endpoint::mushroom_post:
+        case Endpoint::morph:
+        case Endpoint::morph_post:
+        case Endpoint::colony_glb:
+        case Endpoint::colony_json:
+        case Endpoint::colony_post:
+        case Endpoint::leaf_glb:
+        case Endpoint::leaf_json:
+        case Endpoint::leaf_post:
+        case Endpoint::tree_glb:
+        case Endpoint::tree_json:
+        case Endpoint::tree_post:
+        case Endpoint::surface:
+        case Endpoint::leaf_surface:
+        case Endpoint::tree_surface:
+        case Endpoint::inspect:
+            return true;
+    }
+    return true;
+}
+
 std::span<const Route> routes() { return table; }
 
 Match match_route(std::string_view method, std::span<const std::string> segments) {

@@ -59,6 +59,9 @@ struct Route {
 
 [[nodiscard]] std::span<const Route> routes();
 
+/// Whether what a route answers is made on demand: what costs work, and what a signature is asked for. All else are documents.
+[[nodiscard]] bool makes(Endpoint endpoint);
+
 struct Match {
     const Route* route = nullptr;
     std::vector<std::string> captured;  ///< in the order of the {names}

@@ -21,6 +21,7 @@ struct ServiceOptions {
     std::filesystem::path store;   ///< folder that finished files are kept in; empty for none
     std::uint64_t store_bytes = std::uint64_t{1} << 30;
     std::string allow_origin = "*";
+    bool signed_addresses = false;  ///< only who holds a key makes addresses; so answers tell none
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
     std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB
 };

@@ -1,0 +1,224 @@
+#include "server/signatures.h"
+
+#include <openssl/crypto.h>
+#include <openssl/evp.h>
+#include <openssl/hmac.h>
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+#include <utility>
+
+#include "core/params/messages.h"
+#include "core/params/problems.h"
+
+namespace sporeprint::server {
+
+namespace {
+
+constexpr std::size_t least_secret = 16, most_secret = 64, longest_id = 32;
+
+using Digest = std::array<unsigned char, 32>;
+
+bool is_id(std::string_view text) {
+    return !text.empty() && text.size() <= longest_id &&
+           std::all_of(text.begin(), text.end(), [](char c) {
+               return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
+                      c == '-' || c == '_';
+           });
+}
+
+std::string hexadecimal(const Digest& digest) {
+    std::string out;
+    for (const unsigned char byte : digest) {
+        out += "0123456789abcdef"[byte >> 4];
+        out += "0123456789abcdef"[byte & 15];
+    }
+    return out;
+}
+
+std::optional<std::string> bytes_of(std::string_view hex) {
+    if (hex.size() % 2 != 0) return std::nullopt;
+    std::string bytes;
+    for (std::size_t i = 0; i < hex.size(); i += 2) {
+        unsigned value = 0;
+        const auto [end, error] = std::from_chars(hex.data() + i, hex.data() + i + 2, value, 16);
+        if (error != std::errc() || end != hex.data() + i + 2) return std::nullopt;
+        bytes += static_cast<char>(value);
+    }
+    return bytes;
+}
+
+/// 43 characters for 32 bytes.
+std::string base64url(const Digest& digest) {
+    constexpr std::string_view letters =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
+    std::string out;
+    unsigned held = 0;
+    int bits = 0;
+    for (const unsigned char byte : digest) {
+        held = held << 8 | byte;
+        for (bits += 8; bits >= 6; bits -= 6) out += letters[held >> (bits - 6) & 63];
+    }
+    if (bits > 0) out += letters[held << (6 - bits) & 63];
+    return out;
+}
+
+Digest sha256(std::string_view text) {
+    Digest digest;
+    if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
+        throw std::runtime_error("SHA-256 is not to be had");
+    return digest;
+}
+
+std::string signature(const SigningKey& key, std::string_view method, std::string_view target,
+                      std::string_view body) {
+    std::string text = "v1\n";
+    text.append(method == "HEAD" ? "GET" : method) += '\n';
+    text.append(target) += '\n';
+    if (method == "POST") text += hexadecimal(sha256(body));
+    text += '\n';
+    Digest digest;
+    unsigned length = 0;
+    if (HMAC(EVP_sha256(), key.secret.data(), static_cast<int>(key.secret.size()),
+             reinterpret_cast<const unsigned char*>(text.data()), text.size(), digest.data(),
+             &length) == nullptr ||
+        length != digest.size())
+        throw std::runtime_error("HMAC-SHA256 is not to be had");
+    return base64url(digest);
+}
+
+/// Path and query of a target in origin or absolute form.
+std::string_view origin_form(std::string_view target) {
+    if (target.starts_with('/')) return target;
+    const std::size_t scheme = target.find("://");
+    if (scheme == std::string_view::npos) return target;
+    const std::size_t slash = target.find('/', scheme + 3);
+    return slash == std::string_view::npos ? std::string_view("/") : target.substr(slash);
+}
+
+/// Takes the last parameter off a target if it has this name.
+std::optional<std::string_view> take_last(std::string_view& target, std::string_view name) {
+    const std::size_t query = target.find('?');
+    const std::size_t mark = target.find_last_of("?&");
+    if (query == std::string_view::npos || mark < query) return std::nullopt;
+    const std::string_view last = target.substr(mark + 1);
+    if (!last.starts_with(name) || last.size() <= name.size() || last[name.size()] != '=')
+        return std::nullopt;
+    target = target.substr(0, mark);
+    return last.substr(name.size() + 1);
+}
+
+}  // namespace
+
+Signatures::Signatures(std::vector<SigningKey> keys) : keys_(std::move(keys)) {
+    std::vector<Problem> problems;
+    if (keys_.empty()) report(problems, "keys", "there is no key");
+    for (std::size_t i = 0; i < keys_.size(); ++i) {
+        const SigningKey& key = keys_[i];
+        if (!is_id(key.id))
+            report(problems, "keys/" + std::to_string(i),
+                   in_quotes(key.id) + " is no id; allowed are 1 to " + std::to_string(longest_id) +
+                       " of a-z, A-Z, 0-9, '-' and '_'");
+        if (key.secret.size() < least_secret || key.secret.size() > most_secret)
+            report(problems, "keys/" + std::to_string(i),
+                   "the secret of " + in_quotes(key.id) + " has " +
+                       std::to_string(key.secret.size()) + " bytes; allowed are " +
+                       std::to_string(least_secret) + " to " + std::to_string(most_secret));
+        for (std::size_t j = 0; j < i; ++j)
+            if (keys_[j].id == key.id)
+                report(problems, "keys/" + std::to_string(i),
+                       "there are two keys " + in_quotes(key.id));
+    }
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+}
+
+Signatures Signatures::from_text(const std::string& name, std::string_view text) {
+    std::vector<SigningKey> keys;
+    std::vector<Problem> problems;
+    for (int line = 1; !text.empty(); ++line) {
+        const std::size_t end = text.find('\n');
+        std::string_view rest = text.substr(0, end);
+        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+        std::vector<std::string_view> words;
+        while (!rest.empty()) {
+            const std::size_t begin = rest.find_first_not_of(" \t\r");
+            if (begin == std::string_view::npos) break;
+            rest.remove_prefix(begin);
+            words.push_back(rest.substr(0, rest.find_first_of(" \t\r")));
+            rest.remove_prefix(words.back().size());
+        }
+        if (words.empty() || words.front().starts_with('#')) continue;
+        const std::optional<std::string> secret =
+            words.size() == 2 ? bytes_of(words[1]) : std::nullopt;
+        if (secret)
+            keys.push_back({std::string(words[0]), *secret});
+        else
+            report(problems, name + ':' + std::to_string(line),
+                   "a line is an id and a secret in hexadecimal digits");
+    }
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    try {
+        return Signatures(std::move(keys));
+    } catch (const InvalidInput& input) {
+        problems = input.problems();
+        for (Problem& problem : problems) problem.path = name + ": " + problem.path;
+        throw InvalidInput(std::move(problems));
+    }
+}
+
+Signatures Signatures::from_file(const std::filesystem::path& file) {
+    std::ifstream stream(file, std::ios::binary);
+    const std::string text((std::istreambuf_iterator<char>(stream)), {});
+    if (!stream) throw InvalidInput(file.string(), "the file of keys cannot be read");
+    return from_text(file.string(), text);
+}
+
+Checked Signatures::check(std::string_view method, std::string_view target, std::string_view body,
+                          std::int64_t now) const {
+    const auto refused = [&](std::string why) {
+        return Checked{false, std::string(target), std::move(why)};
+    };
+    std::string_view rest = origin_form(target);
+    const std::optional<std::string_view> given = take_last(rest, "sig");
+    if (!given) return refused("the address is not signed; its last parameter has to be sig");
+    const std::string_view covered = rest;
+    const std::optional<std::string_view> expires = take_last(rest, "expires");
+    const std::optional<std::string_view> id = take_last(rest, "key");
+    if (!id)
+        return refused(
+            "a signed address ends with key, expires if it does, and sig, in this order");
+    const auto key = std::find_if(keys_.begin(), keys_.end(),
+                                  [&](const SigningKey& one) { return one.id == *id; });
+    if (key == keys_.end()) return refused("there is no key " + in_quotes(*id));
+    const std::string wanted = signature(*key, method, covered, body);
+    if (given->size() != wanted.size() ||
+        CRYPTO_memcmp(given->data(), wanted.data(), wanted.size()) != 0)
+        return refused("the signature is not that of this address");
+    if (expires) {
+        std::int64_t until = 0;
+        const auto [end, error] =
+            std::from_chars(expires->data(), expires->data() + expires->size(), until);
+        if (error != std::errc() || end != expires->data() + expires->size())
+            return refused("expires is " + in_quotes(*expires) +
+                           "; it has to be seconds since 1970");
+        if (now >= until) return refused("the address was good until " + std::to_string(until));
+    }
+    return {true, std::string(rest), {}};
+}
+
+std::string Signatures::signed_target(std::string_view method, std::string_view target,
+                                      std::string_view body,
+                                      std::optional<std::int64_t> expires) const {
+    const SigningKey& key = keys_.front();
+    std::string covered(target);
+    covered += covered.find('?') == std::string::npos ? '?' : '&';
+    covered += "key=" + key.id;
+    if (expires) covered += "&expires=" + std::to_string(*expires);
+    return covered + "&sig=" + signature(key, method, covered, body);
+}
+
+}  // namespace sporeprint::server
