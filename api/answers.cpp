@@ -133,6 +133,7 @@ Answer Answers::document(const Request& request, const Document& document) const
         names_etag(condition, selected_etag(request, document.etag, document.content_type)))
         return not_modified(request, std::move(answer));
     answer.body = {document.body};
+    answer.repeatable = true;
     represent(request, answer, &document);
     return answer;
 }

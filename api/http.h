@@ -34,6 +34,9 @@ struct Answer {
     Body body;
     bool has_body =
         true;  ///< false: no body and no Content-Length (304, HEAD of something not generated)
+    /// Whether every GET of the same target, whatever else its head says, gets this again: same body, same headers but for
+    /// the request id; but Accept-Encoding counts where the answer names it in Vary, and conditions do.
+    bool repeatable = false;
 };
 
 /// What a piece of work will cost; admission charges it.

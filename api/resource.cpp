@@ -134,6 +134,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
         Answer answer = **kept;
         set_header(answer, "Cache-Control", cache_control(versioned));
         set_header(answer, "Cache-Status", hit);
+        answer.repeatable = true;
         context.answers.represent(request, answer);
         return answer;
     }

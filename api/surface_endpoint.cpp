@@ -73,6 +73,7 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
         ++store.counters.image_hits;
         head.body = {std::get<Images>(*kept)->files[static_cast<std::size_t>(image.kind)]};
         set_header(head, "Cache-Status", "sporeprint-images; hit");
+        head.repeatable = true;
         answers.represent(request, head);
         return head;
     }

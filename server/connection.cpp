@@ -9,6 +9,8 @@
 #include <random>
 #include <utility>
 
+#include "api/encoding.h"
+
 namespace sporeprint::server {
 
 namespace {
@@ -39,14 +41,19 @@ std::uint64_t mixed(std::uint64_t x) {
 }
 
 /// Adds to a counter that only this thread writes.
-void add(std::atomic<std::size_t>& counter, std::size_t change) {
+template <class Count>
+void add(std::atomic<Count>& counter, Count change) {
     counter.store(counter.load(std::memory_order_relaxed) + change, std::memory_order_relaxed);
 }
 
 }  // namespace
 
 Hall::Hall(const TransportOptions& the_options, Backroom& the_back)
-    : options(the_options), back(the_back), now(Clock::now()), deadlines(now) {
+    : options(the_options),
+      back(the_back),
+      now(Clock::now()),
+      deadlines(now),
+      hot(the_options.hot_bytes) {
     std::random_device entropy;
     id_prefix_ = (static_cast<std::uint64_t>(entropy()) << 32) | entropy();
 }
@@ -60,7 +67,7 @@ std::string Hall::new_id() {
 
 Connection::Connection(Hall& hall, int socket, std::string peer)
     : hall_(hall), socket_(socket), peer_(std::move(peer)), began_(hall.now) {
-    add(hall_.phases[static_cast<std::size_t>(phase_)], 1);
+    add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t{1});
     const milliseconds patience =
         hall_.back.draining ? 2 * hall_.options.farewell : hall_.options.idle;
     put_off_until(hall_.now + patience);
@@ -123,6 +130,7 @@ bool Connection::is_late() {
 
 bool Connection::answered(Reply reply) {
     label_ = std::move(reply.label);
+    if (reply.hot) hall_.hot.insert(std::move(reply.hot));
     const auto sending = std::make_shared<const Sending>(std::move(reply.sending));
     return send(sending) != Step::end && advance();
 }
@@ -200,6 +208,11 @@ Connection::Step Connection::read_head() {
 
 Connection::Step Connection::begin(Scan scan) {
     Head& head = scan.head;
+    if (scan.state == Scan::State::complete && answer_at_once(head)) {
+        in_.erase(0, scan.used);
+        scanned_ = 0;
+        return Step::on;
+    }
     request_ = api::Request();
     request_.method = std::move(head.method);
     request_.target = std::move(head.target);
@@ -240,6 +253,43 @@ Connection::Step Connection::begin(Scan scan) {
     enter(Phase::body);
     last_ = hall_.now + hall_.options.body * static_cast<int>(1 + body_length_ / small_body);
     return Step::on;
+}
+
+/// Answers from the table, if it can. The head is to be forgotten then.
+bool Connection::answer_at_once(const Head& head) {
+    const HotQuestion question = hot_question(head);
+    if (!question.simple) return false;
+    const auto* const found = hall_.hot.find(head.target);
+    if (!found) return false;
+    const HotAnswer& hot = **found;
+    ready_ = Clock::now();
+    closing_ = !head.keep_alive || served_ + 1 >= hall_.options.most_requests ||
+               hall_.back.draining.load(std::memory_order_relaxed);
+    method_ = head.method;
+    target_ = head.target;
+    id_ = is_proper_id(question.id) ? std::string(question.id) : hall_.new_id();
+    label_ = hot.label;
+    const bool fresh = !hot.etag.empty() && !question.if_none_match.empty() &&
+                       (api::names_etag(question.if_none_match, hot.etag) ||
+                        api::names_any(question.if_none_match));
+    status_ = fresh ? 304 : 200;
+    cache_ = fresh ? hot.cache_not_modified : hot.cache;
+    text_.assign("Date: ").append(http_date());
+    if (hot.tells_id) text_.append("\r\nX-Request-Id: ").append(id_);
+    text_.append("\r\n").append(closing_ ? "Connection: close\r\n" : hot.keep_alive).append("\r\n");
+
+    const std::string& start = fresh ? hot.not_modified : hot.head;
+    out_.begin(*found);
+    out_.add(start.data(), start.size());
+    out_.add(text_.data(), text_.size());
+    if (!fresh && head.method == "GET") {
+        out_.add(hot.body);
+        if (hot.file >= 0) out_.add_file(hot.file, hot.size);
+    }
+    auto& stats = hall_.hot.stats();
+    add(fresh ? stats.not_modified : stats.hits, std::uint64_t{1});
+    begin_to_send();
+    return true;
 }
 
 Connection::Step Connection::read_body() {
@@ -310,10 +360,14 @@ Connection::Step Connection::send(const std::shared_ptr<const Sending>& sending)
     }
     out_.add(sending->head.data(), sending->head.size());
     if (sending->with_body) out_.add(answer.body);
+    begin_to_send();
+    return Step::on;
+}
+
+void Connection::begin_to_send() {
     last_ =
         hall_.now + 4 * hall_.options.blocked_write + std::chrono::seconds(out_.total() / slowest);
     enter(Phase::writing);
-    return Step::on;
 }
 
 Connection::Step Connection::write() {
@@ -400,7 +454,7 @@ Connection::Received Connection::receive(std::string* to, std::size_t most) {
 
 void Connection::enter(Phase phase) {
     add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
-    add(hall_.phases[static_cast<std::size_t>(phase)], 1);
+    add(hall_.phases[static_cast<std::size_t>(phase)], std::size_t{1});
     phase_ = phase;
 }
 

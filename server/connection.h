@@ -15,6 +15,7 @@
 #include "server/deadlines.h"
 #include "server/exchange.h"
 #include "server/head.h"
+#include "server/hot_table.h"
 #include "server/outgoing.h"
 #include "server/transport.h"
 
@@ -31,6 +32,7 @@ struct Hall {
     Backroom& back;
     Clock::time_point now;  ///< of this round of the loop
     Deadlines deadlines;
+    HotTable hot;
     std::size_t body_memory = 0;
     std::vector<Connection*> again;  ///< have more to do, when the others have had their turn
     std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};
@@ -75,10 +77,12 @@ class Connection final : public Timed {
     bool advance();
     Step read_head();
     Step begin(Scan scan);
+    bool answer_at_once(const Head& head);
     Step read_body();
     Step dispatch();
     Step refuse(int status, std::string_view detail);
     Step send(const std::shared_ptr<const Sending>& sending);
+    void begin_to_send();
     Step write();
     Step part();
     Step discard();
@@ -114,6 +118,7 @@ class Connection final : public Timed {
     Clock::time_point ready_;  ///< when its last byte had come
     std::weak_ptr<Exchange> exchange_;
     Outgoing out_;
+    std::string text_;  ///< what the head of an answer says of this request alone
     int status_ = 0;
     std::string cache_;
     std::size_t discarded_ = 0;

@@ -9,6 +9,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "server/hot_table.h"
+
 namespace sporeprint::server {
 
 Mailbox::Mailbox() : descriptor_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
@@ -117,6 +119,8 @@ void Exchange::reply(api::Answer answer) {
                                  status == 400 ? "the request line is malformed" : "");
         },
         [&] { return closing || back_.draining; });
+    if (request_.method == "GET")
+        reply.hot = hot_answer(request_.target, reply.sending, reply.label);
     back_.mailbox.post(std::move(reply));
 }
 

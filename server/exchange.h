@@ -19,11 +19,13 @@
 namespace sporeprint::server {
 
 class Connection;
+struct HotAnswer;
 
 struct Reply {
     Connection* to = nullptr;  ///< lives until it has got this
     Sending sending;
     std::string label;
+    std::shared_ptr<const HotAnswer> hot;  ///< when others may get the same
 };
 
 /// Replies from any thread to the one that owns the connections, which it wakes.

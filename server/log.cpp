@@ -1,10 +1,11 @@
 #include "server/log.h"
 
-#include <spdlog/async.h>
-#include <spdlog/async_logger.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
+#include <cerrno>
+#include <charconv>
 #include <chrono>
 #include <cmath>
 #include <ctime>
@@ -14,37 +15,54 @@ namespace sporeprint::server {
 
 namespace {
 
-constexpr std::size_t most_waiting_lines = 8192;
+constexpr std::size_t block = 64u << 10;  ///< bytes of lines that are written, or dropped, at once
+constexpr std::size_t most_blocks = 64;   ///< that wait: 4 MB
+constexpr std::chrono::milliseconds gathering{10};
 
-std::string timestamp() {
+/// Appends the time, "2026-01-31T23:59:59.123Z"; all but the milliseconds is made once a second.
+void append_time(std::string& to) {
     const auto now = std::chrono::system_clock::now();
     const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(
                                   now.time_since_epoch() % std::chrono::seconds(1))
                                   .count();
-    std::tm utc{};
-    gmtime_r(&seconds, &utc);
-    std::array<char, 64> text{};
-    const std::size_t length = std::strftime(text.data(), text.size(), "%Y-%m-%dT%H:%M:%S", &utc);
-    std::string result(text.data(), length);
-    const std::string fraction = std::to_string(1000 + milliseconds).substr(1);
-    return result + '.' + fraction + 'Z';
+    thread_local std::time_t made = -1;
+    thread_local std::string text;
+    if (seconds != made) {
+        std::tm utc{};
+        gmtime_r(&seconds, &utc);
+        std::array<char, 64> line{};
+        text.assign(line.data(),
+                    std::strftime(line.data(), line.size(), "%Y-%m-%dT%H:%M:%S.", &utc));
+        made = seconds;
+    }
+    to += text;
+    for (const auto digit : {milliseconds / 100, milliseconds / 10 % 10, milliseconds % 10})
+        to += static_cast<char>('0' + digit);
+    to += 'Z';
 }
 
-spdlog::level::level_enum level_of(LogLevel level) {
-    switch (level) {
-        case LogLevel::debug:
-            return spdlog::level::debug;
-        case LogLevel::info:
-            return spdlog::level::info;
-        case LogLevel::warning:
-            return spdlog::level::warn;
-        case LogLevel::error:
-            return spdlog::level::err;
-        case LogLevel::off:
-            return spdlog::level::off;
-    }
-    return spdlog::level::off;
+/// Appends a JSON string; every byte that came from a client is escaped.
+void append_text(std::string& to, std::string_view text) {
+    const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
+        return c >= 0x20 && c < 0x7f && c != '"' && c != '\\';
+    });
+    if (plain)
+        ((to += '"') += text) += '"';
+    else
+        to += json_string(text);
+}
+
+template <class Number>
+void append_number(std::string& to, Number number) {
+    std::array<char, 32> text;
+    to.append(text.data(), std::to_chars(text.data(), text.data() + text.size(), number).ptr);
+}
+
+void begin_line(std::string& to, LogLevel level) {
+    to = "{\"time\":\"";
+    append_time(to);
+    ((to += "\",\"level\":\"") += name(level)) += '"';
 }
 
 bool is_health_check(std::string_view target) {
@@ -54,55 +72,89 @@ bool is_health_check(std::string_view target) {
 
 }  // namespace
 
-struct Log::Sink {
-    std::shared_ptr<spdlog::async_logger> logger;
-    std::shared_ptr<spdlog::details::thread_pool> writer;  ///< ends first: it writes what waits
-};
+Log::Log(LogLevel least) : least_(least), writer_([this] { write(); }) {}
 
-Log::Log(LogLevel least) : sink_(std::make_unique<Sink>()) {
-    sink_->writer = std::make_shared<spdlog::details::thread_pool>(most_waiting_lines, 1);
-    sink_->logger = std::make_shared<spdlog::async_logger>(
-        "sporeprint", std::make_shared<spdlog::sinks::stderr_sink_mt>(), sink_->writer,
-        spdlog::async_overflow_policy::overrun_oldest);
-    sink_->logger->set_pattern("%v");
-    sink_->logger->set_level(level_of(least));
-    sink_->logger->flush_on(spdlog::level::warn);
-}
-
-Log::~Log() = default;
-
-Value::Object request_members(const Served& served) {
-    Value::Object members;
-    members.emplace_back("id", served.id);
-    members.emplace_back("peer", served.peer);
-    members.emplace_back("method", served.method);
-    members.emplace_back("target", served.target);
-    members.emplace_back("status", served.status);
-    members.emplace_back("bytes", served.bytes);
-    members.emplace_back("ms", std::round(served.milliseconds * 1000.0) / 1000.0);
-    if (!served.cache.empty()) members.emplace_back("cache", served.cache);
-    if (!served.complete) members.emplace_back("complete", false);
-    return members;
+Log::~Log() {
+    {
+        const std::lock_guard lock(mutex_);
+        ending_ = true;
+    }
+    wake_.notify_all();
+    writer_.join();
 }
 
 void Log::request(const Served& served) {
     const LogLevel level = served.status >= 500 && served.status != 503 ? LogLevel::error
                            : is_health_check(served.target)             ? LogLevel::debug
                                                                         : LogLevel::info;
-    if (!sink_->logger->should_log(level_of(level))) return;
-    write(level, request_members(served));
+    if (level < least_) return;
+    thread_local std::string line;
+    begin_line(line, level);
+    const auto text = [](const char* member, std::string_view value) {
+        line += member;
+        append_text(line, value);
+    };
+    text(",\"id\":", served.id);
+    text(",\"peer\":", served.peer);
+    text(",\"method\":", served.method);
+    text(",\"target\":", served.target);
+    line += ",\"status\":";
+    append_number(line, served.status);
+    line += ",\"bytes\":";
+    append_number(line, served.bytes);
+    line += ",\"ms\":";
+    append_number(line, std::round(served.milliseconds * 1000.0) / 1000.0);
+    if (!served.cache.empty()) text(",\"cache\":", served.cache);
+    if (!served.complete) line += ",\"complete\":false";
+    line += "}\n";
+    gather(line);
 }
 
 void Log::event(LogLevel level, std::string_view message, Value::Object members) {
-    if (!sink_->logger->should_log(level_of(level))) return;
-    members.insert(members.begin(), {"message", Value(message)});
-    write(level, std::move(members));
+    if (level < least_ || level == LogLevel::off) return;
+    std::string line;
+    begin_line(line, level);
+    line += ",\"message\":";
+    append_text(line, message);
+    for (const auto& [member, value] : members)
+        ((line += ',') += json_string(member) + ':') += dump(value);
+    line += "}\n";
+    gather(line);
 }
 
-void Log::write(LogLevel level, Value::Object members) {
-    members.insert(members.begin(), {{"time", timestamp()}, {"level", Value(name(level))}});
-    // Given as an argument: braces in a client's bytes are no format.
-    sink_->logger->log(level_of(level), "{}", dump(Value(std::move(members))));
+void Log::gather(std::string_view line) {
+    bool first = false;
+    {
+        const std::lock_guard lock(mutex_);
+        first = waiting_.empty();
+        if (first || waiting_.back().size() + line.size() > block) {
+            if (waiting_.size() == most_blocks) waiting_.pop_front();
+            waiting_.emplace_back().reserve(block);
+        }
+        waiting_.back() += line;
+    }
+    if (first) wake_.notify_one();
+}
+
+void Log::write() {
+    std::unique_lock lock(mutex_);
+    for (;;) {
+        wake_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
+        if (waiting_.empty()) return;
+        if (!ending_) wake_.wait_for(lock, gathering, [&] { return ending_; });
+        while (!waiting_.empty()) {
+            const std::string lines = std::move(waiting_.front());
+            waiting_.pop_front();
+            lock.unlock();
+            for (std::size_t done = 0; done < lines.size();) {
+                const ssize_t wrote =
+                    ::write(STDERR_FILENO, lines.data() + done, lines.size() - done);
+                if (wrote < 0 && errno != EINTR) break;  // nobody reads it: dropped
+                done += static_cast<std::size_t>(std::max<ssize_t>(wrote, 0));
+            }
+            lock.lock();
+        }
+    }
 }
 
 }  // namespace sporeprint::server

@@ -1,8 +1,14 @@
-// The log: one line of JSON for each request and event, written by a thread of its own.
+// The log: one line of JSON for each request and event, gathered without waiting and written by a
+// thread of its own.
 #pragma once
 
-#include <memory>
+#include <condition_variable>
+#include <cstddef>
+#include <deque>
+#include <mutex>
+#include <string>
 #include <string_view>
+#include <thread>
 
 #include "core/params/value.h"
 #include "server/options.h"
@@ -12,27 +18,32 @@ namespace sporeprint::server {
 
 class Log {
   public:
-    /// Writes to standard error. When lines come faster than they can be written the oldest waiting
-    /// ones are dropped: a slow reader of the log never stops the service.
+    /// Writes to standard error, what has come in 10 ms at once. When lines come faster than they
+    /// can be written the oldest waiting ones are dropped: a slow reader of the log never stops the
+    /// service.
     explicit Log(LogLevel least);
     ~Log();  ///< writes what waits
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;
 
     /// One request; health checks are logged at debug, server faults at error.
+    ///
+    /// cost  under a microsecond
     void request(const Served& served);
 
     /// An event with further members.
     void event(LogLevel level, std::string_view message, Value::Object members = {});
 
   private:
-    struct Sink;
-    void write(LogLevel level, Value::Object members);
+    void gather(std::string_view line);
+    void write();
 
-    std::unique_ptr<Sink> sink_;
+    LogLevel least_;
+    std::mutex mutex_;
+    std::condition_variable wake_;
+    std::deque<std::string> waiting_;  ///< blocks of lines, oldest first
+    bool ending_ = false;
+    std::jthread writer_;
 };
-
-/// What a request's line says; every byte that came from a client is escaped.
-[[nodiscard]] Value::Object request_members(const Served& served);
 
 }  // namespace sporeprint::server

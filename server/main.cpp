@@ -127,6 +127,7 @@ int serve(const Options& options) {
     TransportOptions transport_options;
     transport_options.host = options.host.string();
     transport_options.port = options.port;
+    transport_options.hot_bytes = static_cast<std::size_t>(options.hot_cache_mb) << 20;
     transport_options.workers = std::max<std::size_t>(granted_processors(), 4);
     Transport transport(transport_options, reception.handlers());
     std::optional<Transport> metrics_transport;

@@ -6,6 +6,8 @@
 #include <prometheus/text_serializer.h>
 
 #include <array>
+#include <mutex>
+#include <unordered_map>
 #include <utility>
 
 #include "server/machine.h"
@@ -21,7 +23,7 @@ using prometheus::MetricType;
 const prometheus::Histogram::BucketBoundaries request_seconds = {
     0.0005, 0.001, 0.002, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1, 2, 5, 10};
 
-std::string method_label(std::string_view method) {
+const char* method_label(std::string_view method) {
     for (const char* one : {"GET", "HEAD", "POST", "OPTIONS"})
         if (method == one) return one;
     return "other";
@@ -71,6 +73,14 @@ struct Metrics::Parts {
     prometheus::Counter& collapses;
     std::string version, generator_version;
 
+    /// What is counted of requests of one kind; found again without labels being put together.
+    struct Kind {
+        prometheus::Counter* requests = nullptr;
+        prometheus::Histogram* durations = nullptr;
+    };
+    std::mutex kinds_mutex;
+    std::unordered_map<std::string, Kind> kinds;  ///< by status, method and label
+
     Parts(std::string the_version, std::string the_generator_version)
         : requests(prometheus::BuildCounter()
                        .Name("sporeprint_http_requests_total")
@@ -111,13 +121,24 @@ Metrics::Metrics(std::string version, std::string generator_version)
 Metrics::~Metrics() = default;
 
 void Metrics::served(const Served& served) {
-    const std::string& label = served.label;
-    parts_->requests
-        .Add({{"route", label},
-              {"method", method_label(served.method)},
-              {"code", std::to_string(served.status)}})
-        .Increment();
-    parts_->durations.Add({{"route", label}}, request_seconds).Observe(served.milliseconds / 1000);
+    const char* const method = method_label(served.method);
+    thread_local std::string key;
+    key.assign(1, static_cast<char>(served.status / 100));
+    ((key += static_cast<char>(served.status % 100)) += method) += served.label;
+    Parts::Kind kind;
+    {
+        const std::lock_guard lock(parts_->kinds_mutex);
+        Parts::Kind& kept = parts_->kinds[key];
+        if (!kept.requests) {
+            kept.requests = &parts_->requests.Add({{"route", served.label},
+                                                   {"method", method},
+                                                   {"code", std::to_string(served.status)}});
+            kept.durations = &parts_->durations.Add({{"route", served.label}}, request_seconds);
+        }
+        kind = kept;
+    }
+    kind.requests->Increment();
+    kind.durations->Observe(served.milliseconds / 1000);
     parts_->bytes.Increment(static_cast<double>(served.bytes));
 }
 
@@ -146,6 +167,8 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
     now.family("sporeprint_generated_total", "Answers made", counter).count(counters.generated);
     now.family("sporeprint_painted_total", "Image sets painted", counter).count(counters.painted);
     now.family("sporeprint_cache_requests_total", "Look-ups in the caches", counter)
+        .count(gauges.connections.hot_hits, {{"cache", "hot"}, {"result", "hit"}})
+        .count(gauges.connections.hot_not_modified, {{"cache", "hot"}, {"result", "not_modified"}})
         .count(counters.glb_hits, {{"cache", "glb"}, {"result", "hit"}})
         .count(counters.glb_misses, {{"cache", "glb"}, {"result", "miss"}})
         .count(counters.glb_not_modified, {{"cache", "glb"}, {"result", "not_modified"}})
@@ -158,16 +181,19 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
         .count(counters.store_hits, {{"cache", "store"}, {"result", "hit"}})
         .count(counters.store_misses, {{"cache", "store"}, {"result", "miss"}});
     now.family("sporeprint_cache_bytes", "Bytes kept", gauge)
+        .count(gauges.connections.hot_bytes, {{"cache", "hot"}})
         .count(counters.glb_cache_bytes, {{"cache", "glb"}})
         .count(counters.image_cache_bytes, {{"cache", "images"}})
         .count(counters.morph_cache_bytes, {{"cache", "morphs"}})
         .count(counters.store_bytes, {{"cache", "store"}});
     now.family("sporeprint_cache_entries", "Entries kept", gauge)
+        .count(gauges.connections.hot_entries, {{"cache", "hot"}})
         .count(counters.glb_cache_entries, {{"cache", "glb"}})
         .count(counters.image_cache_entries, {{"cache", "images"}})
         .count(counters.morph_cache_entries, {{"cache", "morphs"}})
         .count(counters.store_entries, {{"cache", "store"}});
     now.family("sporeprint_cache_evictions_total", "Entries given up for others", counter)
+        .count(gauges.connections.hot_evictions, {{"cache", "hot"}})
         .count(counters.glb_evictions, {{"cache", "glb"}})
         .count(counters.image_evictions, {{"cache", "images"}})
         .count(counters.morph_evictions, {{"cache", "morphs"}})

@@ -35,6 +35,7 @@ struct Options {
     int cache_mb = 256;
     int image_cache_mb = 128;
     int morph_cache_mb = 16;
+    int hot_cache_mb = 64;
     int threads = 0;
     Text<1023> atlas;
     Text<1023> assets;
@@ -69,6 +70,11 @@ struct Options {
                    .min = 0,
                    .max = 1048576,
                    .doc = "Memory for what lies between shapes that are mixed."});
+        visit(&O::hot_cache_mb, Info{.name = "hot_cache_mb",
+                                     .unit = "MiB",
+                                     .min = 0,
+                                     .max = 1048576,
+                                     .doc = "Memory for answers that are given again at once."});
         visit(&O::threads,
               Info{.name = "threads",
                    .min = 0,

@@ -1,5 +1,5 @@
-// Bytes on their way into a socket that does not wait: pieces of memory that somebody keeps, sent
-// with as few calls as the socket takes them. Nothing is copied.
+// Bytes on their way into a socket that does not wait: pieces of memory that somebody keeps, and
+// perhaps a file, sent with as few calls as the socket takes them.
 #pragma once
 
 #include <sys/uio.h>
@@ -25,6 +25,9 @@ class Outgoing {
     void add(const void* data, std::size_t size);
     void add(const Body& body);
 
+    /// All of a file, as the last; it is sent without being copied.
+    void add_file(int descriptor, std::size_t size);
+
     /// Sends what the socket takes now; `more` when it took so much that others come first.
     Progress send(int socket);
 
@@ -38,6 +41,8 @@ class Outgoing {
     std::shared_ptr<const void> keeper_;
     std::vector<iovec> parts_;
     std::size_t first_ = 0;
+    int file_ = -1;
+    off_t file_sent_ = 0, file_size_ = 0;
     std::uint64_t sent_ = 0, total_ = 0;
 };
 

@@ -3,6 +3,7 @@
 #include <arpa/inet.h>
 #include <fcntl.h>
 #include <netinet/in.h>
+#include <signal.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
 #include <unistd.h>
@@ -54,6 +55,13 @@ Reactor::Reactor(const TransportOptions& options, const Handlers& handlers, Libr
         throw std::runtime_error(std::string("Cannot make an epoll: ") + std::strerror(why));
     }
     spare_ = spare_descriptor();
+    for (const auto& [target, answer] : handlers.standing) {
+        const Sending sending = library.send(
+            "GET " + target + " HTTP/1.1", [&one = answer] { return one; },
+            [](int) { return api::Answer(); }, [] { return false; });
+        if (auto hot = hot_answer(target, sending, back_.label("GET", target)))
+            hall_.hot.pin(std::move(hot));
+    }
 }
 
 Reactor::~Reactor() {
@@ -72,6 +80,12 @@ Transport::Load Reactor::load() const {
         load.connections[i] = hall_.phases[i].load(std::memory_order_relaxed);
     load.queue = workers_.waiting();
     load.refused = refused_;
+    const HotTable::Stats& hot = hall_.hot.stats();
+    load.hot_hits = hot.hits;
+    load.hot_not_modified = hot.not_modified;
+    load.hot_evictions = hot.evictions;
+    load.hot_bytes = hot.bytes;
+    load.hot_entries = hot.entries;
     return load;
 }
 
@@ -95,6 +109,10 @@ void Reactor::run() {
     const std::function<void(Timed&)> late = [this](Timed& timed) {
         let(static_cast<Connection&>(timed), [](Connection& one) { return one.is_late(); });
     };
+    sigset_t broken_pipe;
+    sigemptyset(&broken_pipe);
+    sigaddset(&broken_pipe, SIGPIPE);
+    pthread_sigmask(SIG_BLOCK, &broken_pipe, nullptr);  // sendfile has no MSG_NOSIGNAL
     watch_listener(true);
     while (!draining_ || farewell_end_ != Clock::time_point::max() || !connections_.empty()) {
         const int count = epoll_wait(epoll_, events.data(), static_cast<int>(events.size()),

@@ -16,6 +16,8 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr const char* alive = "alive\n";
+
 constexpr std::string_view own_paths[] = {"/livez", "/readyz", "/metrics"};
 
 /// The path of a target in origin or absolute form, still encoded.
@@ -80,6 +82,10 @@ Handlers Reception::handlers() {
     handlers.label = [](std::string_view method, std::string_view target) {
         return route_of(method, target);
     };
+    api::Request nobody;
+    nobody.id = "standing";
+    handlers.standing = {{"/livez", plain(nobody, alive)}};
+    handlers.standing[0].second.repeatable = true;
     handlers.served = [this](const Served& served) { report(served); };
     return handlers;
 }
@@ -173,7 +179,7 @@ api::Answer Reception::housekeeping(const api::Request& request, std::string_vie
     if (request.method != "GET" && request.method != "HEAD")
         return service_.problem(request, 405, "only GET and HEAD are answered here",
                                 {{"Allow", "GET, HEAD"}});
-    if (path == "/livez") return plain(request, "alive\n");
+    if (path == "/livez") return plain(request, alive);
     if (path == "/readyz") {
         if (is_ready()) return plain(request, "ready\n");
         return service_.problem(

@@ -12,6 +12,8 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
+#include <vector>
 
 #include "api/http.h"
 
@@ -23,6 +25,7 @@ struct TransportOptions {
     std::size_t workers = 4;                    ///< threads that call the handlers
     std::size_t longest_queue = 1024;           ///< requests that wait for a worker; 503 beyond
     std::size_t most_connections = 4096;        ///< open at once; 503 beyond
+    std::size_t hot_bytes = 64u << 20;          ///< of answers that are given again; 0: none
     int backlog = 1024;                         ///< connections the kernel keeps for us
     std::size_t most_requests = 1000;           ///< on one connection
     std::size_t most_body_memory = 256u << 20;  ///< bytes of large bodies, all together
@@ -88,6 +91,8 @@ struct Handlers {
     /// A name for requests of this kind, of which there are few.
     std::function<std::string(std::string_view method, std::string_view target)> label;
     std::function<void(const Served&)> served;
+    /// Targets whose answer to GET is always this: given by that thread itself, whatever waits.
+    std::vector<std::pair<std::string, api::Answer>> standing;
 };
 
 class Library;
@@ -104,6 +109,8 @@ class Transport {
         std::array<std::size_t, phases.size()> connections{};  ///< by Phase
         std::size_t queue = 0;                                 ///< requests that wait for a worker
         std::uint64_t refused = 0;  ///< connections turned away because there were too many
+        std::uint64_t hot_hits = 0, hot_not_modified = 0, hot_evictions = 0;  ///< given again
+        std::size_t hot_bytes = 0, hot_entries = 0;
 
         [[nodiscard]] std::size_t open() const {
             std::size_t sum = 0;

@@ -3,6 +3,7 @@
 #include <fcntl.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <atomic>
 #include <chrono>
 #include <condition_variable>
@@ -577,6 +578,121 @@ TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
     EXPECT_EQ(slow.wait_for_served().status, client_left);
     EXPECT_EQ(late, 2);
     EXPECT_EQ(left, 1);
+}
+
+/// The head without what differs from one request to the next.
+std::vector<std::pair<std::string, std::string>> lasting(const RawClient::Answer& answer) {
+    std::vector<std::pair<std::string, std::string>> headers = answer.headers;
+    std::erase_if(headers, [](const auto& header) {
+        return header.first == "Date" || header.first == "X-Request-Id";
+    });
+    std::sort(headers.begin(), headers.end());
+    return headers;
+}
+
+TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
+    for (const std::size_t size : {std::size_t{0}, std::size_t{1000}, std::size_t{3} << 20}) {
+        std::atomic<int> asked{0};
+        const std::string text(size, 'x');
+        Fixture server([&](const api::Request& request, const Gone&) {
+            ++asked;
+            api::Answer answer = text_answer(text);
+            answer.headers.insert(
+                answer.headers.end(),
+                {{"ETag", "\"tag\""}, {"Cache-Status", "here; hit"}, {"X-Request-Id", request.id}});
+            answer.repeatable = request.target == "/again";
+            if (request.target == "/varies") {
+                answer.repeatable = true;
+                answer.headers.emplace_back("Vary", "Accept-Encoding");
+            }
+            return answer;
+        });
+        RawClient client(server.port());
+        const auto first = client.ask("GET /again HTTP/1.1\r\n\r\n");
+        const auto again = client.ask("GET /again HTTP/1.1\r\nX-Request-Id: mine\r\n\r\n");
+        EXPECT_EQ(asked, 1);
+        EXPECT_EQ(again.status, 200);
+        EXPECT_TRUE(again.body == text);
+        EXPECT_EQ(lasting(again), lasting(first));
+        EXPECT_EQ(again.header("X-Request-Id"), "mine");
+        EXPECT_EQ(again.header("Date").size(), 29u);
+
+        const auto head = client.ask("HEAD /again HTTP/1.1\r\n\r\n", true);
+        EXPECT_EQ(lasting(head), lasting(first));
+        const auto fresh = client.ask("GET /again HTTP/1.1\r\nIf-None-Match: \"tag\"\r\n\r\n");
+        EXPECT_EQ(fresh.status, 304);
+        EXPECT_EQ(fresh.header("Cache-Status"), "here; hit; detail=not-modified");
+        EXPECT_EQ(fresh.header("ETag"), "\"tag\"");
+        EXPECT_EQ(fresh.count("Content-Type") + fresh.count("Content-Length"), 0u);
+        EXPECT_TRUE(client.ask("GET /again HTTP/1.1\r\nIf-None-Match: \"other\"\r\n\r\n").body ==
+                    text);
+        EXPECT_EQ(asked, 1);
+
+        client.send(
+            "GET /again HTTP/1.1\r\n\r\nGET /again HTTP/1.1\r\n\r\nGET /again HTTP/1.1\r\n\r\n");
+        for (int i = 0; i < 3; ++i) EXPECT_TRUE(client.receive().body == text);
+        EXPECT_EQ(asked, 1);
+        for (const char* header :
+             {"Range: bytes=0-0", "If-Match: \"tag\"", "Cache-Control: no-cache"})
+            EXPECT_EQ(
+                client.ask("GET /again HTTP/1.1\r\n" + std::string(header) + "\r\n\r\n").status,
+                200);
+        EXPECT_EQ(client.ask("POST /again HTTP/1.1\r\n\r\n").status, 200);
+        EXPECT_EQ(asked, 5);
+        for (const char* target : {"/varies", "/never", "/varies", "/never"})
+            EXPECT_EQ(client.ask("GET " + std::string(target) + " HTTP/1.1\r\n\r\n").status, 200);
+        EXPECT_EQ(asked, 9);
+        const auto last = client.ask("GET /again HTTP/1.1\r\nConnection: close\r\n\r\n");
+        EXPECT_EQ(last.header("Connection"), "close");
+        EXPECT_TRUE(last.body == text && last.count("Keep-Alive") == 0);
+        EXPECT_TRUE(client.ends());
+        EXPECT_EQ(asked, 9);
+
+        const auto load = server.transport->load();
+        EXPECT_EQ(load.hot_hits, 7u);
+        EXPECT_EQ(load.hot_not_modified, 1u);
+        EXPECT_EQ(load.hot_entries, 1u);
+        const Served served = server.wait_for_served(2);
+        EXPECT_EQ(served.id, "mine");
+        EXPECT_EQ(served.label, "some GET");
+        EXPECT_EQ(served.cache, "here; hit");
+        EXPECT_EQ(served.bytes, again.head.size() + 2 + size);
+        EXPECT_EQ(server.wait_for_served(4).status, 304);
+    }
+}
+
+TEST(Transport, AnswersWhatStandsWhileAllWorkersAreBusy) {
+    TransportOptions options = Fixture::patient();
+    options.workers = 1;
+    options.longest_queue = 1;
+    std::counting_semaphore<> gate(0), begun(0);
+    Handlers handlers;
+    handlers.answer = [&](const std::shared_ptr<Visit>& visit) {
+        begun.release();
+        gate.acquire();
+        visit->reply(text_answer("late"));
+    };
+    api::Answer alive = text_answer("alive");
+    alive.repeatable = true;
+    handlers.standing = {{"/livez", alive}};
+    handlers.refuse = [](const api::Request&, int status, std::string_view) {
+        return text_answer("", status);
+    };
+    handlers.served = [](const Served&) {};
+    options.port = 0;
+    Transport transport(options, handlers);
+    transport.start();
+    RawClient working(transport.port()), waiting(transport.port()), probe(transport.port());
+    working.send("GET / HTTP/1.1\r\n\r\n");
+    begun.acquire();
+    waiting.send("GET / HTTP/1.1\r\n\r\n");
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(probe.ask("GET /livez HTTP/1.1\r\n\r\n").body, "alive");
+        EXPECT_EQ(probe.ask("HEAD /livez HTTP/1.1\r\n\r\n", true).status, 200);
+    }
+    gate.release(2);
+    EXPECT_EQ(working.receive().body, "late");
+    EXPECT_EQ(waiting.receive().body, "late");
 }
 
 TEST(Transport, DrainsWhatHasBegun) {

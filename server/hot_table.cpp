@@ -1,0 +1,185 @@
+#include "server/hot_table.h"
+
+#include <sys/mman.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace sporeprint::server {
+
+namespace {
+
+constexpr std::size_t entry_overhead = 512;      ///< bytes of an entry beside what it holds
+constexpr std::size_t worth_a_file = 32u << 10;  ///< bytes; copying less is cheaper than a file
+constexpr std::uint32_t long_way_every = 256;    ///< uses of an entry
+
+/// A file in memory that holds these bytes for good; -1 when there can be none.
+int file_of(const Body& body) {
+    const int file = memfd_create("answer", MFD_CLOEXEC);
+    if (file < 0) return -1;
+    for (const Slice& slice : body)
+        for (std::size_t done = 0; done < slice.size;) {
+            const ssize_t wrote = ::write(file, slice.data() + done, slice.size - done);
+            if (wrote <= 0) {
+                ::close(file);
+                return -1;
+            }
+            done += static_cast<std::size_t>(wrote);
+        }
+    return file;
+}
+
+bool is_one_of(std::string_view name, std::initializer_list<std::string_view> names) {
+    return std::any_of(names.begin(), names.end(),
+                       [&](std::string_view one) { return same_token(name, one); });
+}
+
+}  // namespace
+
+HotAnswer::~HotAnswer() {
+    if (file >= 0) ::close(file);
+}
+
+std::size_t HotAnswer::weight() const {
+    return size + body.size() * sizeof(Slice) + 2 * target.size() + head.size() +
+           not_modified.size() + etag.size() + entry_overhead;
+}
+
+std::shared_ptr<const HotAnswer> hot_answer(std::string_view target, const Sending& sending,
+                                            std::string_view label) {
+    const api::Answer& answer = sending.answer;
+    if (!answer.repeatable || answer.status != 200 || !answer.has_body || sending.closing ||
+        sending.head.empty())
+        return nullptr;
+    auto hot = std::make_shared<HotAnswer>();
+    hot->target = target;
+    hot->label = label;
+    std::string_view rest = sending.head;
+    const auto next_line = [&rest] {
+        const std::size_t end = rest.find("\r\n") + 2;
+        const std::string_view line = rest.substr(0, end);
+        rest.remove_prefix(end);
+        return line;
+    };
+    hot->head = next_line();
+    hot->not_modified = "HTTP/1.1 304 Not Modified\r\n";
+    while (rest.size() > 2) {
+        const std::string_view line = next_line();
+        const std::string_view name = line.substr(0, line.find(':'));
+        const std::string_view value = line.substr(name.size() + 2, line.size() - name.size() - 4);
+        if (same_token(name, "Vary")) return nullptr;
+        if (same_token(name, "X-Request-Id")) {
+            hot->tells_id = true;
+        } else if (same_token(name, "Keep-Alive")) {
+            hot->keep_alive = line;
+        } else if (!same_token(name, "Date")) {
+            hot->head += line;
+            if (same_token(name, "ETag")) hot->etag = value;
+            if (same_token(name, "Cache-Status")) {
+                hot->cache = value;
+                hot->cache_not_modified = hot->cache + "; detail=not-modified";
+                ((hot->not_modified += "Cache-Status: ") += hot->cache_not_modified) += "\r\n";
+            } else if (!is_one_of(name, {"Content-Type", "Content-Disposition", "Content-Encoding",
+                                         "Content-Length"})) {
+                hot->not_modified += line;
+            }
+        }
+    }
+    if (hot->etag.empty()) hot->not_modified.clear();
+    hot->size = size_of(answer.body);
+    if (hot->size >= worth_a_file) hot->file = file_of(answer.body);
+    if (hot->file < 0) hot->body = answer.body;
+    return hot;
+}
+
+HotQuestion hot_question(const Head& head) {
+    HotQuestion question;
+    if ((head.method != "GET" && head.method != "HEAD") || head.content_length.value_or(0) > 0)
+        return question;
+    bool conditional = false;
+    for (const auto& [name, value] : head.headers) {
+        switch (name[0] | 0x20) {  // in lower case
+            case 'c':              // whoever insists on a fresh answer is heard behind
+                if (same_token(name, "Cache-Control")) return question;
+                break;
+            case 'e':
+                if (same_token(name, "Expect")) return question;
+                break;
+            case 'i':
+                if (same_token(name, "If-None-Match") && !conditional) {
+                    conditional = true;
+                    question.if_none_match = value;
+                } else if (same_token(std::string_view(name).substr(0, 3), "If-")) {
+                    return question;
+                }
+                break;
+            case 'p':
+                if (same_token(name, "Pragma")) return question;
+                break;
+            case 'r':
+                if (same_token(name, "Range")) return question;
+                break;
+            case 'x':
+                if (question.id.empty() && same_token(name, "X-Request-Id")) question.id = value;
+                break;
+            default:
+                break;
+        }
+    }
+    question.simple = true;
+    return question;
+}
+
+const std::shared_ptr<const HotAnswer>* HotTable::find(std::string_view target) {
+    const auto found = map_.find(target);
+    if (found == map_.end()) return nullptr;
+    Entry& entry = *found->second;
+    entry.visited = true;
+    if (!entry.pinned && ++entry.uses % long_way_every == 0) return nullptr;
+    return &entry.answer;
+}
+
+void HotTable::insert(std::shared_ptr<const HotAnswer> answer) {
+    const auto found = map_.find(answer->target);
+    if (found != map_.end()) {
+        if (found->second->pinned) return;
+        drop(found->second);
+    }
+    const std::size_t weight = answer->weight();
+    if (weight > budget_ / 8) return;
+    while (stats_.bytes + weight > budget_) evict();
+    add(std::move(answer), weight, false);
+}
+
+void HotTable::pin(std::shared_ptr<const HotAnswer> answer) { add(std::move(answer), 0, true); }
+
+void HotTable::add(std::shared_ptr<const HotAnswer> answer, std::size_t weight, bool pinned) {
+    List& list = pinned ? pinned_ : list_;
+    list.push_front({std::move(answer), weight, 0, false, pinned});
+    map_.emplace(list.front().answer->target, list.begin());
+    stats_.bytes += weight;
+    stats_.entries += pinned ? 0 : 1;
+}
+
+void HotTable::drop(List::iterator entry) {
+    if (hand_ == entry) hand_ = entry == list_.begin() ? list_.end() : std::prev(entry);
+    map_.erase(entry->answer->target);
+    stats_.bytes -= entry->weight;
+    --stats_.entries;
+    list_.erase(entry);
+}
+
+void HotTable::evict() {
+    for (;;) {
+        if (hand_ == list_.end()) hand_ = std::prev(list_.end());
+        if (!hand_->visited) break;
+        hand_->visited = false;
+        hand_ = hand_ == list_.begin() ? list_.end() : std::prev(hand_);
+    }
+    ++stats_.evictions;
+    drop(hand_);
+}
+
+}  // namespace sporeprint::server

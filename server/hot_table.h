@@ -1,0 +1,104 @@
+// Answers that the reactor gives by itself: those that whoever asks for the same target gets again,
+// ready to be sent. Used on one thread.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <list>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+#include "core/bytes.h"
+#include "server/head.h"
+#include "server/library.h"
+
+namespace sporeprint::server {
+
+/// A 200 in pieces. Its head lacks what changes with each request: Date, X-Request-Id, Connection.
+struct HotAnswer {
+    std::string target;
+    std::string head;          ///< status line and headers, each with its CR LF
+    std::string not_modified;  ///< the head of a 304 likewise; empty when there is no ETag
+    std::string keep_alive;    ///< the line that says so
+    std::string etag, cache, cache_not_modified, label;
+    bool tells_id = false;  ///< whether it carries X-Request-Id
+    Body body;              ///< or, when it is large,
+    int file = -1;          ///< a copy of it in a file in memory, which goes out without another
+    std::size_t size = 0;   ///< of the body
+
+    HotAnswer() = default;
+    HotAnswer(const HotAnswer&) = delete;
+    HotAnswer& operator=(const HotAnswer&) = delete;
+    ~HotAnswer();
+
+    [[nodiscard]] std::size_t weight() const;  ///< bytes, those of its body too, though shared
+};
+
+/// What of the answer to GET `target` may be given again; nullptr when it may not: when nobody has
+/// said so, the status is another than 200, it varies by a header, or the connection ends with it.
+[[nodiscard]] std::shared_ptr<const HotAnswer> hot_answer(std::string_view target,
+                                                          const Sending& sending,
+                                                          std::string_view label);
+
+/// What a request's head asks of the table.
+struct HotQuestion {
+    bool simple = false;  ///< GET or HEAD, and nothing in the head could change the answer
+    std::string_view if_none_match, id;  ///< empty when not given
+};
+[[nodiscard]] HotQuestion hot_question(const Head& head);
+
+/// A table bounded by bytes. Small bodies are shared with caches behind it, but counted here in full
+/// like the copies of large ones, as what those have dropped is kept by this table alone.
+///
+/// source  [Zhang2024] SIEVE: one queue, a bit for those in use, a hand that passes over them once
+class HotTable {
+  public:
+    /// What others may read at any time.
+    struct Stats {
+        std::atomic<std::uint64_t> hits{0}, not_modified{0}, evictions{0};
+        std::atomic<std::size_t> bytes{0}, entries{0};
+    };
+
+    explicit HotTable(std::size_t budget) : budget_(budget) {}
+
+    /// The answer for a target, or nullptr. Now and then it has none for one that it holds, so that
+    /// the caches behind it learn what is in use.
+    [[nodiscard]] const std::shared_ptr<const HotAnswer>* find(std::string_view target);
+
+    /// Keeps an answer in place of an earlier one, and drops others to make room. One of more than
+    /// an eighth of the budget is not kept.
+    void insert(std::shared_ptr<const HotAnswer> answer);
+
+    /// Keeps an answer for good; it counts nothing.
+    void pin(std::shared_ptr<const HotAnswer> answer);
+
+    [[nodiscard]] Stats& stats() { return stats_; }
+    [[nodiscard]] const Stats& stats() const { return stats_; }
+
+  private:
+    struct Entry {
+        std::shared_ptr<const HotAnswer> answer;
+        std::size_t weight = 0;
+        std::uint32_t uses = 0;
+        bool visited = false;
+        bool pinned = false;
+    };
+    using List = std::list<Entry>;
+
+    void add(std::shared_ptr<const HotAnswer> answer, std::size_t weight, bool pinned);
+    void drop(List::iterator entry);
+    void evict();
+
+    std::size_t budget_;
+    List list_;    ///< newest first
+    List pinned_;  ///< never evicted
+    List::iterator hand_ = list_.end();
+    std::unordered_map<std::string_view, List::iterator> map_;  ///< keys live in the answers
+    Stats stats_;
+};
+
+}  // namespace sporeprint::server
