@@ -39,6 +39,16 @@ class RawClient {
         socket_ = -1;
     }
 
+    /// Closes with a reset.
+    void reset() {
+        const linger now{1, 0};
+        setsockopt(socket_, SOL_SOCKET, SO_LINGER, &now, sizeof now);
+        close();
+    }
+
+    /// Sends nothing more.
+    void finish() { ::shutdown(socket_, SHUT_WR); }
+
     /// Sends all; returns false when the server no longer takes it.
     bool send(std::string_view text) {
         while (!text.empty()) {
@@ -97,6 +107,12 @@ class RawClient {
     Answer ask(std::string_view request, bool to_head = false) {
         send(request);
         return receive(to_head);
+    }
+
+    /// All that still comes, until the server ends the connection.
+    std::string receive_all() {
+        while (more()) continue;
+        return std::exchange(buffer_, {});
     }
 
     /// Whether the server ends the connection without another byte within `patience`.

@@ -1,0 +1,291 @@
+// The real program under attack: after each of these it lives, answers others, and has taken little memory.
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <memory>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "tests/server/raw_client.h"
+#include "tests/server/real_server.h"
+
+namespace sporeprint::server {
+namespace {
+
+using namespace std::chrono_literals;
+using Clock = std::chrono::steady_clock;
+using Clients = std::vector<std::unique_ptr<RawClient>>;
+
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr long megabyte = 32 << 20;  // shadows, and memory that is not given back at once
+#else
+constexpr long megabyte = 1 << 20;
+#endif
+const std::string kept = "/v1/mushrooms/amanita_muscaria.glb?lod=3&textures=none";
+const std::string large = "/v1/mushrooms/amanita_muscaria.glb?lod=0&textures=none";
+const std::string smuggled = "GET /v1/smuggled HTTP/1.1\r\nHost: x\r\n\r\n";
+
+std::string get(const std::string& target, const std::string& more = {}) {
+    return "GET " + target + " HTTP/1.1\r\nHost: x\r\n" + more + "\r\n";
+}
+
+class Hostile : public testing::Test {
+  protected:
+    static void SetUpTestSuite() {
+        rlimit limit{};
+        getrlimit(RLIMIT_NOFILE, &limit);
+        limit.rlim_cur = limit.rlim_max;
+        setrlimit(RLIMIT_NOFILE, &limit);
+        server = std::make_unique<RealServer>();
+        for (const std::string& target : {kept, large})
+            for (int i = 0; i < 2; ++i) RawClient(port()).ask(get(target));
+    }
+    static void TearDownTestSuite() {
+        EXPECT_EQ(server->stop(), 0);
+        server.reset();
+    }
+    void SetUp() override { before = server->resident(); }
+
+    /// The server lives, others are answered, what was taken is given back.
+    void TearDown() override {
+        ASSERT_TRUE(server->runs());
+        expect_others_are_served();
+        for (int i = 0; i < 1000 && metric("sporeprint_connections") > 1; ++i)
+            std::this_thread::sleep_for(10ms);
+        EXPECT_EQ(metric("sporeprint_connections"), 1) << "only the one that asks";
+        EXPECT_LT(server->resident() - before, most_growth);
+    }
+
+    static int port() { return server->port(); }
+
+    static void expect_others_are_served() {
+        const auto begun = Clock::now();
+        RawClient other(port());
+        EXPECT_EQ(other.ask(get("/livez")).body, "alive\n");
+        EXPECT_EQ(other.ask(get(kept)).status, 200);
+        EXPECT_EQ(other.ask(get("/v1/species?limit=nonsense")).status, 400);
+        EXPECT_LT(Clock::now() - begun, 5s) << "milliseconds on a quiet machine";
+    }
+
+    /// The sum of a metric over its labels.
+    static long metric(const std::string& name) {
+        const std::string text = RawClient(port()).ask(get("/metrics")).body;
+        double sum = 0;
+        for (std::size_t at = 0; (at = text.find('\n' + name, at)) != std::string::npos; ++at) {
+            const char after = text[at + 1 + name.size()];
+            if (after == '{' || after == ' ')
+                sum += std::atof(text.c_str() + text.rfind(' ', text.find('\n', at + 1)));
+        }
+        return static_cast<long>(sum);
+    }
+
+    static inline std::unique_ptr<RealServer> server;
+    long before = 0;
+    long most_growth = 48 * megabyte;
+};
+
+TEST_F(Hostile, AThousandIdleAndFiveHundredDrippingConnectionsStopNobody) {
+    Clients idle, dripping;
+    for (int i = 0; i < 1000; ++i) idle.push_back(std::make_unique<RawClient>(port()));
+    for (int i = 0; i < 500; ++i) {
+        dripping.push_back(std::make_unique<RawClient>(port()));
+        dripping.back()->send(i % 2 == 0 ? "GE"
+                                         : "POST /v1/inspect HTTP/1.1\r\nHost: x\r\nContent-Type: "
+                                           "model/gltf-binary\r\nContent-Length: 100000\r\n\r\n");
+    }
+    for (int round = 0; round < 5; ++round) {
+        for (auto& one : dripping) one->send("T");
+        expect_others_are_served();
+        std::this_thread::sleep_for(50ms);
+    }
+    EXPECT_GE(metric("sporeprint_connections"), 1500) << "all are held";
+    EXPECT_LT(server->resident() - before, 32 * megabyte);
+}
+
+TEST_F(Hostile, ClientsThatDoNotReadStopNobodyAndHoldNoCopies) {
+    Clients clients;
+    for (int i = 0; i < 100; ++i) {
+        clients.push_back(std::make_unique<RawClient>(port(), 4096));
+        for (int k = 0; k < 5; ++k) clients.back()->send(get(large));
+    }
+    for (int round = 0; round < 5; ++round) expect_others_are_served();
+    EXPECT_LT(server->resident() - before, 32 * megabyte);
+}
+
+TEST_F(Hostile, PipelinedRequestsAreAnsweredInOrderWhateverWayEachTakes) {
+    RawClient client(port());
+    const std::vector<std::string> targets = {kept,          "/v1/nowhere", "/livez", kept,
+                                              "/v1/species", large,         "/readyz"};
+    std::string all;
+    for (int i = 0; i < 70; ++i)
+        all += get(targets[static_cast<std::size_t>(i) % targets.size()],
+                   "X-Request-Id: n" + std::to_string(i) + "\r\n");
+    std::jthread sender([&] { client.send(all); });
+    for (int i = 0; i < 70; ++i) {
+        const auto answer = client.receive();
+        EXPECT_EQ(answer.header("X-Request-Id"), "n" + std::to_string(i));
+        EXPECT_EQ(answer.status, i % 7 == 1 ? 404 : 200);
+    }
+}
+
+TEST_F(Hostile, ResetsAnywhereLeaveNothingBehind) {
+    const std::size_t files = server->open_files();
+    const std::string post =
+        "POST /v1/inspect HTTP/1.1\r\nHost: x\r\nContent-Type: "
+        "model/gltf-binary\r\nContent-Length: 2000000\r\n\r\n";
+    const std::vector<std::string> beginnings = {
+        "",
+        "GET / HT",
+        post,
+        post + std::string(500'000, 'x'),
+        get(large),
+        get(large) + get(large),
+        get("/v1/mushrooms/boletus_edulis.glb?lod=2&seed=99"),
+        "GET / HTTP/1.1\nbad"};
+    for (int round = 0; round < 20; ++round)
+        for (const std::string& beginning : beginnings) {
+            RawClient client(port(), 4096);
+            client.send(beginning);
+            if (round % 2 == 0) std::this_thread::sleep_for(1ms);
+            client.reset();
+        }
+    expect_others_are_served();
+    for (int i = 0; i < 500 && server->open_files() > files; ++i) std::this_thread::sleep_for(10ms);
+    EXPECT_LE(server->open_files(), files + 8) << "but for answers that are kept meanwhile";
+}
+
+TEST_F(Hostile, HalfClosedClientsGetWhatIsThereAndNobodyWorksForThem) {
+    RawClient client(port());
+    client.send(get(kept) + get("/v1/species"));
+    client.finish();
+    EXPECT_EQ(client.receive().status, 200);
+    EXPECT_EQ(client.receive().status, 200);
+    EXPECT_TRUE(client.ends());
+
+    most_growth = 256 * megabyte;  // what has begun is made
+    const long left = metric("sporeprint_queue_rejected_total");
+    Clients gone;
+    for (int i = 0; i < 16; ++i) {
+        gone.push_back(std::make_unique<RawClient>(port()));
+        gone.back()->send(get("/v1/mushrooms/boletus_edulis.glb?texture_size=2048&seed=" +
+                              std::to_string(7000 + i)));
+        gone.back()->finish();
+    }
+    for (int i = 0; i < 2000 && metric("sporeprint_queue_rejected_total") == left; ++i)
+        std::this_thread::sleep_for(10ms);
+    EXPECT_GT(metric("sporeprint_queue_rejected_total"), left);
+}
+
+TEST_F(Hostile, NoFramingSmugglesASecondRequest) {
+    const std::string post = "POST /v1/inspect HTTP/1.1\r\nHost: x\r\n";
+    const std::vector<std::string> variants = {
+        post + "Content-Length: 6\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\nG",
+        post + "Transfer-Encoding: chunked\r\nContent-Length: 6\r\n\r\n0\r\n\r\n",
+        post + "Transfer-Encoding: identity\r\n\r\n",
+        post + "Transfer-Encoding:\tchunked\r\n\r\n0\r\n\r\n",
+        post + "Transfer-Encoding : chunked\r\n\r\n0\r\n\r\n",
+        post + "tRANSFER-eNCODING: xchunked\r\n\r\n0\r\n\r\n",
+        post + "Transfer-Encoding: chunked\r\nTransfer-Encoding: identity\r\n\r\n0\r\n\r\n",
+        post + "X: y\r\n Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n",
+        post + "Content-Length: 0\r\nContent-Length: 44\r\n\r\n",
+        post + "Content-Length: 44\r\nContent-Length: 44\r\n\r\n",
+        post + "Content-Length: 0, 44\r\n\r\n",
+        post + "Content-Length: +0\r\n\r\n",
+        post + "Content-Length: -1\r\n\r\n",
+        post + "Content-Length: 0x0\r\n\r\n",
+        post + "Content-Length: 0 4\r\n\r\n",
+        post + "Content-Length:\r\n\r\n",
+        post + "Content-Length: 99999999999999999999999\r\n\r\n",
+        post + "Content-Length\r\n\r\n",
+        post + "Content-Length: 0\r\n folded: 1\r\n\r\n",
+        post + "Content-Encoding: gzip\r\nContent-Length: 0\r\n\r\n",
+        "GET / HTTP/1.1\nHost: x\n\n",
+        "GET / HTTP/1.1\r\nHost: x\n\r\n",
+        "GET / HTTP/1.1\r\nHost: x\r\n\n",
+        "GET / HTTP/1.1\r\nA: b\rGET /v1/smuggled HTTP/1.1\r\n\r\n",
+        std::string("GET / HTTP/1.1\r\nA: b\0c\r\n\r\n", 25),
+        "GET / HTTP/1.1\r\n: empty\r\n\r\n",
+        "GET / HTTP/1.1\r\nno colon\r\n\r\n",
+        "GET  / HTTP/1.1\r\n\r\n",
+        "GET\t/\tHTTP/1.1\r\n\r\n",
+        "GET / HTTP/1.1 HTTP/1.1\r\n\r\n",
+        "GET / HTTP/2.0\r\n\r\n",
+        "GET / http/1.1\r\n\r\n",
+        "GET /\r\n\r\n",
+        "GET nowhere HTTP/1.1\r\n\r\n",
+        "CONNECT x:80 HTTP/1.1\r\n\r\n",
+        "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n"};
+    for (const std::string& variant : variants) {
+        RawClient client(port());
+        client.send(variant + smuggled);
+        client.finish();
+        const std::string all = client.receive_all();
+        EXPECT_TRUE(all.starts_with("HTTP/1.1 4") || all.starts_with("HTTP/1.1 501"))
+            << variant << all.substr(0, 200);
+        for (const char* second : {"HTTP/1.1 2", "HTTP/1.1 3", "HTTP/1.1 4", "HTTP/1.1 5"})
+            EXPECT_EQ(all.find(second, 9), std::string::npos) << "one answer to: " << variant;
+        EXPECT_EQ(all.find("smuggled"), std::string::npos) << variant;
+    }
+    RawClient client(port());
+    EXPECT_EQ(client
+                  .ask("GET " + kept + " HTTP/1.1\r\nContent-Length: " +
+                       std::to_string(smuggled.size()) + "\r\n\r\n" + smuggled)
+                  .status,
+              200);
+    EXPECT_EQ(client.ask(get("/livez")).body, "alive\n") << "the body of a GET is not a request";
+}
+
+TEST_F(Hostile, RangesBombsAndEndlessHeadsCostNothing) {
+    RawClient whole(port());
+    const std::string body = whole.ask(get(large)).body;
+    std::string many = "bytes=0-";
+    for (int i = 0; i < 2000; ++i) many += ",0-";
+    for (const std::string& range :
+         {std::string("bytes=0-99999999999"), std::string("bytes=-99999999999"), many})
+        EXPECT_TRUE(whole.ask(get(large, "Range: " + range + "\r\n")).body == body);
+    const std::string block(1 << 20, 'a');
+    const std::vector<std::string> beginnings = {
+        "",
+        "GET /",
+        "GET / HTTP/1.1\r\nA: ",
+        "GET / HTTP/1.1\r\n",
+        "POST /v1/inspect HTTP/1.1\r\nTransfer-Encoding: chunked\r\n\r\n40000000\r\n",
+        "POST /v1/inspect HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n"};
+    for (const std::string& beginning : beginnings) {
+        RawClient client(port());
+        client.send(beginning);
+        int sent = 0;
+        while (sent < 64 && client.send(block)) ++sent;
+        EXPECT_LT(sent, 64) << "somebody read all of it: " << beginning;
+        EXPECT_LT(server->resident() - before, 32 * megabyte);
+    }
+    std::string headers;
+    for (int i = 0; i < 5000; ++i) headers += "A:\r\n";
+    RawClient client(port());
+    EXPECT_EQ(client.ask(get("/livez", headers)).status, 431);
+}
+
+TEST(HostileLimits, RunningOutOfDescriptorsIsSurvived) {
+    RealServer server(64);
+    ASSERT_GT(server.port(), 0);
+    for (int round = 0; round < 2; ++round) {
+        Clients clients;
+        for (int i = 0; i < 200; ++i) clients.push_back(std::make_unique<RawClient>(server.port()));
+        std::this_thread::sleep_for(100ms);
+        ASSERT_TRUE(server.runs());
+        clients.clear();
+        int status = 0;
+        for (int i = 0; i < 500 && status != 200; ++i) {
+            status = RawClient(server.port()).ask(get("/livez")).status;
+            if (status != 200) std::this_thread::sleep_for(10ms);
+        }
+        EXPECT_EQ(status, 200);
+    }
+    EXPECT_EQ(server.stop(), 0);
+}
+
+}  // namespace
+}  // namespace sporeprint::server

@@ -1,0 +1,87 @@
+// The built program as a child process on a free port, for tests that attack it.
+#pragma once
+
+#include <dirent.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <string>
+
+namespace sporeprint::server {
+
+class RealServer {
+  public:
+    /// most_files  its limit of descriptors, hard; 0 for ours
+    explicit RealServer(unsigned most_files = 0) {
+        int out[2];
+        if (::pipe(out) != 0) return;
+        pid_ = ::fork();
+        if (pid_ == 0) {
+            if (most_files > 0) {
+                const rlimit limit{most_files, most_files};
+                setrlimit(RLIMIT_NOFILE, &limit);
+            }
+            ::dup2(out[1], STDOUT_FILENO);
+            ::close(out[0]);
+            ::close(out[1]);
+            ::execl(SPOREPRINT_PROGRAM, "sporeprint", "--port", "0", "--log-level", "warning",
+                    static_cast<char*>(nullptr));
+            ::_exit(127);
+        }
+        ::close(out[1]);
+        std::string said;
+        char byte = 0;
+        while (said.find('\n') == std::string::npos && ::read(out[0], &byte, 1) == 1) said += byte;
+        ::close(out[0]);
+        const std::size_t colon = said.rfind(':');
+        if (colon != std::string::npos) port_ = std::atoi(said.c_str() + colon + 1);
+    }
+    ~RealServer() { stop(); }
+    RealServer(const RealServer&) = delete;
+    RealServer& operator=(const RealServer&) = delete;
+
+    int port() const { return port_; }
+
+    bool runs() const {
+        return pid_ > 0 && ::kill(pid_, 0) == 0 && ::waitpid(pid_, nullptr, WNOHANG) == 0;
+    }
+
+    /// Asks it to end; returns its exit status, -1 when it did not exit by itself.
+    int stop() {
+        if (pid_ <= 0) return -1;
+        ::kill(pid_, SIGTERM);
+        int status = 0;
+        ::waitpid(pid_, &status, 0);
+        pid_ = -1;
+        return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
+    }
+
+    /// Bytes of resident memory.
+    long resident() const {
+        std::ifstream in("/proc/" + std::to_string(pid_) + "/statm");
+        long total = 0, pages = 0;
+        in >> total >> pages;
+        return pages * ::sysconf(_SC_PAGESIZE);
+    }
+
+    std::size_t open_files() const {
+        std::size_t count = 0;
+        if (DIR* folder = ::opendir(("/proc/" + std::to_string(pid_) + "/fd").c_str())) {
+            while (::readdir(folder)) ++count;
+            ::closedir(folder);
+        }
+        return count;
+    }
+
+  private:
+    pid_t pid_ = -1;
+    int port_ = 0;
+};
+
+}  // namespace sporeprint::server
