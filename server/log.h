@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstddef>
 #include <deque>
+#include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
@@ -13,6 +14,10 @@
 #include "core/params/value.h"
 #include "server/options.h"
 #include "server/transport.h"
+
+namespace spdlog {
+class logger;
+}
 
 namespace sporeprint::server {
 
@@ -38,7 +43,7 @@ class Log {
     void gather(std::string_view line);
     void write();
 
-    LogLevel least_;
+    std::unique_ptr<spdlog::logger> logger_;  ///< knows the least level; writes on writer_ only
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<std::string> waiting_;  ///< blocks of lines, oldest first
