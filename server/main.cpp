@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -23,6 +24,7 @@
 #include "server/metrics.h"
 #include "server/options.h"
 #include "server/reception.h"
+#include "server/signatures.h"
 #include "server/transport.h"
 
 namespace {
@@ -113,6 +115,7 @@ int serve(const Options& options) {
     service_options.assets = page_folder(options);
     service_options.store = options.store.string();
     service_options.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
+    service_options.signed_addresses = !options.sign_keys.empty();
     service_options.allow_origin = options.allow_origin.string();
     api::Service service(atlas, service_options);
 
@@ -120,6 +123,9 @@ int serve(const Options& options) {
     reception_options.slots =
         options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
     reception_options.metrics = options.metrics_port == 0;
+    if (!options.sign_keys.empty())
+        reception_options.signatures =
+            std::make_shared<const Signatures>(Signatures::from_file(options.sign_keys.string()));
     Log log(options.log_level);
     Metrics metrics(SPOREPRINT_VERSION, generator_version(service));
     Reception reception(service, metrics, log, reception_options);
@@ -144,14 +150,12 @@ int serve(const Options& options) {
     transport.start();
     if (metrics_transport) metrics_transport->start();
 
-    if (!is_loopback(options.host))
-        std::fprintf(
-            stderr,
-            "sporeprint: WARNING: listening on %s, beyond this machine. There are no keys "
-            "and no quotas yet:\n"
-            "sporeprint: WARNING: anyone who can reach this port can use it. Put a reverse "
-            "proxy in front.\n",
-            options.host.string().c_str());
+    if (!is_loopback(options.host) && options.sign_keys.empty())
+        std::fprintf(stderr,
+                     "sporeprint: WARNING: listening on %s, beyond this machine, unsigned:\n"
+                     "sporeprint: WARNING: anyone who can reach this port can have anything made. "
+                     "Give --sign-keys a file, or put a reverse proxy in front.\n",
+                     options.host.string().c_str());
     if (service_options.assets.empty())
         std::fprintf(stderr, "sporeprint: the page is not built; the API is served without it\n");
     std::printf("Sporeprint is ready at %s\n", address_of(options.host, transport.port()).c_str());
@@ -176,6 +180,26 @@ int serve(const Options& options) {
     return fine;
 }
 
+/// Prints an address with the signature of the first key.
+///
+/// seconds  that it is good for from now on; 0 for ever
+int sign(const Options& options, const std::string& target, std::int64_t seconds) {
+    if (options.sign_keys.empty())
+        return complain("--sign needs --sign-keys, the file of keys", wrong_usage);
+    if (!target.starts_with('/'))
+        return complain("--sign takes path and query, as in /v1/mushrooms/boletus_edulis.glb?age=1",
+                        wrong_usage);
+    std::optional<std::int64_t> expires;
+    if (seconds > 0)
+        expires = std::chrono::duration_cast<std::chrono::seconds>(
+                      std::chrono::system_clock::now().time_since_epoch())
+                      .count() +
+                  seconds;
+    const auto signatures = Signatures::from_file(options.sign_keys.string());
+    std::printf("%s\n", signatures.signed_target("GET", target, {}, expires).c_str());
+    return fine;
+}
+
 int run(int argc, char** argv) {
     CLI::App app("GLB files grown on demand, over HTTP.", "sporeprint");
     app.set_version_flag("--version", "sporeprint " SPOREPRINT_VERSION, "Print the version");
@@ -184,7 +208,8 @@ int run(int argc, char** argv) {
     std::vector<std::string> texts(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i)
         app.add_option(lines[i].flag, texts[i], lines[i].help)->type_name("");
-    std::string config, health;
+    std::string config, health, to_sign;
+    std::int64_t sign_for = 0;
     bool print_config = false;
     app.add_option(
            "--config", config,
@@ -195,6 +220,13 @@ int run(int argc, char** argv) {
     app.add_option("--health", health,
                    "Ask a running server: 0 if this address answers 200, else 1")
         ->type_name("URL");
+    app.add_option("--sign", to_sign,
+                   "Print this path and query with the signature of the first of --sign-keys, "
+                   "and end")
+        ->type_name("TARGET");
+    app.add_option("--sign-for", sign_for, "Seconds for which it is good; for ever by itself")
+        ->type_name("SECONDS")
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
     app.footer(
         "Each option is also a variable, --cache-mb is SPOREPRINT_CACHE_MB; a flag wins over a "
         "variable,\na variable over the file.");
@@ -232,7 +264,7 @@ int run(int argc, char** argv) {
         return fine;
     }
     try {
-        return serve(options);
+        return to_sign.empty() ? serve(options) : sign(options, to_sign, sign_for);
     } catch (const InvalidInput& invalid) {  // an instruction set or a template that is no good
         for (const Problem& problem : invalid.problems())
             complain((problem.path == "simd" ? "--simd" : problem.path) + ": " + problem.message,

@@ -41,6 +41,7 @@ struct Options {
     Text<1023> assets;
     Text<1023> store;
     int store_mb = 1024;
+    Text<1023> sign_keys;
     int metrics_port = 0;
     LogLevel log_level = LogLevel::info;
     Text<15> simd = "auto";
@@ -94,6 +95,10 @@ struct Options {
                                  .min = 1,
                                  .max = 1048576,
                                  .doc = "Room for the files of that folder."});
+        visit(&O::sign_keys,
+              Info{.name = "sign_keys",
+                   .doc = "File of keys, \"ID HEX\" a line, of which addresses of what is made "
+                          "have to carry a signature; none for open addresses."});
         visit(&O::metrics_port,
               Info{.name = "metrics_port",
                    .min = 0,

@@ -108,15 +108,23 @@ bool Reception::is_ready() const {
 }
 
 void Reception::answer(const std::shared_ptr<Visit>& visit) {
-    const api::Request& request = visit->request();
-    const std::string_view path = path_of(request.target);
-    if (is_own(path)) return visit->reply(housekeeping(request, path, options_.metrics));
+    const std::string_view path = path_of(visit->request().target);
+    if (is_own(path)) return visit->reply(housekeeping(visit->request(), path, options_.metrics));
+    const Asked asked = this->asked(visit);
+    const api::Request& request = *asked.request;
+    if (!asked.why_not.empty()) {
+        metrics_.rejected("signature");
+        return visit->reply(service_.problem(request, 403, asked.why_not));
+    }
     std::optional<Answers::Glance> glance(std::in_place, flights_);
     std::variant<api::Answer, api::Job> planned = service_.plan(request);
-    if (api::Answer* answer = std::get_if<api::Answer>(&planned))
+    if (api::Answer* answer = std::get_if<api::Answer>(&planned)) {
+        if (asked.expires) answer->repeatable = false;
         return visit->reply(std::move(*answer));
+    }
 
-    const std::optional<Answers::Seat> seat = board(visit, std::move(std::get<api::Job>(planned)));
+    const std::optional<Answers::Seat> seat =
+        board(visit, asked, std::move(std::get<api::Job>(planned)));
     glance.reset();
     if (!seat) {
         metrics_.rejected("queue");
@@ -137,9 +145,32 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
     });
 }
 
+Reception::Asked Reception::asked(const std::shared_ptr<Visit>& visit) const {
+    const api::Request& whole = visit->request();
+    Asked asked{{visit, &whole}, false, {}};
+    if (!options_.signatures || whole.method == "OPTIONS") return asked;
+    std::vector<Problem> ignored;
+    const api::Match match =
+        api::match_route(whole.method, api::split_target(whole.target, ignored).segments);
+    if (!match.route || !api::makes(match.route->endpoint)) return asked;
+    const std::int64_t now = std::chrono::duration_cast<std::chrono::seconds>(
+                                 std::chrono::system_clock::now().time_since_epoch())
+                                 .count();
+    Checked checked = options_.signatures->check(whole.method, whole.target, whole.body, now);
+    if (!checked.good) {
+        asked.why_not = std::move(checked.why);
+        return asked;
+    }
+    auto rest = std::make_shared<api::Request>(whole);
+    rest->target = std::move(checked.target);
+    asked.expires = checked.expires;
+    asked.request = std::move(rest);
+    return asked;
+}
+
 std::optional<Reception::Answers::Seat> Reception::board(const std::shared_ptr<Visit>& visit,
-                                                         api::Job asked) {
-    const auto job = std::make_shared<const api::Job>(std::move(asked));
+                                                         const Asked& asked, api::Job to_do) {
+    const auto job = std::make_shared<const api::Job>(std::move(to_do));
     const Clock::time_point boarded = Clock::now();
     const auto work = [this, job, boarded](std::stop_token stop) {
         const double queue =
@@ -155,8 +186,12 @@ std::optional<Reception::Answers::Seat> Reception::board(const std::shared_ptr<V
         return made;
     };
     // Delivered by a worker of the transport: a slot is for making.
-    return flights_.board(job->key, work, [this, visit](const Answers::Landing& landing) {
-        visit->reply_with([this, visit, landing] { return delivered(visit->request(), landing); });
+    return flights_.board(job->key, work, [this, visit, asked](const Answers::Landing& landing) {
+        visit->reply_with([this, asked, landing] {
+            api::Answer answer = delivered(*asked.request, landing);
+            if (asked.expires) answer.repeatable = false;
+            return answer;
+        });
     });
 }
 

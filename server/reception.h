@@ -13,6 +13,7 @@
 #include "server/flights.h"
 #include "server/log.h"
 #include "server/metrics.h"
+#include "server/signatures.h"
 #include "server/slots.h"
 #include "server/transport.h"
 
@@ -23,6 +24,8 @@ struct ReceptionOptions {
     std::size_t longest_queue = 128;  ///< jobs that wait for a slot; 503 beyond
     std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
     bool metrics = true;              ///< whether /metrics is answered here
+    std::shared_ptr<const Signatures>
+        signatures;  ///< asked for by what is made; none for no such thing
 };
 
 class Reception {
@@ -57,8 +60,17 @@ class Reception {
     };
     using Answers = Flights<Made>;
 
+    /// What a visit asks for: its own request, or what is left of that without its signature.
+    struct Asked {
+        std::shared_ptr<const api::Request> request;
+        bool expires = false;  ///< so that another may not be given the answer without a look
+        std::string why_not;   ///< why it is refused; empty if it is not
+    };
+    [[nodiscard]] Asked asked(const std::shared_ptr<Visit>& visit) const;
+
     void answer(const std::shared_ptr<Visit>& visit);
-    std::optional<Answers::Seat> board(const std::shared_ptr<Visit>& visit, api::Job job);
+    std::optional<Answers::Seat> board(const std::shared_ptr<Visit>& visit, const Asked& asked,
+                                       api::Job job);
     api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);
     api::Answer delivered(const api::Request& request, const Answers::Landing& landing);
     api::Answer plain(const api::Request& request, const std::string& text,

@@ -180,7 +180,7 @@ Signatures Signatures::from_file(const std::filesystem::path& file) {
 Checked Signatures::check(std::string_view method, std::string_view target, std::string_view body,
                           std::int64_t now) const {
     const auto refused = [&](std::string why) {
-        return Checked{false, std::string(target), std::move(why)};
+        return Checked{false, false, std::string(target), std::move(why)};
     };
     std::string_view rest = origin_form(target);
     const std::optional<std::string_view> given = take_last(rest, "sig");
@@ -207,7 +207,7 @@ Checked Signatures::check(std::string_view method, std::string_view target, std:
                            "; it has to be seconds since 1970");
         if (now >= until) return refused("the address was good until " + std::to_string(until));
     }
-    return {true, std::string(rest), {}};
+    return {true, expires.has_value(), std::string(rest), {}};
 }
 
 std::string Signatures::signed_target(std::string_view method, std::string_view target,
