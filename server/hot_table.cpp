@@ -1,6 +1,7 @@
 #include "server/hot_table.h"
 
 #include <sys/mman.h>
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,10 +16,17 @@ constexpr std::size_t entry_overhead = 512;      ///< bytes of an entry beside w
 constexpr std::size_t worth_a_file = 32u << 10;  ///< bytes; copying less is cheaper than a file
 constexpr std::uint32_t long_way_every = 256;    ///< uses of an entry
 
-/// A file in memory that holds these bytes for good; -1 when there can be none.
+/// A file in memory that holds these bytes for good; -1 when there can be none, as half of the
+/// descriptors are for connections.
 int file_of(const Body& body) {
     const int file = memfd_create("answer", MFD_CLOEXEC);
     if (file < 0) return -1;
+    rlimit limit{};
+    if (getrlimit(RLIMIT_NOFILE, &limit) != 0 ||
+        static_cast<rlim_t>(file) >= limit.rlim_cur / 2) {  // the least number that was free
+        ::close(file);
+        return -1;
+    }
     for (const Slice& slice : body)
         for (std::size_t done = 0; done < slice.size;) {
             const ssize_t wrote = ::write(file, slice.data() + done, slice.size - done);

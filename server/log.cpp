@@ -135,7 +135,7 @@ void Log::request(const Served& served) {
     gather(line);
 }
 
-void Log::event(LogLevel level, std::string_view message, Value::Object members) {
+void Log::event(LogLevel level, std::string_view message, const Value::Object& members) {
     if (!logger_->should_log(level_of(level))) return;
     std::string line;
     begin_line(line, level);

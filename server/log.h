@@ -37,7 +37,7 @@ class Log {
     void request(const Served& served);
 
     /// An event with further members.
-    void event(LogLevel level, std::string_view message, Value::Object members = {});
+    void event(LogLevel level, std::string_view message, const Value::Object& members = {});
 
   private:
     void gather(std::string_view line);
