@@ -55,10 +55,11 @@ Body grown(const Context& context, const MushroomOrder& order, const std::string
 }
 
 /// How it is known that no outline of this mix touches itself.
-Certificate certificate(const MushroomOrder& order, const Atlas& atlas,
-                        const Remember<MorphSet>& morphs) {
+Certificate certificate(const MushroomOrder& order, const Individual& individual,
+                        const Atlas& atlas, const Remember<MorphSet>& morphs) {
     // resolve() checks the outline that is swept by exact predicates and refuses one that touches itself: who got here has passed.
-    if (order.mix.size() < 2) return {};
+    // Limbs that branch have none.
+    if (order.mix.size() < 2 || individual.is_branched()) return {};
     const SpeciesShapes shapes = species_shapes(order, atlas, morphs);
     return order.mix.size() == 2 ? shapes.set->certificate(shapes.weights[0], shapes.weights[1])
                                  : shapes.set->certificate();
@@ -86,7 +87,7 @@ Body described(const Context& context, const MushroomOrder& order, const std::st
     body.set("effective", write(individual.effective));
     body.set("estimate", told(estimate(order, individual)));
     body.set("bounds_m", told(box));
-    body.set("certificate", write(certificate(order, atlas, memo.morphs)));
+    body.set("certificate", write(certificate(order, individual, atlas, memo.morphs)));
     return {slice_of(dump(body))};
 }
 

@@ -55,6 +55,8 @@ std::vector<OutlineSample> neck_rings(const SubCurve& stem, const OutlineSample&
 }  // namespace
 
 StemFit stem_fit(const Individual& individual) {
+    if (const Bush& bush = individual.bush; individual.is_branched())
+        return {bush.trunk_radius, bush.height, bush.trunk, bush.reach};
     const OutlineSample top = individual.outline.stem.at(1.0);
     return {top.r, top.y, individual.outline.stem.length(),
             greatest_radius(individual.outline.cap)};

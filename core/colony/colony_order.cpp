@@ -29,6 +29,8 @@ bool has_cap_on_stem(GrowthForm form) {
         case GrowthForm::puffball:
         case GrowthForm::earthstar:
         case GrowthForm::jelly:
+        case GrowthForm::coral:
+        case GrowthForm::antler:
             return false;
     }
     return false;

@@ -6,8 +6,6 @@
 #include <string>
 #include <utility>
 
-#include "core/build/budget.h"
-#include "core/build/sweep.h"
 #include "core/colony/colony_skin.h"
 #include "core/grow/mushroom.h"
 #include "core/math/random.h"
@@ -180,7 +178,7 @@ Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo
     const ColonyRoots growth = growth_of(params, nature, fit_of(individual, nature));
     const auto count = static_cast<std::uint64_t>(params.count);
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
-    const MeshCount one = budget_of(individual, cap_lod(params.lod)).count;
+    const MeshCount one = body_count(individual, cap_lod(params.lod));
     double nodes = 0.0;
     if (nature.roots == RootsShown::shown) nodes += 1.2 * expected_root_nodes(growth) + 20.0;
     if (nature.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
@@ -233,7 +231,7 @@ Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop
                 return cap_mesh(
                     one,
                     {.lod = lod, .neck = std::max(params.cap_scale, 1.0), .textured = dressed});
-            Mesh mesh = swept_mesh(one, lod, {.textured = dressed});
+            Mesh mesh = body_mesh(one, lod, {.textured = dressed});
             order_for_vertex_cache(mesh);
             return mesh;
         };

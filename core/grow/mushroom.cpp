@@ -1,7 +1,7 @@
 #include "core/grow/mushroom.h"
 
 #include "core/build/budget.h"
-#include "core/build/sweep.h"
+#include "core/build/limbs.h"
 #include "core/gltf/glb.h"
 #include "core/grow/growth.h"
 #include "core/grow/painting.h"
@@ -45,7 +45,7 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& me
 }
 
 Estimate estimate(const MushroomOrder& order, const Individual& individual) {
-    const MeshCount mesh = budget_of(individual, order.params.lod).count;
+    const MeshCount mesh = body_count(individual, order.params.lod);
     Estimate e;
     e.vertices = mesh.vertices;
     e.triangles = mesh.triangles;
@@ -62,8 +62,18 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     return e;
 }
 
+Mesh body_mesh(const Individual& individual, int lod, const SweepOptions& options) {
+    return individual.is_branched() ? branched_mesh(individual, lod, options)
+                                    : swept_mesh(individual, lod, options);
+}
+
+MeshCount body_count(const Individual& individual, int lod) {
+    return individual.is_branched() ? limb_count(individual.bush, lod)
+                                    : budget_of(individual, lod).count;
+}
+
 Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
-    Mesh mesh = swept_mesh(
+    Mesh mesh = body_mesh(
         individual, order.params.lod,
         {.textured = textured(order), .keep_absent = order.params.animation != Animation::none});
     order_for_vertex_cache(mesh);

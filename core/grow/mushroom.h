@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/atlas/atlas.h"
+#include "core/build/sweep.h"
 #include "core/grow/product.h"
 #include "core/model/request.h"
 #include "core/model/resolve.h"
@@ -13,6 +14,15 @@ namespace sporeprint {
 [[nodiscard]] Estimate estimate(const MushroomOrder& order, const Individual& individual);
 [[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas,
                                 const Memo& memo = {});
+
+/// The mesh of an individual of either family, its triangles not yet in an order of their own.
+///
+/// throws  as swept_mesh() and branched_mesh()
+[[nodiscard]] Mesh body_mesh(const Individual& individual, int lod,
+                             const SweepOptions& options = {});
+
+/// What body_mesh() comes to: vertices exactly, triangles at most.
+[[nodiscard]] MeshCount body_count(const Individual& individual, int lod);
 
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);

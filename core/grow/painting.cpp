@@ -78,6 +78,24 @@ Lone lone(const MushroomOrder& stepped, const std::string& id, const Atlas& atla
     return found;
 }
 
+// Limbs wear the cap's chart from their tips down: its meridian is the way from the lowest fork to the highest tip, its girth that of
+// the limb between.
+SurfaceMetrics surface_metrics(const Bush& bush) {
+    double girth = 0.0, weight = 0.0;
+    for (const Bush::Node& node : bush.nodes) {
+        if (node.parent == Bush::none) continue;
+        girth += node.presence * node.radius;
+        weight += node.presence;
+    }
+    SurfaceMetrics metrics;
+    metrics.cap_arc = quantised_length(bush.height - bush.trunk);
+    metrics.cap_radius = quantised_length(weight > 0.0 ? girth / weight : bush.trunk_radius);
+    metrics.stem_length = quantised_length(bush.trunk);
+    metrics.stem_radius = quantised_length(bush.trunk_radius);
+    metrics.hymenium_arc = quantised_length(0.0);
+    return metrics;
+}
+
 // Clears each override of `asked` that is not set in `effective`: what the species cannot have.
 template <class T>
 void keep_possible(T& asked, const T& effective) {
@@ -95,6 +113,7 @@ std::string painting_key(const PaintParams& painting) {
 }  // namespace
 
 SurfaceMetrics surface_metrics(const Individual& individual) {
+    if (individual.is_branched()) return surface_metrics(individual.bush);
     const Outline& outline = individual.outline;
     double radius = 0.0, stem_radius = 0.0;
     for (int i = 0; i <= 16; ++i) {
@@ -180,7 +199,7 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.cells = individual.parts[i].cells;
         painting.warts = model.warts;
         painting.scales = model.scales;
-        painting.relief = std::get<Swept>(model.shape).relief;
+        if (const auto* swept = std::get_if<Swept>(&model.shape)) painting.relief = swept->relief;
         const Detail& detail = detail_of(order.params.lod);
         painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
         painting.ornaments = {model.ornaments.warts, model.ornaments.scales};

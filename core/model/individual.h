@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/model/axis_curve.h"
+#include "core/model/bush.h"
 #include "core/model/comb.h"
 #include "core/model/patches.h"
 #include "core/model/request.h"
@@ -49,10 +50,12 @@ struct Individual {
         model;  ///< all amounts and sizes, blended; its shape is empty: `outline` and `axis` are the individual's own
     MushroomParams
         effective;  ///< every optional that a species of the mix can have, set to what the individual really has
-    double lightness = 1.0;           ///< factor on the linear colour of the cap
+    double size = 0.0;       ///< of a swept one: what shapes of unit size are multiplied by, metres
+    double lightness = 1.0;  ///< factor on the linear colour of the cap
     std::vector<SpeciesShare> parts;  ///< by id
     std::shared_ptr<const MorphSet>
-        set;                 ///< of all control shapes of its species; knows what is proven
+        set;                 ///< of all control shapes of its swept species; knows what is proven
+    Bush bush;               ///< of the branched family; what follows is then empty
     Outline outline;         ///< metres; proportions and size of the individual
     double stem_base = 0.0;  ///< height of the first point of the stem, metres
     double stem_top = 0.0;   ///< of its last
@@ -75,6 +78,8 @@ struct Individual {
     int blade_tiers = 0;  ///< solids of blades stand on comb.blades << blade_tiers places
     bool runs_down =
         false;  ///< whether blades of a species of the mix run down the stem at some age
+
+    [[nodiscard]] bool is_branched() const { return !bush.empty(); }
 };
 
 }  // namespace sporeprint

@@ -6,6 +6,7 @@
 #include <variant>
 #include <vector>
 
+#include "core/model/branched.h"
 #include "core/params/describe.h"
 #include "core/params/types.h"
 
@@ -982,7 +983,7 @@ struct Material {
 
 /// Everything that makes one mushroom. Plain data, no behaviour.
 struct Model {
-    std::variant<Swept> shape;
+    std::variant<Swept, Branched> shape;
     DeformationOf<Plain> deformation;
     HymeniumOf<Plain> hymenium;
     PatchStyle warts;

@@ -49,6 +49,10 @@ enum Purpose : std::uint32_t {
     colony_places = 74,       ///< where they stand in habits without roots
     colony_postures = 75,     ///< how each is turned, and which of them it is
     colony_thinning = 76,     ///< which stems go where there are more than asked for
+    bush_trunks = 77,         ///< the branching of each further trunk
+    bush_limbs = 78,          ///< how limbs differ from what their style says
+    eaten_tips = 79,          ///< which tips slugs have eaten
+    limb_turns = 80,          ///< which side of its image a limb turns to the front
     cap_paint = 101,
     hymenium = 102,  ///< places of gills, ridges, pores and spines
     stem_paint = 103,
@@ -112,6 +116,10 @@ enum Purpose : std::uint32_t {
         case colony_places:
         case colony_postures:
         case colony_thinning:
+        case bush_trunks:
+        case bush_limbs:
+        case eaten_tips:
+        case limb_turns:
         case cap_paint:
         case hymenium:
         case stem_paint:

@@ -274,6 +274,106 @@ void overlay_all(const MushroomParams& asked, Model& model) {
     overlay(asked.weathering, model.weathering);
 }
 
+/// The outline and the axis of a swept individual.
+void sweep_out(Individual& individual, const MushroomOrder& order,
+               const std::vector<Source>& sources, const std::vector<Arc>& arcs, const Draws& draws,
+               const Spread& spread, const Remember<MorphSet>& morphs) {
+    const MushroomParams& asked = order.params;
+    // Shapes are blended in unit size, sizes by their ratio.
+    const double variation = asked.variation;
+    double size = 0.0, open = 0.0;
+    for (const Source& source : sources) {
+        size += source.weight * logarithm(source.size);
+        if (source.has_margin()) open += source.weight;
+    }
+    size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
+           factor(draws.size, spread.size, variation);
+    individual.size = size;
+    individual.set = morph_set(sources, arcs, asked.age, morphs);
+    const auto own = [&](double share) {
+        return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
+                           factor(draws.stem_width, spread.stem_width, share * variation),
+                           factor(draws.cap_height, spread.cap_height, share * variation)};
+    };
+    individual.outline =
+        own_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
+    if (const auto fault = fault_of(individual.outline, asked.lod))
+        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
+                         "the outline crosses itself at this level of detail, near the " +
+                             std::string(name(*fault)));
+    const auto stem = individual.outline.rings(CurveName::stem, 0);
+    individual.stem_base = stem.front().y;
+    individual.stem_top = stem.back().y;
+
+    // The axis and its deformation. An individual bends as far as its own stem allows; what a person asks for, or draws, is
+    // checked by build instead.
+    const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
+                           greatest_radius(individual.outline.stem);
+    individual.axis = axis_of(sources);
+    individual.azimuth = fan_of(sources);
+    individual.lobes = lobes_of(sources);
+    individual.reliefs = reliefs_of(sources);
+    DeformationOf<Plain>& deformation = individual.model.deformation;
+    if (!order.model) {
+        const double fold = individual.axis.greatest_turn() / slender;
+        if (fold > most_natural_fold)
+            individual.axis = individual.axis.scaled(most_natural_fold / fold);
+        const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
+        const double room = std::min(0.6, (0.95 - std::min(fold, most_natural_fold)) / 1.5);
+        const double of_template = std::min(deformation.bend_deg, 1.5 * room * zone);
+        const double drawn = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
+        deformation.bend_deg = std::min({90.0, drawn, std::max(of_template, room * zone)});
+    }
+}
+
+/// The limbs of a branched individual.
+void branch_out(Individual& individual, const MushroomOrder& order,
+                const std::vector<Source>& sources, const Draws& draws, const Spread& spread) {
+    const MushroomParams& asked = order.params;
+    const double variation = asked.variation;
+    std::vector<BushShare> shares;
+    for (const Source& source : sources)
+        shares.push_back({&std::get<Branched>(source.now.shape), source.weight});
+    const BushProportions own{asked.size * factor(draws.size, spread.size, variation),
+                              factor(draws.stem_length, spread.stem_length, variation),
+                              factor(draws.stem_width, spread.stem_width, variation),
+                              factor(draws.cap_height, spread.cap_height, variation)};
+    const double bites = asked.weathering.bites.value_or(individual.model.weathering.bites);
+    individual.bush = bush_of(shares, own, bites, asked.seed);
+    individual.stem_top = individual.bush.trunk;
+    if (order.model) return;
+    // An individual bends as far as its own limbs allow.
+    DeformationOf<Plain>& deformation = individual.model.deformation;
+    const double slender = individual.bush.height / std::max(individual.bush.reach, 1e-4);
+    const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
+    deformation.bend_deg = std::min(
+        {90.0, deformation.bend_deg + draws.bend * spread.bend_deg * variation, 0.5 * zone});
+}
+
+/// What stands on a swept individual.
+void stand_upon(Individual& individual, const MushroomParams& asked,
+                const std::vector<Source>& sources) {
+    if (individual.model.weathering.cracks > 0.0)
+        individual.radial_strain = strain_of(*individual.set, sources);
+    individual.wear = wear_of(sources, asked.weathering);
+    individual.layers = layers_of(sources, *individual.set);
+    individual.ring = ring_of(sources, individual.size);
+    individual.sac = sac_of(sources, individual.size);
+    for (const Source& source : sources) {
+        individual.has_ring = individual.has_ring || source.has_ring();
+        individual.has_sac = individual.has_sac || source.has_sac();
+        if (source.has_margin()) individual.waves += source.weight * source.now.weathering.waves;
+        const Comb comb{source.now.hymenium.blades, source.now.hymenium.tiers};
+        if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
+            individual.comb = comb;
+    }
+    stand_hymenium(individual, asked, sources);
+    if (individual.comb.blades > 0) {
+        individual.model.hymenium.blades = individual.comb.blades;
+        individual.model.hymenium.tiers = individual.comb.tiers;
+    }
+}
+
 }  // namespace
 
 Individual resolve(const MushroomOrder& order, const Atlas& atlas,
@@ -290,6 +390,8 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     if (!order.arcs.empty() && sources.size() != 2)
         throw InvalidInput("/arcs",
                            "arcs link two species; this mix has " + std::to_string(sources.size()));
+    if (!order.arcs.empty() && sources.front().is_branched())
+        throw Impossible("/arcs", "limbs that branch have no outlines that arcs could link");
     check_anatomy(asked, sources);
     // Arcs name the species in the order of the mix; from here on species stand by id.
     std::vector<Arc> arcs = order.arcs;
@@ -303,54 +405,19 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
         among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });
     Model& model = individual.model;
     model = among(sources, everyone, [](const Source& s) -> const Model& { return s.now; });
-    model.shape = Swept{};
+    if (sources.front().is_branched())
+        model.shape = Branched{};
+    else
+        model.shape = Swept{};
 
-    // The outline: shapes are blended in unit size, sizes by their ratio.
     const Draws draws = draws_of(asked.seed);
     const double variation = asked.variation;
-    double size = 0.0, open = 0.0;
-    for (const Source& source : sources) {
-        size += source.weight * logarithm(source.size);
-        if (source.has_margin()) open += source.weight;
-    }
-    size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
-           factor(draws.size, spread.size, variation);
-    individual.set = morph_set(sources, arcs, asked.age, morphs);
-    const auto own = [&](double share) {
-        return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
-                           factor(draws.stem_width, spread.stem_width, share * variation),
-                           factor(draws.cap_height, spread.cap_height, share * variation)};
-    };
-    individual.outline =
-        own_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
-    if (const auto fault = fault_of(individual.outline, asked.lod))
-        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
-                         "the outline crosses itself at this level of detail, near the " +
-                             std::string(name(*fault)));
-    const auto stem = individual.outline.rings(CurveName::stem, 0);
-    individual.stem_base = stem.front().y;
-    individual.stem_top = stem.back().y;
+    if (sources.front().is_branched())
+        branch_out(individual, order, sources, draws, spread);
+    else
+        sweep_out(individual, order, sources, arcs, draws, spread, morphs);
     individual.lightness = factor(draws.lightness, spread.lightness, variation);
-
-    // The axis and its deformation. An individual bends as far as its own stem allows; what a person asks for, or draws, is
-    // checked by build instead.
-    const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
-                           greatest_radius(individual.outline.stem);
-    individual.axis = axis_of(sources);
-    individual.azimuth = fan_of(sources);
-    individual.lobes = lobes_of(sources);
-    individual.reliefs = reliefs_of(sources);
     DeformationOf<Plain>& deformation = model.deformation;
-    if (!order.model) {
-        const double fold = individual.axis.greatest_turn() / slender;
-        if (fold > most_natural_fold)
-            individual.axis = individual.axis.scaled(most_natural_fold / fold);
-        const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
-        const double room = std::min(0.6, (0.95 - std::min(fold, most_natural_fold)) / 1.5);
-        const double of_template = std::min(deformation.bend_deg, 1.5 * room * zone);
-        const double drawn = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
-        deformation.bend_deg = std::min({90.0, drawn, std::max(of_template, room * zone)});
-    }
     deformation.lean_deg =
         std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
     deformation.imperfection = std::min(
@@ -363,25 +430,7 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
-    if (model.weathering.cracks > 0.0)
-        individual.radial_strain = strain_of(*individual.set, sources);
-    individual.wear = wear_of(sources, asked.weathering);
-    individual.layers = layers_of(sources, *individual.set);
-    individual.ring = ring_of(sources, size);
-    individual.sac = sac_of(sources, size);
-    for (const Source& source : sources) {
-        individual.has_ring = individual.has_ring || source.has_ring();
-        individual.has_sac = individual.has_sac || source.has_sac();
-        if (source.has_margin()) individual.waves += source.weight * source.now.weathering.waves;
-        const Comb comb{source.now.hymenium.blades, source.now.hymenium.tiers};
-        if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
-            individual.comb = comb;
-    }
-    stand_hymenium(individual, asked, sources);
-    if (individual.comb.blades > 0) {
-        model.hymenium.blades = individual.comb.blades;
-        model.hymenium.tiers = individual.comb.tiers;
-    }
+    if (!sources.front().is_branched()) stand_upon(individual, asked, sources);
     report_effective(individual.effective, model, sources);
     for (Source& source : sources) {
         const CellRows cells = cells_of(source);
@@ -396,6 +445,10 @@ SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
     check(order.params, Info{.name = ""}, "", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     const std::vector<Source> sources = sources_of(order, atlas);
+    if (sources.front().is_branched())
+        throw Impossible("mix", sources.front().who +
+                                    " branches: what its limbs have in common with others is a "
+                                    "graph, which has no outlines to link");
     SpeciesShapes shapes;
     shapes.set = morph_set(sources, {}, order.params.age, morphs);
     std::size_t first = 0;

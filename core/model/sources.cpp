@@ -28,8 +28,10 @@ std::vector<double> growth_weights(const std::vector<Stage>& stages, double age)
     return weights;
 }
 
-/// Overall size of a shape: the half diagonal of the box round its control points turned about the axis.
-double size_of(const Silhouette& s) {
+/// Overall size of a shape: the half diagonal of the box round its control points turned about the axis; of limbs their height.
+double size_of(const Model& model) {
+    if (const auto* branched = std::get_if<Branched>(&model.shape)) return branched->limbs.height;
+    const Silhouette& s = silhouette_of(model);
     double radius = 0.0, low = s.stem.front().y, high = low;
     for (const auto* part : {&s.stem, &s.hymenium, &s.cap})
         for (const OutlinePoint& p : *part) {
@@ -57,7 +59,7 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
         source.stages.push_back(&model);
         source.ages.push_back(species.stages[i].age);
         stages.add(model, source.growth[i]);
-        size += source.mature[i] * size_of(silhouette_of(model));
+        size += source.mature[i] * size_of(model);
     }
     source.size = size;
     source.now = blend(stages);
@@ -70,6 +72,22 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     source.now.hymenium.blades = most.blades;
     source.now.hymenium.tiers = most.tiers;
     return source;
+}
+
+/// A shape that is turned round an axis has nothing in common with one that branches.
+void refuse_two_families(const std::vector<Source>& sources) {
+    std::string branching, others;
+    int one = 0, other = 0;
+    for (const Source& source : sources) {
+        std::string& names = source.is_branched() ? branching : others;
+        if (!names.empty()) names += ", ";
+        names += source.who;
+        ++(source.is_branched() ? one : other);
+    }
+    if (one > 0 && other > 0)
+        throw Impossible("mix", branching + (one > 1 ? " branch; " : " branches; ") + others +
+                                    (other > 1 ? " do not" : " does not") +
+                                    ": a mix needs one family");
 }
 
 }  // namespace
@@ -87,7 +105,7 @@ std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
         own.ages = {mature_age};
         own.growth = {1.0};
         own.mature = {1.0};
-        own.size = size_of(silhouette_of(*order.model));
+        own.size = size_of(*order.model);
         own.now = *order.model;
         sources.push_back(std::move(own));
         return sources;
@@ -117,6 +135,7 @@ std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
     weights = eased_weights(std::move(weights));
     for (std::size_t i = 0; i < mix.size(); ++i)
         sources.push_back(source_of(*atlas.find(mix[i].id), weights[i], order.params.age));
+    refuse_two_families(sources);
     return sources;
 }
 

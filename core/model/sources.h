@@ -33,6 +33,9 @@ struct Source {
     Model now;                   ///< at this age
 
     [[nodiscard]] const Model& first() const { return *stages.front(); }
+    [[nodiscard]] bool is_branched() const {
+        return std::holds_alternative<Branched>(first().shape);
+    }
     [[nodiscard]] HymeniumPattern pattern() const { return first().surface.hymenium.pattern; }
     [[nodiscard]] bool has_blades() const {
         return pattern() == HymeniumPattern::gills || pattern() == HymeniumPattern::ridges;
@@ -61,16 +64,17 @@ struct Source {
                });
     }
     [[nodiscard]] bool has_margin() const {
-        return !std::get<Swept>(first().shape).silhouette.hymenium.empty();
+        const auto* swept = std::get_if<Swept>(&first().shape);
+        return swept && !swept->silhouette.hymenium.empty();
     }
 };
 
 /// The species of a mix by id, their weights eased; or the client's own Model alone.
 ///
-/// throws  InvalidInput for an unknown species and a mix that is none
+/// throws  InvalidInput for an unknown species and a mix that is none, Impossible (path "mix") for species of several families
 [[nodiscard]] std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas);
 
-/// The outline of a swept model.
+/// The outline of a swept model. pre: it is one
 [[nodiscard]] const Silhouette& silhouette_of(const Model& model);
 
 /// What the sources have together; `counts` says which of them count, the rest weigh nothing.

@@ -23,7 +23,18 @@ void Species::check(const std::string& path, std::vector<Problem>& problems) con
             report(problems, at(i, "/model/form"), "every stage has the form of the first");
             continue;
         }
-        const Swept &a = std::get<Swept>(first.shape), &b = std::get<Swept>(model.shape);
+        if (const auto* branched = std::get_if<Branched>(&model.shape)) {
+            const auto& before = std::get<Branched>(first.shape);
+            if (!(branched->ramification == before.ramification))
+                report(problems, at(i, "/model/ramification"),
+                       "every stage branches as the first; how far is limbs.unfolding");
+            if (branched->limbs.trunks != before.limbs.trunks)
+                report(problems, at(i, "/model/limbs/trunks"),
+                       "every stage has as many trunks as the first");
+        }
+        const auto* const swept = std::get_if<Swept>(&model.shape);
+        const Swept none, &a = swept ? std::get<Swept>(first.shape) : none,
+                          &b = swept ? *swept : none;
         const auto same = [&](std::size_t one, std::size_t other, const char* what) {
             if (one != other)
                 report(problems, at(i, what),

@@ -19,7 +19,9 @@ enum class GrowthForm {
     earthstar,
     tooth,
     jelly,
-    stinkhorn
+    stinkhorn,
+    coral,
+    antler
 };
 
 constexpr const char* name(GrowthForm form) {
@@ -50,6 +52,10 @@ constexpr const char* name(GrowthForm form) {
             return "jelly";
         case GrowthForm::stinkhorn:
             return "stinkhorn";
+        case GrowthForm::coral:
+            return "coral";
+        case GrowthForm::antler:
+            return "antler";
     }
     return nullptr;
 }
@@ -79,7 +85,8 @@ struct Facts {
                    .unit = "m",
                    .min = 0.001,
                    .max = 1.0,
-                   .doc = "Recorded cap diameter; absent for forms without a cap."});
+                   .doc = "Recorded cap diameter, of corals the width of the bush; absent for "
+                          "forms without either."});
         visit(&F::height_m, Info{.name = "height_m",
                                  .unit = "m",
                                  .min = 0.001,
@@ -124,14 +131,19 @@ struct Spread {
                              .min = 0,
                              .max = 1.2,
                              .doc = "Of the whole; 0.3 means from 0.74 to 1.35 times."});
-        visit(&S::stem_length,
-              Info{.name = "stem_length", .min = 0, .max = 0.8, .doc = "Of the stem's length."});
-        visit(&S::stem_width,
-              Info{.name = "stem_width", .min = 0, .max = 0.8, .doc = "Of the stem's width."});
+        visit(&S::stem_length, Info{.name = "stem_length",
+                                    .min = 0,
+                                    .max = 0.8,
+                                    .doc = "Of the stem's length, of corals that of the trunk."});
+        visit(&S::stem_width, Info{.name = "stem_width",
+                                   .min = 0,
+                                   .max = 0.8,
+                                   .doc = "Of the stem's width, of corals that of all limbs."});
         visit(&S::cap_height, Info{.name = "cap_height",
                                    .min = 0,
                                    .max = 0.6,
-                                   .doc = "Of the height of the cap over its margin."});
+                                   .doc = "Of the height of the cap over its margin, of corals "
+                                          "how far forks open."});
         visit(&S::bend_deg, Info{.name = "bend_deg",
                                  .unit = "deg",
                                  .min = 0,

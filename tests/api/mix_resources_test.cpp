@@ -15,9 +15,7 @@ using test::header;
 using test::post;
 using test::text_of;
 
-std::string species(std::size_t number) {
-    return built_in_atlas()->entries()[number].species.id.string();
-}
+std::string species(std::size_t number) { return test::swept_species(*built_in_atlas())[number]; }
 
 class MixResources : public testing::Test {
   protected:

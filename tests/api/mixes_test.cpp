@@ -26,12 +26,7 @@ using test::text_of;
 
 constexpr const char* smallest = "lod=3&texture_size=128";
 
-std::vector<std::string> species() {
-    const auto atlas = built_in_atlas();
-    std::vector<std::string> ids;
-    for (const AtlasEntry& entry : atlas->entries()) ids.push_back(entry.species.id.string());
-    return ids;
-}
+std::vector<std::string> species() { return test::swept_species(*built_in_atlas()); }
 
 std::string glb(const std::string& mix, const std::string& more = "") {
     return "/v1/mushrooms/" + mix + ".glb?" + smallest + more;

@@ -181,18 +181,26 @@ TEST_F(MorphsTest, methods_of_both_addresses_are_told) {
 }
 
 TEST_F(MorphsTest, pairs_have_a_simple_correspondence_either_way) {
-    const auto atlas = built_in_atlas();
-    const auto& species = atlas->entries();
+    const std::vector<std::string> species = test::swept_species(*built_in_atlas());
     // Each species with two others; core's tests look at every pair.
     for (std::size_t i = 0; i < species.size(); ++i)
         for (const std::size_t steps : {species.size() - 1, species.size() / 3}) {
-            const std::string one = species[i].species.id.string(),
-                              two = species[(i + steps) % species.size()].species.id.string();
+            const std::string &one = species[i], &two = species[(i + steps) % species.size()];
             const Answer answer = ask(morph(one, two));
             ASSERT_EQ(answer.status, 200) << one << ' ' << two << text_of(answer);
             EXPECT_TRUE(json_of(answer).at_pointer("/certificate/simple")->as_bool())
                 << one << ' ' << two;
         }
+}
+
+TEST_F(MorphsTest, limbs_that_branch_have_no_outlines_to_link) {
+    const Answer both = ask(morph("ramaria_formosa", "xylaria_hypoxylon"));
+    expect_problem(both, 422);
+    EXPECT_NE(text_of(both).find("/v1/mushrooms/ramaria_formosa:0.5,xylaria_hypoxylon:0.5.glb"),
+              std::string::npos);
+    const Answer strangers = ask(morph("ramaria_formosa", first));
+    expect_problem(strangers, 422);
+    EXPECT_NE(text_of(strangers).find("only species of one family"), std::string::npos);
 }
 
 // --- Mushrooms between two species ---------------------------------------------------------

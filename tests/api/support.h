@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "api/catalogue.h"
 #include "api/errors.h"
 #include "api/service.h"
 #include "core/atlas/atlas.h"
@@ -136,6 +137,14 @@ inline std::vector<std::string> expect_linked_images(Service& service, const Ans
 /// A species of the built-in atlas, and its address at the smallest cost.
 inline std::string first_species() {
     return built_in_atlas()->entries().front().species.id.string();
+}
+
+/// The species of an atlas that are turned round an axis, by id.
+inline std::vector<std::string> swept_species(const Atlas& atlas) {
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : atlas.entries())
+        if (family_of(entry.species) == Family::swept) ids.push_back(entry.species.id.string());
+    return ids;
 }
 
 inline std::string second_species() { return built_in_atlas()->entries()[1].species.id.string(); }

@@ -1,4 +1,4 @@
-// Mixes of species, drawn at random or picked evenly.
+// Mixes of species that are turned round an axis, drawn at random or picked evenly.
 #pragma once
 
 #include <algorithm>
@@ -21,9 +21,9 @@ inline Mix present(Mix mix) {
 
 using SpeciesPair = std::pair<std::string, std::string>;
 
-/// Every pair of species of the atlas, by id.
+/// Every pair of swept species of the atlas, by id.
 inline std::vector<SpeciesPair> species_pairs() {
-    const auto ids = species_ids();
+    const auto ids = swept_ids();
     std::vector<SpeciesPair> pairs;
     for (std::size_t i = 0; i < ids.size(); ++i)
         for (std::size_t j = i + 1; j < ids.size(); ++j) pairs.emplace_back(ids[i], ids[j]);
@@ -34,7 +34,7 @@ inline std::vector<SpeciesPair> species_pairs() {
 /// species than that. The ids stand in a ring, and each is paired with
 /// those some steps on: next to it are its kin by name, and half the ring away are strangers.
 inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
-    const auto ids = species_ids();
+    const auto ids = swept_ids();
     const std::size_t n = ids.size(), all = n / 2, rounds = std::min((most + n - 1) / n, all);
     std::set<SpeciesPair> pairs;
     for (std::size_t round = 0; round < rounds; ++round) {
@@ -51,7 +51,7 @@ inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
 
 /// Two to eight different species, by id.
 inline std::vector<std::string> random_species(Random& random) {
-    auto ids = species_ids();
+    auto ids = swept_ids();
     const std::size_t count =
         2 + random.bits() % static_cast<std::uint32_t>(std::min<std::size_t>(ids.size(), 8) - 1);
     for (std::size_t i = 0; i < count; ++i)

@@ -32,6 +32,36 @@ inline std::vector<std::string> species_ids() {
     return ids;
 }
 
+[[nodiscard]] inline bool is_branched(const Species& species) {
+    return std::holds_alternative<Branched>(species.stages.front().model.shape);
+}
+
+/// The species that are turned round an axis, as an atlas of their own.
+inline const Atlas& swept_atlas() {
+    static const Atlas swept = [] {
+        std::vector<std::string> texts;
+        for (const AtlasEntry& entry : atlas().entries())
+            if (!is_branched(entry.species)) texts.push_back(entry.json);
+        return Atlas(texts);
+    }();
+    return swept;
+}
+
+inline std::vector<std::string> swept_ids() {
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : swept_atlas().entries())
+        ids.push_back(entry.species.id.string());
+    return ids;
+}
+
+/// Corals and antlers.
+inline std::vector<std::string> branched_ids() {
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : atlas().entries())
+        if (is_branched(entry.species)) ids.push_back(entry.species.id.string());
+    return ids;
+}
+
 /// An order for one species, without images.
 inline MushroomOrder order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
                               int lod = 0) {

@@ -91,6 +91,9 @@ export class Bench {
         const shares = this.settings.morph?.shares ?? [];
         const kept = shares.filter((share) => share.id !== id);
         if (kept.length === shares.length) {
+            if (shares[0] && this.familyOf(id) !== this.familyOf(shares[0].id)) {
+                return this.events.say(`A morph needs one family: ${this.nameOf(id)} is ${this.familyOf(id)}, ${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`);
+            }
             if (shares.length >= mostMembers) return this.events.say(`A morph has at most ${mostMembers} species: take one off first`);
             this.choose([...shares, { id, weight: 0 }]);
         } else {
@@ -105,7 +108,8 @@ export class Bench {
         const start = this.species.findIndex(({ id }) => id === chosen[0]?.id);
         for (let step = 1; chosen.length < fewestMembers && step <= this.species.length; ++step) {
             const next = this.species[(start + step + this.species.length) % this.species.length];
-            if (next && !chosen.some(({ id }) => id === next.id)) chosen.push({ id: next.id, weight: 0 });
+            const kin = next && (!chosen[0] || this.familyOf(next.id) === this.familyOf(chosen[0].id));
+            if (kin && !chosen.some(({ id }) => id === next.id)) chosen.push({ id: next.id, weight: 0 });
         }
         if (chosen.length < fewestMembers) return this.events.say("This server has too few species for a morph");
         const alone = chosen.length === fewestMembers && shares.length < fewestMembers;
@@ -116,7 +120,7 @@ export class Bench {
     show(): void {
         const morph = this.settings.morph;
         byId("bench").hidden = !morph;
-        byId("graph").hidden = morph?.shares.length !== 2;
+        byId("graph").hidden = !this.hasGraph();
         this.history.begin(morph?.arcs ?? []);
         this.selected = undefined;
         this.refused.clear();
@@ -196,6 +200,10 @@ export class Bench {
         this.showGraph();
     }
 
+    private familyOf(id: string): string | undefined {
+        return this.species.find((one) => one.id === id)?.family;
+    }
+
     private nameOf(id: string): string {
         return this.species.find((one) => one.id === id)?.common_name ?? words(id);
     }
@@ -266,9 +274,15 @@ export class Bench {
 
     // The graph
 
+    /** Limbs that branch have no outlines to link. */
+    private hasGraph(): boolean {
+        const shares = this.settings.morph?.shares;
+        return shares?.length === 2 && shares.every(({ id }) => this.familyOf(id) !== "branched");
+    }
+
     private graphAddress(): string | undefined {
         const shares = this.settings.morph?.shares;
-        if (shares?.length !== 2) return undefined;
+        if (!shares || !this.hasGraph()) return undefined;
         const age = this.settings.values.get("age");
         return `/v1/morphs/${shares[0]!.id}/${shares[1]!.id}${age === undefined ? "" : `?age=${age}`}`;
     }

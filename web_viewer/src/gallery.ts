@@ -6,6 +6,7 @@ export interface Species {
     id: string;
     scientific_name: string;
     common_name: string;
+    family?: string;
     form?: string;
     cap_diameter_m?: [number, number] | null;
     height_m?: [number, number];

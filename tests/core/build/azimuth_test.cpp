@@ -49,7 +49,7 @@ glm::dvec2 gone(const AzimuthMap& map, const AzimuthMap::Column& column, double 
 }
 
 TEST(Azimuth, AmountsOfZeroChangeNoByte) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             const Individual plain = with(resolve(order_of(id, 0.6, 3, lod), atlas()), {});
             Azimuth azimuth;
@@ -115,7 +115,7 @@ TEST(Azimuth, DirectionsMoveByItsJacobian) {
 
 TEST(Azimuth, AnyFanAndAnyLobesAreValidMeshesAtEveryDetail) {
     Random random(7, 1);
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             const MushroomOrder order = order_of(id, random.uniform(), 2, lod);
             const Azimuth azimuth = arbitrary_azimuth(random);

@@ -90,7 +90,7 @@ TEST(Hymenium, CountsAreThoseOfTheSetWhateverAgeAndWeight) {
 }
 
 TEST(Hymenium, EstimatesAreExactForVerticesAndUpperForTriangles) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             const MushroomOrder order = order_of(id, 0.6, 2, lod);
             const Mesh mesh = mesh_of(order);

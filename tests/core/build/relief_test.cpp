@@ -148,7 +148,7 @@ TEST(Relief, NormalsAgreeWithDifferencesOfTheSkin) {
 }
 
 TEST(Relief, MeshesAreValidAtEveryDetailAndTheFinestIsFiner) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (const ReliefStyle& style : kinds())
             for (int lod = 0; lod < 4; ++lod) {
                 const Individual individual =
@@ -196,7 +196,7 @@ TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
     deep.folds = 0.3;
     deep.pits = 0.2;
     deep.tiers = 0.1;
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
             const Individual individual =
                 with(resolve(order_of(id, 0.4 * seed - 0.3, seed), atlas()), deep);

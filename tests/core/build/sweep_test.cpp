@@ -169,7 +169,7 @@ TEST(Sweep, ATorusHasTheVolumeThatPappusGivesIt) {
 }
 
 TEST(Sweep, AStraightMushroomIsTheSumOfItsFrusta) {
-    for (const AtlasEntry& entry : atlas().entries())
+    for (const AtlasEntry& entry : swept_atlas().entries())
         for (const Stage& stage : entry.species.stages)
             for (const int lod : {0, 2}) {
                 const Individual individual = individual_of(bare(silhouette_of(stage.model)));
@@ -277,7 +277,7 @@ std::pair<double, double> normal_errors(const Individual& individual, std::uint3
 }
 
 TEST(Sweep, NormalsAgreeWithDifferencesOfTheSurfaceUnderAxialDeformationAndWaves) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             MushroomOrder order = order_of(id, 0.25 * seed, seed);
             order.params.deformation.imperfection = 0.0;
@@ -294,7 +294,7 @@ TEST(Sweep, NormalsAgreeWithDifferencesOfTheSurfaceUnderAxialDeformationAndWaves
 }
 
 TEST(Sweep, NormalsFollowDentsThroughTheirJacobian) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
             MushroomOrder order = order_of(id, 0.6, seed);
             order.params.deformation.imperfection = 1.0;
@@ -313,7 +313,7 @@ TEST(Sweep, NormalsFollowDentsThroughTheirJacobian) {
 }
 
 TEST(Sweep, NormalsOfTheMeshComeCloserToItsFacesWithDetail) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         double means[3];
         for (int lod = 0; lod < 3; ++lod) {
             const Mesh mesh = swept(body_of(order_of(id, 0.6, 3, lod)), lod);
@@ -342,7 +342,7 @@ TEST(Sweep, NormalsOfTheMeshComeCloserToItsFacesWithDetail) {
 
 std::vector<std::pair<std::string, bool>> with_and_without_solids() {
     std::vector<std::pair<std::string, bool>> all;
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (const bool solids : {false, true}) all.emplace_back(id, solids);
     return all;
 }
@@ -381,7 +381,7 @@ TEST(Sweep, TangentsPointWhereTheTextureGoesAndHandednessUpTheImage) {
 }
 
 TEST(Sweep, PolesPointAlongTheAxis) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             const Detail& detail = detail_of(lod);
             const Model model = bare(mature_silhouette(id));
@@ -396,7 +396,7 @@ TEST(Sweep, PolesPointAlongTheAxis) {
 }
 
 TEST(Sweep, TheSeamColumnRepeatsColumnZeroBitForBit) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             MushroomOrder order = order_of(id, 0.9, 4, lod);
             order.params.variation = 1.0;
@@ -421,7 +421,7 @@ TEST(Sweep, TheSeamColumnRepeatsColumnZeroBitForBit) {
 }
 
 TEST(Sweep, StemHymeniumAndCapAreWeldedBitForBit) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= effort(5); ++seed)
             for (int lod = 0; lod < 4; ++lod) {
                 MushroomOrder order = order_of(id, 0.2 * seed, seed, lod);
@@ -470,7 +470,7 @@ TEST(Sweep, AClubHasNoMarginThatCouldWave) {
 
 TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {
     const double allowed[] = {0.0, 0.03, 0.07, 0.14};
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 6; ++seed) {
             MushroomOrder order = order_of(id, seed / 6.0, seed);
             order.params.variation = 1.0;
@@ -497,7 +497,7 @@ std::set<std::array<std::uint32_t, 3>> triangles_of(const Mesh& mesh) {
 }
 
 TEST(Sweep, KeptAbsentTrianglesAreTheSameAtEveryAgeAndHaveNoArea) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             const auto kept_at = [&](double age) {
                 return swept_mesh(resolved(order_of(id, age, 4)), lod,

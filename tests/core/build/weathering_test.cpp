@@ -48,7 +48,7 @@ struct Stop {
 };
 std::vector<Stop> walk(std::size_t thorough) {
     std::vector<Stop> stops;
-    const std::vector<std::string> ids = species_ids();
+    const std::vector<std::string> ids = swept_ids();
     for (std::size_t i = 0; i < ids.size(); ++i)
         for (int lod = 0; lod < 4; ++lod)
             if (i < thorough || static_cast<int>(i % 4) == lod) stops.push_back({ids[i], lod});
@@ -125,7 +125,7 @@ TEST(Weathering, NothingOfAnyKindIsTheFileOfTheCleanMushroomToTheByte) {
 }
 
 RC_GTEST_PROP(WeatheringProperty, any_combination_of_any_mix_is_a_closed_mesh, ()) {
-    const std::vector<std::string> ids = species_ids();
+    const std::vector<std::string> ids = swept_ids();
     const auto pick = [&] {
         return ids[static_cast<std::size_t>(
             *rc::gen::inRange<int>(0, static_cast<int>(ids.size())))];
@@ -285,7 +285,7 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
 
 TEST(Weathering, WhateverASpeciesWearsItKeepsTheTrianglesOfItsLevel) {
     constexpr std::array<std::size_t, 4> most = {60000, 6000, 1200, 200};
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
             MushroomOrder order = order_of(id, 0.8, 2, lod);
             for (const Effect& effect : shaping)
@@ -296,7 +296,7 @@ TEST(Weathering, WhateverASpeciesWearsItKeepsTheTrianglesOfItsLevel) {
 }
 
 TEST(Weathering, AClipHasOneTopologyWhateverTheAgeTakes) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         const auto mesh_at = [&](double age) { return mesh_of(growing(order_of(id, age, 2))); };
         const Mesh young = mesh_at(0.0), old = mesh_at(1.0);
         EXPECT_EQ(young.indices, old.indices) << id;

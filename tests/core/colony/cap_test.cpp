@@ -17,7 +17,7 @@ namespace {
 
 std::vector<std::string> with_stems() {
     std::vector<std::string> ids;
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         ColonyOrder order;
         order.mix = {{id, 1000}};
         if (colony_nature(order, atlas()).capped) ids.push_back(id);

@@ -212,7 +212,7 @@ TEST_P(RandomMixes, AreValidMeshes) {
 }
 
 TEST(Morph, TowardsACornerOfEightSpeciesTheSurfaceConverges) {
-    const auto ids = species_ids();
+    const auto ids = swept_ids();
     for (std::size_t corner = 0; corner < ids.size(); ++corner) {
         Mix mix;
         for (std::size_t k = 0; k < 8; ++k)

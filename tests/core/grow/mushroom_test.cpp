@@ -100,12 +100,13 @@ TEST_P(EverySpecies, AsAModelOfOnesOwnIsValidOrRefusedByNameWithEachFieldAtEachE
     order.model->deformation.imperfection = 0.5;
     order.model->weathering.waves = 0.5;
     // What is attached by a patch wider than high has no stem to bend.
-    const auto& stem = std::get<Swept>(order.model->shape).silhouette.stem;
-    double widest = 0.0;
-    for (const OutlinePoint& p : stem) widest = std::max(widest, p.r);
-    if (stem.back().y - stem.front().y > widest)
-        std::get<Swept>(order.model->shape).axis = {
-            {0.0, 0.0, 0.0}, {0.01, 0.5, 0.0}, {0.0, 1.0, 0.01}};
+    if (auto* swept = std::get_if<Swept>(&order.model->shape)) {
+        const auto& stem = swept->silhouette.stem;
+        double widest = 0.0;
+        for (const OutlinePoint& p : stem) widest = std::max(widest, p.r);
+        if (stem.back().y - stem.front().y > widest)
+            swept->axis = {{0.0, 0.0, 0.0}, {0.01, 0.5, 0.0}, {0.0, 1.0, 0.01}};
+    }
     int grown = 0;
     corners(*order.model, [&](const std::string& path) {
         if (path.starts_with("/surface/")) return;  // nothing of the shape
@@ -117,6 +118,7 @@ TEST_P(EverySpecies, AsAModelOfOnesOwnIsValidOrRefusedByNameWithEachFieldAtEachE
         });
         for (const Problem& problem : problems)
             EXPECT_TRUE(problem.path.starts_with("/model/silhouette") ||
+                        problem.path.starts_with("/model/ramification") ||
                         problem.path == "/model/axis" || problem.path == "/deformation/bend_deg" ||
                         problem.path == "/model/deformation/zone_to")
                 << problem.path << ": " << problem.message;

@@ -201,7 +201,7 @@ TEST(Painting, TheOrderOfSpeciesDoesNotMatter) {
 
 TEST(Painting, EightSpeciesMakeOneRecipe) {
     Mix mix;
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         if (mix.size() < 8) mix.push_back({id, 125});
     const PaintRecipe recipe = recipe_of(mixed(mix));
     EXPECT_EQ(recipe.size(), mix.size());
@@ -276,7 +276,7 @@ TEST(Painting, AtlasesThatAreHeldAreCounted) {
     EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 997}, {"boletus_edulis", 3}})), 1);
     EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 500}, {"boletus_edulis", 500}})), 3);
     Mix mix;
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         if (mix.size() < 8) mix.push_back({id, 125});
     EXPECT_EQ(atlases_held(mixed(mix)), 9);
     for (MixPart& part : mix) part.weight = 17;

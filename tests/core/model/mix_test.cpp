@@ -49,7 +49,7 @@ Atlas with_twin(const std::string& id, const Change& change = {}) {
 Silhouette& drawn(Model& model) { return std::get<Swept>(model.shape).silhouette; }
 
 TEST(Mix, OfTwinsIsTheSpeciesItself) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         const Atlas twins = with_twin(id);
         for (const double age : {0.0, 0.45, 1.0}) {
             MushroomOrder order = mix_of({{id, 300}, {"twin", 700}}, age, 5);
@@ -223,7 +223,7 @@ TEST(Mix, ItsOrderChangesNoBitAndArcsFollowTheirSpecies) {
 
 TEST(Mix, OfEightSpeciesIsAllOfThemAtOnce) {
     Mix mix;
-    const auto ids = species_ids();
+    const auto ids = swept_ids();
     for (std::size_t i = 0; i < 8; ++i) mix.push_back({ids[i * ids.size() / 8], 125});
     const Individual mixed = resolve(mix_of(mix, 0.5, 2), atlas());
     EXPECT_EQ(mixed.parts.size(), 8u);

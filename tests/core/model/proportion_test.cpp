@@ -32,7 +32,7 @@ double greatest_radius_of(const std::vector<OutlineNode>& nodes) {
 }
 
 TEST(Proportion, OfOneChangesNoBit) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         const Drawn d = drawn(id);
         const OutlineNodes same = proportioned(d.nodes, {}, d.open);
         for (const CurveName curve : curve_names)
@@ -45,7 +45,7 @@ TEST(Proportion, OfOneChangesNoBit) {
 }
 
 TEST(Proportion, StretchesWhatItSays) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         const Drawn d = drawn(id);
         const OutlineNodes s = proportioned(d.nodes, {1.2, 1.3, 1.4}, d.open);
         EXPECT_NEAR(s.stem.back().position.y, 1.2 * d.nodes.stem.back().position.y, 1e-15);
@@ -67,7 +67,7 @@ TEST(Proportion, AnOpenCapKeepsItsDiameterAndAClubWidensAsAWhole) {
 
 TEST(Proportion, VelocitiesAreMovedByTheJacobianOfTheMap) {
     const Proportions by{1.15, 1.25, 0.85};
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (const double open : {0.0, 0.4, 1.0}) {
             const Drawn d = drawn(id);
             const OutlineNodes moved = proportioned(d.nodes, by, open);
@@ -91,7 +91,7 @@ TEST(Proportion, VelocitiesAreMovedByTheJacobianOfTheMap) {
 }
 
 TEST(Proportion, SmoothJoinsStaySmooth) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         const Drawn d = drawn(id);
         const OutlineNodes moved = proportioned(d.nodes, {1.2, 0.8, 1.3}, d.open);
         const auto bend = [](const OutlineNode& in, const OutlineNode& out) {

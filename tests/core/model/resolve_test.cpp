@@ -48,7 +48,7 @@ Model with_counts_of(Model model, const Model& set) {
 }
 
 TEST(Resolve, AtTheAgeOfAStageAnUnvariedIndividualIsTheTemplate) {
-    for (const AtlasEntry& entry : atlas().entries())
+    for (const AtlasEntry& entry : swept_atlas().entries())
         for (const Stage& stage : entry.species.stages) {
             MushroomOrder order = order_of(entry.species.id.string(), stage.age);
             order.params.variation = 0.0;
@@ -96,7 +96,7 @@ TEST(Resolve, BetweenStagesAgesBlendLinearly) {
 }
 
 TEST(Resolve, GrowingNeverJumps) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         MushroomOrder order = order_of(id, 0.0, 5);
         order.params.variation = 1.0;
         const int steps = static_cast<int>(effort(400, 20, 400));
@@ -127,7 +127,7 @@ TEST(Resolve, WithoutVariationAllSeedsHaveTheSameProportions) {
 }
 
 TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
-    for (const AtlasEntry& entry : atlas().entries()) {
+    for (const AtlasEntry& entry : swept_atlas().entries()) {
         const Species& species = entry.species;
         const Spread& spread = species.spread;
         MushroomOrder order = order_of(species.id.string(), 0.6);
@@ -176,7 +176,7 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
 }
 
 TEST(Resolve, SizeScalesTheWholeAndNothingElse) {
-    for (const std::string& id : species_ids()) {
+    for (const std::string& id : swept_ids()) {
         MushroomOrder order = order_of(id, 0.6, 8);
         const Individual one = resolved(order);
         order.params.size = 4.0;
@@ -342,7 +342,7 @@ TEST(Resolve, WhatIsAskedIsExactlyWhatTheIndividualHas) {
 }
 
 TEST(Resolve, EffectiveParametersGiveTheSameIndividualBack) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 8; ++seed) {
             MushroomOrder order = textured(order_of(id, seed / 8.0, seed, 1));
             order.params.variation = 1.0;

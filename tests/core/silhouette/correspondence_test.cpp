@@ -110,7 +110,8 @@ TEST(Correspondence, ACurveCorrespondsToItselfPlaceByPlace) {
     Random random(8, 0);
     const Edges a = random_edges(random, 30);
     for (const Link& link : least_work_links(a, a)) EXPECT_EQ(link.a, link.b);
-    const Outline outline(silhouette_of(atlas().entries().front().species.stages.back().model));
+    const Outline outline(
+        silhouette_of(swept_atlas().entries().front().species.stages.back().model));
     const ShareMap map = correspondence(outline.cap, outline.cap);
     for (int i = 0; i <= 100; ++i) EXPECT_NEAR(map(i / 100.0).at, i / 100.0, 1e-12);
 }
@@ -154,19 +155,19 @@ TEST(Correspondence, WhereNothingIsGainedTheMatchGoesByLength) {
 }
 
 TEST(Correspondence, SizePlaysNoRole) {
-    Silhouette small = silhouette_of(atlas().entries().front().species.stages.back().model);
+    Silhouette small = silhouette_of(swept_atlas().entries().front().species.stages.back().model);
     Silhouette large = small;
     for (auto* part : {&large.stem, &large.hymenium, &large.cap})
         for (OutlinePoint& p : *part) p = {p.r * 8.0, p.y * 8.0};
-    const Outline other(silhouette_of(atlas().entries().back().species.stages.back().model));
+    const Outline other(silhouette_of(swept_atlas().entries().back().species.stages.back().model));
     const ShareMap a = correspondence(Outline(small).cap, other.cap);
     const ShareMap b = correspondence(Outline(large).cap, other.cap);
     for (int i = 0; i <= 100; ++i) EXPECT_NEAR(a(i / 100.0).at, b(i / 100.0).at, 1e-9);
 }
 
 TEST(Correspondence, MapsRiseWithBoundedSlopes) {
-    for (const AtlasEntry& one : atlas().entries())
-        for (const AtlasEntry& two : atlas().entries()) {
+    for (const AtlasEntry& one : swept_atlas().entries())
+        for (const AtlasEntry& two : swept_atlas().entries()) {
             const Outline a(silhouette_of(one.species.stages.back().model));
             const Outline b(silhouette_of(two.species.stages.front().model));
             for (const CurveName curve : curve_names) {
@@ -192,8 +193,8 @@ TEST(Correspondence, MapsRiseWithBoundedSlopes) {
 }
 
 TEST(Correspondence, LandmarksAreKept) {
-    const Outline a(silhouette_of(atlas().entries()[0].species.stages.back().model));
-    const Outline b(silhouette_of(atlas().entries()[1].species.stages.back().model));
+    const Outline a(silhouette_of(swept_atlas().entries()[0].species.stages.back().model));
+    const Outline b(silhouette_of(swept_atlas().entries()[1].species.stages.back().model));
     const std::vector<Landmark> landmarks{{0.2, 0.4}, {0.5, 0.45}, {0.51, 0.9}};
     const ShareMap map = correspondence(a.cap, b.cap, landmarks);
     for (const Landmark& landmark : landmarks) EXPECT_NEAR(map(landmark.a).at, landmark.b, 1e-12);

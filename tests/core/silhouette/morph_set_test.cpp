@@ -39,7 +39,7 @@ std::vector<ControlShape> shapes_of(const AtlasEntry& entry, std::size_t kin) {
 /// Where a species stands in the atlas.
 std::size_t place_of(std::string_view id) {
     std::size_t place = 0;
-    while (atlas().entries().at(place).species.id.view() != id) ++place;
+    while (swept_atlas().entries().at(place).species.id.view() != id) ++place;
     return place;
 }
 
@@ -62,7 +62,7 @@ MorphSet set_of(std::initializer_list<std::size_t> species, std::span<const Arc>
     std::vector<ControlShape> shapes;
     std::size_t kin = 0;
     for (const std::size_t s : species) {
-        const auto own = shapes_of(atlas().entries()[s], kin++);
+        const auto own = shapes_of(swept_atlas().entries()[s], kin++);
         shapes.insert(shapes.end(), own.begin(), own.end());
     }
     return MorphSet(std::move(shapes), arcs, arcs_age);
@@ -86,7 +86,7 @@ std::vector<std::size_t> kins_of(std::initializer_list<std::size_t> species) {
     std::vector<std::size_t> kins;
     std::size_t kin = 0;
     for (const std::size_t s : species)
-        kins.insert(kins.end(), atlas().entries()[s].species.stages.size(), kin++);
+        kins.insert(kins.end(), swept_atlas().entries()[s].species.stages.size(), kin++);
     return kins;
 }
 
@@ -142,7 +142,7 @@ double diagonal(const Polyline& line) {
 }
 
 TEST(MorphSet, EndpointsAreTheControlShapes) {
-    for (const AtlasEntry& entry : atlas().entries()) {
+    for (const AtlasEntry& entry : swept_atlas().entries()) {
         const auto shapes = shapes_of(entry, 0);
         const MorphSet set(shapes);
         for (std::size_t s = 0; s < shapes.size(); ++s) {
@@ -269,7 +269,7 @@ TEST(MorphSet, CrossingArcsAreRefusedAndNamed) {
 }
 
 TEST(MorphSet, RingsSpendTheirChordsWell) {
-    for (const AtlasEntry& entry : atlas().entries()) {
+    for (const AtlasEntry& entry : swept_atlas().entries()) {
         const auto shapes = shapes_of(entry, 0);
         const MorphSet set(shapes);
         for (std::size_t s = 0; s < shapes.size(); ++s) {
@@ -290,7 +290,7 @@ TEST(MorphSet, RingsSpendTheirChordsWell) {
 // Growth at any two ages; pairs of species have a test of their own (PairOutlines).
 TEST(MorphSet, EverySpeciesIsSimpleAtEveryMomentBetweenTwoAges) {
     constexpr std::array<double, 5> ages = {0.0, 0.25, 0.5, 0.75, 1.0};
-    for (std::size_t a = 0; a < atlas().entries().size(); ++a) {
+    for (std::size_t a = 0; a < swept_atlas().entries().size(); ++a) {
         const MorphSet set = set_of({a});
         for (const double from : ages)
             for (const double to : ages) {
@@ -518,7 +518,7 @@ TEST(MorphSet, ShapesOfStrangersAreRefusedOrNeverCross) {
     for (int trial = 0; trial < 150; ++trial) {
         std::vector<ControlShape> shapes;
         for (std::size_t kin = 0; kin < 3; ++kin) {
-            const auto& entries = atlas().entries();
+            const auto& entries = swept_atlas().entries();
             ControlShape shape =
                 shapes_of(entries[random.bits() % entries.size()], 0)[random.bits() % 4];
             Silhouette& s = shape.silhouette;

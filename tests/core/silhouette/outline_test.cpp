@@ -43,7 +43,7 @@ TEST(Outline, CoincidingControlPointsAreNamed) {
 }
 
 TEST(Outline, PassesThroughEveryControlPoint) {
-    for (const AtlasEntry& entry : atlas().entries())
+    for (const AtlasEntry& entry : swept_atlas().entries())
         for (const Stage& stage : entry.species.stages) {
             const Silhouette& s = silhouette_of(stage.model);
             const Outline outline(s);
@@ -65,7 +65,7 @@ TEST(Outline, PassesThroughEveryControlPoint) {
 }
 
 TEST(Outline, SubCurvesMeetBitForBit) {
-    for (const AtlasEntry& entry : atlas().entries())
+    for (const AtlasEntry& entry : swept_atlas().entries())
         for (const Stage& stage : entry.species.stages) {
             const Outline outline(silhouette_of(stage.model));
             const auto meet = [](const SubCurve& a, const SubCurve& b) {
@@ -240,7 +240,7 @@ TEST(Outline, RandomOutlinesAreDrawnOrRefusedNeverBroken) {
 
 // The individual's own proportions and the blend between stages must not tie the outline into a knot.
 TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
-    for (const std::string& id : species_ids())
+    for (const std::string& id : swept_ids())
         for (int step = 0; step < 64; ++step)
             for (std::uint32_t seed = 0; seed < effort(6); ++seed) {
                 MushroomOrder order = order_of(id, step / 63.0, 1000 * seed + 7);

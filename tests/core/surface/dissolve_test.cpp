@@ -334,7 +334,7 @@ TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
 
 TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
     // Each species with the next of the atlas and with one far from it.
-    const std::vector<std::string> ids = species_ids();
+    const std::vector<std::string> ids = swept_ids();
     const auto raw_of = [&](std::size_t i) {
         const MushroomOrder order = painted(order_of(ids[i % ids.size()]), 256);
         return paint_raw(unlaid(paint_recipe(order, atlas()).at(0).painting));

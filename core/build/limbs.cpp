@@ -1,0 +1,601 @@
+#include "core/build/limbs.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <numeric>
+#include <utility>
+
+#include "core/build/budget.h"
+#include "core/build/directions.h"
+#include "core/math/elementary.h"
+#include "core/math/random.h"
+#include "core/math/spline.h"
+#include "core/mesh/tangents.h"
+#include "core/model/purposes.h"
+#include "core/params/messages.h"
+#include "core/surface/charts.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr std::uint32_t none = Bush::none;
+
+/// How finely tubes are drawn.
+struct LimbDetail {
+    int trunk_sides;  ///< of tubes that bear many tips
+    int sides;        ///< of the others
+    int twig_sides;   ///< of last branches
+    int steps;        ///< rings from fork to fork
+    int tip_rings;    ///< rings of a last branch before its end
+    int trunk_rings;  ///< of a trunk below its lowest fork, at least 2
+    int forks;        ///< at most so many forks of a tube have rings; of a trunk's one more
+};
+constexpr int all = 1000;
+constexpr std::array<LimbDetail, 10> ladder = {{{28, 20, 18, 8, 12, 10, all},
+                                                {20, 12, 10, 4, 6, 6, all},
+                                                {16, 10, 8, 3, 5, 6, all},
+                                                {14, 8, 6, 2, 4, 5, all},
+                                                {12, 7, 5, 2, 3, 5, all},
+                                                {10, 6, 4, 1, 2, 4, all},
+                                                {7, 5, 4, 1, 1, 3, all},
+                                                {6, 3, 3, 1, 1, 3, all},
+                                                {6, 4, 3, 1, 1, 3, 2},
+                                                {4, 3, 3, 1, 1, 2, 0}}};
+/// The finest step of the ladder by level of detail, and the coarsest: what is too much for that loses its smallest limbs. Near by
+/// every fork that is left has its ring, or limbs would leave their places.
+constexpr std::array<std::size_t, 4> first_step = {0, 4, 8, 9};
+constexpr std::array<std::size_t, 4> last_step = {7, 7, 8, 9};
+/// Rather than a coarser step, this share of limbs may be missing.
+constexpr double enough = 0.75;
+/// Tips that a tube bears at its beginning to count as thick.
+constexpr int many_tips = 12;
+
+/// A limb and all that goes on from it: first children, up to a tip.
+struct Chain {
+    std::vector<std::uint32_t> nodes;
+    int tips = 1;
+    bool root = false;
+};
+
+std::vector<Chain> chains_of(const Bush& bush) {
+    std::vector<Chain> chains;
+    for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) {
+        const Bush::Node& node = bush.nodes[i];
+        if (node.parent != none && bush.nodes[node.parent].children[0] == i) continue;
+        Chain chain;
+        chain.tips = node.tips;
+        chain.root = node.parent == none;
+        for (std::uint32_t at = i; at != none; at = bush.nodes[at].children[0])
+            chain.nodes.push_back(at);
+        chains.push_back(std::move(chain));
+    }
+    // Those that bear most come first: they are kept.
+    // Of equals some on every side: their numbers scattered.
+    const auto scattered = [](const Chain& chain) { return chain.nodes.front() * 0x9e3779b1U; };
+    std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
+        if (a.root != b.root) return a.root;
+        return a.tips != b.tips ? a.tips > b.tips : scattered(a) < scattered(b);
+    });
+    return chains;
+}
+
+int sides_of(const Chain& chain, const LimbDetail& detail) {
+    if (chain.root || chain.tips >= many_tips) return detail.trunk_sides;
+    return chain.tips > 1 ? detail.sides : detail.twig_sides;
+}
+
+/// Forks along a chain that have rings, and how many there are.
+int forks_along(const Chain& chain) {
+    return static_cast<int>(chain.nodes.size()) - (chain.root ? 2 : 1);
+}
+int shown_forks(const Chain& chain, const LimbDetail& detail) {
+    return std::min(forks_along(chain), detail.forks + (chain.root ? 1 : 0));
+}
+
+/// The nodes at whose ends a tube has rings, and its tip.
+std::vector<std::uint32_t> shown_nodes(const Chain& chain, const LimbDetail& detail) {
+    const int there = forks_along(chain), shown = shown_forks(chain, detail);
+    std::vector<std::uint32_t> nodes;
+    for (int k = 1; k <= shown; ++k)
+        nodes.push_back(chain.nodes[static_cast<std::size_t>((chain.root ? 0 : -1) +
+                                                             k * (there + 1) / (shown + 1))]);
+    nodes.push_back(chain.nodes.back());
+    return nodes;
+}
+
+/// Rings of a tube between its two ends: what a chain's stations come to.
+int rings_of(const Chain& chain, const LimbDetail& detail) {
+    // And that at the fork where it begins, or at the top of the trunk.
+    return 1 + shown_forks(chain, detail) * detail.steps + detail.tip_rings;
+}
+
+MeshCount count_of(const Chain& chain, const LimbDetail& detail) {
+    const auto sides = static_cast<std::uint64_t>(sides_of(chain, detail));
+    const auto rings = static_cast<std::uint64_t>(rings_of(chain, detail));
+    // A row at the beginning, a point at the tip.
+    MeshCount count{(chain.root ? rings : rings + 1) * sides + 1, 2 * rings * sides};
+    if (chain.root) {
+        const auto trunk = static_cast<std::uint64_t>(detail.trunk_rings);
+        count.vertices += (trunk + 1) * (sides + 1);
+        count.triangles += (2 * (trunk - 1) + 1) * sides - sides;
+    }
+    return count;
+}
+
+/// What of a bush is drawn at a level of detail.
+struct Plan {
+    LimbDetail detail{};
+    std::vector<Chain> chains;
+    MeshCount count;
+};
+
+Plan plan_of(const Bush& bush, int lod) {
+    Plan plan;
+    plan.chains = chains_of(bush);
+    const std::uint64_t most = most_triangles[static_cast<std::size_t>(lod)];
+    const std::size_t last = last_step[static_cast<std::size_t>(lod)];
+    for (std::size_t step = first_step[static_cast<std::size_t>(lod)]; step <= last; ++step) {
+        plan.detail = ladder[step];
+        plan.count = {};
+        std::size_t kept = 0;
+        for (; kept < plan.chains.size(); ++kept) {
+            const MeshCount one = count_of(plan.chains[kept], plan.detail);
+            if (plan.count.triangles + one.triangles > most) break;
+            plan.count.vertices += one.vertices;
+            plan.count.triangles += one.triangles;
+        }
+        if (static_cast<double>(kept) >= enough * static_cast<double>(plan.chains.size()) ||
+            step == last) {
+            plan.chains.resize(kept);
+            break;
+        }
+    }
+    return plan;
+}
+
+/// Curvature of a bent bush times how far its limbs reach: at 1 those on the inner side would meet.
+constexpr double most_fold = 0.75;
+
+/// What limbs that are left out leave to those that stay: width as a power of the number of tips, and colour of the tips.
+constexpr double width_left = 0.65, tips_shown = 0.4;
+
+/// A place on the middle of a tube.
+struct Station {
+    glm::dvec3 at{0.0}, along{0.0, 1.0, 0.0};
+    glm::dmat3 flat{0.0};  ///< which way it is flattened: sum of squares of unit vectors
+    double radius = 0.0, wide = 1.0, thin = 1.0;  ///< in that way, and square to it
+    double at_fork = 0.0;                         ///< 0..1: how near a fork it is
+    double colour = 0.0;  ///< see Bush::Node::from_tip; of a trunk the share of its length
+};
+
+glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
+
+/// Polygons are narrower than the circles round them: by how much, seen from all sides.
+double widened(int sides) { return pi / (sides * sine(pi / sides)); }
+
+/// A bush where its deformation has put it.
+Bush deformed(const Individual& individual) {
+    Bush bush = individual.bush;
+    const DeformationOf<Plain>& deformation = individual.model.deformation;
+    Random random(individual.effective.seed, purposes::axis_angles);
+    const double bend = random.uniform(0.0, 2.0 * pi);
+    const double lean = random.uniform(0.0, 2.0 * pi);
+    const Axis axis(AxisCurve(), deformation, {bend, lean}, 0.0, bush.height);
+    const double fold = axis.greatest_curvature() * bush.reach;
+    if (fold >= most_fold)
+        throw Impossible(
+            "/deformation/bend_deg",
+            number_text(deformation.bend_deg) + " bends this bush through itself; about " +
+                number_text(std::floor(0.97 * most_fold * deformation.bend_deg / fold * 10.0) /
+                            10.0) +
+                " is the most over this zone");
+    std::vector<FreeForm> dents;
+    if (deformation.imperfection > 0.0)
+        for (std::uint32_t i = 0; i < 9; ++i) {
+            Random place(individual.effective.seed, purposes::dents, i);
+            const double angle = place.uniform(0.0, 2.0 * pi), high = place.uniform(0.35, 1.0);
+            const double strength = place.symmetric(), width = place.uniform(0.7, 1.2);
+            const double down = place.symmetric();
+            const auto [s, c] = sine_cosine(angle);
+            const double size = width * std::max(bush.reach, 0.3 * bush.height);
+            const glm::dvec3 out(c, 0.7 * down, s);
+            dents.push_back(dent(
+                glm::dvec3(0.7 * bush.reach * c, high * bush.height, 0.7 * bush.reach * s),
+                glm::dvec3(1.6 * size), 0.08 * deformation.imperfection * strength * size * out));
+        }
+    const auto moved = [&](SurfacePoint& point) {
+        for (const FreeForm& one : dents) one.apply(point.position, point.meridian, point.azimuth);
+        const AxisStation station = axis.at(point.position.y);
+        point.meridian = station.direction(point.position, point.meridian);
+        point.azimuth = station.direction(point.position, point.azimuth);
+        point.position = station.point(point.position);
+    };
+    for (Bush::Node& node : bush.nodes) {
+        // Where its limb begins, and where it ends.
+        SurfacePoint start{node.beside, node.heading, node.across};
+        if (node.parent != none) start.position += individual.bush.nodes[node.parent].place;
+        SurfacePoint end{node.place, node.heading, node.across};
+        moved(start);
+        moved(end);
+        node.heading = unit_or(end.position - start.position, unit_or(end.meridian, node.heading));
+        node.across = square_to(node.heading, end.azimuth);
+        node.beside =
+            node.parent == none ? glm::dvec3(0.0) : start.position - bush.nodes[node.parent].place;
+        node.place = end.position;
+    }
+    return bush;
+}
+
+class Tubes {
+  public:
+    Tubes(const Individual& individual, int lod, const SweepOptions& options)
+        : bush_(deformed(individual)),
+          plan_(plan_of(bush_, lod)),
+          seed_(individual.effective.seed),
+          goes_round_(lod < 2),
+          options_(options),
+          stands_for_(bush_.nodes.size(), 1.0),
+          drawn_(bush_.nodes.size()) {
+        weigh_what_is_left_out();
+    }
+
+    Mesh build() {
+        const auto vertices = static_cast<std::size_t>(plan_.count.vertices);
+        mesh_.positions.reserve(vertices);
+        mesh_.normals.reserve(vertices);
+        mesh_.texture_coordinates.reserve(vertices);
+        mesh_.indices.reserve(3 * static_cast<std::size_t>(plan_.count.triangles));
+        for (const Chain& chain : plan_.chains) add(chain);
+        if (options_.textured)
+            add_tangents(mesh_);
+        else
+            mesh_.texture_coordinates.clear();
+        return std::move(mesh_);
+    }
+
+  private:
+    using Node = Bush::Node;
+
+    [[nodiscard]] const Node& node(std::uint32_t i) const { return bush_.nodes[i]; }
+
+    // Of each node, how many times more tips its limb stands for than it bears.
+    void weigh_what_is_left_out() {
+        std::vector<bool> kept(bush_.nodes.size(), false);
+        double left = 0.0, all_left = 0.0;
+        for (const Chain& chain : plan_.chains) {
+            for (const std::uint32_t i : chain.nodes) kept[i] = true;
+            left += node(chain.nodes.back()).presence;
+        }
+        for (const std::uint32_t root : bush_.roots) all_left += node(root).left;
+        // Tubes whose only ring is near their tips show it anyway.
+        if (plan_.detail.forks > 0)
+            thinned_ = 1.0 + tips_shown * std::max(0.0, 1.0 - left / all_left);
+        for (std::uint32_t i = 0; i < bush_.nodes.size(); ++i) {
+            const Node& one = node(i);
+            if (one.children[0] == none) continue;
+            const double mine = std::max(node(one.children[0]).left, 1e-9);
+            for (const std::uint32_t child : one.children) stands_for_[child] = stands_for_[i];
+            if (!kept[one.children[1]])
+                stands_for_[one.children[0]] *= std::max(1.0, one.left / mine);
+        }
+    }
+
+    // Of the ring at the end of a limb: where it forks it has begun to be as thin as what goes on.
+    [[nodiscard]] double radius_at(std::uint32_t i) const {
+        const double own = wide_as(i);
+        return bush_.is_tip(i) ? own : std::sqrt(own * wide_as(node(i).children[0]));
+    }
+    [[nodiscard]] double wide_as(std::uint32_t i) const {
+        return node(i).radius * power(stands_for_[i], width_left);
+    }
+
+    // Where fewer tips are, the colour of tips reaches further down: so much of it was seen.
+    [[nodiscard]] double colour_at(std::uint32_t i) const {
+        return power(node(i).from_tip, thinned_);
+    }
+
+    // The way in which a tube passes the end of a limb: half-way between that limb and the next.
+    [[nodiscard]] glm::dvec3 passing(std::uint32_t i) const {
+        if (bush_.is_tip(i)) return node(i).heading;
+        return unit_or(node(i).heading + node(node(i).children[0]).heading, node(i).heading);
+    }
+
+    [[nodiscard]] bool skips_forks() const { return plan_.detail.forks < all; }
+
+    static SplineSegment<glm::dvec3> way(const glm::dvec3& from, const glm::dvec3& leaving,
+                                         const glm::dvec3& to, const glm::dvec3& arriving) {
+        const double length = glm::distance(from, to);
+        return {from, to, length * leaving, length * arriving};
+    }
+
+    // How wide a limb is at its fork, and how flat.
+    void shape(Station& station, double at_fork, double flat) const {
+        const double flatness = bush_.flatness * flat;
+        station.at_fork = at_fork;
+        station.wide = (1.0 + bush_.web * at_fork) / std::sqrt(1.0 - flatness);
+        station.thin = std::sqrt(1.0 - flatness);
+    }
+
+    // Stations of one limb from a share of its length on; `from` is at its beginning.
+    void add_limb(std::vector<Station>& stations, const Station& from, std::uint32_t i) const {
+        const Node& end = node(i);
+        const bool tip = bush_.is_tip(i);
+        // Where forks have no rings, a twig may begin beside its place: it goes straight to its end.
+        const glm::dvec3 arriving =
+            tip && skips_forks() ? unit_or(end.place - from.at, end.heading) : passing(i);
+        const auto curve = way(from.at, from.along, end.place, arriving);
+        const double radius = radius_at(i);
+        const glm::dmat3 flat = tip ? from.flat : square_of(end.across);
+        const int steps = tip ? plan_.detail.tip_rings : plan_.detail.steps;
+        // A last branch is cut off where slugs have eaten, or ends round.
+        const double blunt = bush_.bluntness + end.eaten * (1.0 - bush_.bluntness);
+        const double length = std::max(glm::distance(from.at, end.place), 1e-12);
+        const double round = std::min(0.8, blunt * radius / length);
+        const double web_after = from.at_fork;
+        for (int k = 1; k <= steps; ++k) {
+            // Rings of a tip crowd towards its end.
+            const double share = static_cast<double>(k) / (steps + (tip ? 1 : 0));
+            double t = share;
+            if (tip) t = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
+            // One ring alone stands where the end begins to close.
+            if (tip && steps == 1) t = std::max(0.6, 1.0 - 0.7 * round);
+            const auto sample = curve.at(t);
+            Station s;
+            s.at = sample.position;
+            // Rings turn as headings do: where limbs leave side by side the tube is sheared, not bent.
+            s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
+            s.flat = (1.0 - t) * from.flat + t * flat;
+            s.radius =
+                from.radius + (tip ? t : smooth_step(-0.15, 1.15, t)) * (radius - from.radius);
+            if (tip) {
+                const double taper = (1.0 - t) * (1.0 - bush_.bluntness) + bush_.bluntness;
+                s.radius *= end.eaten + (1.0 - end.eaten) * taper;
+                if (steps > 1 && t > 1.0 - round) {
+                    const double x = (t - 1.0 + round) / round;
+                    s.radius *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
+                }
+            }
+            // A fork spreads into both of the limbs that leave it.
+            const double near_end = tip ? 0.0 : smooth_step(0.5, 1.0, t);
+            shape(s, near_end + web_after * (1.0 - smooth_step(0.0, 0.6, t)), 1.0);
+            s.colour = from.colour + t * (colour_at(i) - from.colour);
+            stations.push_back(s);
+        }
+    }
+
+    // Where a tube passes a node on the way from a station to the end of another limb.
+    [[nodiscard]] Station between(const Station& from, std::uint32_t end, std::uint32_t i) const {
+        const double before = glm::distance(from.at, node(i).place);
+        const double after = glm::distance(node(i).place, node(end).place);
+        const double t = before / std::max(before + after, 1e-12);
+        const auto sample = way(from.at, from.along, node(end).place, passing(end)).at(t);
+        Station s = from;
+        s.at = sample.position;
+        s.along = unit_or((1.0 - t) * from.along + t * passing(end), node(i).heading);
+        s.radius = from.radius + t * (radius_at(end) - from.radius);
+        s.colour = from.colour + t * (colour_at(end) - from.colour);
+        return s;
+    }
+
+    void add(const Chain& chain) {
+        const int sides = sides_of(chain, plan_.detail);
+        Station begin;
+        std::vector<Station> stations;
+        const std::uint32_t first = chain.nodes.front();
+        const std::uint32_t parent = node(first).parent;
+        if (chain.root) {
+            begin = trunk(first, sides);
+        } else {
+            // It begins inside of its bearer: a twig on its side, one of two equals as wide as it is.
+            const Node& bearer = node(parent);
+            const Station& there = drawn_[parent];
+            const double sibling = std::max(wide_as(bearer.children[0]), 1e-12);
+            const double equal = std::min(1.0, wide_as(first) / sibling);
+            begin.at = there.at + (1.0 - equal) * node(first).beside;
+            // Half-way between the ways of both, so that it never begins backwards.
+            const glm::dvec3 onwards =
+                skips_forks()
+                    ? unit_or(node(shown_nodes(chain, plan_.detail).front()).place - begin.at,
+                              node(first).heading)
+                    : node(first).heading;
+            begin.along = unit_or(there.along + onwards, there.along);
+            begin.flat = square_of(bearer.across);
+            begin.radius = 0.97 * equal * there.radius;
+            shape(begin, 0.0, 1.0);
+            begin.colour = there.colour;
+            Station inside = begin;
+            const double deep = std::min(1.1 * there.radius, 0.7 * glm::length(there.at));
+            inside.at = there.at - deep * there.along;
+            inside.along = there.along;
+            inside.radius = 0.0;
+            stations.push_back(inside);
+        }
+        stations.push_back(begin);
+        std::size_t next = chain.root ? 1 : 0;
+        if (chain.root) drawn_[first] = begin;
+        for (const std::uint32_t shown : shown_nodes(chain, plan_.detail)) {
+            const Station from = stations.back();
+            add_limb(stations, from, shown);
+            drawn_[shown] = stations.back();
+            // What begins at a fork without a ring begins on the way between those that have one.
+            for (; chain.nodes[next] != shown; ++next)
+                drawn_[chain.nodes[next]] = between(from, shown, chain.nodes[next]);
+            ++next;
+        }
+        limb(chain, stations, sides);
+    }
+
+    // Rows of a trunk from the ground to its lowest fork; what goes on begins where they end.
+    Station trunk(std::uint32_t root, int sides) {
+        const Node& top = node(root);
+        const double radius = radius_at(root);
+        std::vector<Station> stations;
+        Station station;
+        station.flat = square_of(top.across);
+        const glm::dvec3 foot(0.0, -0.2 * bush_.foot * radius, 0.0);
+        const glm::dvec3 rise = unit_or(top.heading + glm::dvec3(0.0, 1.0, 0.0), top.heading);
+        const auto curve = way(foot, rise, top.place, passing(root));
+        const int rings = plan_.detail.trunk_rings;
+        for (int k = 0; k < rings; ++k) {
+            const double t = static_cast<double>(k) / (rings - 1);
+            const auto sample = curve.at(t);
+            station.at = sample.position;
+            station.along = unit_or(sample.derivative, top.heading);
+            const double low = bush_.foot * wide_as(root);
+            station.radius = low + smooth_step(0.0, 1.0, t) * (radius - low);
+            station.colour = t;
+            shape(station, smooth_step(0.5, 1.0, t), 0.5 + 0.5 * t);
+            stations.push_back(station);
+        }
+        Station end = stations.front();
+        end.radius = 0.0;
+        stations.insert(stations.begin(), end);
+        const auto row = static_cast<std::uint32_t>(sides + 1);
+        side_ = square_to(stations.front().along, top.across);
+        const std::uint32_t base = rows(stations, sides, true, 0.0);
+        for (std::uint32_t i = 0; i + 1 < stations.size(); ++i)
+            for (std::uint32_t j = 0; j + 1 < row; ++j) {
+                const std::uint32_t a = base + i * row + j, b = a + 1, c = a + row, d = c + 1;
+                if (i > 0) mesh_.indices.insert(mesh_.indices.end(), {a, c, b});
+                mesh_.indices.insert(mesh_.indices.end(), {b, c, d});
+            }
+        Station begin = stations.back();
+        begin.colour = 1.0;
+        return begin;
+    }
+
+    // One tube: its rows, and the point in which it ends.
+    void limb(const Chain& chain, const std::vector<Station>& stations, int sides) {
+        const auto row = static_cast<std::uint32_t>(sides);
+        const Node& tip = node(chain.nodes.back());
+        const std::uint32_t start = node(chain.nodes.front()).parent;
+        const double turn =
+            chain.root
+                ? 0.0
+                : 2.0 * pi * Random(seed_, purposes::limb_turns, chain.nodes.front()).uniform();
+        // What goes on from a trunk begins with the very ring in which that ends.
+        if (!chain.root) side_ = square_to(stations.front().along, node(start).across);
+        const std::uint32_t base = rows(stations, sides, false, turn);
+        const auto end = static_cast<std::uint32_t>(mesh_.positions.size());
+        const double colour = colour_at(chain.nodes.back());
+        const auto [s, c] = sine_cosine(turn);
+        const auto at = disc_point(swept_charts[0], colour, c, s);
+        mesh_.positions.emplace_back(tip.place);
+        mesh_.normals.emplace_back(tip.heading);
+        mesh_.texture_coordinates.emplace_back(at.u, at.v);
+        if (!options_.keep_absent && node(chain.nodes.front()).presence < 0.004) return;
+        const auto count = static_cast<std::uint32_t>(stations.size());
+        for (std::uint32_t i = 0; i + 1 < count; ++i)
+            for (std::uint32_t j = 0; j < row; ++j) {
+                const std::uint32_t k = (j + 1) % row;
+                const std::uint32_t a = base + i * row + j, b = base + i * row + k;
+                const std::uint32_t d = a + row, e = b + row;
+                if (chain.root || i > 0) mesh_.indices.insert(mesh_.indices.end(), {a, d, b});
+                mesh_.indices.insert(mesh_.indices.end(), {b, d, e});
+            }
+        for (std::uint32_t j = 0; j < row; ++j) {
+            const std::uint32_t a = base + (count - 1) * row + j;
+            const std::uint32_t b = base + (count - 1) * row + (j + 1) % row;
+            mesh_.indices.insert(mesh_.indices.end(), {a, end, b});
+        }
+    }
+
+    // Appends the vertices of all rows: columns of a trunk end where they began, those of limbs meet round the chart's disc.
+    std::uint32_t rows(const std::vector<Station>& stations, int sides, bool strip, double turn) {
+        const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
+        const auto columns = static_cast<std::size_t>(sides);
+        std::vector<glm::dvec3> places, outs;
+        const double wider = widened(sides);
+        for (std::size_t i = 0; i < stations.size(); ++i) {
+            const Station& station = stations[i];
+            if (i > 0) carry(stations[i - 1].along, station.along);
+            const glm::dvec3 third = glm::cross(side_, station.along);
+            for (std::size_t j = 0; j < columns; ++j) {
+                const auto [s, c] =
+                    sine_cosine(2.0 * pi * static_cast<double>(j) / static_cast<double>(sides));
+                const glm::dvec3 out = c * side_ + s * third;
+                glm::dvec3 moved =
+                    station.thin * out + (station.wide - station.thin) * (station.flat * out);
+                moved -= glm::dot(moved, station.along) * station.along;
+                outs.push_back(out);
+                places.push_back(station.at + wider * station.radius * moved);
+            }
+        }
+        for (std::size_t i = 0; i < stations.size(); ++i)
+            for (std::size_t j = 0; j < columns + (strip ? 1 : 0); ++j) {
+                const std::size_t column = j % columns;
+                const std::size_t here = i * columns + column;
+                const std::size_t left = i * columns + (column + columns - 1) % columns;
+                const std::size_t right = i * columns + (column + 1) % columns;
+                const std::size_t below = i == 0 ? here : here - columns;
+                const std::size_t above = i + 1 == stations.size() ? here : here + columns;
+                // A trunk and what goes on from it shade their common ring alike.
+                const bool common = strip ? i + 1 == stations.size() : i == 0;
+                mesh_.positions.emplace_back(places[here]);
+                mesh_.normals.emplace_back(
+                    normal(stations[i], outs[here], places[right] - places[left],
+                           common ? stations[i].along : places[above] - places[below]));
+                texture(stations[i], strip, static_cast<double>(j) / sides, turn);
+            }
+        return base;
+    }
+
+    // Carries the direction of column 0 along without twist.
+    void carry(const glm::dvec3& before, const glm::dvec3& along) {
+        const double between = glm::dot(before, along);
+        if (between > -0.999) {
+            const glm::dvec3 about = glm::cross(before, along);
+            side_ += glm::cross(about, side_) +
+                     glm::cross(about, glm::cross(about, side_)) / (1.0 + between);
+        }
+        side_ = square_to(along, side_);
+    }
+
+    static glm::dvec3 normal(const Station& station, const glm::dvec3& out, const glm::dvec3& round,
+                             const glm::dvec3& along) {
+        if (station.radius < 1e-9) return out;
+        const glm::dvec3 found = unit_or(glm::cross(along, round), out);
+        // The ends of tubes that are all but gone are rounding noise.
+        return glm::dot(found, out) > 0.0 ? found : out;
+    }
+
+    void texture(const Station& station, bool strip, double round, double turn) {
+        TexturePoint at{};
+        if (strip) {
+            at = strip_point(swept_charts[2], station.colour, round);
+        } else {
+            // A polygon cuts the disc's rings short: few sides go there and back on a piece of it.
+            const double angle =
+                turn + (goes_round_ ? 2.0 * pi * round : 0.7 * (1.0 - std::abs(2.0 * round - 1.0)));
+            const auto [s, c] = sine_cosine(angle);
+            at = disc_point(swept_charts[0], station.colour, c, s);
+        }
+        mesh_.texture_coordinates.emplace_back(at.u, at.v);
+    }
+
+    Bush bush_;
+    Plan plan_;
+    std::uint32_t seed_;
+    bool goes_round_;
+    SweepOptions options_;
+    std::vector<double> stands_for_;
+    double thinned_ = 1.0;
+    std::vector<Station> drawn_;      ///< of each node of a tube that is made
+    glm::dvec3 side_{1.0, 0.0, 0.0};  ///< of column 0 of the row that is made
+    Mesh mesh_;
+};
+
+}  // namespace
+
+MeshCount limb_count(const Bush& bush, int lod) { return plan_of(bush, lod).count; }
+
+Mesh branched_mesh(const Individual& individual, int lod, const SweepOptions& options) {
+    return Tubes(individual, lod, options).build();
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,119 @@
+// Branched species over HTTP: files, descriptions, mixes, bodies with a model of one's own, linked images, clips, and what is refused.
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "core/params/reader.h"
+#include "tests/api/support.h"
+
+namespace sporeprint::api {
+namespace {
+
+using test::expect_linked_images;
+using test::expect_problem;
+using test::get;
+using test::header;
+using test::json_of;
+using test::names;
+using test::post;
+using test::text_of;
+
+constexpr const char* mixed = "ramaria_formosa:0.5,xylaria_hypoxylon:0.5";
+
+std::string glb(const std::string& mix, const std::string& more = "") {
+    return "/v1/mushrooms/" + mix + ".glb?lod=3&texture_size=128" + more;
+}
+
+class CoralsTest : public testing::Test {
+  protected:
+    Answer ask(const Request& one) { return handle(service_, one); }
+    Answer ask(std::string target, std::vector<Header> headers = {}) {
+        return handle(service_, get(std::move(target), std::move(headers)));
+    }
+    Service service_{built_in_atlas(), ServiceOptions{}};
+};
+
+TEST_F(CoralsTest, each_and_their_mixes_are_grown_kept_and_described) {
+    for (const std::string mix :
+         {"ramaria_formosa", "xylaria_hypoxylon", "artomyces_pyxidatus", mixed}) {
+        const Answer made = ask(glb(mix));
+        ASSERT_EQ(made.status, 200) << text_of(made);
+        EXPECT_EQ(text_of(made).substr(0, 4), "glTF");
+        EXPECT_EQ(header(ask(glb(mix)), "Cache-Status"), "sporeprint; hit");
+        EXPECT_EQ(ask(glb(mix), {{"If-None-Match", header(made, "ETag")}}).status, 304);
+        const Answer told = ask("/v1/mushrooms/" + mix + ".json?lod=3");
+        ASSERT_EQ(told.status, 200) << text_of(told);
+        const Value body = json_of(told);
+        EXPECT_GT(body.at_pointer("/estimate/triangles")->as_number(), 0.0);
+        EXPECT_LE(body.at_pointer("/estimate/triangles")->as_number(), 200.0);
+        // What it cannot have has no value of its own.
+        EXPECT_EQ(body.at_pointer("/effective/hymenium/blades"), nullptr);
+        EXPECT_EQ(body.at_pointer("/effective/weathering/waves"), nullptr);
+        EXPECT_NE(body.at_pointer("/effective/weathering/bites"), nullptr);
+    }
+}
+
+TEST_F(CoralsTest, families_do_not_mix_and_are_named) {
+    const Answer answer = ask(glb("boletus_edulis:0.5,ramaria_formosa:0.5"));
+    expect_problem(answer, 422);
+    EXPECT_TRUE(names(answer, "mix",
+                      "Ramaria formosa branches; Boletus edulis does not: a mix needs one family"))
+        << text_of(answer);
+    expect_problem(ask("/v1/colonies/boletus_edulis:0.5,ramaria_formosa:0.5.glb"), 422);
+    expect_problem(ask("/v1/surfaces/mushrooms/boletus_edulis:0.5,ramaria_formosa:0.5/normal.jpg"),
+                   422);
+}
+
+TEST_F(CoralsTest, what_a_coral_cannot_have_is_422_in_words) {
+    const Answer answer = ask(glb("ramaria_formosa", "&hymenium.blades=30&weathering.splits=0.4"));
+    expect_problem(answer, 422);
+    EXPECT_TRUE(names(answer, "hymenium.blades", "smooth all over"));
+    EXPECT_TRUE(names(answer, "weathering.splits", "no margin"));
+}
+
+TEST_F(CoralsTest, linked_images_are_those_embedded) {
+    for (const std::string mix : {"artomyces_pyxidatus", mixed}) {
+        const Answer embedded = ask(glb(mix, "&age=0.85"));
+        const Answer linked = ask(glb(mix, "&age=0.85&textures=linked"));
+        EXPECT_EQ(expect_linked_images(service_, linked, embedded).size(), 3U) << mix;
+    }
+}
+
+TEST_F(CoralsTest, a_life_is_a_clip_of_one_topology) {
+    const Answer clip = ask(glb(mixed, "&animation=growth&frames=5"));
+    ASSERT_EQ(clip.status, 200) << text_of(clip);
+    EXPECT_NE(text_of(clip).find("\"targets\""), std::string::npos);
+}
+
+TEST_F(CoralsTest, a_model_of_ones_own_may_branch) {
+    const auto atlas = built_in_atlas();
+    Value model = write(atlas->find("xylaria_hypoxylon")->species.stages[2].model);
+    const auto asked = [&] {
+        return ask(post("{\"lod\":3,\"texture_size\":128,\"model\":" + dump(model) + "}"));
+    };
+    EXPECT_EQ(asked().status, 200) << text_of(asked());
+    model.find("ramification")->set("order", 12);
+    const Answer many = asked();
+    expect_problem(many, 400);
+    EXPECT_TRUE(names(many, "/model/ramification/order", "tips; at most 600"));
+    model.find("ramification")->set("order", 1);
+    EXPECT_TRUE(names(asked(), "/model/ramification/order", "no fork"));
+    model.set("silhouette", Value::object());
+    EXPECT_TRUE(names(asked(), "/model/silhouette")) << "a branched form has no outline";
+}
+
+TEST_F(CoralsTest, colonies_stand_them_whole) {
+    const Answer made = ask("/v1/colonies/xylaria_hypoxylon.glb?count=5&lod=3&texture_size=128");
+    ASSERT_EQ(made.status, 200) << text_of(made);
+    expect_problem(ask("/v1/colonies/xylaria_hypoxylon.glb?count=5&cap_scale=2"), 422);
+}
+
+TEST_F(CoralsTest, the_schema_offers_both_forms) {
+    const std::string document = text_of(ask("/openapi.json"));
+    for (const char* words : {"\"swept\"", "\"branched\"", "\"ramification\"", "\"unfolding\""})
+        EXPECT_NE(document.find(words), std::string::npos) << words;
+}
+
+}  // namespace
+}  // namespace sporeprint::api
