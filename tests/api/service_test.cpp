@@ -195,7 +195,7 @@ TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
          "outside"},
         {"{\"model\":{\"surface\":{\"cap\":{\"image\":\"?\"}}}}", 400, "/model/surface/cap/image",
          "base64"},
-        {"{\"model\":{\"form\":\"branched\"}}", 400, "/model/form", "swept"},
+        {"{\"model\":{\"form\":\"spun\"}}", 400, "/model/form", "branched"},
     };
     for (const auto& [body, status, parameter, words] : cases) {
         const Answer answer = ask(post(body));
