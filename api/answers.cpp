@@ -14,6 +14,16 @@ constexpr const char* exposed_headers =
     "Cache-Status, Content-Disposition, Content-Length, Content-Location, ETag, Retry-After, "
     "Server-Timing, X-Request-Id";
 
+/// What a page of ours may do: its own scripts and styles, pictures that it makes itself, no frame round it. The pages say the
+/// same of themselves, but a page cannot forbid frames.
+constexpr std::pair<const char*, const char*> page_headers[] = {
+    {"Content-Security-Policy",
+     "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; object-src 'none'; "
+     "base-uri 'none'; "
+     "form-action 'none'; frame-ancestors 'none'"},
+    {"Cross-Origin-Opener-Policy", "same-origin"},
+    {"Referrer-Policy", "same-origin"}};
+
 bool proper_id(std::string_view id) {
     return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
         return (c >= '0' && c <= '9') || (lower(c) >= 'a' && lower(c) <= 'z') || c == '_' ||
@@ -128,6 +138,8 @@ Answer Answers::document(const Request& request, const Document& document) const
     answer.headers = {{"Content-Type", document.content_type},
                       {"Cache-Control", document.cache_control},
                       {"ETag", document.etag}};
+    if (document.content_type.starts_with("text/html"))
+        for (const auto& [name, value] : page_headers) answer.headers.emplace_back(name, value);
     const std::string_view condition = request.header("If-None-Match");
     if (names_any(condition) ||
         names_etag(condition, selected_etag(request, document.etag, document.content_type)))

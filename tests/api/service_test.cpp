@@ -389,6 +389,11 @@ TEST(ServiceAssets, the_page_and_its_files_are_served) {
     const Answer page = handle(service, get("/?species=x&age=0.5"));
     EXPECT_EQ(page.status, 200);
     EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
+    const std::string policy = header(page, "Content-Security-Policy");
+    EXPECT_TRUE(policy.starts_with("default-src 'self';")) << policy;
+    EXPECT_TRUE(policy.ends_with("frame-ancestors 'none'")) << policy;
+    EXPECT_EQ(policy.find("unsafe"), std::string::npos);
+    EXPECT_EQ(header(page, "Referrer-Policy"), "same-origin");
     EXPECT_EQ(header(page, "Cache-Control"), "no-cache");
     EXPECT_EQ(header(page, "Content-Security-Policy"), "frame-ancestors 'self'");
     EXPECT_EQ(header(page, "Cross-Origin-Opener-Policy"), "same-origin");
