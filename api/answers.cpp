@@ -22,6 +22,7 @@ constexpr std::pair<const char*, const char*> page_headers[] = {
      "base-uri 'none'; "
      "form-action 'none'; frame-ancestors 'none'"},
     {"Cross-Origin-Opener-Policy", "same-origin"},
+    {"Permissions-Policy", "camera=(), geolocation=(), microphone=()"},
     {"Referrer-Policy", "same-origin"}};
 
 bool proper_id(std::string_view id) {
@@ -86,13 +87,6 @@ void Answers::add_common_headers(const Request& request, Answer& answer) const {
     }
     set_header(answer, "Cross-Origin-Resource-Policy", "cross-origin");
     set_header(answer, "X-Content-Type-Options", "nosniff");
-    if (header_of(answer, "Content-Type").starts_with("text/html")) {
-        // Of what a page may load, it speaks itself; this is what only a header can say.
-        set_header(answer, "Content-Security-Policy", "frame-ancestors 'self'");
-        set_header(answer, "Cross-Origin-Opener-Policy", "same-origin");
-        set_header(answer, "Permissions-Policy", "camera=(), geolocation=(), microphone=()");
-        set_header(answer, "Referrer-Policy", "same-origin");
-    }
 }
 
 Answer Answers::problem(const Request& request, int status, std::string_view detail,
