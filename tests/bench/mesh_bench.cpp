@@ -66,9 +66,10 @@ void packed(benchmark::State& state, const std::string& id) {
         benchmark::RegisterBenchmark(("resolve/" + id).c_str(), [id](benchmark::State& s) {
             resolved(s, id);
         })->Unit(benchmark::kMicrosecond);
-        benchmark::RegisterBenchmark(("outline/" + id).c_str(), [id](benchmark::State& s) {
-            outlined(s, id);
-        })->Unit(benchmark::kMicrosecond);
+        if (std::holds_alternative<Swept>(entry.species.stages.front().model.shape))
+            benchmark::RegisterBenchmark(("outline/" + id).c_str(), [id](benchmark::State& s) {
+                outlined(s, id);
+            })->Unit(benchmark::kMicrosecond);
         benchmark::RegisterBenchmark(("pack/" + id).c_str(), [id](benchmark::State& s) {
             packed(s, id);
         })->Unit(benchmark::kMicrosecond);
