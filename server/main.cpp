@@ -187,7 +187,7 @@ int sign(const Options& options, const std::string& target, std::int64_t seconds
     if (options.sign_keys.empty())
         return complain("--sign needs --sign-keys, the file of keys", wrong_usage);
     if (!target.starts_with('/'))
-        return complain("--sign takes path and query, as in /v1/mushrooms/boletus_edulis.glb?age=1",
+        return complain("--sign takes path and query, all of an address after its host",
                         wrong_usage);
     std::optional<std::int64_t> expires;
     if (seconds > 0)
