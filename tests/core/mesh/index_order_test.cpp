@@ -6,7 +6,6 @@
 #include <array>
 #include <deque>
 
-#include "core/build/sweep.h"
 #include "core/grow/mushroom.h"
 #include "core/math/random.h"
 #include "tests/support/mixes.h"
@@ -83,11 +82,11 @@ TEST(IndexOrder, EveryMushroomIsDrawnInSuchAnOrder) {
         for (const int lod : {0, 1}) {
             const MushroomOrder order = textured(order_of(id, 0.6, 3, lod));
             const Individual individual = resolved(order);
-            const Mesh swept = swept_mesh(individual, lod),
-                       drawn = mushroom_mesh(order, individual);
-            EXPECT_EQ(triangles_of(drawn), triangles_of(swept)) << id;
-            EXPECT_EQ(drawn.positions, swept.positions) << id;
-            EXPECT_LT(misses(drawn), 0.9 * misses(swept)) << id << " at LOD " << lod;
+            const Mesh body = body_mesh(individual, lod), drawn = mushroom_mesh(order, individual);
+            EXPECT_EQ(triangles_of(drawn), triangles_of(body)) << id;
+            EXPECT_EQ(drawn.positions, body.positions) << id;
+            // Limbs are tubes, which come in about such an order by themselves.
+            EXPECT_LT(misses(drawn), std::max(0.9 * misses(body), 0.75)) << id << " at LOD " << lod;
         }
 }
 
