@@ -259,7 +259,7 @@ class Grower {
 
     void blend_nodes() {
         wanted_.resize(bush_.nodes.size());
-        std::vector<double> weights(bush_.nodes.size(), 0.0), azimuths = weights, angles = weights;
+        std::vector<double> angles(bush_.nodes.size(), 0.0);
         for (const auto& [sprout, at, weight] : sprouts_)
             for (std::uint32_t i = 0; i < at.size(); ++i) {
                 const Wanted& one = sprout.wanted(i);

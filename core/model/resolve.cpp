@@ -332,6 +332,7 @@ void branch_out(Individual& individual, const MushroomOrder& order,
     const MushroomParams& asked = order.params;
     const double variation = asked.variation;
     std::vector<BushShare> shares;
+    shares.reserve(sources.size());
     for (const Source& source : sources)
         shares.push_back({&std::get<Branched>(source.now.shape), source.weight});
     const BushProportions own{asked.size * factor(draws.size, spread.size, variation),
