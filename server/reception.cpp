@@ -64,9 +64,9 @@ Reception::Reception(api::Service& service, Metrics& metrics, Log& log, Receptio
     : service_(service),
       metrics_(metrics),
       log_(log),
-      options_(options),
-      slots_(options.slots, options.longest_queue),
-      flights_(slots_, options.most_waiters) {}
+      options_(std::move(options)),
+      slots_(options_.slots, options_.longest_queue),
+      flights_(slots_, options_.most_waiters) {}
 
 Handlers Reception::handlers() {
     Handlers handlers;
