@@ -44,13 +44,18 @@ bool percent_decode(std::string_view text, std::string& out) {
     return true;
 }
 
+std::string_view origin_form(std::string_view target) {
+    for (const std::string_view scheme : {"http://", "https://"}) {
+        if (!target.starts_with(scheme)) continue;
+        const std::size_t slash = target.find_first_of("/?", scheme.size());
+        return slash == std::string_view::npos ? "/" : target.substr(slash);
+    }
+    return target;
+}
+
 Target split_target(std::string_view target, std::vector<Problem>& problems) {
     Target out;
-    for (const char* scheme : {"http://", "https://"}) {
-        if (!target.starts_with(scheme)) continue;
-        const std::size_t slash = target.find_first_of("/?", std::string_view(scheme).size());
-        target = slash == std::string_view::npos ? "/" : target.substr(slash);
-    }
+    target = origin_form(target);
     const std::size_t mark = target.find('?');
     const std::string_view path = target.substr(0, mark);
     out.path = decoded(path, "path", problems);

@@ -20,6 +20,9 @@ struct Target {
         query;  ///< decoded pairs in order; '+' is a plus sign
 };
 
+/// Path and query of a target in origin form, or in absolute form, whose scheme and host are passed over.
+[[nodiscard]] std::string_view origin_form(std::string_view target);
+
 /// Takes a request target apart: origin form, or absolute form whose scheme and host are passed over.
 ///
 /// problems  malformed escapes, control characters, bytes that are no UTF-8, empty parameters and parameters without '='

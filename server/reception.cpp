@@ -22,11 +22,7 @@ constexpr std::string_view own_paths[] = {"/livez", "/readyz", "/metrics"};
 
 /// The path of a target in origin or absolute form, still encoded.
 std::string_view path_of(std::string_view target) {
-    if (const std::size_t scheme = target.find("://");
-        scheme != std::string_view::npos && !target.starts_with('/')) {
-        const std::size_t slash = target.find('/', scheme + 3);
-        target = slash == std::string_view::npos ? "/" : target.substr(slash);
-    }
+    target = api::origin_form(target);
     return target.substr(0, target.find('?'));
 }
 

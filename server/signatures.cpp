@@ -12,8 +12,10 @@
 #include <stdexcept>
 #include <utility>
 
+#include "api/query.h"
 #include "core/params/messages.h"
 #include "core/params/problems.h"
+#include "core/params/types.h"
 
 namespace sporeprint::server {
 
@@ -29,15 +31,6 @@ bool is_id(std::string_view text) {
                return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') ||
                       c == '-' || c == '_';
            });
-}
-
-std::string hexadecimal(const Digest& digest) {
-    std::string out;
-    for (const unsigned char byte : digest) {
-        out += "0123456789abcdef"[byte >> 4];
-        out += "0123456789abcdef"[byte & 15];
-    }
-    return out;
 }
 
 std::optional<std::string> bytes_of(std::string_view hex) {
@@ -67,19 +60,12 @@ std::string base64url(const Digest& digest) {
     return out;
 }
 
-Digest sha256(std::string_view text) {
-    Digest digest;
-    if (EVP_Digest(text.data(), text.size(), digest.data(), nullptr, EVP_sha256(), nullptr) != 1)
-        throw std::runtime_error("SHA-256 is not to be had");
-    return digest;
-}
-
 std::string signature(const SigningKey& key, std::string_view method, std::string_view target,
                       std::string_view body) {
     std::string text = "v1\n";
     text.append(method == "HEAD" ? "GET" : method) += '\n';
     text.append(target) += '\n';
-    if (method == "POST") text += hexadecimal(sha256(body));
+    if (method == "POST") text += sha256_hex(body.data(), body.size());
     text += '\n';
     Digest digest;
     unsigned length = 0;
@@ -89,15 +75,6 @@ std::string signature(const SigningKey& key, std::string_view method, std::strin
         length != digest.size())
         throw std::runtime_error("HMAC-SHA256 is not to be had");
     return base64url(digest);
-}
-
-/// Path and query of a target in origin or absolute form.
-std::string_view origin_form(std::string_view target) {
-    if (target.starts_with('/')) return target;
-    const std::size_t scheme = target.find("://");
-    if (scheme == std::string_view::npos) return target;
-    const std::size_t slash = target.find('/', scheme + 3);
-    return slash == std::string_view::npos ? std::string_view("/") : target.substr(slash);
 }
 
 /// Takes the last parameter off a target if it has this name.
@@ -182,7 +159,7 @@ Checked Signatures::check(std::string_view method, std::string_view target, std:
     const auto refused = [&](std::string why) {
         return Checked{false, false, std::string(target), std::move(why)};
     };
-    std::string_view rest = origin_form(target);
+    std::string_view rest = api::origin_form(target);
     const std::optional<std::string_view> given = take_last(rest, "sig");
     if (!given) return refused("the address is not signed; its last parameter has to be sig");
     const std::string_view covered = rest;
