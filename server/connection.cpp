@@ -195,15 +195,7 @@ Connection::Step Connection::read_head() {
         }
         put_off_until(std::min(began_ + hall_.options.head, hall_.now + hall_.options.silence));
     }
-    switch (receive(&in_, head_at_once)) {
-        case Received::some:
-            return Step::on;
-        case Received::none:
-            return Step::wait;
-        case Received::closed:
-            return Step::end;
-    }
-    return Step::end;
+    return receive(&in_, head_at_once);
 }
 
 Connection::Step Connection::begin(Scan scan) {
@@ -302,15 +294,7 @@ Connection::Step Connection::read_body() {
     if (body.size() >= body_length_) return dispatch();
     put_off_until(std::min(last_, hall_.now + hall_.options.silence));
     if (taken_ >= most_in_a_turn) return yield();
-    switch (receive(&body, body_length_ - body.size())) {
-        case Received::some:
-            return Step::on;
-        case Received::none:
-            return Step::wait;
-        case Received::closed:
-            return Step::end;
-    }
-    return Step::end;
+    return receive(&body, body_length_ - body.size());
 }
 
 Connection::Step Connection::dispatch() {
@@ -413,16 +397,9 @@ Connection::Step Connection::discard() {
     if (discarded_ > most_discarded) return Step::end;
     if (taken_ >= most_in_a_turn) return yield();
     const std::size_t had = taken_;
-    switch (receive(nullptr, hall_.received.size())) {
-        case Received::some:
-            discarded_ += taken_ - had;
-            return Step::on;
-        case Received::none:
-            return Step::wait;
-        case Received::closed:
-            return Step::end;
-    }
-    return Step::end;
+    const Step step = receive(nullptr, hall_.received.size());
+    discarded_ += taken_ - had;
+    return step;
 }
 
 Connection::Step Connection::yield() {
@@ -433,23 +410,24 @@ Connection::Step Connection::yield() {
 
 // --- Its parts ----------------------------------------------------------------------------------
 
-Connection::Received Connection::receive(std::string* to, std::size_t most) {
-    if (!readable_) return Received::none;
+/// One call: whether something came, nothing did yet, or nothing ever will.
+Connection::Step Connection::receive(std::string* to, std::size_t most) {
+    if (!readable_) return Step::wait;
     most = std::min(most, hall_.received.size());
     const ssize_t got = ::recv(socket_, hall_.received.data(), most, MSG_DONTWAIT);
-    if (got == 0) return Received::closed;
+    if (got == 0) return Step::end;
     if (got < 0) {
-        if (errno == EINTR) return Received::some;
-        if (errno != EAGAIN) return Received::closed;
+        if (errno == EINTR) return Step::on;
+        if (errno != EAGAIN) return Step::end;
         readable_ = false;
-        return Received::none;
+        return Step::wait;
     }
     const auto bytes = static_cast<std::size_t>(got);
     // All that was there: the next byte is told of, unless it is the end, which has been told of.
     if (bytes < most && !left_) readable_ = false;
     if (to) to->append(hall_.received.data(), bytes);
     taken_ += bytes;
-    return Received::some;
+    return Step::on;
 }
 
 void Connection::enter(Phase phase) {

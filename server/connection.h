@@ -72,7 +72,6 @@ class Connection final : public Timed {
 
   private:
     enum class Step { on, wait, end };
-    enum class Received { some, none, closed };
 
     bool advance();
     Step read_head();
@@ -88,7 +87,7 @@ class Connection final : public Timed {
     Step discard();
     Step yield();
 
-    Received receive(std::string* to, std::size_t most);
+    Step receive(std::string* to, std::size_t most);
     void enter(Phase phase);
     void put_off_until(Clock::time_point deadline) { hall_.deadlines.set(*this, deadline); }
     void await_request();
