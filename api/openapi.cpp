@@ -471,31 +471,8 @@ std::set<int> problems_of(Endpoint endpoint) {
     }
 }
 
-/// Whether a route answers with something made and kept.
-bool is_made(Endpoint endpoint) {
-    switch (endpoint) {
-        case Endpoint::mushroom_glb:
-        case Endpoint::mushroom_json:
-        case Endpoint::mushroom_post:
-        case Endpoint::morph:
-        case Endpoint::morph_post:
-        case Endpoint::colony_glb:
-        case Endpoint::colony_json:
-        case Endpoint::colony_post:
-        case Endpoint::leaf_glb:
-        case Endpoint::leaf_json:
-        case Endpoint::leaf_post:
-        case Endpoint::tree_glb:
-        case Endpoint::tree_json:
-        case Endpoint::tree_post:
-        case Endpoint::surface:
-        case Endpoint::leaf_surface:
-        case Endpoint::tree_surface:
-            return true;
-        default:
-            return false;
-    }
-}
+/// Whether a route answers with something made and kept: an upload is looked at each time.
+bool is_kept(Endpoint endpoint) { return makes(endpoint) && endpoint != Endpoint::inspect; }
 
 /// What a route takes: the schema of its body, and an example where it is JSON.
 Value taken(Endpoint endpoint, const Atlas& atlas) {
@@ -552,7 +529,7 @@ Value operation(const Route& route, const Atlas& atlas) {
                 object({{"required", true},
                         {"content", object({{route.takes, taken(route.endpoint, atlas)}})}}));
     Value success = object({{"description", route.summary}});
-    if (is_made(route.endpoint)) {
+    if (is_kept(route.endpoint)) {
         Value headers = Value::object();
         for (const char* header : {"ETag", "Cache-Control", "Content-Location", "Cache-Status",
                                    "Server-Timing", "X-Request-Id"})
