@@ -21,47 +21,21 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view format = "sporeprint 1\n";
 constexpr std::size_t digest_length = 32;
-constexpr std::size_t number_length = 16;
 constexpr const char* extension = ".body";
 constexpr const char* aside = "aside";
 
-/// 16 hexadecimal digits.
-std::string digits_of(std::uint64_t number) {
-    std::string digits(number_length, '0');
-    for (std::size_t i = number_length; i-- > 0; number >>= 4)
-        digits[i] = "0123456789abcdef"[number & 15];
-    return digits;
-}
-
-std::optional<std::uint64_t> number_of(std::string_view digits) {
-    std::uint64_t number = 0;
-    for (const char digit : digits) {
-        const std::size_t value = std::string_view("0123456789abcdef").find(digit);
-        if (value == std::string_view::npos) return std::nullopt;
-        number = number << 4 | value;
-    }
-    return number;
-}
-
-/// Before the body: format, lengths of key and body, hash of the body, key.
-std::string preamble(std::string_view key, std::uint64_t length, const std::string& digest) {
-    return std::string(format) + digits_of(key.size()) + digits_of(length) + digest +
-           std::string(key);
-}
+/// Before the hash of the body and the body itself.
+std::string preamble(std::string_view key) { return std::string(format).append(key) += '\n'; }
 
 /// The body of a file that holds what was written under `key`, whole.
 std::optional<Slice> body_in(const std::shared_ptr<const Bytes>& file, std::string_view key) {
     const std::string_view text(reinterpret_cast<const char*>(file->data()), file->size());
-    const std::size_t fixed = format.size() + 2 * number_length + digest_length;
-    if (text.size() < fixed || !text.starts_with(format)) return std::nullopt;
-    const auto key_length = number_of(text.substr(format.size(), number_length));
-    const auto length = number_of(text.substr(format.size() + number_length, number_length));
-    if (key_length != key.size() || text.substr(fixed, key.size()) != key) return std::nullopt;
-    const std::string_view body = text.substr(std::min(fixed + key.size(), text.size()));
-    if (length != body.size() ||
-        text.substr(fixed - digest_length, digest_length) != digest_of(body))
+    const std::string before = preamble(key);
+    const std::size_t fixed = before.size() + digest_length;
+    if (text.size() < fixed || !text.starts_with(before) ||
+        text.substr(before.size(), digest_length) != digest_of(text.substr(fixed)))
         return std::nullopt;
-    return Slice(file, fixed + key.size(), body.size());
+    return Slice(file, fixed, text.size() - fixed);
 }
 
 std::shared_ptr<const Bytes> contents(const fs::path& path) {
@@ -192,7 +166,7 @@ std::optional<Slice> DirectoryStore::find(std::string_view key) {
 void DirectoryStore::insert(std::string_view key, const Body& body) {
     const std::string name = digest_of(key);
     const fs::path path = path_of(name);
-    const std::string head = preamble(key, size_of(body), digest_of(body));
+    const std::string head = preamble(key) + digest_of(body);
     const std::uint64_t bytes = head.size() + size_of(body);
     if (bytes > most_bytes_ / 8) return;
     fs::path temporary;

@@ -23,7 +23,7 @@ struct DirectoryStats {
 
 /// A folder of bodies by key. Thread-safe; blocks for as long as the disk does, so it is asked by jobs, never by plan().
 ///
-/// A file is named by the hash of its key and holds the key, the length and hash of the body, and the body: what is read is what was
+/// A file is named by the hash of its key and holds the key, the hash of the body, and the body: what is read is what was
 /// written or is removed. Files are written aside and renamed, so no other name is ever half of a file, whenever the power fails.
 /// Processes may share a folder; each keeps what it has seen of it within its own bound.
 class DirectoryStore {
