@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/marks.h"
@@ -147,27 +148,6 @@ class Sprout {
     std::vector<double> natural_, rest_, tips_;
     std::vector<Wanted> wanted_;
 };
-
-glm::dvec3 square_to(const glm::dvec3& v, const glm::dvec3& axis) {
-    const glm::dvec3 flat = v - glm::dot(v, axis) * axis;
-    const double size = glm::length(flat);
-    if (size > 1e-6) return flat / size;
-    const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    return glm::normalize(other - glm::dot(other, axis) * axis);
-}
-
-glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
-    const SineCosine at = sine_cosine(angle);
-    return at.cosine * v + at.sine * glm::cross(axis, v);
-}
-
-// Carries a direction along as the heading turns from one unit vector to another, without twist.
-glm::dvec3 carried(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) {
-    const double d = glm::dot(from, to);
-    if (d < -0.999) return v;
-    const glm::dvec3 axis = glm::cross(from, to);
-    return v + glm::cross(axis, v) + glm::cross(axis, glm::cross(axis, v)) / (1.0 + d);
-}
 
 // Numbers of all species, by weight.
 struct Common {
@@ -327,7 +307,7 @@ class Grower {
         if (node.children[0] == none) return;
         Bush::Node &main = bush_.nodes[node.children[0]], &other = bush_.nodes[node.children[1]];
         if (node.parent != none)
-            node.across = turned(node.across, node.heading, drawn.side * wanted_[i].azimuth);
+            node.across = turned_square(node.across, node.heading, drawn.side * wanted_[i].azimuth);
         // Where the other branch is not yet, the first goes straight on.
         const double both =
             node.presence > 0.0 ? std::min(1.0, other.presence / node.presence) : 0.0;

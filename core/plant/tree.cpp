@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 #include <utility>
 
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/purposes.h"
@@ -30,27 +31,6 @@ double by_order(OrderLaw law, double rise, int order, double leaves) {
             return power(leaves, 1.0 / std::max(rise, 1.0));
     }
     return 1.0;
-}
-
-// Carries a direction along as the heading turns from one unit vector to another, without twist.
-glm::dvec3 carried(const glm::dvec3& v, const glm::dvec3& from, const glm::dvec3& to) {
-    const glm::dvec3 axis = glm::cross(from, to);
-    const double d = glm::dot(from, to);
-    if (d < -0.999999) return v;
-    return v + glm::cross(axis, v) + glm::cross(axis, glm::cross(axis, v)) / (1.0 + d);
-}
-
-glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& axis, double angle) {
-    const SineCosine at = sine_cosine(angle);
-    return at.cosine * v + at.sine * glm::cross(axis, v);
-}
-
-glm::dvec3 square_to(const glm::dvec3& v, const glm::dvec3& axis) {
-    const glm::dvec3 flat = v - glm::dot(v, axis) * axis;
-    const double size = glm::length(flat);
-    if (size > 1e-6) return flat / size;
-    const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    return glm::normalize(other - glm::dot(other, axis) * axis);
 }
 
 // Nodes of one order that follow each other: an axis as far as it keeps its order.
@@ -233,7 +213,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         }
         double azimuth = radians(shape.azimuth_deg + 25.0 * shape.variation * drawn_azimuth);
         if (axes.position[i] == 0) azimuth = 2.0 * pi * drawn_start * shape.variation;
-        across = turned(across, heading, azimuth);
+        across = turned_square(across, heading, azimuth);
         // The branches lie in a plane; that of low orders turns level.
         const double level =
             highest > 1
@@ -297,7 +277,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
             const double t = 1.0 - static_cast<double>(k) / style.per_tip;
             leaf.place = from.place + t * (to.place - from.place);
             const double azimuth = 2.0 * pi * start + radians(137.5) * k + 0.3 * turn_drawn;
-            const glm::dvec3 out = turned(tree.across[i], heading, azimuth);
+            const glm::dvec3 out = turned_square(tree.across[i], heading, azimuth);
             // The last leaf goes on where the twig ends.
             const double open = k == 0 ? 0.4 : 1.0;
             glm::dvec3 along = off.cosine * heading + open * off.sine * out;

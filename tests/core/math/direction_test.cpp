@@ -1,0 +1,54 @@
+#include "core/math/direction.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "core/math/elementary.h"
+#include "core/math/random.h"
+
+namespace sporeprint {
+namespace {
+
+glm::dvec3 drawn(Random& random) {
+    glm::dvec3 v(0.0);
+    v.x = random.symmetric();
+    v.y = random.symmetric();
+    v.z = random.symmetric();
+    return v;
+}
+
+TEST(Direction, IsCarriedByTheShortestTurn) {
+    Random random(7, 1, 0);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 from = glm::normalize(drawn(random)), to = glm::normalize(drawn(random)),
+                         v = drawn(random);
+        if (glm::dot(from, to) < -0.99) continue;
+        const glm::dvec3 there = carried(v, from, to);
+        EXPECT_NEAR(glm::length(there), glm::length(v), 1e-9);
+        EXPECT_NEAR(glm::dot(there, to), glm::dot(v, from), 1e-9) << "as far from the heading";
+        const glm::dvec3 axis = glm::cross(from, to);
+        EXPECT_NEAR(glm::dot(there, axis), glm::dot(v, axis), 1e-9) << "no twist";
+        EXPECT_LT(glm::distance(carried(from, from, to), to), 1e-9);
+        EXPECT_EQ(carried(v, from, from), v);
+    }
+    EXPECT_EQ(carried({0, 0, 1}, {0, 1, 0}, {0, -1, 0}), glm::dvec3(0, 0, 1));
+}
+
+TEST(Direction, SquareToAnAxisTurnsAboutItRightHanded) {
+    EXPECT_LT(glm::distance(turned_square({1, 0, 0}, {0, 0, 1}, pi / 2), glm::dvec3(0, 1, 0)),
+              1e-12);
+    Random random(7, 2, 0);
+    for (int i = 0; i < 200; ++i) {
+        const glm::dvec3 axis = glm::normalize(drawn(random)), v = drawn(random),
+                         flat = square_to(v, axis);
+        EXPECT_NEAR(glm::length(flat), 1.0, 1e-12);
+        EXPECT_NEAR(glm::dot(flat, axis), 0.0, 1e-9);
+        EXPECT_GE(glm::dot(flat, v), 0.0);
+        EXPECT_NEAR(glm::dot(turned_square(flat, axis, 0.7), flat), sine_cosine(0.7).cosine, 1e-9);
+    }
+    EXPECT_NEAR(glm::dot(square_to({0, 2, 0}, {0, 1, 0}), glm::dvec3(0, 1, 0)), 0.0, 1e-12);
+}
+
+}  // namespace
+}  // namespace sporeprint
