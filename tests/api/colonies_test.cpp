@@ -23,16 +23,7 @@ std::string small(const std::string& more = "") {
     return tuft + "?count=5&distinct=2&lod=2&texture_size=128" + more;
 }
 
-class ColoniesTest : public testing::Test {
-  protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
-        return handle(service_, get(std::move(target), std::move(headers)));
-    }
-    std::uint64_t generated() { return service_.counters().generated; }
-
-    Service service_{built_in_atlas(), ServiceOptions{}};
-};
+class ColoniesTest : public test::AskedService {};
 
 TEST_F(ColoniesTest, are_files_with_one_canonical_address) {
     const Answer answer = ask(small("&habit=rooted&depth=8&cap_scale=1.50"));

@@ -25,14 +25,7 @@ std::string glb(const std::string& mix, const std::string& more = "") {
     return "/v1/mushrooms/" + mix + ".glb?lod=3&texture_size=128" + more;
 }
 
-class CoralsTest : public testing::Test {
-  protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
-        return handle(service_, get(std::move(target), std::move(headers)));
-    }
-    Service service_{built_in_atlas(), ServiceOptions{}};
-};
+class CoralsTest : public test::AskedService {};
 
 TEST_F(CoralsTest, each_and_their_mixes_are_grown_kept_and_described) {
     for (const std::string mix :

@@ -32,14 +32,8 @@ std::string glb(const std::string& mix, const std::string& more = "") {
     return "/v1/mushrooms/" + mix + ".glb?" + smallest + more;
 }
 
-class MixesTest : public testing::Test {
+class MixesTest : public test::AskedService {
   protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
-        return handle(service_, get(std::move(target), std::move(headers)));
-    }
-
-    Service service_{built_in_atlas(), ServiceOptions{}};
     const std::string a_ = first_species(), b_ = second_species();
 };
 

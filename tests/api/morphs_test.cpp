@@ -43,15 +43,7 @@ std::string small(const std::string& more) {
     return "{\"lod\":3,\"textures\":\"none\"" + (more.empty() ? "" : ',' + more) + '}';
 }
 
-class MorphsTest : public testing::Test {
-  protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
-        return handle(service_, get(std::move(target), std::move(headers)));
-    }
-
-    Service service_{built_in_atlas(), ServiceOptions{}};
-};
+class MorphsTest : public test::AskedService {};
 
 // --- The correspondence -------------------------------------------------------------------
 

@@ -33,16 +33,7 @@ using test::request;
 using test::small;
 using test::text_of;
 
-class ServiceTest : public testing::Test {
-  protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
-        return handle(service_, get(std::move(target), std::move(headers)));
-    }
-    std::uint64_t generated() const { return service_.counters().generated; }
-
-    Service service_{built_in_atlas(), ServiceOptions{}};
-};
+class ServiceTest : public test::AskedService {};
 
 // --- Errors -----------------------------------------------------------------------------
 

@@ -57,6 +57,18 @@ inline Value json_of(const Answer& answer) {
     return value;
 }
 
+/// A service with the built-in atlas, for one test.
+class AskedService : public testing::Test {
+  protected:
+    Answer ask(const Request& one) { return handle(service_, one); }
+    Answer ask(std::string target, std::vector<Header> headers = {}) {
+        return handle(service_, get(std::move(target), std::move(headers)));
+    }
+    [[nodiscard]] std::uint64_t generated() const { return service_.counters().generated; }
+
+    Service service_{built_in_atlas(), ServiceOptions{}};
+};
+
 /// "parameter: detail" of each of a problem's errors.
 inline std::vector<std::string> errors_of(const Answer& answer) {
     std::vector<std::string> out;

@@ -32,16 +32,7 @@ std::string small(const std::string& more = "") { return oak + "?lod=3&texture_s
 
 Request body(std::string json) { return post(std::move(json), "/v1/trees.glb"); }
 
-class TreesTest : public testing::Test {
-  protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
-        return handle(service_, get(std::move(target), std::move(headers)));
-    }
-    std::uint64_t generated() { return service_.counters().generated; }
-
-    Service service_{built_in_atlas(), ServiceOptions{}};
-};
+class TreesTest : public test::AskedService {};
 
 TEST_F(TreesTest, are_listed_with_links_that_work) {
     const Value list = json_of(ask("/v1/trees"));
