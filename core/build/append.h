@@ -7,7 +7,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/mesh/mesh.h"
 
 namespace sporeprint {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/purposes.h"

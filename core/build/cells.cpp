@@ -5,7 +5,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 
 namespace sporeprint {

@@ -10,7 +10,7 @@
 #include <utility>
 
 #include "core/build/budget.h"
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/math/spline.h"

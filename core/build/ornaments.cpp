@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <span>
 
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/purposes.h"

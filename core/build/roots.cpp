@@ -4,7 +4,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/surface/charts.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/model/proportion.h"
 
 namespace sporeprint {

@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/build/append.h"
-#include "core/build/directions.h"
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/marks.h"

@@ -1,8 +1,5 @@
 #include "core/math/direction.h"
 
-#include <cmath>
-#include <glm/geometric.hpp>
-
 #include "core/math/elementary.h"
 
 namespace sporeprint {
@@ -19,12 +16,13 @@ glm::dvec3 turned_square(const glm::dvec3& v, const glm::dvec3& axis, double ang
     return at.cosine * v + at.sine * glm::cross(axis, v);
 }
 
-glm::dvec3 square_to(const glm::dvec3& v, const glm::dvec3& axis) {
-    const glm::dvec3 flat = v - glm::dot(v, axis) * axis;
-    const double size = glm::length(flat);
-    if (size > 1e-6) return flat / size;
-    const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    return glm::normalize(other - glm::dot(other, axis) * axis);
+glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
+    const glm::dvec3 other =
+        std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
+    const glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
+    // Much shorter than it was: almost parallel to the normal, so its direction is rounding noise.
+    if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, other);
+    return unit_or(other - glm::dot(other, normal) * normal, other);
 }
 
 }  // namespace sporeprint

@@ -1,6 +1,8 @@
-// Unit vectors that turn: what skeletons of trees and corals carry from limb to limb.
+// Unit vectors that turn, and those of lengths that may vanish: what skeletons carry from limb to limb, and what solids stand by.
 #pragma once
 
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
 namespace sporeprint {
@@ -14,7 +16,13 @@ namespace sporeprint {
 /// angle  radians, right-handed
 [[nodiscard]] glm::dvec3 turned_square(const glm::dvec3& v, const glm::dvec3& axis, double angle);
 
-/// The unit vector nearest to `v` that is square to the unit vector `axis`; some such vector where v lies along it.
-[[nodiscard]] glm::dvec3 square_to(const glm::dvec3& v, const glm::dvec3& axis);
+/// `v` made unit; `fallback` where it has no length.
+[[nodiscard]] inline glm::dvec3 unit_or(const glm::dvec3& v, const glm::dvec3& fallback) {
+    const double square = glm::dot(v, v);
+    return square > 1e-30 ? v / std::sqrt(square) : fallback;
+}
+
+/// `direction` made unit and square to the unit vector `normal`; some such vector where it has no length or lies along the normal.
+[[nodiscard]] glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction);
 
 }  // namespace sporeprint

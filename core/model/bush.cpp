@@ -288,14 +288,14 @@ class Grower {
             const SineCosine lean = sine_cosine(common_.splay);
             node.heading = glm::normalize(
                 glm::dvec3(lean.sine * out.cosine, lean.cosine, lean.sine * out.sine));
-            node.across = square_to(glm::dvec3(1.0, 0.0, 0.5 * drawn.z), node.heading);
+            node.across = square_to(node.heading, glm::dvec3(1.0, 0.0, 0.5 * drawn.z));
         } else {
             const glm::dvec3 before = node.heading;
             glm::dvec3 heading = before;
             heading += common_.upright * (upwards - glm::dot(upwards, heading) * heading);
             heading += 0.7 * common_.wander * glm::dvec3(drawn.x, 0.5 * drawn.y, drawn.z);
             node.heading = glm::normalize(heading);
-            node.across = square_to(carried(node.across, before, node.heading), node.heading);
+            node.across = square_to(node.heading, carried(node.across, before, node.heading));
         }
         // A limb that turns up again does not begin further on than where it goes.
         node.beside -= std::min(0.0, glm::dot(node.beside, node.heading)) * node.heading;

@@ -6,20 +6,12 @@
 #include <glm/geometric.hpp>
 #include <string>
 
+#include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 #include "core/model/purposes.h"
 
 namespace sporeprint {
-
-namespace {
-
-glm::dvec3 square_to(const glm::dvec3& axis) {
-    const glm::dvec3 other = std::abs(axis.x) < 0.7 ? glm::dvec3(1, 0, 0) : glm::dvec3(0, 0, 1);
-    return glm::normalize(other - glm::dot(other, axis) * axis);
-}
-
-}  // namespace
 
 std::vector<Spot> spots_of(std::span<const PlacedLeaf> leaves, double leaf_area, double middle,
                            std::size_t count) {
@@ -58,7 +50,7 @@ Mesh polygonal_spots(std::span<const Spot> spots, int corners, std::uint32_t see
     for (const Spot& spot : spots) {
         Random random(seed, purposes::spot_spin, spot.id);
         const double spin = 2.0 * pi * random.uniform();
-        const glm::dvec3 first = square_to(spot.normal);
+        const glm::dvec3 first = square_to(spot.normal, glm::dvec3(0.0));
         const glm::dvec3 second = glm::cross(spot.normal, first);
         const double radius = unit * std::sqrt(spot.area);
         const auto shift = static_cast<std::uint32_t>(mesh.positions.size());

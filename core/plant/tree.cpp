@@ -191,7 +191,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         heading += shape.phototropism * (light - glm::dot(light, heading) * heading);
         heading = glm::normalize(heading);
         tree.headings[i] = heading;
-        glm::dvec3 across = square_to(carried(tree.across[i], before, heading), heading);
+        glm::dvec3 across = square_to(heading, carried(tree.across[i], before, heading));
 
         double length = scale[i] * even[i] * (1.0 + 0.6 * shape.variation * drawn_length) *
                         shape.twig_length *
@@ -284,7 +284,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
             along -= 0.9 * style.droop * upwards;
             if (glm::length(along) < 1e-3) along = out;
             leaf.along = glm::normalize(along);
-            leaf.up = square_to(upwards + 0.35 * glm::dvec3(tilt_x, 0.0, tilt_z), leaf.along);
+            leaf.up = square_to(leaf.along, upwards + 0.35 * glm::dvec3(tilt_x, 0.0, tilt_z));
             leaf.size = style.leaf_size * (1.0 + style.size_spread * size_drawn);
             leaf.id = i * 64U + static_cast<std::uint32_t>(k);
             leaves.push_back(leaf);

@@ -21,6 +21,16 @@ for way in "${ways[@]}"; do
     build "hash/$way" hasher
 done
 
+# Two bodies under one name: which of them is called depends on what is inlined, and neither compiler nor linker says so.
+twice=$(nm -S --defined-only build/hash/g++:-O0/core/libsporeprint_core.a | awk '
+    $3 ~ /^[TWV]$/ && $4 ~ /^_ZNK?10sporeprint/ {
+        kinds[$4] = kinds[$4] $3
+        if ($4 in size && size[$4] != $2) differs[$4] = 1
+        size[$4] = $2
+    }
+    END { for (name in kinds) if (name in differs || kinds[name] ~ /T./ || kinds[name] ~ /.T/) print name }' | c++filt)
+verdict "$([ -z "$twice" ] && echo ok || echo bad)" "no name of the core has two bodies${twice:+: $twice}"
+
 mkdir -p build/hash/out
 rm -f build/hash/out/*
 hasher() { echo "build/hash/$1/tests/hasher/hasher"; }

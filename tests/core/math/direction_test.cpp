@@ -41,13 +41,13 @@ TEST(Direction, SquareToAnAxisTurnsAboutItRightHanded) {
     Random random(7, 2, 0);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 axis = glm::normalize(drawn(random)), v = drawn(random),
-                         flat = square_to(v, axis);
+                         flat = square_to(axis, v);
         EXPECT_NEAR(glm::length(flat), 1.0, 1e-12);
         EXPECT_NEAR(glm::dot(flat, axis), 0.0, 1e-9);
         EXPECT_GE(glm::dot(flat, v), 0.0);
         EXPECT_NEAR(glm::dot(turned_square(flat, axis, 0.7), flat), sine_cosine(0.7).cosine, 1e-9);
     }
-    EXPECT_NEAR(glm::dot(square_to({0, 2, 0}, {0, 1, 0}), glm::dvec3(0, 1, 0)), 0.0, 1e-12);
+    EXPECT_NEAR(glm::dot(square_to({0, 1, 0}, {0, 2, 0}), glm::dvec3(0, 1, 0)), 0.0, 1e-12);
 }
 
 }  // namespace
