@@ -89,33 +89,40 @@ std::optional<std::string_view> take_last(std::string_view& target, std::string_
     return last.substr(name.size() + 1);
 }
 
+/// What is wrong with some keys, by their index. No message shows a word of a key: who mixes up id and secret would find it in a log.
+std::vector<std::pair<std::size_t, std::string>> faults_of(const std::vector<SigningKey>& keys) {
+    std::vector<std::pair<std::size_t, std::string>> faults;
+    for (std::size_t i = 0; i < keys.size(); ++i) {
+        if (!is_id(keys[i].id))
+            faults.emplace_back(i, "the id has to be 1 to " + std::to_string(longest_id) +
+                                       " of a-z, A-Z, 0-9, '-' and '_'");
+        if (const std::size_t size = keys[i].secret.size();
+            size < least_secret || size > most_secret)
+            faults.emplace_back(i, "the secret has " + std::to_string(size) +
+                                       " bytes; allowed are " + std::to_string(least_secret) +
+                                       " to " + std::to_string(most_secret));
+        const auto same = [&](const SigningKey& one) { return one.id == keys[i].id; };
+        if (std::any_of(keys.begin(), keys.begin() + static_cast<std::ptrdiff_t>(i), same))
+            faults.emplace_back(i, "a key before it has the same id");
+    }
+    return faults;
+}
+
 }  // namespace
 
 Signatures::Signatures(std::vector<SigningKey> keys) : keys_(std::move(keys)) {
     std::vector<Problem> problems;
     if (keys_.empty()) report(problems, "keys", "there is no key");
-    for (std::size_t i = 0; i < keys_.size(); ++i) {
-        const SigningKey& key = keys_[i];
-        if (!is_id(key.id))
-            report(problems, "keys/" + std::to_string(i),
-                   in_quotes(key.id) + " is no id; allowed are 1 to " + std::to_string(longest_id) +
-                       " of a-z, A-Z, 0-9, '-' and '_'");
-        if (key.secret.size() < least_secret || key.secret.size() > most_secret)
-            report(problems, "keys/" + std::to_string(i),
-                   "the secret of " + in_quotes(key.id) + " has " +
-                       std::to_string(key.secret.size()) + " bytes; allowed are " +
-                       std::to_string(least_secret) + " to " + std::to_string(most_secret));
-        for (std::size_t j = 0; j < i; ++j)
-            if (keys_[j].id == key.id)
-                report(problems, "keys/" + std::to_string(i),
-                       "there are two keys " + in_quotes(key.id));
-    }
+    for (const auto& [i, fault] : faults_of(keys_))
+        report(problems, "keys/" + std::to_string(i), fault);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
 Signatures Signatures::from_text(const std::string& name, std::string_view text) {
     std::vector<SigningKey> keys;
+    std::vector<int> lines;  // that they stand on
     std::vector<Problem> problems;
+    const auto at = [&](int line) { return name + ':' + std::to_string(line); };
     for (int line = 1; !text.empty(); ++line) {
         const std::size_t end = text.find('\n');
         std::string_view rest = text.substr(0, end);
@@ -131,20 +138,17 @@ Signatures Signatures::from_text(const std::string& name, std::string_view text)
         if (words.empty() || words.front().starts_with('#')) continue;
         const std::optional<std::string> secret =
             words.size() == 2 ? bytes_of(words[1]) : std::nullopt;
-        if (secret)
-            keys.push_back({std::string(words[0]), *secret});
-        else
-            report(problems, name + ':' + std::to_string(line),
-                   "a line is an id and a secret in hexadecimal digits");
+        if (!secret) {
+            report(problems, at(line), "a line is an id and a secret in hexadecimal digits");
+            continue;
+        }
+        keys.push_back({std::string(words[0]), *secret});
+        lines.push_back(line);
     }
+    for (const auto& [i, fault] : faults_of(keys)) report(problems, at(lines[i]), fault);
+    if (keys.empty() && problems.empty()) report(problems, name, "there is no key");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    try {
-        return Signatures(std::move(keys));
-    } catch (const InvalidInput& input) {
-        problems = input.problems();
-        for (Problem& problem : problems) problem.path = name + ": " + problem.path;
-        throw InvalidInput(std::move(problems));
-    }
+    return Signatures(std::move(keys));
 }
 
 Signatures Signatures::from_file(const std::filesystem::path& file) {

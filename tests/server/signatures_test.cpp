@@ -165,10 +165,14 @@ TEST(Signatures, every_faulty_line_is_named_and_no_secret_told) {
               "keys.txt:3: a line is an id and a secret in hexadecimal digits\n");
     EXPECT_NE(fault_of("# nothing").find("there is no key"), std::string::npos);
     EXPECT_NE(fault_of("a 00").find("has 1 bytes; allowed are 16 to 64"), std::string::npos);
-    EXPECT_NE(fault_of("a&b " + secret).find("'a&b' is no id"), std::string::npos);
+    EXPECT_NE(fault_of("a&b " + secret).find("keys.txt:1: the id has to be 1 to 32 of"),
+              std::string::npos);
     const std::string twice = fault_of("a " + secret + "\na " + secret);
-    EXPECT_NE(twice.find("there are two keys 'a'"), std::string::npos);
+    EXPECT_NE(twice.find("keys.txt:2: a key before it has the same id"), std::string::npos);
     EXPECT_EQ(twice.find(secret), std::string::npos);
+    // Secret and id mixed up.
+    EXPECT_EQ(fault_of(secret + " abcd").find(secret), std::string::npos);
+    EXPECT_EQ(fault_of(secret + secret + " " + secret).find(secret), std::string::npos);
     EXPECT_THROW(static_cast<void>(Signatures::from_file("/no/such/keys")), InvalidInput);
 }
 

@@ -1,0 +1,56 @@
+// Addresses as strangers send them, through the whole of what plans an answer: each is answered or is work with a key; its canonical
+// address means the same, and is its own.
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <variant>
+
+#include "api/service.h"
+#include "core/atlas/atlas.h"
+#include "tests/fuzz/expect.h"
+
+using namespace sporeprint;
+
+namespace {
+
+std::string_view header_of(const api::Answer& answer, std::string_view name) {
+    for (const auto& [key, value] : answer.headers)
+        if (key == name) return value;
+    return {};
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static api::Service service(built_in_atlas(), api::ServiceOptions{});
+    const auto ask = [](std::string method, std::string target) {
+        return service.plan({std::move(method), std::move(target), {}, {}, "fuzz"});
+    };
+    const std::string target = '/' + std::string(reinterpret_cast<const char*>(data), size);
+    const auto plan = ask("GET", target);
+    if (const auto* answer = std::get_if<api::Answer>(&plan)) {
+        expect(answer->status >= 200 && answer->status < 500, "no address is the server's fault");
+        return 0;
+    }
+    const api::Key key = std::get<api::Job>(plan).key;
+    expect(!key.empty(), "work has a key");
+
+    // HEAD is answered without work, and says the canonical address.
+    const auto head = ask("HEAD", target);
+    const auto* answer = std::get_if<api::Answer>(&head);
+    if (answer == nullptr) return 0;  // a document whose length is not known yet
+    expect(answer->status == 200, "HEAD of what GET would make");
+    const std::string canonical(header_of(*answer, "Content-Location"));
+    if (canonical.empty()) return 0;
+    const auto again = ask("GET", canonical);
+    const auto* job = std::get_if<api::Job>(&again);
+    expect(job != nullptr && job->key == key, "the canonical address means the same");
+    const auto own = ask("HEAD", canonical);
+    expect(header_of(std::get<api::Answer>(own), "Content-Location") == canonical,
+           "and is its own canonical address");
+    expect(header_of(std::get<api::Answer>(own), "ETag") == header_of(*answer, "ETag"),
+           "with the same tag");
+    return 0;
+}

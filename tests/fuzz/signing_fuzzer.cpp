@@ -1,0 +1,77 @@
+// Files of keys and signed addresses as strangers send them: a secret is never told, nothing is good that was not signed, and what was
+// signed is good, once, for what it was signed for.
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "core/params/problems.h"
+#include "server/signatures.h"
+#include "tests/fuzz/expect.h"
+
+using namespace sporeprint;
+using namespace sporeprint::server;
+
+namespace {
+
+constexpr std::int64_t now = 1'900'000'000;
+constexpr std::string_view secret_hex = "00112233445566778899aabbccddeeff";
+
+/// Keys as a file has them, `text` among them.
+void read_keys(std::string_view text) {
+    std::string file("good ");
+    file += secret_hex;
+    file += '\n';
+    file += text;
+    try {
+        const Signatures keys = Signatures::from_text("keys", file);
+        expect(keys.check("GET", keys.signed_target("GET", "/", "", std::nullopt), "", now).good,
+               "keys that are taken sign");
+    } catch (const InvalidInput& faults) {
+        expect(!faults.problems().empty(), "keys are refused with a reason");
+        for (const Problem& problem : faults.problems())
+            expect((problem.path + problem.message).find(secret_hex) == std::string::npos,
+                   "no secret is told");
+    }
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+    static const Signatures signatures({{"k", "0123456789abcdef"}, {"old", "fedcba9876543210"}});
+    const std::string_view text(reinterpret_cast<const char*>(data), size);
+    read_keys(text);
+
+    // The input as an address, with a body that begins at the first line's end.
+    const auto end = text.find('\n');
+    const std::string_view target = text.substr(0, end);
+    const std::string_view body = end == text.npos ? std::string_view{} : text.substr(end + 1);
+    for (const std::string_view method : {"GET", "HEAD", "POST", "PUT"}) {
+        const Checked checked = signatures.check(method, target, body, now);
+        expect(!checked.good && !checked.why.empty(), "nothing is good that was not signed");
+        expect(checked.target == target, "what is not good is passed on as it came");
+    }
+    if (target.empty() || target.front() != '/' || target.find('#') != target.npos) return 0;
+
+    for (const std::string_view method : {"GET", "POST"})
+        for (const std::optional<std::int64_t> expires :
+             {std::optional<std::int64_t>{}, std::optional(now + 1)}) {
+            const std::string made = signatures.signed_target(method, target, body, expires);
+            const Checked good = signatures.check(method, made, body, now);
+            expect(good.good && good.expires == expires.has_value(), "what was signed is good");
+            expect(good.target == target, "and is what was signed");
+            expect(!expires || !signatures.check(method, made, body, now + 1).good,
+                   "until it ends");
+            expect(!signatures.check(method == "GET" ? "POST" : "GET", made, body, now).good,
+                   "by its own method");
+            std::string other = made;
+            other[size % other.size()] = static_cast<char>(other[size % other.size()] ^ 1);
+            expect(!signatures.check(method, other, body, now).good, "and no other address is");
+            if (method == "POST")
+                expect(!signatures.check(method, made, std::string(body) + 'x', now).good,
+                       "nor another body");
+        }
+    return 0;
+}
