@@ -23,6 +23,9 @@ constexpr std::size_t row_corners = 6;
 constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from ridge to ridge
 constexpr int vein_segments = 3, least_veins = 100, most_veins = 400;
 
+// Share of the stem's length from which on blades stand on its skin: no species of the atlas that has them there has less.
+constexpr double least_decurrence = 0.01;
+
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
 /// Cross veins of one species that are built, whatever of them is there.
@@ -123,6 +126,8 @@ class Builder {
     /// The same before it has a place in space.
     struct Plan {
         double along = 0.0;  ///< metres from the stem's top along the face; below 0 down the stem
+        double buried =
+            0.0;  ///< 0..1: how far a root on the stem stands in the flesh, as on the face
         double angle = 0.0, height = 0.0, half = 0.0, stray = 0.0;
     };
     void row(const Plan& plan, double rooted);
@@ -150,6 +155,9 @@ void Builder::row(const Plan& plan, double rooted) {
             ground_.deformer.station(root.share == 1.0 ? ground_.deformer.top() : root.y);
         root.r -= deep * root.tangent_y;
         root.y += deep * root.tangent_r;
+        const OutlineSample inner = roots_.at(0.0, rooted), skin = stem.at(1.0);
+        root.r += plan.buried * (inner.r - skin.r);
+        root.y += plan.buried * (inner.y - skin.y);
         row.root = roots_.place(Part::stem, root, plan.angle, station, true);
     } else {
         const double whole = plan.along / std::max(face_.length(), 1e-12);
@@ -288,6 +296,8 @@ void Builder::blades(const BladeBudget& shares) {
             Plan plan;
             plan.along = begin * length - down * stem.length() * (1.0 - up);
             plan.height = beyond * smooth_step(0.0, 1.0, up);
+            // What hardly runs down begins where it does in a species that does not: in the flesh.
+            plan.buried = std::max(0.0, 1.0 - down / least_decurrence);
             plans_.push_back(plan);
         }
         // Rows crowd where a blade rises at the stem.

@@ -45,8 +45,8 @@ MushroomOrder without_patches(MushroomOrder order) {
     return order;
 }
 
-/// "Done when" 2: beside a thousandth of another a species is as near to itself as `allowance` says. Without its gills, which follow:
-/// the chords of long thin blades are another matter, see expect_solids_converge.
+/// Beside a thousandth of another a species is as near to itself as `allowance` says, without its gills; these follow in
+/// expect_solids_converge().
 void expect_convergence(MushroomOrder alone, MushroomOrder beside,
                         double (*allowance)(const Mesh&)) {
     alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
@@ -58,10 +58,10 @@ void expect_convergence(MushroomOrder alone, MushroomOrder beside,
         << text_of(beside.mix) << ", age " << alone.params.age;
 }
 
-/// The same with gills, pores and spines, as near as what lies flat: a shelf of oysters, twice as wide as high.
+/// The same with gills, pores and spines.
 void expect_solids_converge(const MushroomOrder& alone, const MushroomOrder& beside) {
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
-    EXPECT_LT(hausdorff(pure, mixed), hairs_breadth_of_flat(pure)) << text_of(beside.mix);
+    EXPECT_LT(hausdorff(pure, mixed), hairs_breadth(pure)) << text_of(beside.mix);
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << text_of(beside.mix);
 }
 

@@ -332,7 +332,7 @@ double extent(const Polyline& line) {
     return tall < 2.0 * wide ? std::sqrt(tall * tall + wide * wide) : tall;
 }
 
-// "Done when" 2, for the outline: beside a thousandth of any other, a species is within 0.3 % of its extent of itself.
+// Beside a thousandth of any other, a species is within 0.3 % of its extent of itself.
 TEST(MorphSet, OutlinesConvergeTowardsACorner) {
     for (const auto& [one, two] : sanitized ? some_pairs(8) : some_pairs(1000))
         for (const auto& [a, b] : {std::array{one, two}, {two, one}}) {
@@ -394,7 +394,7 @@ TEST(MorphSet, TheOrderOfTwoKinMovesNothingVisible) {
     }
 }
 
-// "Done when" 3, for the outline: steps of 1/256 in t.
+// In steps of 1/256 in t.
 TEST(MorphSet, NothingJumpsAlongAMorph) {
     for (const auto& [a, b] : sanitized ? some_pairs(8) : some_pairs(1000)) {
         const MorphSet set = set_of({a, b});
