@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "core/model/axis_curve.h"
+#include "core/model/deformation.h"
 
 namespace sporeprint {
 

@@ -6,7 +6,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/model/model.h"
+#include "core/model/swept.h"
 
 namespace sporeprint {
 

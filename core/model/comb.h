@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/model/model.h"
+#include "core/model/hymenium.h"
 
 namespace sporeprint {
 

@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/model/model.h"
 #include "core/model/purposes.h"
+#include "core/model/veils.h"
 
 namespace sporeprint {
 

@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-#include "core/model/model.h"
+#include "core/model/swept.h"
 
 namespace sporeprint {
 

@@ -1,6 +1,7 @@
 // What a person may ask of a mushroom: the query parameters and the mix of species.
 #pragma once
 
+#include "core/model/model.h"
 #include "core/silhouette/morph_set.h"
 
 namespace sporeprint {

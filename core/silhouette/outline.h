@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/math/spline.h"
-#include "core/model/model.h"
+#include "core/model/swept.h"
 
 namespace sporeprint {
 

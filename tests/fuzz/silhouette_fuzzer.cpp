@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/model/model.h"
+#include "core/model/swept.h"
 #include "core/params/problems.h"
 #include "core/silhouette/outline.h"
 #include "tests/fuzz/expect.h"
