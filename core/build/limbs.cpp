@@ -27,39 +27,47 @@ constexpr std::uint32_t none = Bush::none;
 
 /// How finely tubes are drawn.
 struct LimbDetail {
-    int trunk_sides;  ///< of tubes that bear many tips
+    int trunk_sides;  ///< of a trunk and what goes on from it
+    int thick_sides;  ///< of other tubes that bear many tips
     int sides;        ///< of the others
     int twig_sides;   ///< of last branches
     int steps;        ///< rings from fork to fork
     int tip_rings;    ///< rings of a last branch before its end
     int trunk_rings;  ///< of a trunk below its lowest fork, at least 2
-    int forks;        ///< at most so many forks of a tube have rings; of a trunk's one more
+    // What is left of a bush shows what is not:
+    double
+        tips_shown;  ///< how much further down the colour of tips reaches when all others are gone
+    double lean;     ///< 0..1: how far a limb turns to the middle of what it stands for
 };
-constexpr int all = 1000;
-constexpr std::array<LimbDetail, 10> ladder = {{{28, 20, 18, 8, 12, 10, all},
-                                                {20, 12, 10, 4, 6, 6, all},
-                                                {16, 10, 8, 3, 5, 6, all},
-                                                {14, 8, 6, 2, 4, 5, all},
-                                                {12, 7, 5, 2, 3, 5, all},
-                                                {10, 6, 4, 1, 2, 4, all},
-                                                {7, 5, 4, 1, 1, 3, all},
-                                                {6, 3, 3, 1, 1, 3, all},
-                                                {6, 4, 3, 1, 1, 3, 2},
-                                                {4, 3, 3, 1, 1, 2, 0}}};
-/// The finest step of the ladder by level of detail, and the coarsest: what is too much for that loses its smallest limbs. Near by
-/// every fork that is left has its ring, or limbs would leave their places.
+constexpr std::array<LimbDetail, 10> ladder = {{{28, 28, 20, 18, 8, 12, 10, 0.3, 0.0},
+                                                {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
+                                                {16, 16, 10, 8, 3, 5, 6, 0.3, 0.0},
+                                                {14, 14, 8, 6, 2, 4, 5, 0.3, 0.0},
+                                                {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
+                                                {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
+                                                {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
+                                                {12, 6, 3, 3, 1, 1, 3, 0.3, 0.0},
+                                                {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
+                                                {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6}}};
+/// The finest step of the ladder by level of detail, and the coarsest: what is too much for that loses its smallest limbs.
 constexpr std::array<std::size_t, 4> first_step = {0, 4, 8, 9};
 constexpr std::array<std::size_t, 4> last_step = {7, 7, 8, 9};
-/// Rather than a coarser step, this share of limbs may be missing.
-constexpr double enough = 0.75;
+/// Rather than a coarser step, this share of limbs is enough. A round limb of four sides is seen sooner than a twig that is not there.
+constexpr std::array<double, 4> enough = {0.9, 0.5, 0.0, 0.0};
 /// Tips that a tube bears at its beginning to count as thick.
 constexpr int many_tips = 12;
 
 /// A limb and all that goes on from it: first children, up to a tip.
 struct Chain {
     std::vector<std::uint32_t> nodes;
+    std::vector<std::size_t>
+        forks;  ///< places in `nodes` where others begin that are drawn: each has its rings
     int tips = 1;
+    int around = 1;  ///< tips of the fork where it begins
     bool root = false;
+
+    /// Whether it passes forks without a ring.
+    [[nodiscard]] bool is_straight() const { return forks.size() + (root ? 2 : 1) < nodes.size(); }
 };
 
 std::vector<Chain> chains_of(const Bush& bush) {
@@ -70,61 +78,61 @@ std::vector<Chain> chains_of(const Bush& bush) {
         Chain chain;
         chain.tips = node.tips;
         chain.root = node.parent == none;
+        chain.around = chain.root ? node.tips : bush.nodes[node.parent].tips;
         for (std::uint32_t at = i; at != none; at = bush.nodes[at].children[0])
             chain.nodes.push_back(at);
         chains.push_back(std::move(chain));
     }
-    // Those that bear most come first: they are kept.
-    // Of equals some on every side: their numbers scattered.
+    // Those that bear most come first, then those that stand alone: they are kept. Of equals some on every side: their numbers
+    // scattered.
     const auto scattered = [](const Chain& chain) { return chain.nodes.front() * 0x9e3779b1U; };
     std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
         if (a.root != b.root) return a.root;
-        return a.tips != b.tips ? a.tips > b.tips : scattered(a) < scattered(b);
+        if (a.tips != b.tips) return a.tips > b.tips;
+        return a.around != b.around ? a.around > b.around : scattered(a) < scattered(b);
     });
     return chains;
 }
 
 int sides_of(const Chain& chain, const LimbDetail& detail) {
-    if (chain.root || chain.tips >= many_tips) return detail.trunk_sides;
+    if (chain.root) return detail.trunk_sides;
+    if (chain.tips >= many_tips) return detail.thick_sides;
     return chain.tips > 1 ? detail.sides : detail.twig_sides;
 }
 
-/// Forks along a chain that have rings, and how many there are.
-int forks_along(const Chain& chain) {
-    return static_cast<int>(chain.nodes.size()) - (chain.root ? 2 : 1);
-}
-int shown_forks(const Chain& chain, const LimbDetail& detail) {
-    return std::min(forks_along(chain), detail.forks + (chain.root ? 1 : 0));
-}
-
-/// The nodes at whose ends a tube has rings, and its tip.
-std::vector<std::uint32_t> shown_nodes(const Chain& chain, const LimbDetail& detail) {
-    const int there = forks_along(chain), shown = shown_forks(chain, detail);
-    std::vector<std::uint32_t> nodes;
-    for (int k = 1; k <= shown; ++k)
-        nodes.push_back(chain.nodes[static_cast<std::size_t>((chain.root ? 0 : -1) +
-                                                             k * (there + 1) / (shown + 1))]);
-    nodes.push_back(chain.nodes.back());
-    return nodes;
+/// Of a tube, without the trunk below it.
+std::uint64_t tube_triangles(const Chain& chain, const LimbDetail& detail) {
+    // One ring at the fork where it begins, or at the top of the trunk.
+    const std::size_t rings = 1 + chain.forks.size() * static_cast<std::size_t>(detail.steps) +
+                              static_cast<std::size_t>(detail.tip_rings);
+    return 2 * static_cast<std::uint64_t>(rings) *
+           static_cast<std::uint64_t>(sides_of(chain, detail));
 }
 
-/// Rings of a tube between its two ends: what a chain's stations come to.
-int rings_of(const Chain& chain, const LimbDetail& detail) {
-    // And that at the fork where it begins, or at the top of the trunk.
-    return 1 + shown_forks(chain, detail) * detail.steps + detail.tip_rings;
-}
-
+/// Of a tube on which no other begins.
 MeshCount count_of(const Chain& chain, const LimbDetail& detail) {
     const auto sides = static_cast<std::uint64_t>(sides_of(chain, detail));
-    const auto rings = static_cast<std::uint64_t>(rings_of(chain, detail));
+    const auto rings = static_cast<std::uint64_t>(1 + detail.tip_rings);
     // A row at the beginning, a point at the tip.
-    MeshCount count{(chain.root ? rings : rings + 1) * sides + 1, 2 * rings * sides};
+    MeshCount count{(chain.root ? rings : rings + 1) * sides + 1, tube_triangles(chain, detail)};
     if (chain.root) {
         const auto trunk = static_cast<std::uint64_t>(detail.trunk_rings);
         count.vertices += (trunk + 1) * (sides + 1);
         count.triangles += (2 * (trunk - 1) + 1) * sides - sides;
     }
     return count;
+}
+
+/// Whether a tube has triangles: its first limb has begun to be there.
+bool is_there(const Bush& bush, const Chain& chain) {
+    return bush.nodes[chain.nodes.front()].presence >= 0.004;
+}
+
+/// Of the rings that a tube has more for another that begins on it.
+MeshCount fork_count(const Chain& bearer, const LimbDetail& detail) {
+    const auto rings = static_cast<std::uint64_t>(detail.steps) *
+                       static_cast<std::uint64_t>(sides_of(bearer, detail));
+    return {rings, 2 * rings};
 }
 
 /// What of a bush is drawn at a level of detail.
@@ -135,34 +143,56 @@ struct Plan {
 };
 
 Plan plan_of(const Bush& bush, int lod) {
+    const auto level = static_cast<std::size_t>(lod);
     Plan plan;
     plan.chains = chains_of(bush);
-    const std::uint64_t most = most_triangles[static_cast<std::size_t>(lod)];
-    const std::size_t last = last_step[static_cast<std::size_t>(lod)];
-    for (std::size_t step = first_step[static_cast<std::size_t>(lod)]; step <= last; ++step) {
+    // Of each node the chain that it is on, and where there.
+    struct Place {
+        std::size_t chain = 0, at = 0;
+    };
+    std::vector<Place> places(bush.nodes.size());
+    for (std::size_t c = 0; c < plan.chains.size(); ++c)
+        for (std::size_t k = 0; k < plan.chains[c].nodes.size(); ++k)
+            places[plan.chains[c].nodes[k]] = {c, k};
+    // Where the fork is that a chain begins at; the lowest one is the top of a trunk, which has its ring.
+    const auto fork_of = [&](const Chain& chain) -> const Place* {
+        if (chain.root) return nullptr;
+        const std::uint32_t fork = bush.nodes[chain.nodes.front()].parent;
+        return bush.nodes[fork].parent == none ? nullptr : &places[fork];
+    };
+    std::size_t kept = 0;
+    for (std::size_t step = first_step[level]; step <= last_step[level]; ++step) {
         plan.detail = ladder[step];
         plan.count = {};
-        std::size_t kept = 0;
-        for (; kept < plan.chains.size(); ++kept) {
-            const MeshCount one = count_of(plan.chains[kept], plan.detail);
-            if (plan.count.triangles + one.triangles > most) break;
+        for (kept = 0; kept < plan.chains.size(); ++kept) {
+            MeshCount one = count_of(plan.chains[kept], plan.detail);
+            // A bearer bears more than what it bears, so that it came before.
+            if (const Place* fork = fork_of(plan.chains[kept])) {
+                const MeshCount rings = fork_count(plan.chains[fork->chain], plan.detail);
+                one.vertices += rings.vertices;
+                one.triangles += rings.triangles;
+            }
+            if (plan.count.triangles + one.triangles > most_triangles[level]) break;
             plan.count.vertices += one.vertices;
             plan.count.triangles += one.triangles;
         }
-        if (static_cast<double>(kept) >= enough * static_cast<double>(plan.chains.size()) ||
-            step == last) {
-            plan.chains.resize(kept);
+        if (static_cast<double>(kept) >= enough[level] * static_cast<double>(plan.chains.size()))
             break;
-        }
     }
+    plan.chains.resize(kept);
+    for (const Chain& chain : plan.chains)
+        if (const Place* fork = fork_of(chain)) plan.chains[fork->chain].forks.push_back(fork->at);
+    for (Chain& chain : plan.chains) std::sort(chain.forks.begin(), chain.forks.end());
     return plan;
 }
 
 /// Curvature of a bent bush times how far its limbs reach: at 1 those on the inner side would meet.
 constexpr double most_fold = 0.75;
 
-/// What limbs that are left out leave to those that stay: width as a power of the number of tips, and colour of the tips.
-constexpr double width_left = 0.65, tips_shown = 0.4;
+/// What limbs that are left out leave to those that stay: width as a power of the number of tips.
+constexpr double width_left = 0.7;
+/// Tubes of fewer sides would cut the rings of the chart's disc short.
+constexpr int round_sides = 6;
 
 /// A place on the middle of a tube.
 struct Station {
@@ -242,6 +272,7 @@ class Tubes {
           stands_for_(bush_.nodes.size(), 1.0),
           drawn_(bush_.nodes.size()) {
         weigh_what_is_left_out();
+        lean_to_what_is_left_out();
     }
 
     Mesh build() {
@@ -272,9 +303,7 @@ class Tubes {
             left += node(chain.nodes.back()).presence;
         }
         for (const std::uint32_t root : bush_.roots) all_left += node(root).left;
-        // Tubes whose only ring is near their tips show it anyway.
-        if (plan_.detail.forks > 0)
-            thinned_ = 1.0 + tips_shown * std::max(0.0, 1.0 - left / all_left);
+        thinned_ = 1.0 + plan_.detail.tips_shown * std::max(0.0, 1.0 - left / all_left);
         for (std::uint32_t i = 0; i < bush_.nodes.size(); ++i) {
             const Node& one = node(i);
             if (one.children[0] == none) continue;
@@ -282,6 +311,52 @@ class Tubes {
             for (const std::uint32_t child : one.children) stands_for_[child] = stands_for_[i];
             if (!kept[one.children[1]])
                 stands_for_[one.children[0]] *= std::max(1.0, one.left / mine);
+        }
+    }
+
+    // Turns limbs towards the middle of the tips that they stand for, and lets them reach as far as the farthest of those: where a few
+    // stand for all, the crown keeps its outline.
+    void lean_to_what_is_left_out() {
+        if (plan_.detail.lean <= 0.0) return;
+        struct Stand {
+            glm::dvec3 base{0.0}, sum{0.0};
+            double weight = 0.0, reach = 0.0;
+        };
+        std::vector<Stand> stands(plan_.chains.size());
+        std::vector<std::size_t> standing(bush_.nodes.size(), plan_.chains.size());
+        for (std::size_t c = 0; c < plan_.chains.size(); ++c) {
+            const Chain& chain = plan_.chains[c];
+            for (const std::uint32_t i : chain.nodes) standing[i] = c;
+            const std::uint32_t first = chain.nodes.front();
+            stands[c].base = node(chain.root ? first : node(first).parent).place;
+        }
+        for (std::uint32_t i = 0; i < bush_.nodes.size(); ++i) {
+            const Node& one = node(i);
+            if (standing[i] == stands.size() && one.parent != none)
+                standing[i] = standing[one.parent];
+            if (!bush_.is_tip(i) || standing[i] == stands.size()) continue;
+            Stand& stand = stands[standing[i]];
+            stand.sum += one.presence * one.place;
+            stand.weight += one.presence;
+            stand.reach = std::max(stand.reach, glm::distance(one.place, stand.base));
+        }
+        for (std::size_t c = 0; c < plan_.chains.size(); ++c) {
+            const Chain& chain = plan_.chains[c];
+            const Stand& stand = stands[c];
+            if (stand.weight < 1e-9) continue;
+            Node& tip = bush_.nodes[chain.nodes.back()];
+            const glm::dvec3 middle = stand.sum / stand.weight - stand.base;
+            const glm::dvec3 from = tip.place - stand.base;
+            const glm::dvec3 wanted = stand.reach * unit_or(middle, unit_or(from, tip.heading));
+            const glm::dvec3 move = plan_.detail.lean * (wanted - from);
+            tip.heading =
+                unit_or(tip.heading + move / std::max(glm::length(from), 1e-12), tip.heading);
+            // A trunk stays where it is.
+            const std::size_t still = chain.root ? 1 : 0;
+            const auto steps = static_cast<double>(chain.nodes.size() - still);
+            for (std::size_t k = still; k < chain.nodes.size(); ++k)
+                bush_.nodes[chain.nodes[k]].place +=
+                    static_cast<double>(k + 1 - still) / steps * move;
         }
     }
 
@@ -294,18 +369,11 @@ class Tubes {
         return node(i).radius * power(stands_for_[i], width_left);
     }
 
-    // Where fewer tips are, the colour of tips reaches further down: so much of it was seen.
-    [[nodiscard]] double colour_at(std::uint32_t i) const {
-        return power(node(i).from_tip, thinned_);
-    }
-
     // The way in which a tube passes the end of a limb: half-way between that limb and the next.
     [[nodiscard]] glm::dvec3 passing(std::uint32_t i) const {
         if (bush_.is_tip(i)) return node(i).heading;
         return unit_or(node(i).heading + node(node(i).children[0]).heading, node(i).heading);
     }
-
-    [[nodiscard]] bool skips_forks() const { return plan_.detail.forks < all; }
 
     static SplineSegment<glm::dvec3> way(const glm::dvec3& from, const glm::dvec3& leaving,
                                          const glm::dvec3& to, const glm::dvec3& arriving) {
@@ -321,19 +389,21 @@ class Tubes {
         station.thin = std::sqrt(1.0 - flatness);
     }
 
-    // Stations of one limb from a share of its length on; `from` is at its beginning.
-    void add_limb(std::vector<Station>& stations, const Station& from, std::uint32_t i) const {
+    // Stations of a tube from `from` on to the end of a limb.
+    void add_limb(std::vector<Station>& stations, const Station& from, std::uint32_t i,
+                  bool is_straight) const {
         const Node& end = node(i);
         const bool tip = bush_.is_tip(i);
-        // Where forks have no rings, a twig may begin beside its place: it goes straight to its end.
+        // What passes forks without a ring goes straight to its end.
         const glm::dvec3 arriving =
-            tip && skips_forks() ? unit_or(end.place - from.at, end.heading) : passing(i);
+            tip && is_straight ? unit_or(end.place - from.at, end.heading) : passing(i);
         const auto curve = way(from.at, from.along, end.place, arriving);
         const double radius = radius_at(i);
         const glm::dmat3 flat = tip ? from.flat : square_of(end.across);
         const int steps = tip ? plan_.detail.tip_rings : plan_.detail.steps;
-        // A last branch is cut off where slugs have eaten, or ends round.
-        const double blunt = bush_.bluntness + end.eaten * (1.0 - bush_.bluntness);
+        // A last branch is cut off where slugs have eaten, or ends round; one that stands for many ends as their crown does.
+        const double bluntness = 1.0 - (1.0 - bush_.bluntness) / stands_for_[i];
+        const double blunt = bluntness + end.eaten * (1.0 - bluntness);
         const double length = std::max(glm::distance(from.at, end.place), 1e-12);
         const double round = std::min(0.8, blunt * radius / length);
         const double web_after = from.at_fork;
@@ -342,8 +412,8 @@ class Tubes {
             const double share = static_cast<double>(k) / (steps + (tip ? 1 : 0));
             double t = share;
             if (tip) t = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
-            // One ring alone stands where the end begins to close.
-            if (tip && steps == 1) t = std::max(0.6, 1.0 - 0.7 * round);
+            // One ring alone stands where cylinder and cone are as large as cylinder and round end seen from the side: 2 - pi / 2.
+            if (tip && steps == 1) t = std::max(0.6, 1.0 - 0.43 * round);
             const auto sample = curve.at(t);
             Station s;
             s.at = sample.position;
@@ -353,7 +423,7 @@ class Tubes {
             s.radius =
                 from.radius + (tip ? t : smooth_step(-0.15, 1.15, t)) * (radius - from.radius);
             if (tip) {
-                const double taper = (1.0 - t) * (1.0 - bush_.bluntness) + bush_.bluntness;
+                const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
                 s.radius *= end.eaten + (1.0 - end.eaten) * taper;
                 if (steps > 1 && t > 1.0 - round) {
                     const double x = (t - 1.0 + round) / round;
@@ -363,23 +433,9 @@ class Tubes {
             // A fork spreads into both of the limbs that leave it.
             const double near_end = tip ? 0.0 : smooth_step(0.5, 1.0, t);
             shape(s, near_end + web_after * (1.0 - smooth_step(0.0, 0.6, t)), 1.0);
-            s.colour = from.colour + t * (colour_at(i) - from.colour);
+            s.colour = from.colour + t * (end.from_tip - from.colour);
             stations.push_back(s);
         }
-    }
-
-    // Where a tube passes a node on the way from a station to the end of another limb.
-    [[nodiscard]] Station between(const Station& from, std::uint32_t end, std::uint32_t i) const {
-        const double before = glm::distance(from.at, node(i).place);
-        const double after = glm::distance(node(i).place, node(end).place);
-        const double t = before / std::max(before + after, 1e-12);
-        const auto sample = way(from.at, from.along, node(end).place, passing(end)).at(t);
-        Station s = from;
-        s.at = sample.position;
-        s.along = unit_or((1.0 - t) * from.along + t * passing(end), node(i).heading);
-        s.radius = from.radius + t * (radius_at(end) - from.radius);
-        s.colour = from.colour + t * (colour_at(end) - from.colour);
-        return s;
     }
 
     void add(const Chain& chain) {
@@ -398,11 +454,11 @@ class Tubes {
             const double equal = std::min(1.0, wide_as(first) / sibling);
             begin.at = there.at + (1.0 - equal) * node(first).beside;
             // Half-way between the ways of both, so that it never begins backwards.
+            const std::uint32_t next =
+                chain.forks.empty() ? chain.nodes.back() : chain.nodes[chain.forks.front()];
             const glm::dvec3 onwards =
-                skips_forks()
-                    ? unit_or(node(shown_nodes(chain, plan_.detail).front()).place - begin.at,
-                              node(first).heading)
-                    : node(first).heading;
+                chain.is_straight() ? unit_or(node(next).place - begin.at, node(first).heading)
+                                    : node(first).heading;
             begin.along = unit_or(there.along + onwards, there.along);
             begin.flat = square_of(bearer.across);
             begin.radius = 0.97 * equal * there.radius;
@@ -416,17 +472,14 @@ class Tubes {
             stations.push_back(inside);
         }
         stations.push_back(begin);
-        std::size_t next = chain.root ? 1 : 0;
         if (chain.root) drawn_[first] = begin;
-        for (const std::uint32_t shown : shown_nodes(chain, plan_.detail)) {
+        const auto go_on_to = [&](std::uint32_t end) {
             const Station from = stations.back();
-            add_limb(stations, from, shown);
-            drawn_[shown] = stations.back();
-            // What begins at a fork without a ring begins on the way between those that have one.
-            for (; chain.nodes[next] != shown; ++next)
-                drawn_[chain.nodes[next]] = between(from, shown, chain.nodes[next]);
-            ++next;
-        }
+            add_limb(stations, from, end, chain.is_straight());
+            drawn_[end] = stations.back();
+        };
+        for (const std::size_t fork : chain.forks) go_on_to(chain.nodes[fork]);
+        go_on_to(chain.nodes.back());
         limb(chain, stations, sides);
     }
 
@@ -482,13 +535,13 @@ class Tubes {
         if (!chain.root) side_ = square_to(stations.front().along, node(start).across);
         const std::uint32_t base = rows(stations, sides, false, turn);
         const auto end = static_cast<std::uint32_t>(mesh_.positions.size());
-        const double colour = colour_at(chain.nodes.back());
+        const double colour = colour_of(tip.from_tip);
         const auto [s, c] = sine_cosine(turn);
         const auto at = disc_point(swept_charts[0], colour, c, s);
         mesh_.positions.emplace_back(tip.place);
         mesh_.normals.emplace_back(tip.heading);
         mesh_.texture_coordinates.emplace_back(at.u, at.v);
-        if (!options_.keep_absent && node(chain.nodes.front()).presence < 0.004) return;
+        if (!options_.keep_absent && !is_there(bush_, chain)) return;
         const auto count = static_cast<std::uint32_t>(stations.size());
         for (std::uint32_t i = 0; i + 1 < count; ++i)
             for (std::uint32_t j = 0; j < row; ++j) {
@@ -540,7 +593,7 @@ class Tubes {
                 mesh_.normals.emplace_back(
                     normal(stations[i], outs[here], places[right] - places[left],
                            common ? stations[i].along : places[above] - places[below]));
-                texture(stations[i], strip, static_cast<double>(j) / sides, turn);
+                texture(stations[i], sides, strip, static_cast<double>(j) / sides, turn);
             }
         return base;
     }
@@ -564,16 +617,20 @@ class Tubes {
         return glm::dot(found, out) > 0.0 ? found : out;
     }
 
-    void texture(const Station& station, bool strip, double round, double turn) {
+    // Where fewer tips are, the colour of tips reaches further down: so much of it was seen.
+    [[nodiscard]] double colour_of(double from_tip) const { return power(from_tip, thinned_); }
+
+    void texture(const Station& station, int sides, bool strip, double round, double turn) {
         TexturePoint at{};
         if (strip) {
             at = strip_point(swept_charts[2], station.colour, round);
         } else {
             // A polygon cuts the disc's rings short: few sides go there and back on a piece of it.
-            const double angle =
-                turn + (goes_round_ ? 2.0 * pi * round : 0.7 * (1.0 - std::abs(2.0 * round - 1.0)));
+            const double angle = turn + (goes_round_ && sides >= round_sides
+                                             ? 2.0 * pi * round
+                                             : 0.7 * (1.0 - std::abs(2.0 * round - 1.0)));
             const auto [s, c] = sine_cosine(angle);
-            at = disc_point(swept_charts[0], station.colour, c, s);
+            at = disc_point(swept_charts[0], colour_of(station.colour), c, s);
         }
         mesh_.texture_coordinates.emplace_back(at.u, at.v);
     }

@@ -55,11 +55,7 @@ INSTANTIATE_TEST_SUITE_P(Atlas, Detail, ::testing::ValuesIn(species_ids()),
 
 constexpr std::array<double, 4> ages = {0.6, 0.3, 0.85, 0.1};
 
-/// Whether it is a bush: of some three hundred limbs a dozen are left at last, so that more is allowed.
-bool has_limbs(const std::string& id) { return is_branched(atlas().find(id)->species); }
-
-// At the size where the coarser of two neighbours takes over, its silhouette differs by less than a pixel along its outline; that
-// of a bush by less than two.
+// At the size where the coarser of two neighbours takes over, its silhouette differs by less than a pixel along its outline.
 TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
     for (const double age : std::span(ages).first(effort(4, 1, 4))) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
@@ -68,8 +64,7 @@ TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
                 const Canvas canvas = canvas_of(levels[0].mesh, made_for[k + 1]);
                 const Drawing fine = drawn(levels[k].mesh, view, canvas);
                 const Drawing coarse = drawn(levels[k + 1].mesh, view, canvas);
-                EXPECT_LT(symmetric_difference(fine, coarse),
-                          (has_limbs(GetParam()) ? 2.0 : 1.0) * outline_length(fine))
+                EXPECT_LT(symmetric_difference(fine, coarse), outline_length(fine))
                     << "age " << age << ", level " << k << " and the next, from " << view.azimuth
                     << ", " << view.elevation;
             }
@@ -101,8 +96,7 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
             for (std::size_t p = 0; p < parts.size(); ++p) {
                 // A part that is hardly seen, as the stem of a cup, has no colour to compare.
                 if (std::min(means[k][p].count(), means[k + 1][p].count()) < 400) continue;
-                const double most = !has_limbs(GetParam()) ? 3.0 : k < 2 ? 4.0 : 10.0;
-                EXPECT_LT(difference(means[k][p].mean(), means[k + 1][p].mean()), most)
+                EXPECT_LT(difference(means[k][p].mean(), means[k + 1][p].mean()), 3.0)
                     << "age " << age << ", level " << k << " and the next, "
                     << (p == 0 ? "cap" : "stem");
             }
