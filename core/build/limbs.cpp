@@ -649,7 +649,14 @@ class Tubes {
 
 }  // namespace
 
-MeshCount limb_count(const Bush& bush, int lod) { return plan_of(bush, lod).count; }
+MeshCount limb_count(const Bush& bush, int lod, bool keep_absent) {
+    const Plan plan = plan_of(bush, lod);
+    MeshCount count = plan.count;
+    if (keep_absent) return count;
+    for (const Chain& chain : plan.chains)
+        if (!is_there(bush, chain)) count.triangles -= tube_triangles(chain, plan.detail);
+    return count;
+}
 
 Mesh branched_mesh(const Individual& individual, int lod, const SweepOptions& options) {
     return Tubes(individual, lod, options).build();

@@ -11,9 +11,9 @@
 
 namespace sporeprint {
 
-/// Vertices and triangles of a bush at a level of detail, 0..3. They follow from its species and its seed alone: no age and no
-/// weight changes them.
-[[nodiscard]] MeshCount limb_count(const Bush& bush, int lod);
+/// What branched_mesh() comes to at a level of detail, 0..3, exactly. Vertices follow from the species and the seed alone: no age and no
+/// weight changes them. Triangles are those of the limbs that are there; `keep_absent`: of all of them, as often as there are vertices.
+[[nodiscard]] MeshCount limb_count(const Bush& bush, int lod, bool keep_absent = false);
 
 /// Mesh of a branched individual at a level of detail, 0..3.
 ///

@@ -45,7 +45,8 @@ Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& me
 }
 
 Estimate estimate(const MushroomOrder& order, const Individual& individual) {
-    const MeshCount mesh = body_count(individual, order.params.lod);
+    const bool grows = order.params.animation != Animation::none;
+    const MeshCount mesh = body_count(individual, order.params.lod, grows);
     Estimate e;
     e.vertices = mesh.vertices;
     e.triangles = mesh.triangles;
@@ -54,7 +55,7 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     e.texels = images * static_cast<std::uint64_t>(atlases_held(order));
     // Twenty years of JPEG: noisy paint takes about a third of a byte a texel.
     e.bytes = estimated_bytes(e.vertices, e.triangles, order.params.textures, images / 3);
-    if (order.params.animation != Animation::none) {
+    if (grows) {
         const auto frames = static_cast<std::uint64_t>(order.params.frames);
         e.bytes += e.vertices * 24 * frames + 600 * frames;
         e.vertices += e.vertices * frames;
@@ -67,8 +68,8 @@ Mesh body_mesh(const Individual& individual, int lod, const SweepOptions& option
                                     : swept_mesh(individual, lod, options);
 }
 
-MeshCount body_count(const Individual& individual, int lod) {
-    return individual.is_branched() ? limb_count(individual.bush, lod)
+MeshCount body_count(const Individual& individual, int lod, bool keep_absent) {
+    return individual.is_branched() ? limb_count(individual.bush, lod, keep_absent)
                                     : budget_of(individual, lod).count;
 }
 

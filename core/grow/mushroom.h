@@ -21,8 +21,8 @@ namespace sporeprint {
 [[nodiscard]] Mesh body_mesh(const Individual& individual, int lod,
                              const SweepOptions& options = {});
 
-/// What body_mesh() comes to: vertices exactly, triangles at most.
-[[nodiscard]] MeshCount body_count(const Individual& individual, int lod);
+/// What body_mesh() comes to: vertices exactly, triangles at most, and exactly for what branches.
+[[nodiscard]] MeshCount body_count(const Individual& individual, int lod, bool keep_absent = true);
 
 /// The mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
