@@ -24,6 +24,8 @@ constexpr std::size_t most_discarded = 16u << 20;   ///< bytes of a refused requ
 constexpr milliseconds discarding{1000};            ///< at most so long
 constexpr milliseconds moment{500};                 ///< for whoever has just come to say something
 constexpr milliseconds second_thoughts{100};        ///< a closed writing end counts after so long
+constexpr std::string_view too_many_of_client =
+    "too many connections from this address; close some, or try again in a moment";
 constexpr std::size_t slowest = 16 * 1024;  ///< bytes a second that an answer must go out at
 
 bool is_proper_id(std::string_view id) {
@@ -65,8 +67,14 @@ std::string Hall::new_id() {
     return text;
 }
 
-Connection::Connection(Hall& hall, int socket, std::string peer)
-    : hall_(hall), socket_(socket), peer_(std::move(peer)), began_(hall.now) {
+Connection::Connection(Hall& hall, int socket, const Address& peer)
+    : hall_(hall),
+      socket_(socket),
+      peer_(peer),
+      client_(peer),
+      peer_text_(text_of(peer)),
+      by_proxy_(hall.options.proxies.trusted.contain(peer)),
+      began_(hall.now) {
     add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t{1});
     const milliseconds patience =
         hall_.back.draining ? 2 * hall_.options.farewell : hall_.options.idle;
@@ -102,6 +110,7 @@ bool Connection::go_on() {
 bool Connection::is_late() {
     switch (phase_) {
         case Phase::idle:
+            if (limited_) return refuse(429, too_many_of_client) != Step::end && advance();
             return !in_.empty();  // what has come is answered when its turn comes
         case Phase::parting:
             return false;
@@ -146,6 +155,11 @@ bool Connection::drain() {
 bool Connection::turn_away() {
     id_ = hall_.new_id();
     return refuse(503, "too many connections; try again in a moment") != Step::end && advance();
+}
+
+void Connection::limit() {
+    limited_ = true;
+    put_off_until(hall_.now + moment);
 }
 
 bool Connection::may_make_room() const {
@@ -200,6 +214,7 @@ Connection::Step Connection::read_head() {
 
 Connection::Step Connection::begin(Scan scan) {
     Head& head = scan.head;
+    if (by_proxy_) client_ = hall_.options.proxies.behind(peer_, head.headers);
     if (scan.state == Scan::State::complete && answer_at_once(head)) {
         in_.erase(0, scan.used);
         scanned_ = 0;
@@ -215,6 +230,7 @@ Connection::Step Connection::begin(Scan scan) {
     id_ = is_proper_id(asked_id) ? std::string(asked_id) : hall_.new_id();
     request_.id = id_;
     if (scan.state == Scan::State::refused) return refuse(scan.status, scan.detail);
+    if (limited_) return refuse(429, too_many_of_client);
     in_.erase(0, scan.used);
     scanned_ = 0;
     closing_ = !head.keep_alive || served_ + 1 >= hall_.options.most_requests;
@@ -250,12 +266,12 @@ Connection::Step Connection::begin(Scan scan) {
 /// Answers from the table, if it can. The head is to be forgotten then.
 bool Connection::answer_at_once(const Head& head) {
     const HotQuestion question = hot_question(head);
-    if (!question.simple) return false;
+    if (!question.simple || (limited_ && !hall_.hot.stands(head.target))) return false;
     const auto* const found = hall_.hot.find(head.target);
     if (!found) return false;
     const HotAnswer& hot = **found;
     ready_ = Clock::now();
-    closing_ = !head.keep_alive || served_ + 1 >= hall_.options.most_requests ||
+    closing_ = !head.keep_alive || limited_ || served_ + 1 >= hall_.options.most_requests ||
                hall_.back.draining.load(std::memory_order_relaxed);
     method_ = head.method;
     target_ = head.target;
@@ -300,7 +316,7 @@ Connection::Step Connection::read_body() {
 Connection::Step Connection::dispatch() {
     ready_ = Clock::now();
     const auto exchange =
-        std::make_shared<Exchange>(hall_.back, *this, std::move(request_), closing_);
+        std::make_shared<Exchange>(hall_.back, *this, std::move(request_), client_, closing_);
     bool taken = false;
     try {
         taken = hall_.back.workers.offer([exchange] { exchange->start(); });
@@ -445,7 +461,8 @@ void Connection::report(bool complete) {
     served.method = method_;
     served.target = target_;
     served.id = id_;
-    served.peer = peer_;
+    served.peer = peer_text_;
+    served.client = by_proxy_ && client_ != peer_ ? text_of(client_) : std::string();
     served.label = label_;
     served.status = status_;
     served.bytes = out_.sent();

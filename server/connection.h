@@ -50,7 +50,7 @@ class Connection final : public Timed {
     using Phase = Transport::Phase;
 
     /// socket  does not block; closed by the destructor
-    Connection(Hall& hall, int socket, std::string peer);
+    Connection(Hall& hall, int socket, const Address& peer);
     ~Connection() override;
 
     [[nodiscard]] bool happened(std::uint32_t events);  ///< of epoll, edge-triggered
@@ -59,6 +59,10 @@ class Connection final : public Timed {
     [[nodiscard]] bool answered(Reply reply);
     [[nodiscard]] bool drain();      ///< the server ends
     [[nodiscard]] bool turn_away();  ///< there are too many: says so, and ends soon
+
+    /// Its client has too many: of one request it gets the answer, if that is a standing one, else
+    /// 429, and all ends soon.
+    void limit();
 
     /// Whether it may be closed to make room: it waits for a request, and has for a while.
     [[nodiscard]] bool may_make_room() const;
@@ -69,6 +73,10 @@ class Connection final : public Timed {
 
     std::size_t place = 0;  ///< where the reactor keeps it
     bool ended = false;     ///< to be destroyed at the end of this round
+    bool counts = false;    ///< among those of its client
+
+    [[nodiscard]] const Address& peer() const { return peer_; }
+    [[nodiscard]] bool is_limited() const { return limited_; }
 
   private:
     enum class Step { on, wait, end };
@@ -96,7 +104,9 @@ class Connection final : public Timed {
 
     Hall& hall_;
     int socket_;
-    std::string peer_;
+    Address peer_, client_;  ///< the other end, and for whom it asks
+    std::string peer_text_;
+    bool by_proxy_, limited_ = false;
     Phase phase_ = Phase::idle;
     bool readable_ = false, writable_ = true;
     bool left_ = false;  ///< the client has closed its writing end, or all

@@ -70,9 +70,15 @@ struct Backroom {
 class Exchange final : public Visit, public std::enable_shared_from_this<Exchange> {
   public:
     /// from     gets exactly one reply, unless drop() comes first
+    /// client   who asks
     /// closing  whether the connection ends after this
-    Exchange(Backroom& back, Connection& from, api::Request request, bool closing)
-        : back_(back), from_(&from), request_(std::move(request)), closing_(closing) {}
+    Exchange(Backroom& back, Connection& from, api::Request request, const Address& client,
+             bool closing)
+        : back_(back),
+          from_(&from),
+          request_(std::move(request)),
+          client_(client),
+          closing_(closing) {}
     ~Exchange() override;
 
     void start();        ///< on a worker
@@ -80,6 +86,7 @@ class Exchange final : public Visit, public std::enable_shared_from_this<Exchang
     void drop();         ///< there will be no reply
 
     [[nodiscard]] const api::Request& request() const override { return request_; }
+    [[nodiscard]] const Address& client() const override { return client_; }
     [[nodiscard]] bool gone() const override { return gone_; }
     void reply(api::Answer answer) override;
     void reply_with(std::function<api::Answer()> make) override;
@@ -91,6 +98,7 @@ class Exchange final : public Visit, public std::enable_shared_from_this<Exchang
     Backroom& back_;
     Connection* from_;
     api::Request request_;
+    Address client_;
     bool closing_;
     std::string label_;
     std::atomic<bool> gone_{false}, answered_{false};

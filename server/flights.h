@@ -135,6 +135,12 @@ class Flights {
         return true;
     }
 
+    /// Whether a flight of this key may be boarded without a new one.
+    [[nodiscard]] bool flies(const std::string& key) const {
+        const std::lock_guard lock(mutex_);
+        return flights_.contains(key);
+    }
+
     /// Keys in the air.
     [[nodiscard]] std::size_t in_the_air() const {
         const std::lock_guard lock(mutex_);

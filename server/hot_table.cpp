@@ -149,6 +149,11 @@ const std::shared_ptr<const HotAnswer>* HotTable::find(std::string_view target) 
     return &entry.answer;
 }
 
+bool HotTable::stands(std::string_view target) const {
+    const auto found = map_.find(target);
+    return found != map_.end() && found->second->pinned;
+}
+
 void HotTable::insert(std::shared_ptr<const HotAnswer> answer) {
     const auto found = map_.find(answer->target);
     if (found != map_.end()) {

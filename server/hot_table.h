@@ -69,6 +69,9 @@ class HotTable {
     /// the caches behind it learn what is in use.
     [[nodiscard]] const std::shared_ptr<const HotAnswer>* find(std::string_view target);
 
+    /// Whether a target's answer is pinned.
+    [[nodiscard]] bool stands(std::string_view target) const;
+
     /// Keeps an answer in place of an earlier one, and drops others to make room. One of more than
     /// an eighth of the budget is not kept.
     void insert(std::shared_ptr<const HotAnswer> answer);

@@ -121,6 +121,7 @@ void Log::request(const Served& served) {
     };
     text(",\"id\":", served.id);
     text(",\"peer\":", served.peer);
+    if (!served.client.empty()) text(",\"client\":", served.client);
     text(",\"method\":", served.method);
     text(",\"target\":", served.target);
     line += ",\"status\":";

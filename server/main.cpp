@@ -123,6 +123,8 @@ int serve(const Options& options) {
     reception_options.slots =
         options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
     reception_options.metrics = options.metrics_port == 0;
+    reception_options.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
+    reception_options.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
     if (!options.sign_keys.empty())
         reception_options.signatures =
             std::make_shared<const Signatures>(Signatures::from_file(options.sign_keys.string()));
@@ -133,6 +135,8 @@ int serve(const Options& options) {
     TransportOptions transport_options;
     transport_options.host = options.host.string();
     transport_options.port = options.port;
+    transport_options.most_of_client = static_cast<std::size_t>(options.client_connections);
+    transport_options.proxies = {Networks(options.trusted_proxies), options.proxy_header};
     transport_options.hot_bytes = static_cast<std::size_t>(options.hot_cache_mb) << 20;
     transport_options.workers = std::max<std::size_t>(granted_processors(), 4);
     Transport transport(transport_options, reception.handlers());
@@ -141,6 +145,7 @@ int serve(const Options& options) {
         transport_options.port = options.metrics_port;
         transport_options.workers = 2;
         transport_options.most_connections = 64;
+        transport_options.most_of_client = 0;
         metrics_transport.emplace(transport_options, reception.metrics_handlers());
     }
     reception.watch(&transport);

@@ -110,7 +110,7 @@ struct Metrics::Parts {
                         .Add({})),
           version(std::move(the_version)),
           generator_version(std::move(the_generator_version)) {
-        for (const char* reason : {"queue", "deadline", "left"})
+        for (const char* reason : {"queue", "deadline", "left", "signature", "budget"})
             rejections.Add({{"reason", reason}});
     }
 };
@@ -219,6 +219,11 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
         .count(gauges.connections.queue);
     now.family("sporeprint_connections_refused_total", "Connections turned away", counter)
         .count(gauges.connections.refused);
+    now.family("sporeprint_connections_limited_total", "Connections beyond the limit of a client",
+               counter)
+        .count(gauges.connections.limited);
+    now.family("sporeprint_clients", "Clients whose budgets are remembered", gauge)
+        .count(gauges.clients);
     now.family("sporeprint_ready", "Whether /readyz says so", gauge).count(gauges.ready ? 1u : 0u);
     now.family("sporeprint_build_info", "What runs here", gauge)
         .value(1, {{"version", parts_->version}, {"generator_version", parts_->generator_version}});

@@ -18,6 +18,7 @@ struct Gauges {
     std::size_t workers = 0, busy_workers = 0;
     std::size_t queue = 0, queue_limit = 0;
     std::size_t in_the_air = 0, waiters = 0;
+    std::size_t clients = 0;  ///< whose budgets are remembered
     Transport::Load connections;
     bool ready = false;
 };
@@ -39,7 +40,8 @@ class Metrics {
     /// One request that joined somebody else's flight.
     void collapsed();
 
-    /// One request that was not let in: "queue" or "deadline" or "left".
+    /// One request that was not let in: "queue", "deadline", "left",
+    /// "signature" or "budget".
     void rejected(std::string_view reason);
 
     [[nodiscard]] std::string text(const api::Counters& counters, const Gauges& gauges) const;

@@ -56,6 +56,12 @@ void Options::check(const std::string& path, std::vector<Problem>& problems) con
     if (bad(allow_origin, " ,"))
         report(problems, path + "/allow_origin",
                in_quotes(allow_origin) + " is not one origin; allowed are * and https://a.example");
+    try {
+        static_cast<void>(Networks(trusted_proxies));
+    } catch (const InvalidInput& invalid) {
+        for (const Problem& problem : invalid.problems())
+            report(problems, path + "/trusted_proxies", problem.message);
+    }
     if (metrics_port != 0 && metrics_port == port)
         report(problems, path + "/metrics_port",
                std::to_string(metrics_port) + " is the main port too; allowed is any other");

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "core/params/describe.h"
+#include "server/addresses.h"
 
 namespace sporeprint::server {
 
@@ -42,6 +43,11 @@ struct Options {
     Text<1023> store;
     int store_mb = 1024;
     Text<1023> sign_keys;
+    int client_connections = 0;
+    int client_work = 0;
+    int client_burst = 20'000;
+    Text<1023> trusted_proxies;
+    ProxyHeader proxy_header = ProxyHeader::x_forwarded_for;
     int metrics_port = 0;
     LogLevel log_level = LogLevel::info;
     Text<15> simd = "auto";
@@ -99,6 +105,33 @@ struct Options {
               Info{.name = "sign_keys",
                    .doc = "File of keys, \"ID HEX\" a line, of which addresses of what is made "
                           "have to carry a signature; none for open addresses."});
+        visit(&O::client_connections,
+              Info{.name = "client_connections",
+                   .min = 0,
+                   .max = 1048576,
+                   .doc = "Connections that one address (of IPv6 its /64) may have open; 0 for as "
+                          "many as there are."});
+        visit(&O::client_work,
+              Info{.name = "client_work",
+                   .unit = "ms/s",
+                   .min = 0,
+                   .max = 1000000,
+                   .doc = "Work that may be done for one client, in milliseconds of one processor "
+                          "a second by estimate; 0 for any. What is kept costs nothing."});
+        visit(&O::client_burst,
+              Info{.name = "client_burst",
+                   .unit = "ms",
+                   .min = 1,
+                   .max = 1000000000,
+                   .doc = "Work that a client which has asked for nothing for long may have done "
+                          "at once."});
+        visit(&O::trusted_proxies,
+              Info{.name = "trusted_proxies",
+                   .doc = "Networks of proxies that are believed whom they ask for, as in "
+                          "10.0.0.0/8,2001:db8::/32; nobody by itself."});
+        visit(&O::proxy_header,
+              Info{.name = "proxy_header",
+                   .doc = "The one header in which they say so; the other is never looked at."});
         visit(&O::metrics_port,
               Info{.name = "metrics_port",
                    .min = 0,

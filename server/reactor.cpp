@@ -1,8 +1,6 @@
 #include "server/reactor.h"
 
-#include <arpa/inet.h>
 #include <fcntl.h>
-#include <netinet/in.h>
 #include <signal.h>
 #include <sys/epoll.h>
 #include <sys/socket.h>
@@ -22,20 +20,11 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t turned_away_at_once = 256;  ///< connections beyond the limit that are told so
+constexpr std::size_t turned_away_at_once = 256;  ///< connections beyond a limit that are told so
 constexpr int accepted_in_a_turn = 64;
 constexpr milliseconds pause{10};  ///< of accepting, when the system is out of memory or buffers
 
 int spare_descriptor() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
-
-std::string text_of(const sockaddr_storage& address) {
-    std::array<char, INET6_ADDRSTRLEN> text{};
-    const void* bytes =
-        address.ss_family == AF_INET6
-            ? static_cast<const void*>(&reinterpret_cast<const sockaddr_in6&>(address).sin6_addr)
-            : &reinterpret_cast<const sockaddr_in&>(address).sin_addr;
-    return inet_ntop(address.ss_family, bytes, text.data(), text.size()) ? text.data() : "";
-}
 
 }  // namespace
 
@@ -80,6 +69,7 @@ Transport::Load Reactor::load() const {
         load.connections[i] = hall_.phases[i].load(std::memory_order_relaxed);
     load.queue = workers_.waiting();
     load.refused = refused_;
+    load.limited = limited_;
     const HotTable::Stats& hot = hall_.hot.stats();
     load.hot_hits = hot.hits;
     load.hot_not_modified = hot.not_modified;
@@ -174,7 +164,7 @@ void Reactor::accept_all() {
         const int socket = ::accept4(library_.socket(), reinterpret_cast<sockaddr*>(&address),
                                      &size, SOCK_CLOEXEC | SOCK_NONBLOCK);
         if (socket >= 0) {
-            welcome(socket, text_of(address));
+            welcome(socket, address_of(address));
         } else if (errno == EMFILE || errno == ENFILE) {
             survive_exhaustion();
         } else if (errno != EINTR && errno != ECONNABORTED) {
@@ -184,18 +174,34 @@ void Reactor::accept_all() {
     }
 }
 
-void Reactor::welcome(int socket, std::string peer) {
+bool Reactor::has_too_many(const Address& peer) const {
+    const auto found = of_client_.find(client_of(peer));
+    return found != of_client_.end() && found->second >= options_.most_of_client;
+}
+
+void Reactor::welcome(int socket, const Address& peer) {
+    const bool counts = options_.most_of_client > 0 && !options_.proxies.trusted.contain(peer);
+    const bool limited = counts && has_too_many(peer);
     const std::size_t open = connections_.size() - ended_.size();
-    const bool full = open >= options_.most_connections && !make_room();
+    const bool full = !limited && open >= options_.most_connections && !make_room();
+    if (limited) ++limited_;
     if (full) ++refused_;
-    if (full && open >= options_.most_connections + turned_away_at_once) {
+    if ((full && open >= options_.most_connections + turned_away_at_once) ||
+        (limited && limited_now_ >= turned_away_at_once)) {
         ::close(socket);
         return;
     }
-    auto made = std::make_unique<Connection>(hall_, socket, std::move(peer));
+    auto made = std::make_unique<Connection>(hall_, socket, peer);
     Connection& connection = *made;
     connection.place = connections_.size();
     connections_.push_back(std::move(made));
+    if (limited) {
+        connection.limit();
+        ++limited_now_;
+    } else if (counts) {
+        connection.counts = true;
+        ++of_client_[client_of(peer)];
+    }
     epoll_event event{};
     event.events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET;
     event.data.ptr = &connection;
@@ -244,6 +250,11 @@ void Reactor::stop_listening() {
 void Reactor::bury() {
     for (Connection* one : ended_) {
         if (one->is_on_the_list()) std::erase(hall_.again, one);
+        if (one->is_limited()) --limited_now_;
+        if (one->counts) {
+            const auto of_client = of_client_.find(client_of(one->peer()));
+            if (--of_client->second == 0) of_client_.erase(of_client);
+        }
         const std::size_t place = one->place;
         std::swap(connections_[place], connections_.back());
         connections_[place]->place = place;

@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -35,7 +36,8 @@ class Reactor {
   private:
     [[nodiscard]] int milliseconds_to_wait() const;
     void accept_all();
-    void welcome(int socket, std::string peer);
+    void welcome(int socket, const Address& peer);
+    [[nodiscard]] bool has_too_many(const Address& peer) const;
     bool make_room();
     void survive_exhaustion();
     void begin_to_drain();
@@ -60,7 +62,9 @@ class Reactor {
     Clock::time_point accepting_again_ = Clock::time_point::max();  ///< after a pause
     std::vector<std::unique_ptr<Connection>> connections_;
     std::vector<Connection*> ended_;
-    std::atomic<std::uint64_t> refused_{0};
+    std::map<Address, std::size_t> of_client_;  ///< connections that count, if there is a limit
+    std::size_t limited_now_ = 0;
+    std::atomic<std::uint64_t> refused_{0}, limited_{0};
 };
 
 }  // namespace sporeprint::server

@@ -62,14 +62,16 @@ Reception::Reception(api::Service& service, Metrics& metrics, Log& log, Receptio
       log_(log),
       options_(std::move(options)),
       slots_(options_.slots, options_.longest_queue),
-      flights_(slots_, options_.most_waiters) {}
+      flights_(slots_, options_.most_waiters) {
+    if (options_.budget.rate > 0) budgets_.emplace(options_.budget);
+}
 
 Handlers Reception::handlers() {
     Handlers handlers;
     handlers.answer = [this](const std::shared_ptr<Visit>& visit) { answer(visit); };
     handlers.refuse = [this](const api::Request& request, int status, std::string_view detail) {
         std::vector<api::Header> extra;
-        if (status == 503) extra.emplace_back("Retry-After", "1");
+        if (status == 429 || status == 503) extra.emplace_back("Retry-After", "1");
         return service_.problem(request, status, detail, extra);
     };
     handlers.most_body = [this](std::string_view method, std::string_view target) {
@@ -119,10 +121,19 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
         return visit->reply(std::move(*answer));
     }
 
-    const std::optional<Answers::Seat> seat =
-        board(visit, asked, std::move(std::get<api::Job>(planned)));
+    auto& job = std::get<api::Job>(planned);
+    std::uint64_t work = job.cost.work();
+    if (const auto missing = charge(visit->client(), job.key, work); missing > missing.zero()) {
+        metrics_.rejected("budget");
+        const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
+        return visit->reply(service_.problem(
+            request, 429, "this client has had much made; there is room for more in a while",
+            {{"Retry-After", std::to_string(seconds)}}));
+    }
+    const std::optional<Answers::Seat> seat = board(visit, asked, std::move(job));
     glance.reset();
     if (!seat) {
+        if (work > 0) budgets_->give_back(client_of(visit->client()), work, Clock::now());
         metrics_.rejected("queue");
         return visit->reply(service_.problem(
             request, 503, "too much is being made; try again in a moment", {{"Retry-After", "1"}}));
@@ -139,6 +150,15 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
         visit->reply(
             service_.problem(visit->request(), 504, "this took longer than a request may"));
     });
+}
+
+std::chrono::microseconds Reception::charge(const Address& client, const api::Key& key,
+                                            std::uint64_t& work) {
+    if (!budgets_ || flights_.flies(key)) {
+        work = 0;
+        return {};
+    }
+    return budgets_->spend(client_of(client), work, Clock::now());
 }
 
 Reception::Asked Reception::asked(const std::shared_ptr<Visit>& visit) const {
@@ -248,6 +268,7 @@ Gauges Reception::gauges() const {
     gauges.in_the_air = flights_.in_the_air();
     gauges.waiters = flights_.waiters();
     if (const Transport* transport = transport_) gauges.connections = transport->load();
+    gauges.clients = budgets_ ? budgets_->clients() : 0;
     gauges.ready = is_ready();
     return gauges;
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <cstddef>
 #include <functional>
 #include <memory>
@@ -10,6 +11,7 @@
 #include <string>
 
 #include "api/service.h"
+#include "server/budgets.h"
 #include "server/flights.h"
 #include "server/log.h"
 #include "server/metrics.h"
@@ -24,6 +26,7 @@ struct ReceptionOptions {
     std::size_t longest_queue = 128;  ///< jobs that wait for a slot; 503 beyond
     std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
     bool metrics = true;              ///< whether /metrics is answered here
+    BudgetOptions budget;             ///< of each client, in api::Cost::work(); 429 beyond
     std::shared_ptr<const Signatures>
         signatures;  ///< asked for by what is made; none for no such thing
 };
@@ -71,6 +74,11 @@ class Reception {
     void answer(const std::shared_ptr<Visit>& visit);
     std::optional<Answers::Seat> board(const std::shared_ptr<Visit>& visit, const Asked& asked,
                                        api::Job job);
+    /// Takes what a job costs from the budget of who asks, unless somebody has begun it.
+    ///
+    /// returns  how long until there is enough; zero if there is
+    [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
+                                                   std::uint64_t& work);
     api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);
     api::Answer delivered(const api::Request& request, const Answers::Landing& landing);
     api::Answer plain(const api::Request& request, const std::string& text,
@@ -82,6 +90,7 @@ class Reception {
     Metrics& metrics_;
     Log& log_;
     ReceptionOptions options_;
+    std::optional<Budgets> budgets_;
     std::atomic<bool> ready_{false};
     std::atomic<const Transport*> transport_{nullptr};
     Slots slots_;

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "api/http.h"
+#include "server/addresses.h"
 
 namespace sporeprint::server {
 
@@ -25,6 +26,8 @@ struct TransportOptions {
     std::size_t workers = 4;                    ///< threads that call the handlers
     std::size_t longest_queue = 1024;           ///< requests that wait for a worker; 503 beyond
     std::size_t most_connections = 4096;        ///< open at once; 503 beyond
+    std::size_t most_of_client = 0;             ///< of those, of one client; 429 beyond; 0: all
+    Proxies proxies;                            ///< they speak for others and may open all
     std::size_t hot_bytes = 64u << 20;          ///< of answers that are given again; 0: none
     int backlog = 1024;                         ///< connections the kernel keeps for us
     std::size_t most_requests = 1000;           ///< on one connection
@@ -41,6 +44,7 @@ struct TransportOptions {
 /// What happened to one request, for the log and the metrics.
 struct Served {
     std::string method, target, id, peer;
+    std::string client;       ///< for whom a trusted proxy has asked; empty without one
     std::string label;        ///< what Handlers::label() said of it
     int status = 0;           ///< 499: the client left before its answer was made
     std::uint64_t bytes = 0;  ///< of head and body that went out
@@ -64,6 +68,9 @@ class Visit {
     virtual ~Visit() = default;
 
     [[nodiscard]] virtual const api::Request& request() const = 0;
+
+    /// Who asks: the other end, or whom it speaks for if it is a trusted proxy.
+    [[nodiscard]] virtual const Address& client() const = 0;
 
     /// Whether the client has left.
     [[nodiscard]] virtual bool gone() const = 0;
@@ -109,6 +116,7 @@ class Transport {
         std::array<std::size_t, phases.size()> connections{};  ///< by Phase
         std::size_t queue = 0;                                 ///< requests that wait for a worker
         std::uint64_t refused = 0;  ///< connections turned away because there were too many
+        std::uint64_t limited = 0;  ///< because one client had too many
         std::uint64_t hot_hits = 0, hot_not_modified = 0, hot_evictions = 0;  ///< given again
         std::size_t hot_bytes = 0, hot_entries = 0;
 

@@ -76,6 +76,10 @@ TEST(Options, AProblemNamesTheOptionItsValueAndWhatIsAllowed) {
     EXPECT_EQ(problems_of("", {}, {{"allow_origin", "*\r\nX-Evil: 1"}}).size(), 1u);
     EXPECT_EQ(problems_of("", {}, {{"port", "9000"}, {"metrics_port", "9000"}}),
               Lines{"--metrics-port: 9000 is the main port too; allowed is any other"});
+    EXPECT_EQ(problems_of("", {}, {{"trusted_proxies", "10.0.0.0/8, 10.0.0.1/8"}}),
+              Lines{"--trusted-proxies: '10.0.0.1/8' has bits beyond its length; a network is "
+                    "written with zeros there"});
+    EXPECT_EQ(problems_of("", {}, {{"proxy_header", "x-real-ip"}}).size(), 1u);
 }
 
 TEST(Options, ComeFromTheEnvironmentByTheirOwnNamesOnly) {
@@ -96,7 +100,9 @@ TEST(Options, EachHasHelp) {
     }
     for (const char* flag :
          {"--host", "--port", "--cache-mb", "--image-cache-mb", "--morph-cache-mb", "--threads",
-          "--atlas", "--assets", "--metrics-port", "--log-level", "--simd", "--allow-origin"})
+          "--atlas", "--assets", "--metrics-port", "--log-level", "--simd", "--allow-origin",
+          "--client-connections", "--client-work", "--client-burst", "--trusted-proxies",
+          "--proxy-header"})
         EXPECT_TRUE(flags.contains(flag)) << flag;
 }
 

@@ -18,7 +18,8 @@ namespace sporeprint::server {
 
 class RawClient {
   public:
-    explicit RawClient(int port, int receive_buffer = 0)
+    /// from  address of its own end, 127.0.0.1 if it is nullptr
+    explicit RawClient(int port, int receive_buffer = 0, const char* from = nullptr)
         : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
         if (receive_buffer > 0)
             setsockopt(socket_, SOL_SOCKET, SO_RCVBUF, &receive_buffer, sizeof receive_buffer);
@@ -26,6 +27,12 @@ class RawClient {
         address.sin_family = AF_INET;
         address.sin_port = htons(static_cast<std::uint16_t>(port));
         address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+        if (from) {
+            sockaddr_in own{};
+            own.sin_family = AF_INET;
+            inet_pton(AF_INET, from, &own.sin_addr);
+            static_cast<void>(::bind(socket_, reinterpret_cast<sockaddr*>(&own), sizeof own));
+        }
         connected_ = ::connect(socket_, reinterpret_cast<sockaddr*>(&address), sizeof address) == 0;
     }
     ~RawClient() { close(); }

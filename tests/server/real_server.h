@@ -2,6 +2,7 @@
 #pragma once
 
 #include <dirent.h>
+#include <fcntl.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -11,14 +12,25 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <sstream>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace sporeprint::server {
 
 class RealServer {
   public:
     /// most_files  its limit of descriptors, hard; 0 for ours
-    explicit RealServer(unsigned most_files = 0) {
+    /// options     further flags
+    /// log         file that its standard error goes to, all levels; empty for ours, warnings
+    explicit RealServer(unsigned most_files = 0, const std::vector<std::string>& options = {},
+                        std::string log = {})
+        : log_(std::move(log)) {
+        std::vector<const char*> arguments = {"sporeprint", "--port", "0", "--log-level",
+                                              log_.empty() ? "warning" : "debug"};
+        for (const std::string& option : options) arguments.push_back(option.c_str());
+        arguments.push_back(nullptr);
         int out[2];
         if (::pipe(out) != 0) return;
         pid_ = ::fork();
@@ -30,8 +42,9 @@ class RealServer {
             ::dup2(out[1], STDOUT_FILENO);
             ::close(out[0]);
             ::close(out[1]);
-            ::execl(SPOREPRINT_PROGRAM, "sporeprint", "--port", "0", "--log-level", "warning",
-                    static_cast<char*>(nullptr));
+            if (!log_.empty())
+                ::dup2(::open(log_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600), STDERR_FILENO);
+            ::execv(SPOREPRINT_PROGRAM, const_cast<char* const*>(arguments.data()));
             ::_exit(127);
         }
         ::close(out[1]);
@@ -62,6 +75,16 @@ class RealServer {
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
+    void hang_up() const { ::kill(pid_, SIGHUP); }
+
+    /// All that it has logged so far.
+    std::string log() const {
+        std::ifstream in(log_);
+        std::ostringstream text;
+        text << in.rdbuf();
+        return text.str();
+    }
+
     /// Bytes of resident memory.
     long resident() const {
         std::ifstream in("/proc/" + std::to_string(pid_) + "/statm");
@@ -80,6 +103,7 @@ class RealServer {
     }
 
   private:
+    std::string log_;
     pid_t pid_ = -1;
     int port_ = 0;
 };

@@ -25,9 +25,11 @@ const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=1024&
 /// A visit without a transport: whoever makes it waits for its answer.
 class Guest final : public Visit {
   public:
-    explicit Guest(api::Request request) : request_(std::move(request)) {}
+    explicit Guest(api::Request request, const Address& client = {})
+        : request_(std::move(request)), client_(client) {}
 
     const api::Request& request() const override { return request_; }
+    const Address& client() const override { return client_; }
     bool gone() const override { return false; }
     void reply(api::Answer answer) override {
         const std::lock_guard lock(mutex_);
@@ -56,6 +58,7 @@ class Guest final : public Visit {
 
   private:
     const api::Request request_;
+    const Address client_;
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<api::Answer> answer_;
@@ -236,15 +239,39 @@ TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
     EXPECT_NE(text_of(left.ask("/metrics")).find("{reason=\"left\"} 1\n"), std::string::npos);
 }
 
+TEST(Reception, ChargesOnceForWhatIsMadeOnceAndNotForWhatCouldNotBegin) {
+    ReceptionOptions options;
+    options.budget = {.rate = 1, .burst = 1};  // full: one piece of any size, then none for long
+    House once(options);
+    std::atomic<int> good{0};
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 12; ++i)
+            threads.emplace_back([&] {
+                if (once.ask(heavy + "1").status == 200) ++good;
+            });
+    }
+    EXPECT_GE(good, 1);
+    EXPECT_EQ(once.service.counters().generated, 1u);
+    EXPECT_EQ(once.ask(heavy + "1").status, 200) << "kept";
+    const api::Answer refused = once.ask(heavy + "2");
+    EXPECT_EQ(refused.status, 429);
+    EXPECT_GT(std::stoll(header(refused, "Retry-After")), 10'000) << "microseconds, one a second";
+
+    options.most_waiters = 0;
+    House full(options);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(full.ask(heavy + "1").status, 503) << "given back";
+}
+
 TEST(Reception, RefusesWithProblems) {
     House house;
     api::Request request;
     request.id = "abc";
-    for (const int status : {400, 408, 411, 413, 414, 415, 431, 501, 503}) {
+    for (const int status : {400, 408, 411, 413, 414, 415, 429, 431, 501, 503}) {
         const api::Answer answer = house.handlers.refuse(request, status, "why");
         EXPECT_EQ(answer.status, status);
         EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
-        EXPECT_EQ(header(answer, "Retry-After"), status == 503 ? "1" : "");
+        EXPECT_EQ(header(answer, "Retry-After"), status == 429 || status == 503 ? "1" : "");
         EXPECT_NE(text_of(answer).find("\"abc\""), std::string::npos);
         EXPECT_EQ(text_of(answer).find("nternal error"), std::string::npos);
     }
