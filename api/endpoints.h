@@ -25,7 +25,7 @@ struct Context {
     std::shared_ptr<const Atlas> atlas;
     ServiceOptions options;
     Answers answers;
-    Store store;
+    Store& store;
 };
 
 /// What is made once and kept, as HTTP sees it. What the address and the body mean is decided; nothing is made.

@@ -64,11 +64,14 @@ std::optional<Answer> refuse_body(const Answers& answers, const Request& request
 }  // namespace
 
 struct Service::Parts {
+    std::shared_ptr<Store> store;  ///< perhaps of other services too
     Context context;
     Shelf shelf;
 
-    Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
-        : context{std::move(atlas), options, Answers(options.allow_origin), Store(options)},
+    Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
+          std::shared_ptr<Store> the_store)
+        : store(std::move(the_store)),
+          context{std::move(atlas), options, Answers(options.allow_origin), *store},
           shelf(context.atlas, context.answers, options.assets) {}
 
     Plan plan(const Request& request);
@@ -79,7 +82,12 @@ struct Service::Parts {
 };
 
 Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
-    : parts_(std::make_unique<Parts>(std::move(atlas), options)) {}
+    : parts_(std::make_unique<Parts>(std::move(atlas), options, std::make_shared<Store>(options))) {
+}
+
+Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
+    : parts_(std::make_unique<Parts>(std::move(atlas), other.parts_->context.options,
+                                     other.parts_->store)) {}
 
 Service::~Service() = default;
 

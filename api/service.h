@@ -51,6 +51,10 @@ struct Timing {
 class Service {
   public:
     Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options);
+
+    /// The same with other templates, to take its place: options, counters and what is kept are common to both. Keys tell what
+    /// was made of which templates. The folder of the page is read anew.
+    Service(std::shared_ptr<const Atlas> atlas, const Service& other);
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;

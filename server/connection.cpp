@@ -60,6 +60,11 @@ Hall::Hall(const TransportOptions& the_options, Backroom& the_back)
     id_prefix_ = (static_cast<std::uint64_t>(entropy()) << 32) | entropy();
 }
 
+void Hall::keep_up() {
+    const std::uint64_t now_it_is = back.epoch;
+    if (std::exchange(epoch, now_it_is) != now_it_is) hot.clear();
+}
+
 std::string Hall::new_id() {
     const std::uint64_t x = mixed(id_prefix_ + ++last_id_);
     std::string text(16, '0');
@@ -139,7 +144,7 @@ bool Connection::is_late() {
 
 bool Connection::answered(Reply reply) {
     label_ = std::move(reply.label);
-    if (reply.hot) hall_.hot.insert(std::move(reply.hot));
+    if (reply.hot && reply.epoch == hall_.back.epoch) hall_.hot.insert(std::move(reply.hot));
     const auto sending = std::make_shared<const Sending>(std::move(reply.sending));
     return send(sending) != Step::end && advance();
 }
@@ -267,6 +272,7 @@ Connection::Step Connection::begin(Scan scan) {
 bool Connection::answer_at_once(const Head& head) {
     const HotQuestion question = hot_question(head);
     if (!question.simple || (limited_ && !hall_.hot.stands(head.target))) return false;
+    hall_.keep_up();
     const auto* const found = hall_.hot.find(head.target);
     if (!found) return false;
     const HotAnswer& hot = **found;

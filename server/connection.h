@@ -28,11 +28,15 @@ struct Hall {
 
     [[nodiscard]] std::string new_id();
 
+    /// Forgets what is not to be given again any more.
+    void keep_up();
+
     const TransportOptions& options;
     Backroom& back;
     Clock::time_point now;  ///< of this round of the loop
     Deadlines deadlines;
     HotTable hot;
+    std::uint64_t epoch = 0;  ///< of what the table holds
     std::size_t body_memory = 0;
     std::vector<Connection*> again;  ///< have more to do, when the others have had their turn
     std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};

@@ -69,6 +69,7 @@ Exchange::~Exchange() {
 
 void Exchange::start() {
     try {
+        epoch_ = back_.epoch;
         label_ = back_.label(request_.method, request_.target);
         back_.handlers.answer(shared_from_this());
     } catch (...) {
@@ -111,6 +112,7 @@ void Exchange::reply(api::Answer answer) {
     Reply reply;
     reply.to = from_;
     reply.label = std::move(label_);
+    reply.epoch = epoch_;
     reply.sending = back_.library.send(
         request_.method + ' ' + request_.target + " HTTP/1.1", [&] { return std::move(answer); },
         [&](int status) {

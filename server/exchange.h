@@ -26,6 +26,7 @@ struct Reply {
     Sending sending;
     std::string label;
     std::shared_ptr<const HotAnswer> hot;  ///< when others may get the same
+    std::uint64_t epoch = 0;               ///< if it is still that
 };
 
 /// Replies from any thread to the one that owns the connections, which it wakes.
@@ -58,6 +59,8 @@ struct Backroom {
     Workers& workers;
     Mailbox& mailbox;
     std::atomic<bool> draining{false};
+    std::atomic<std::uint64_t> epoch{
+        0};  ///< raised when answers of before are not to be given again
 
     /// handlers.refuse, or a bare status when it throws.
     [[nodiscard]] api::Answer refusal(const api::Request& request, int status,
@@ -100,6 +103,7 @@ class Exchange final : public Visit, public std::enable_shared_from_this<Exchang
     api::Request request_;
     Address client_;
     bool closing_;
+    std::uint64_t epoch_ = 0;  ///< when it began
     std::string label_;
     std::atomic<bool> gone_{false}, answered_{false};
     std::mutex mutex_;

@@ -168,6 +168,10 @@ void HotTable::insert(std::shared_ptr<const HotAnswer> answer) {
 
 void HotTable::pin(std::shared_ptr<const HotAnswer> answer) { add(std::move(answer), 0, true); }
 
+void HotTable::clear() {
+    while (!list_.empty()) drop(list_.begin());
+}
+
 void HotTable::add(std::shared_ptr<const HotAnswer> answer, std::size_t weight, bool pinned) {
     List& list = pinned ? pinned_ : list_;
     list.push_front({std::move(answer), weight, 0, false, pinned});

@@ -79,6 +79,9 @@ class HotTable {
     /// Keeps an answer for good; it counts nothing.
     void pin(std::shared_ptr<const HotAnswer> answer);
 
+    /// Drops all that are not pinned.
+    void clear();
+
     [[nodiscard]] Stats& stats() { return stats_; }
     [[nodiscard]] const Stats& stats() const { return stats_; }
 

@@ -24,6 +24,7 @@
 #include "server/metrics.h"
 #include "server/options.h"
 #include "server/reception.h"
+#include "server/reload.h"
 #include "server/signatures.h"
 #include "server/transport.h"
 
@@ -89,10 +90,10 @@ std::string generator_version(api::Service& service) {
     return version->is_string() ? version->as_string() : dump(*version);
 }
 
-/// Waits for SIGTERM or SIGINT, which every thread has blocked; at most so long.
-bool is_asked_to_stop(const sigset_t& signals, std::chrono::milliseconds patience) {
+/// Waits for a signal of those that every thread has blocked; at most so long. Returns 0 when none has come.
+int next_signal(const sigset_t& signals, std::chrono::milliseconds patience) {
     const timespec time{patience.count() / 1000, (patience.count() % 1000) * 1'000'000};
-    return sigtimedwait(&signals, nullptr, &time) > 0;
+    return std::max(sigtimedwait(&signals, nullptr, &time), 0);
 }
 
 int serve(const Options& options) {
@@ -100,6 +101,7 @@ int serve(const Options& options) {
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
+    sigaddset(&signals, SIGHUP);
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by every thread made from here on
     signal(SIGPIPE, SIG_IGN);
 
@@ -117,7 +119,8 @@ int serve(const Options& options) {
     service_options.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
     service_options.signed_addresses = !options.sign_keys.empty();
     service_options.allow_origin = options.allow_origin.string();
-    api::Service service(atlas, service_options);
+    Means means;
+    means.service = std::make_shared<api::Service>(atlas, service_options);
 
     ReceptionOptions reception_options;
     reception_options.slots =
@@ -125,12 +128,12 @@ int serve(const Options& options) {
     reception_options.metrics = options.metrics_port == 0;
     reception_options.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
     reception_options.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
-    if (!options.sign_keys.empty())
-        reception_options.signatures =
-            std::make_shared<const Signatures>(Signatures::from_file(options.sign_keys.string()));
+    const Sources sources{options.atlas.string(), options.sign_keys.string()};
+    if (!sources.keys.empty())
+        means.signatures = std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
     Log log(options.log_level);
-    Metrics metrics(SPOREPRINT_VERSION, generator_version(service));
-    Reception reception(service, metrics, log, reception_options);
+    Metrics metrics(SPOREPRINT_VERSION, generator_version(*means.service));
+    Reception reception(means, metrics, log, reception_options);
 
     TransportOptions transport_options;
     transport_options.host = options.host.string();
@@ -149,7 +152,7 @@ int serve(const Options& options) {
         metrics_transport.emplace(transport_options, reception.metrics_handlers());
     }
     reception.watch(&transport);
-    if (!service.self_test())
+    if (!means.service->self_test())
         return complain("the first thing made for a test could not be made; not starting", failed);
     reception.open();
     transport.start();
@@ -170,7 +173,11 @@ int serve(const Options& options) {
                {"port", Value(transport.port())},
                {"slots", Value(reception_options.slots)}});
 
-    while (!is_asked_to_stop(signals, std::chrono::hours(1))) continue;
+    means = {};
+    for (int signal = 0; signal != SIGTERM && signal != SIGINT;) {
+        signal = next_signal(signals, std::chrono::hours(1));
+        if (signal == SIGHUP && reload(sources, reception, log)) transport.forget();
+    }
     log.event(LogLevel::info, "stopping: no new connections, finishing what has begun");
     reception.close();
     std::atomic<bool> drained{false};
@@ -180,7 +187,9 @@ int serve(const Options& options) {
         drained = true;
     });
     while (!drained)
-        if (is_asked_to_stop(signals, std::chrono::milliseconds(20))) _exit(failed);  // asked twice
+        if (const int signal = next_signal(signals, std::chrono::milliseconds(20));
+            signal == SIGTERM || signal == SIGINT)
+            _exit(failed);  // asked twice
     log.event(LogLevel::info, "stopped");
     return fine;
 }

@@ -63,11 +63,17 @@ void Reactor::drain() {
     mailbox_.wake();
 }
 
+void Reactor::forget() {
+    ++back_.epoch;
+    mailbox_.wake();
+}
+
 Transport::Load Reactor::load() const {
     Transport::Load load;
     for (std::size_t i = 0; i < load.connections.size(); ++i)
         load.connections[i] = hall_.phases[i].load(std::memory_order_relaxed);
     load.queue = workers_.waiting();
+    load.queue_limit = options_.longest_queue;
     load.refused = refused_;
     load.limited = limited_;
     const HotTable::Stats& hot = hall_.hot.stats();
@@ -120,6 +126,7 @@ void Reactor::run() {
                     [&](Connection& one) { return one.happened(event.events); });
         }
         if (called) {
+            hall_.keep_up();
             for (Reply& reply : mailbox_.take()) {
                 Connection& to = *reply.to;
                 let(to, [&](Connection& one) { return one.answered(std::move(reply)); });

@@ -29,7 +29,8 @@ class Reactor {
     /// Serves until drain() has been called and the last connection has ended.
     void run();
 
-    void drain();  ///< on any thread
+    void drain();   ///< on any thread
+    void forget();  ///< on any thread
 
     [[nodiscard]] Transport::Load load() const;  ///< on any thread
 

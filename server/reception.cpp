@@ -56,14 +56,25 @@ std::string what(const std::exception_ptr& error) {
 
 }  // namespace
 
-Reception::Reception(api::Service& service, Metrics& metrics, Log& log, ReceptionOptions options)
-    : service_(service),
+Reception::Reception(Means means, Metrics& metrics, Log& log, const ReceptionOptions& options)
+    : means_(std::make_shared<const Means>(std::move(means))),
       metrics_(metrics),
       log_(log),
-      options_(std::move(options)),
+      options_(options),
       slots_(options_.slots, options_.longest_queue),
       flights_(slots_, options_.most_waiters) {
     if (options_.budget.rate > 0) budgets_.emplace(options_.budget);
+}
+
+std::shared_ptr<const Means> Reception::means() const {
+    const std::lock_guard lock(means_mutex_);
+    return means_;
+}
+
+void Reception::renew(Means means) {
+    auto renewed = std::make_shared<const Means>(std::move(means));
+    const std::lock_guard lock(means_mutex_);
+    means_.swap(renewed);  // what was there is destroyed outside the lock
 }
 
 Handlers Reception::handlers() {
@@ -72,10 +83,10 @@ Handlers Reception::handlers() {
     handlers.refuse = [this](const api::Request& request, int status, std::string_view detail) {
         std::vector<api::Header> extra;
         if (status == 429 || status == 503) extra.emplace_back("Retry-After", "1");
-        return service_.problem(request, status, detail, extra);
+        return means()->service->problem(request, status, detail, extra);
     };
     handlers.most_body = [this](std::string_view method, std::string_view target) {
-        return service_.most_body(method, target);
+        return means()->service->most_body(method, target);
     };
     handlers.label = [](std::string_view method, std::string_view target) {
         return route_of(method, target);
@@ -93,8 +104,9 @@ Handlers Reception::metrics_handlers() {
     handlers.answer = [this](const std::shared_ptr<Visit>& visit) {
         const api::Request& request = visit->request();
         const std::string_view path = path_of(request.target);
-        visit->reply(is_own(path) ? housekeeping(request, path, true)
-                                  : service_.problem(request, 404,
+        visit->reply(is_own(path)
+                         ? housekeeping(request, path, true)
+                         : means()->service->problem(request, 404,
                                                      "only /metrics, /livez and /readyz are here"));
     };
     handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
@@ -102,20 +114,28 @@ Handlers Reception::metrics_handlers() {
 }
 
 bool Reception::is_ready() const {
-    return ready_ && slots_.waiting() * 10 < slots_.longest_queue() * 9;
+    const auto has_room = [](std::size_t waiting, std::size_t most) {
+        return most == 0 || waiting * 10 < most * 9;
+    };
+    const Transport* const transport = transport_;
+    const Transport::Load load = transport ? transport->load() : Transport::Load();
+    return ready_ && has_room(slots_.waiting(), slots_.longest_queue()) &&
+           has_room(load.queue, load.queue_limit);
 }
 
 void Reception::answer(const std::shared_ptr<Visit>& visit) {
     const std::string_view path = path_of(visit->request().target);
     if (is_own(path)) return visit->reply(housekeeping(visit->request(), path, options_.metrics));
-    const Asked asked = this->asked(visit);
+    const Using means = this->means();
+    api::Service& service = *means->service;
+    const Asked asked = this->asked(*means, visit);
     const api::Request& request = *asked.request;
     if (!asked.why_not.empty()) {
         metrics_.rejected("signature");
-        return visit->reply(service_.problem(request, 403, asked.why_not));
+        return visit->reply(service.problem(request, 403, asked.why_not));
     }
     std::optional<Answers::Glance> glance(std::in_place, flights_);
-    std::variant<api::Answer, api::Job> planned = service_.plan(request);
+    std::variant<api::Answer, api::Job> planned = service.plan(request);
     if (api::Answer* answer = std::get_if<api::Answer>(&planned)) {
         if (asked.expires) answer->repeatable = false;
         return visit->reply(std::move(*answer));
@@ -126,19 +146,19 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
     if (const auto missing = charge(visit->client(), job.key, work); missing > missing.zero()) {
         metrics_.rejected("budget");
         const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
-        return visit->reply(service_.problem(
+        return visit->reply(service.problem(
             request, 429, "this client has had much made; there is room for more in a while",
             {{"Retry-After", std::to_string(seconds)}}));
     }
-    const std::optional<Answers::Seat> seat = board(visit, asked, std::move(job));
+    const std::optional<Answers::Seat> seat = board(means, visit, asked, std::move(job));
     glance.reset();
     if (!seat) {
         if (work > 0) budgets_->give_back(client_of(visit->client()), work, Clock::now());
         metrics_.rejected("queue");
-        return visit->reply(service_.problem(
+        return visit->reply(service.problem(
             request, 503, "too much is being made; try again in a moment", {{"Retry-After", "1"}}));
     }
-    visit->wait([this, visit, seat = *seat](Visit::Over why) {
+    visit->wait([this, means, visit, seat = *seat](Visit::Over why) {
         if (!flights_.leave(seat)) return;  // it has landed
         const bool left = why == Visit::Over::left;
         metrics_.rejected(left ? "left" : "deadline");
@@ -148,7 +168,7 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
             return visit->reply(std::move(nobody));
         }
         visit->reply(
-            service_.problem(visit->request(), 504, "this took longer than a request may"));
+            means->service->problem(visit->request(), 504, "this took longer than a request may"));
     });
 }
 
@@ -161,10 +181,10 @@ std::chrono::microseconds Reception::charge(const Address& client, const api::Ke
     return budgets_->spend(client_of(client), work, Clock::now());
 }
 
-Reception::Asked Reception::asked(const std::shared_ptr<Visit>& visit) const {
+Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visit>& visit) const {
     const api::Request& whole = visit->request();
     Asked asked{{visit, &whole}, false, {}};
-    if (!options_.signatures || whole.method == "OPTIONS") return asked;
+    if (!means.signatures || whole.method == "OPTIONS") return asked;
     std::vector<Problem> ignored;
     const api::Match match =
         api::match_route(whole.method, api::split_target(whole.target, ignored).segments);
@@ -172,7 +192,7 @@ Reception::Asked Reception::asked(const std::shared_ptr<Visit>& visit) const {
     const std::int64_t now = std::chrono::duration_cast<std::chrono::seconds>(
                                  std::chrono::system_clock::now().time_since_epoch())
                                  .count();
-    Checked checked = options_.signatures->check(whole.method, whole.target, whole.body, now);
+    Checked checked = means.signatures->check(whole.method, whole.target, whole.body, now);
     if (!checked.good) {
         asked.why_not = std::move(checked.why);
         return asked;
@@ -184,11 +204,12 @@ Reception::Asked Reception::asked(const std::shared_ptr<Visit>& visit) const {
     return asked;
 }
 
-std::optional<Reception::Answers::Seat> Reception::board(const std::shared_ptr<Visit>& visit,
+std::optional<Reception::Answers::Seat> Reception::board(const Using& means,
+                                                         const std::shared_ptr<Visit>& visit,
                                                          const Asked& asked, api::Job to_do) {
     const auto job = std::make_shared<const api::Job>(std::move(to_do));
     const Clock::time_point boarded = Clock::now();
-    const auto work = [this, job, boarded](std::stop_token stop) {
+    const auto work = [this, means, job, boarded](std::stop_token stop) {
         const double queue =
             std::chrono::duration<double, std::milli>(Clock::now() - boarded).count();
         api::Stopwatch watch;
@@ -198,48 +219,52 @@ std::optional<Reception::Answers::Seat> Reception::board(const std::shared_ptr<V
             [this](std::span<const std::function<void()>> pieces) { slots_.share(pieces); });
         made.timing = watch.timing(queue);
         metrics_.made(made.timing);
-        service_.finish(job->key, made.answer);
+        means->service->finish(job->key, made.answer);
         return made;
     };
     // Delivered by a worker of the transport: a slot is for making.
-    return flights_.board(job->key, work, [this, visit, asked](const Answers::Landing& landing) {
-        visit->reply_with([this, asked, landing] {
-            api::Answer answer = delivered(*asked.request, landing);
-            if (asked.expires) answer.repeatable = false;
-            return answer;
+    return flights_.board(
+        job->key, work, [this, means, visit, asked](const Answers::Landing& landing) {
+            visit->reply_with([this, means, asked, landing] {
+                api::Answer answer = delivered(*means->service, *asked.request, landing);
+                if (asked.expires) answer.repeatable = false;
+                return answer;
+            });
         });
-    });
 }
 
-api::Answer Reception::delivered(const api::Request& request, const Answers::Landing& landing) {
+api::Answer Reception::delivered(const api::Service& service, const api::Request& request,
+                                 const Answers::Landing& landing) {
     if (landing.error) {
-        api::Answer answer = service_.problem(request, landing.error);
+        api::Answer answer = service.problem(request, landing.error);
         if (answer.status == 500)
             log_.event(LogLevel::error, "making failed",
                        {{"id", Value(request.id)}, {"what", Value(what(landing.error))}});
         return answer;
     }
     if (landing.collapsed) metrics_.collapsed();
-    return service_.deliver(request, landing.result->answer,
-                            landing.collapsed ? api::Outcome::collapsed : api::Outcome::made,
-                            landing.result->timing);
+    return service.deliver(request, landing.result->answer,
+                           landing.collapsed ? api::Outcome::collapsed : api::Outcome::made,
+                           landing.result->timing);
 }
 
 api::Answer Reception::housekeeping(const api::Request& request, std::string_view path,
                                     bool metrics) {
+    const Using means = this->means();
+    const api::Service& service = *means->service;
     if (request.method != "GET" && request.method != "HEAD")
-        return service_.problem(request, 405, "only GET and HEAD are answered here",
-                                {{"Allow", "GET, HEAD"}});
+        return service.problem(request, 405, "only GET and HEAD are answered here",
+                               {{"Allow", "GET, HEAD"}});
     if (path == "/livez") return plain(request, alive);
     if (path == "/readyz") {
         if (is_ready()) return plain(request, "ready\n");
-        return service_.problem(
-            request, 503, ready_ ? "too much is being made" : "the server is starting or stopping",
+        return service.problem(
+            request, 503, ready_ ? "too much is waiting" : "the server is starting or stopping",
             {{"Retry-After", "1"}});
     }
     if (!metrics)
-        return service_.problem(request, 404, "metrics are answered on a port of their own");
-    return plain(request, metrics_.text(service_.counters(), gauges()),
+        return service.problem(request, 404, "metrics are answered on a port of their own");
+    return plain(request, metrics_.text(service.counters(), gauges()),
                  "text/plain; version=0.0.4; charset=utf-8");
 }
 

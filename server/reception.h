@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <functional>
 #include <memory>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -27,14 +28,19 @@ struct ReceptionOptions {
     std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
     bool metrics = true;              ///< whether /metrics is answered here
     BudgetOptions budget;             ///< of each client, in api::Cost::work(); 429 beyond
+};
+
+/// What may be put in another's place while requests come.
+struct Means {
+    std::shared_ptr<api::Service> service;
     std::shared_ptr<const Signatures>
         signatures;  ///< asked for by what is made; none for no such thing
 };
 
 class Reception {
   public:
-    /// service, metrics, log  outlive this
-    Reception(api::Service& service, Metrics& metrics, Log& log, ReceptionOptions options);
+    /// metrics, log  outlive this
+    Reception(Means means, Metrics& metrics, Log& log, const ReceptionOptions& options);
     ~Reception() = default;
     Reception(const Reception&) = delete;
     Reception& operator=(const Reception&) = delete;
@@ -44,6 +50,12 @@ class Reception {
 
     /// For a port of its own: /metrics and health only.
     [[nodiscard]] Handlers metrics_handlers();
+
+    /// What requests are answered with.
+    [[nodiscard]] std::shared_ptr<const Means> means() const;
+
+    /// Answers what comes from here on with these; what has begun ends with those before.
+    void renew(Means means);
 
     /// From here on /readyz may say yes.
     void open() { ready_ = true; }
@@ -57,6 +69,8 @@ class Reception {
     [[nodiscard]] bool is_ready() const;
 
   private:
+    using Using = std::shared_ptr<const Means>;  ///< held as long as a request uses them
+
     struct Made {
         api::Answer answer;
         api::Timing timing;
@@ -69,24 +83,26 @@ class Reception {
         bool expires = false;  ///< so that another may not be given the answer without a look
         std::string why_not;   ///< why it is refused; empty if it is not
     };
-    [[nodiscard]] Asked asked(const std::shared_ptr<Visit>& visit) const;
+    [[nodiscard]] Asked asked(const Means& means, const std::shared_ptr<Visit>& visit) const;
 
     void answer(const std::shared_ptr<Visit>& visit);
-    std::optional<Answers::Seat> board(const std::shared_ptr<Visit>& visit, const Asked& asked,
-                                       api::Job job);
+    std::optional<Answers::Seat> board(const Using& means, const std::shared_ptr<Visit>& visit,
+                                       const Asked& asked, api::Job job);
     /// Takes what a job costs from the budget of who asks, unless somebody has begun it.
     ///
     /// returns  how long until there is enough; zero if there is
     [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
                                                    std::uint64_t& work);
     api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);
-    api::Answer delivered(const api::Request& request, const Answers::Landing& landing);
+    api::Answer delivered(const api::Service& service, const api::Request& request,
+                          const Answers::Landing& landing);
     api::Answer plain(const api::Request& request, const std::string& text,
                       std::string type = "text/plain; charset=utf-8") const;
     void report(const Served& served);
     [[nodiscard]] Gauges gauges() const;
 
-    api::Service& service_;
+    mutable std::mutex means_mutex_;
+    std::shared_ptr<const Means> means_;
     Metrics& metrics_;
     Log& log_;
     ReceptionOptions options_;

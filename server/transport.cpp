@@ -31,6 +31,8 @@ void Transport::drain() {
     library_->close();
 }
 
+void Transport::forget() { reactor_->forget(); }
+
 int Transport::port() const {
     sockaddr_storage address{};
     socklen_t size = sizeof address;

@@ -115,6 +115,7 @@ class Transport {
     struct Load {
         std::array<std::size_t, phases.size()> connections{};  ///< by Phase
         std::size_t queue = 0;                                 ///< requests that wait for a worker
+        std::size_t queue_limit = 0;                           ///< and how many may
         std::uint64_t refused = 0;  ///< connections turned away because there were too many
         std::uint64_t limited = 0;  ///< because one client had too many
         std::uint64_t hot_hits = 0, hot_not_modified = 0, hot_evictions = 0;  ///< given again
@@ -142,6 +143,9 @@ class Transport {
     /// Accepts for a short farewell, then no more; answers what has arrived, closes every
     /// connection after its answer, and returns when the last has ended.
     void drain();
+
+    /// Gives no answer again that was asked for before this was called, but for those that stand.
+    void forget();
 
     [[nodiscard]] int port() const;
     [[nodiscard]] Load load() const;

@@ -9,10 +9,12 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <semaphore>
 #include <thread>
 #include <utility>
 
 #include "core/atlas/atlas.h"
+#include "tests/server/raw_client.h"
 
 namespace sporeprint::server {
 namespace {
@@ -67,7 +69,8 @@ class Guest final : public Visit {
 
 /// The real service behind a reception, asked without sockets.
 struct House {
-    explicit House(ReceptionOptions options = {}) : reception(service, metrics, log, options) {
+    explicit House(ReceptionOptions options = {})
+        : reception({service, nullptr}, metrics, log, options) {
         handlers = reception.handlers();
         reception.open();
     }
@@ -84,7 +87,8 @@ struct House {
         return guest->answer(patience, then);
     }
 
-    api::Service service{built_in_atlas(), {}};
+    std::shared_ptr<api::Service> service =
+        std::make_shared<api::Service>(built_in_atlas(), api::ServiceOptions());
     Metrics metrics{"1.2.3", "7"};
     Log log{LogLevel::off};
     Reception reception;
@@ -119,10 +123,10 @@ TEST(Reception, MakesOnceWhatManyAskForAtTheSameTime) {
             });
     }
     EXPECT_EQ(good, 64);
-    EXPECT_EQ(house.service.counters().generated, 1u);
+    EXPECT_EQ(house.service->counters().generated, 1u);
     const api::Answer again = house.ask(small + "9");
     EXPECT_EQ(header(again, "Cache-Status"), "sporeprint; hit");
-    EXPECT_EQ(house.service.counters().generated, 1u);
+    EXPECT_EQ(house.service->counters().generated, 1u);
 }
 
 TEST(Reception, AnswersHealthAndWhatIsKeptWhileAllSlotsWork) {
@@ -194,6 +198,40 @@ TEST(Reception, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
     EXPECT_EQ(house.ask("/v1/species").status, 404);
 }
 
+TEST(Reception, IsNotReadyWhileTooManyWaitForAWorker) {
+    House house;
+    std::counting_semaphore<> gate(0), begun(0);
+    Handlers slow = house.handlers;
+    slow.answer = [&](const std::shared_ptr<Visit>& visit) {
+        begun.release();
+        gate.acquire();
+        house.handlers.answer(visit);
+    };
+    TransportOptions options;
+    options.port = 0;
+    options.workers = 1;
+    options.longest_queue = 10;
+    Transport transport(options, slow);
+    house.reception.watch(&transport);
+    transport.start();
+    EXPECT_TRUE(house.reception.is_ready());
+    std::vector<std::unique_ptr<RawClient>> waiting;
+    for (int i = 0; i < 10; ++i) {
+        waiting.push_back(std::make_unique<RawClient>(transport.port()));
+        waiting.back()->send("GET /v1 HTTP/1.1\r\n\r\n");
+        if (i == 0) begun.acquire();
+    }
+    for (int i = 0; i < 1000 && house.reception.is_ready(); ++i) std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(transport.load().queue, 9u);
+    EXPECT_EQ(house.ask("/readyz").status, 503);
+    EXPECT_EQ(house.ask("/livez").status, 200);
+    gate.release(10);
+    for (auto& one : waiting) EXPECT_EQ(one->receive().status, 200);
+    EXPECT_EQ(house.ask("/readyz").status, 200);
+    transport.drain();
+    house.reception.watch(nullptr);
+}
+
 TEST(Reception, TurnsAwayWhatTheQueueCannotHold) {
     ReceptionOptions options;
     options.longest_queue = 0;
@@ -231,11 +269,11 @@ TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
     for (int i = 0; i < 60; ++i)
         crowd.emplace_back([&, i] { EXPECT_EQ(left.ask(heavy + std::to_string(i)).status, 200); });
     while (text_of(left.ask("/metrics")).find("sporeprint_waiters 60\n") == std::string::npos &&
-           left.service.counters().generated < 30)
+           left.service->counters().generated < 30)
         std::this_thread::yield();
     EXPECT_EQ(left.ask(heavy + "1000", "GET", 0ms, Visit::Over::left).status, client_left);
     crowd.clear();
-    EXPECT_EQ(left.service.counters().generated, 60u) << "nobody made what nobody waits for";
+    EXPECT_EQ(left.service->counters().generated, 60u) << "nobody made what nobody waits for";
     EXPECT_NE(text_of(left.ask("/metrics")).find("{reason=\"left\"} 1\n"), std::string::npos);
 }
 
@@ -252,7 +290,7 @@ TEST(Reception, ChargesOnceForWhatIsMadeOnceAndNotForWhatCouldNotBegin) {
             });
     }
     EXPECT_GE(good, 1);
-    EXPECT_EQ(once.service.counters().generated, 1u);
+    EXPECT_EQ(once.service->counters().generated, 1u);
     EXPECT_EQ(once.ask(heavy + "1").status, 200) << "kept";
     const api::Answer refused = once.ask(heavy + "2");
     EXPECT_EQ(refused.status, 429);

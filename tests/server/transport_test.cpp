@@ -695,6 +695,32 @@ TEST(Transport, AnswersWhatStandsWhileAllWorkersAreBusy) {
     EXPECT_EQ(waiting.receive().body, "late");
 }
 
+TEST(Transport, ForgetsWhatItWouldGiveAgainAndWhatIsOnItsWay) {
+    std::atomic<int> asked{0};
+    std::counting_semaphore<> gate(0), begun(0);
+    Fixture server([&](const api::Request&, const Gone&) {
+        api::Answer answer = text_answer(std::to_string(++asked));
+        answer.repeatable = true;
+        begun.release();
+        gate.acquire();
+        return answer;
+    });
+    const std::string request = "GET /a HTTP/1.1\r\n\r\n";
+    RawClient client(server.port());
+    client.send(request);
+    begun.acquire();
+    server.transport->forget();  // it has been made of what is no longer so
+    gate.release();
+    EXPECT_EQ(client.receive().body, "1");
+    gate.release(10);
+    EXPECT_EQ(client.ask(request).body, "2") << "not given again";
+    EXPECT_EQ(client.ask(request).body, "2") << "but this is";
+    server.transport->forget();
+    EXPECT_EQ(client.ask(request).body, "3");
+    EXPECT_EQ(client.ask(request).body, "3");
+    EXPECT_EQ(server.transport->load().hot_entries, 1u);
+}
+
 TEST(Transport, DrainsWhatHasBegun) {
     std::counting_semaphore<> gate(0), begun(0);
     Fixture server([&](const api::Request&, const Gone&) {

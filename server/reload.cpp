@@ -1,0 +1,60 @@
+#include "server/reload.h"
+
+#include <exception>
+#include <stdexcept>
+#include <utility>
+
+#include "core/atlas/atlas.h"
+#include "core/params/problems.h"
+
+namespace sporeprint::server {
+
+namespace {
+
+/// Calls `read`; logs what is wrong with the source when it throws.
+template <class Read>
+bool try_to(const char* what, const std::filesystem::path& source, Log& log, Read read) {
+    const auto stays = [&](const std::string& path, const std::string& why) {
+        log.event(LogLevel::error, "reloading failed; all stays as it was",
+                  {{"what", Value(what)},
+                   {"source", Value(source.string())},
+                   {"at", Value(path)},
+                   {"why", Value(why)}});
+    };
+    try {
+        read();
+    } catch (const InvalidInput& invalid) {
+        for (const Problem& problem : invalid.problems()) stays(problem.path, problem.message);
+        return false;
+    } catch (const std::exception& error) {
+        stays("", error.what());
+        return false;
+    }
+    log.event(LogLevel::info, "reloaded",
+              {{"what", Value(what)}, {"source", Value(source.string())}});
+    return true;
+}
+
+}  // namespace
+
+bool reload(const Sources& sources, Reception& reception, Log& log) {
+    Means means = *reception.means();
+    bool renewed = false;
+    if (!sources.atlas.empty())
+        renewed |= try_to("atlas", sources.atlas, log, [&] {
+            auto service =
+                std::make_shared<api::Service>(atlas_from(sources.atlas), *means.service);
+            if (!service->self_test())
+                throw std::runtime_error("the first thing made of it for a test could not be made");
+            means.service = std::move(service);
+        });
+    if (!sources.keys.empty())
+        renewed |= try_to("keys", sources.keys, log, [&] {
+            means.signatures =
+                std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
+        });
+    if (renewed) reception.renew(std::move(means));
+    return renewed;
+}
+
+}  // namespace sporeprint::server
