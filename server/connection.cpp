@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "api/encoding.h"
+#include "server/trace.h"
 
 namespace sporeprint::server {
 
@@ -219,6 +220,9 @@ Connection::Step Connection::read_head() {
 
 Connection::Step Connection::begin(Scan scan) {
     Head& head = scan.head;
+    const Trace trace = trace_in(head.headers).value_or(Trace());
+    trace_id_ = trace.trace_id;
+    parent_id_ = trace.parent_id;
     if (by_proxy_) client_ = hall_.options.proxies.behind(peer_, head.headers);
     if (scan.state == Scan::State::complete && answer_at_once(head)) {
         in_.erase(0, scan.used);
@@ -469,6 +473,8 @@ void Connection::report(bool complete) {
     served.id = id_;
     served.peer = peer_text_;
     served.client = by_proxy_ && client_ != peer_ ? text_of(client_) : std::string();
+    served.trace_id = trace_id_;
+    served.parent_id = parent_id_;
     served.label = label_;
     served.status = status_;
     served.bytes = out_.sent();

@@ -124,7 +124,7 @@ class Connection final : public Timed {
     Clock::time_point began_;  ///< the phase, as far as deadlines count from there
 
     // The request at hand.
-    std::string method_, target_, id_, label_;
+    std::string method_, target_, id_, label_, trace_id_, parent_id_;
     api::Request request_;
     std::size_t body_length_ = 0, body_memory_ = 0;
     Clock::time_point last_;   ///< when body or answer must be through

@@ -122,6 +122,10 @@ void Log::request(const Served& served) {
     text(",\"id\":", served.id);
     text(",\"peer\":", served.peer);
     if (!served.client.empty()) text(",\"client\":", served.client);
+    if (!served.trace_id.empty()) {
+        text(",\"trace_id\":", served.trace_id);
+        text(",\"parent_id\":", served.parent_id);
+    }
     text(",\"method\":", served.method);
     text(",\"target\":", served.target);
     line += ",\"status\":";

@@ -27,6 +27,7 @@
 #include "server/reload.h"
 #include "server/signatures.h"
 #include "server/transport.h"
+#include "server/warm.h"
 
 namespace {
 
@@ -154,9 +155,15 @@ int serve(const Options& options) {
     reception.watch(&transport);
     if (!means.service->self_test())
         return complain("the first thing made for a test could not be made; not starting", failed);
-    reception.open();
     transport.start();
     if (metrics_transport) metrics_transport->start();
+    const auto pending = [] {
+        sigset_t waiting;
+        return sigpending(&waiting) == 0 &&
+               (sigismember(&waiting, SIGTERM) == 1 || sigismember(&waiting, SIGINT) == 1);
+    };
+    if (!options.warm.empty()) warm(options.warm.string(), reception, log, pending);
+    reception.open();
 
     if (!is_loopback(options.host) && options.sign_keys.empty())
         std::fprintf(stderr,

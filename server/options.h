@@ -43,6 +43,7 @@ struct Options {
     Text<1023> store;
     int store_mb = 1024;
     Text<1023> sign_keys;
+    Text<1023> warm;
     int client_connections = 0;
     int client_work = 0;
     int client_burst = 20'000;
@@ -105,6 +106,9 @@ struct Options {
               Info{.name = "sign_keys",
                    .doc = "File of keys, \"ID HEX\" a line, of which addresses of what is made "
                           "have to carry a signature; none for open addresses."});
+        visit(&O::warm, Info{.name = "warm",
+                             .doc = "File of addresses, path and query, one a line, that are made "
+                                    "at start before it is ready; none by itself."});
         visit(&O::client_connections,
               Info{.name = "client_connections",
                    .min = 0,

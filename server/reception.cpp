@@ -204,6 +204,45 @@ Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visi
     return asked;
 }
 
+/// Does a job, here and on idle slots, and keeps what comes of it.
+Reception::Made Reception::made(api::Service& service, const api::Job& job, std::stop_token stop,
+                                double queue) {
+    api::Stopwatch watch;
+    Made made;
+    made.answer =
+        job.run(std::move(stop), watch.observer(),
+                [this](std::span<const std::function<void()>> pieces) { slots_.share(pieces); });
+    made.timing = watch.timing(queue);
+    metrics_.made(made.timing);
+    service.finish(job.key, made.answer);
+    return made;
+}
+
+std::vector<api::Answer> Reception::warm(std::span<const std::string> targets) {
+    const Using means = this->means();
+    std::vector<api::Answer> answers(targets.size());
+    std::vector<std::function<void()>> pieces;
+    for (std::size_t i = 0; i < targets.size(); ++i)
+        pieces.emplace_back([&, i] {
+            api::Request request;
+            request.method = "GET";
+            request.target = targets[i];
+            request.id = "warm";
+            auto planned = means->service->plan(request);
+            if (const auto* job = std::get_if<api::Job>(&planned)) {
+                try {
+                    answers[i] = made(*means->service, *job, {}, 0).answer;
+                } catch (...) {
+                    answers[i] = means->service->problem(request, std::current_exception());
+                }
+            } else {
+                answers[i] = std::move(std::get<api::Answer>(planned));
+            }
+        });
+    slots_.share(pieces);
+    return answers;
+}
+
 std::optional<Reception::Answers::Seat> Reception::board(const Using& means,
                                                          const std::shared_ptr<Visit>& visit,
                                                          const Asked& asked, api::Job to_do) {
@@ -212,15 +251,7 @@ std::optional<Reception::Answers::Seat> Reception::board(const Using& means,
     const auto work = [this, means, job, boarded](std::stop_token stop) {
         const double queue =
             std::chrono::duration<double, std::milli>(Clock::now() - boarded).count();
-        api::Stopwatch watch;
-        Made made;
-        made.answer = job->run(
-            std::move(stop), watch.observer(),
-            [this](std::span<const std::function<void()>> pieces) { slots_.share(pieces); });
-        made.timing = watch.timing(queue);
-        metrics_.made(made.timing);
-        means->service->finish(job->key, made.answer);
-        return made;
+        return made(*means->service, *job, std::move(stop), queue);
     };
     // Delivered by a worker of the transport: a slot is for making.
     return flights_.board(

@@ -9,7 +9,9 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "api/service.h"
 #include "server/budgets.h"
@@ -57,6 +59,14 @@ class Reception {
     /// Answers what comes from here on with these; what has begun ends with those before.
     void renew(Means means);
 
+    /// Makes what is asked for, several at once, so that it is kept; signatures are not asked for.
+    ///
+    /// returns  the answer to each, made or kept
+    [[nodiscard]] std::vector<api::Answer> warm(std::span<const std::string> targets);
+
+    /// Jobs at once.
+    [[nodiscard]] std::size_t slots() const { return slots_.count(); }
+
     /// From here on /readyz may say yes.
     void open() { ready_ = true; }
 
@@ -86,6 +96,8 @@ class Reception {
     [[nodiscard]] Asked asked(const Means& means, const std::shared_ptr<Visit>& visit) const;
 
     void answer(const std::shared_ptr<Visit>& visit);
+    [[nodiscard]] Made made(api::Service& service, const api::Job& job, std::stop_token stop,
+                            double queue);
     std::optional<Answers::Seat> board(const Using& means, const std::shared_ptr<Visit>& visit,
                                        const Asked& asked, api::Job job);
     /// Takes what a job costs from the budget of who asks, unless somebody has begun it.

@@ -44,10 +44,11 @@ struct TransportOptions {
 /// What happened to one request, for the log and the metrics.
 struct Served {
     std::string method, target, id, peer;
-    std::string client;       ///< for whom a trusted proxy has asked; empty without one
-    std::string label;        ///< what Handlers::label() said of it
-    int status = 0;           ///< 499: the client left before its answer was made
-    std::uint64_t bytes = 0;  ///< of head and body that went out
+    std::string client;               ///< for whom a trusted proxy has asked; empty without one
+    std::string trace_id, parent_id;  ///< of a proper traceparent; empty without
+    std::string label;                ///< what Handlers::label() said of it
+    int status = 0;                   ///< 499: the client left before its answer was made
+    std::uint64_t bytes = 0;          ///< of head and body that went out
     double milliseconds = 0;  ///< from the last byte of the request to the last of the answer
     std::string cache;        ///< Cache-Status
     bool complete = true;     ///< whether all of the answer went out

@@ -147,13 +147,8 @@ TEST(Limits, ATrustedProxySpeaksForOthersAndAStrangerDoesNot) {
     EXPECT_EQ(first(stranger, "198.51.100.2"), 429) << "its word counts for nothing";
     EXPECT_EQ(first(*proxy[3], "198.51.100.2"), 200);
 
-    std::string text;
-    for (int i = 0; i < 500 && text.find("\"client\":\"203.0.113.8\"") == std::string::npos; ++i) {
-        std::this_thread::sleep_for(10ms);
-        text = server.log();
-    }
-    EXPECT_NE(text.find("\"peer\":\"127.0.0.2\",\"client\":\"203.0.113.8\""), std::string::npos);
-    EXPECT_EQ(text.find("\"client\":\"198.51.100.1\""), std::string::npos);
+    EXPECT_TRUE(server.logs("\"peer\":\"127.0.0.2\",\"client\":\"203.0.113.8\""));
+    EXPECT_EQ(server.log().find("\"client\":\"198.51.100.1\""), std::string::npos);
     std::filesystem::remove(log);
 }
 

@@ -102,7 +102,7 @@ TEST(Options, EachHasHelp) {
          {"--host", "--port", "--cache-mb", "--image-cache-mb", "--morph-cache-mb", "--threads",
           "--atlas", "--assets", "--metrics-port", "--log-level", "--simd", "--allow-origin",
           "--client-connections", "--client-work", "--client-burst", "--trusted-proxies",
-          "--proxy-header"})
+          "--proxy-header", "--warm"})
         EXPECT_TRUE(flags.contains(flag)) << flag;
 }
 

@@ -14,6 +14,7 @@
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -83,6 +84,12 @@ class RealServer {
         std::ostringstream text;
         text << in.rdbuf();
         return text.str();
+    }
+
+    /// Whether it logs this, perhaps in a moment.
+    bool logs(std::string_view text) const {
+        for (int i = 0; i < 1000 && log().find(text) == std::string::npos; ++i) ::usleep(10'000);
+        return log().find(text) != std::string::npos;
     }
 
     /// Bytes of resident memory.
