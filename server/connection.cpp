@@ -90,6 +90,7 @@ Connection::Connection(Hall& hall, int socket, const Address& peer)
 Connection::~Connection() {
     add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
     hall_.body_memory -= body_memory_;
+    unpin();
     ::close(socket_);
 }
 
@@ -161,6 +162,17 @@ bool Connection::drain() {
 bool Connection::turn_away() {
     id_ = hall_.new_id();
     return refuse(503, "too many connections; try again in a moment") != Step::end && advance();
+}
+
+std::optional<double> Connection::pace() const {
+    if (phase_ != Phase::writing || !pins_) return std::nullopt;
+    const std::chrono::duration<double> taken = hall_.now - sending_since_;
+    return static_cast<double>(out_.sent()) / std::max(taken.count(), 1e-3);
+}
+
+bool Connection::give_up() {
+    report(false);
+    return false;
 }
 
 void Connection::limit() {
@@ -375,6 +387,7 @@ Connection::Step Connection::send(const std::shared_ptr<const Sending>& sending)
 }
 
 void Connection::begin_to_send() {
+    sending_since_ = hall_.now;
     last_ =
         hall_.now + 4 * hall_.options.blocked_write + std::chrono::seconds(out_.total() / slowest);
     enter(Phase::writing);
@@ -389,6 +402,7 @@ Connection::Step Connection::write() {
             return Step::end;
         case Outgoing::Progress::blocked:
             writable_ = false;
+            if (!std::exchange(pins_, true)) hall_.pins.add(out_.held());
             if (had == 0 || out_.sent() > had)
                 put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
             return Step::wait;
@@ -466,6 +480,10 @@ void Connection::client_has_left() {
     if (const auto exchange = exchange_.lock()) exchange->end(Visit::Over::left);
 }
 
+void Connection::unpin() {
+    if (std::exchange(pins_, false)) hall_.pins.remove(out_.held());
+}
+
 void Connection::report(bool complete) {
     Served& served = hall_.served;
     served.method = method_;
@@ -485,6 +503,7 @@ void Connection::report(bool complete) {
         hall_.back.handlers.served(served);
     } catch (...) {  // a request that cannot be logged has still been answered
     }
+    unpin();
     out_.end();
     hall_.body_memory -= body_memory_;
     body_memory_ = 0;

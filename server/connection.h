@@ -17,6 +17,7 @@
 #include "server/head.h"
 #include "server/hot_table.h"
 #include "server/outgoing.h"
+#include "server/pins.h"
 #include "server/transport.h"
 
 namespace sporeprint::server {
@@ -38,6 +39,7 @@ struct Hall {
     HotTable hot;
     std::uint64_t epoch = 0;  ///< of what the table holds
     std::size_t body_memory = 0;
+    Pins pins;
     std::vector<Connection*> again;  ///< have more to do, when the others have had their turn
     std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};
     std::array<char, 64 * 1024> received;  ///< by the call at hand
@@ -67,6 +69,12 @@ class Connection final : public Timed {
     /// Its client has too many: of one request it gets the answer, if that is a standing one, else
     /// 429, and all ends soon.
     void limit();
+
+    /// Bytes a second that its client has taken of an answer which waits for it; nothing when none does.
+    [[nodiscard]] std::optional<double> pace() const;
+
+    /// Waits for its client no longer.
+    [[nodiscard]] bool give_up();
 
     /// Whether it may be closed to make room: it waits for a request, and has for a while.
     [[nodiscard]] bool may_make_room() const;
@@ -104,6 +112,7 @@ class Connection final : public Timed {
     void put_off_until(Clock::time_point deadline) { hall_.deadlines.set(*this, deadline); }
     void await_request();
     void report(bool complete);
+    void unpin();
     void client_has_left();
 
     Hall& hall_;
@@ -129,6 +138,8 @@ class Connection final : public Timed {
     std::size_t body_length_ = 0, body_memory_ = 0;
     Clock::time_point last_;   ///< when body or answer must be through
     Clock::time_point ready_;  ///< when its last byte had come
+    Clock::time_point sending_since_;
+    bool pins_ = false;  ///< whether what is held by its answer counts
     std::weak_ptr<Exchange> exchange_;
     Outgoing out_;
     std::string text_;  ///< what the head of an answer says of this request alone

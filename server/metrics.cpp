@@ -222,6 +222,10 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
     now.family("sporeprint_connections_limited_total", "Connections beyond the limit of a client",
                counter)
         .count(gauges.connections.limited);
+    now.family("sporeprint_pinned_bytes", "Bytes of answers that wait for slow clients", gauge)
+        .count(gauges.connections.pinned);
+    now.family("sporeprint_given_up_total", "Answers not waited for, to spare memory", counter)
+        .count(gauges.connections.given_up);
     now.family("sporeprint_clients", "Clients whose budgets are remembered", gauge)
         .count(gauges.clients);
     now.family("sporeprint_ready", "Whether /readyz says so", gauge).count(gauges.ready ? 1u : 0u);

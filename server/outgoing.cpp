@@ -12,6 +12,7 @@ namespace sporeprint::server {
 void Outgoing::begin(std::shared_ptr<const void> keeper) {
     keeper_ = std::move(keeper);
     parts_.clear();
+    held_.clear();
     first_ = 0;
     file_ = -1;
     sent_ = total_ = 0;
@@ -24,11 +25,15 @@ void Outgoing::add(const void* data, std::size_t size) {
 }
 
 void Outgoing::add(const Body& body) {
-    for (const Slice& slice : body) add(slice.data(), slice.size);
+    for (const Slice& slice : body) {
+        add(slice.data(), slice.size);
+        if (slice.size > 0) held_.push_back({slice.owner.get(), slice.owner->size()});
+    }
 }
 
 void Outgoing::add_file(int descriptor, std::size_t size) {
     file_ = descriptor;
+    held_.push_back({keeper_.get(), size});
     file_sent_ = 0;
     file_size_ = static_cast<off_t>(size);
     total_ += size;
@@ -74,6 +79,7 @@ void Outgoing::end() {
     keeper_.reset();
     file_ = -1;
     parts_.clear();
+    held_.clear();
     first_ = 0;
 }
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "core/bytes.h"
+#include "server/pins.h"
 
 namespace sporeprint::server {
 
@@ -34,12 +35,16 @@ class Outgoing {
     /// Lets go of the memory; sent() stays.
     void end();
 
+    /// What it keeps in memory until end(), but for heads.
+    [[nodiscard]] const std::vector<Held>& held() const { return held_; }
+
     [[nodiscard]] std::uint64_t sent() const { return sent_; }    ///< bytes, since begin()
     [[nodiscard]] std::uint64_t total() const { return total_; }  ///< bytes added
 
   private:
     std::shared_ptr<const void> keeper_;
     std::vector<iovec> parts_;
+    std::vector<Held> held_;
     std::size_t first_ = 0;
     int file_ = -1;
     off_t file_sent_ = 0, file_size_ = 0;

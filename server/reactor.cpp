@@ -76,6 +76,8 @@ Transport::Load Reactor::load() const {
     load.queue_limit = options_.longest_queue;
     load.refused = refused_;
     load.limited = limited_;
+    load.pinned = pinned_;
+    load.given_up = given_up_;
     const HotTable::Stats& hot = hall_.hot.stats();
     load.hot_hits = hot.hits;
     load.hot_not_modified = hot.not_modified;
@@ -140,6 +142,7 @@ void Reactor::run() {
             let(*one, [](Connection& connection) { return connection.go_on(); });
         if (hall_.now >= accepting_again_) watch_listener(true);
         if (hall_.now >= farewell_end_) stop_listening();
+        spare_memory();
         bury();
     }
 }
@@ -228,6 +231,23 @@ bool Reactor::make_room() {
     if (!longest) return false;
     let(*longest, [](Connection&) { return false; });
     return true;
+}
+
+/// Gives up the slowest clients while more is pinned than may be; one alone has all the room.
+void Reactor::spare_memory() {
+    while (hall_.pins.bytes() > options_.most_pinned) {
+        Connection* slowest = nullptr;
+        std::size_t slow = 0;
+        for (const auto& one : connections_) {
+            if (one->ended || !one->pace()) continue;
+            ++slow;
+            if (!slowest || *one->pace() < *slowest->pace()) slowest = one.get();
+        }
+        if (slow < 2) break;
+        ++given_up_;
+        let(*slowest, [](Connection& one) { return one.give_up(); });
+    }
+    pinned_.store(hall_.pins.bytes(), std::memory_order_relaxed);
 }
 
 void Reactor::survive_exhaustion() {

@@ -40,6 +40,7 @@ class Reactor {
     void welcome(int socket, const Address& peer);
     [[nodiscard]] bool has_too_many(const Address& peer) const;
     bool make_room();
+    void spare_memory();
     void survive_exhaustion();
     void begin_to_drain();
     void stop_listening();
@@ -65,7 +66,8 @@ class Reactor {
     std::vector<Connection*> ended_;
     std::map<Address, std::size_t> of_client_;  ///< connections that count, if there is a limit
     std::size_t limited_now_ = 0;
-    std::atomic<std::uint64_t> refused_{0}, limited_{0};
+    std::atomic<std::uint64_t> refused_{0}, limited_{0}, given_up_{0};
+    std::atomic<std::size_t> pinned_{0};
 };
 
 }  // namespace sporeprint::server

@@ -32,11 +32,12 @@ struct TransportOptions {
     int backlog = 1024;                         ///< connections the kernel keeps for us
     std::size_t most_requests = 1000;           ///< on one connection
     std::size_t most_body_memory = 256u << 20;  ///< bytes of large bodies, all together
-    std::chrono::milliseconds idle{30'000};     ///< for the first byte of a request
-    std::chrono::milliseconds silence{2000};    ///< between two bytes of a request
-    std::chrono::milliseconds head{5000};       ///< for a whole head
-    std::chrono::milliseconds body{10000};      ///< for a body of up to 256 kB; else in proportion
-    std::chrono::milliseconds answer{20'000};   ///< until Visit::wait() is told that it is late
+    std::size_t most_pinned = 256u << 20;  ///< bytes of answers that wait for slow clients likewise
+    std::chrono::milliseconds idle{30'000};    ///< for the first byte of a request
+    std::chrono::milliseconds silence{2000};   ///< between two bytes of a request
+    std::chrono::milliseconds head{5000};      ///< for a whole head
+    std::chrono::milliseconds body{10000};     ///< for a body of up to 256 kB; else in proportion
+    std::chrono::milliseconds answer{20'000};  ///< until Visit::wait() is told that it is late
     std::chrono::milliseconds blocked_write{5000};  ///< without the client taking a byte
     std::chrono::milliseconds farewell{100};        ///< accepting goes on for so long in drain()
 };
@@ -121,6 +122,9 @@ class Transport {
         std::uint64_t limited = 0;  ///< because one client had too many
         std::uint64_t hot_hits = 0, hot_not_modified = 0, hot_evictions = 0;  ///< given again
         std::size_t hot_bytes = 0, hot_entries = 0;
+        std::size_t pinned = 0;  ///< bytes of answers that wait for slow clients
+        std::uint64_t given_up =
+            0;  ///< answers that were not waited for to their end, for others' sake
 
         [[nodiscard]] std::size_t open() const {
             std::size_t sum = 0;

@@ -721,6 +721,65 @@ TEST(Transport, ForgetsWhatItWouldGiveAgainAndWhatIsOnItsWay) {
     EXPECT_EQ(server.transport->load().hot_entries, 1u);
 }
 
+TEST(Transport, BoundsWhatSlowClientsPinTogetherAndGivesTheSlowestUp) {
+    constexpr std::size_t megabyte = 1 << 20;
+    TransportOptions options = Fixture::patient();
+    options.most_pinned = 20 * megabyte;
+    const auto common = std::make_shared<const Bytes>(8 * megabyte, std::uint8_t{'c'});
+    Fixture server(
+        [&](const api::Request& request, const Gone&) {
+            api::Answer answer;
+            answer.body = {request.target == "/common" ? Slice(common)
+                                                       : Slice(std::make_shared<const Bytes>(
+                                                             4 * megabyte, std::uint8_t{'o'}))};
+            return answer;
+        },
+        options);
+    const auto load = [&] { return server.transport->load(); };
+    std::vector<std::unique_ptr<RawClient>> slow;
+    const auto add_slow = [&](const std::string& target) {
+        slow.push_back(std::make_unique<RawClient>(server.port(), 4096));
+        slow.back()->send("GET " + target + " HTTP/1.1\r\n\r\n");
+    };
+    const auto writing = [&] {
+        return load().connections[static_cast<std::size_t>(Transport::Phase::writing)];
+    };
+    for (int i = 0; i < 20; ++i) add_slow("/common");
+    for (int i = 0; i < 2000 && (writing() < 20 || load().pinned == 0); ++i)
+        std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(load().pinned, 8 * megabyte) << "shared, so counted once";
+    EXPECT_EQ(load().given_up, 0u);
+
+    for (int i = 0; i < 12; ++i) add_slow("/own");
+    for (int i = 0; i < 2000 && load().given_up < 9; ++i) std::this_thread::sleep_for(5ms);
+    EXPECT_GE(load().given_up, 9u) << "three of their own have room beside the common one";
+    EXPECT_LE(load().pinned, options.most_pinned);
+    const std::uint64_t before = load().given_up;
+    RawClient quick(server.port());
+    for (int i = 0; i < 10; ++i)
+        EXPECT_EQ(quick.ask("GET /own HTTP/1.1\r\n\r\n").body.size(), 4 * megabyte)
+            << "who reads is not given up";
+    EXPECT_LE(load().given_up, before + 10);
+
+    slow.clear();
+    for (int i = 0; i < 2000 && load().pinned > 0; ++i) std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(load().pinned, 0u);
+}
+
+TEST(Transport, OneSlowClientAloneHasAllTheRoom) {
+    TransportOptions options = Fixture::patient();
+    options.most_pinned = 1000;
+    Fixture server(
+        [&](const api::Request&, const Gone&) { return text_answer(std::string(4 << 20, 'a')); },
+        options);
+    RawClient slow(server.port(), 4096);
+    slow.send("GET / HTTP/1.1\r\n\r\n");
+    for (int i = 0; i < 2000 && server.transport->load().pinned == 0; ++i)
+        std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(slow.receive().body.size(), 4u << 20);
+    EXPECT_EQ(server.transport->load().given_up, 0u);
+}
+
 TEST(Transport, DrainsWhatHasBegun) {
     std::counting_semaphore<> gate(0), begun(0);
     Fixture server([&](const api::Request&, const Gone&) {
