@@ -5,7 +5,6 @@
 #include <sys/socket.h>
 
 #include <array>
-#include <compare>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -21,7 +20,8 @@ namespace sporeprint::server {
 struct Address {
     std::array<std::uint8_t, 16> bytes{};
 
-    auto operator<=>(const Address&) const = default;
+    bool operator==(const Address&) const = default;
+    bool operator<(const Address& other) const { return bytes < other.bytes; }
     [[nodiscard]] bool is_v4() const;
 };
 

@@ -62,8 +62,8 @@ class Budgets {
     void keep(Buckets::iterator bucket);
     void forget_one();
 
-    const std::int64_t rate_, capacity_;  ///< millionths a microsecond; millionths
-    const std::size_t most_clients_;
+    std::int64_t rate_, capacity_;  ///< millionths a microsecond; millionths
+    std::size_t most_clients_;
     mutable std::mutex mutex_;
     std::int64_t now_ = 0;
     Buckets buckets_;
