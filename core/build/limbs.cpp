@@ -109,6 +109,11 @@ std::uint64_t tube_triangles(const Chain& chain, const LimbDetail& detail) {
            static_cast<std::uint64_t>(sides_of(chain, detail));
 }
 
+/// Of a trunk from the ground to its lowest fork; it is closed below.
+std::uint64_t trunk_triangles(const LimbDetail& detail) {
+    return 2 * static_cast<std::uint64_t>((detail.trunk_rings - 1) * detail.trunk_sides);
+}
+
 /// Of a tube on which no other begins.
 MeshCount count_of(const Chain& chain, const LimbDetail& detail) {
     const auto sides = static_cast<std::uint64_t>(sides_of(chain, detail));
@@ -118,14 +123,17 @@ MeshCount count_of(const Chain& chain, const LimbDetail& detail) {
     if (chain.root) {
         const auto trunk = static_cast<std::uint64_t>(detail.trunk_rings);
         count.vertices += (trunk + 1) * (sides + 1);
-        count.triangles += (2 * (trunk - 1) + 1) * sides - sides;
+        count.triangles += trunk_triangles(detail);
     }
     return count;
 }
 
+/// Limbs of which there is less have no triangles.
+constexpr double least_presence = 0.004;
+
 /// Whether a tube has triangles: its first limb has begun to be there.
 bool is_there(const Bush& bush, const Chain& chain) {
-    return bush.nodes[chain.nodes.front()].presence >= 0.004;
+    return bush.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
 /// Of the rings that a tube has more for another that begins on it.
@@ -372,7 +380,8 @@ class Tubes {
     // The way in which a tube passes the end of a limb: half-way between that limb and the next.
     [[nodiscard]] glm::dvec3 passing(std::uint32_t i) const {
         if (bush_.is_tip(i)) return node(i).heading;
-        return unit_or(node(i).heading + node(node(i).children[0]).heading, node(i).heading);
+        const glm::dvec3 next = node(node(i).children[0]).heading;
+        return unit_or(node(i).heading + (1.0 - bush_.ends(i)) * next, node(i).heading);
     }
 
     static SplineSegment<glm::dvec3> way(const glm::dvec3& from, const glm::dvec3& leaving,
@@ -394,24 +403,26 @@ class Tubes {
                   bool is_straight) const {
         const Node& end = node(i);
         const bool tip = bush_.is_tip(i);
+        // Where one species of a mix has a tip and another goes on, it is both as far as they weigh.
+        const double ends = bush_.ends(i);
         // What passes forks without a ring goes straight to its end.
         const glm::dvec3 arriving =
             tip && is_straight ? unit_or(end.place - from.at, end.heading) : passing(i);
         const auto curve = way(from.at, from.along, end.place, arriving);
-        const double radius = radius_at(i);
-        const glm::dmat3 flat = tip ? from.flat : square_of(end.across);
+        const double radius = radius_at(i), tip_radius = wide_as(i);
+        const glm::dmat3 flat = ends * from.flat + (1.0 - ends) * square_of(end.across);
         const int steps = tip ? plan_.detail.tip_rings : plan_.detail.steps;
         // A last branch is cut off where slugs have eaten, or ends round; one that stands for many ends as their crown does.
         const double bluntness = 1.0 - (1.0 - bush_.bluntness) / stands_for_[i];
         const double blunt = bluntness + end.eaten * (1.0 - bluntness);
         const double length = std::max(glm::distance(from.at, end.place), 1e-12);
-        const double round = std::min(0.8, blunt * radius / length);
+        const double round = std::min(0.8, blunt * tip_radius / length);
         const double web_after = from.at_fork;
         for (int k = 1; k <= steps; ++k) {
             // Rings of a tip crowd towards its end.
             const double share = static_cast<double>(k) / (steps + (tip ? 1 : 0));
-            double t = share;
-            if (tip) t = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
+            const double crowded = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
+            double t = tip ? crowded : share;
             // One ring alone stands where cylinder and cone are as large as cylinder and round end seen from the side: 2 - pi / 2.
             if (tip && steps == 1) t = std::max(0.6, 1.0 - 0.43 * round);
             const auto sample = curve.at(t);
@@ -420,18 +431,19 @@ class Tubes {
             // Rings turn as headings do: where limbs leave side by side the tube is sheared, not bent.
             s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
             s.flat = (1.0 - t) * from.flat + t * flat;
-            s.radius =
-                from.radius + (tip ? t : smooth_step(-0.15, 1.15, t)) * (radius - from.radius);
-            if (tip) {
+            if (!tip) s.radius = from.radius + smooth_step(-0.15, 1.15, t) * (radius - from.radius);
+            if (ends > 0.0) {
+                double closing = from.radius + t * (tip_radius - from.radius);
                 const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
-                s.radius *= end.eaten + (1.0 - end.eaten) * taper;
+                closing *= end.eaten + (1.0 - end.eaten) * taper;
                 if (steps > 1 && t > 1.0 - round) {
                     const double x = (t - 1.0 + round) / round;
-                    s.radius *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
+                    closing *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
                 }
+                s.radius += ends * (closing - s.radius);
             }
             // A fork spreads into both of the limbs that leave it.
-            const double near_end = tip ? 0.0 : smooth_step(0.5, 1.0, t);
+            const double near_end = (1.0 - ends) * smooth_step(0.5, 1.0, t);
             shape(s, near_end + web_after * (1.0 - smooth_step(0.0, 0.6, t)), 1.0);
             s.colour = from.colour + t * (end.from_tip - from.colour);
             stations.push_back(s);
@@ -461,7 +473,11 @@ class Tubes {
                                     : node(first).heading;
             begin.along = unit_or(there.along + onwards, there.along);
             begin.flat = square_of(bearer.across);
-            begin.radius = 0.97 * equal * there.radius;
+            // What goes on where one species of a mix ends is as thin as there is little of it.
+            const double wide =
+                there.radius +
+                bush_.ends(parent) * (std::min(there.radius, radius_at(parent)) - there.radius);
+            begin.radius = 0.97 * equal * wide;
             shape(begin, 0.0, 1.0);
             begin.colour = there.colour;
             Station inside = begin;
@@ -511,7 +527,8 @@ class Tubes {
         const auto row = static_cast<std::uint32_t>(sides + 1);
         side_ = square_to(stations.front().along, top.across);
         const std::uint32_t base = rows(stations, sides, true, 0.0);
-        for (std::uint32_t i = 0; i + 1 < stations.size(); ++i)
+        const bool shown = options_.keep_absent || node(root).presence >= least_presence;
+        for (std::uint32_t i = 0; shown && i + 1 < stations.size(); ++i)
             for (std::uint32_t j = 0; j + 1 < row; ++j) {
                 const std::uint32_t a = base + i * row + j, b = a + 1, c = a + row, d = c + 1;
                 if (i > 0) mesh_.indices.insert(mesh_.indices.end(), {a, c, b});
@@ -654,7 +671,10 @@ MeshCount limb_count(const Bush& bush, int lod, bool keep_absent) {
     MeshCount count = plan.count;
     if (keep_absent) return count;
     for (const Chain& chain : plan.chains)
-        if (!is_there(bush, chain)) count.triangles -= tube_triangles(chain, plan.detail);
+        if (!is_there(bush, chain)) {
+            count.triangles -= tube_triangles(chain, plan.detail);
+            if (chain.root) count.triangles -= trunk_triangles(plan.detail);
+        }
     return count;
 }
 

@@ -302,7 +302,7 @@ class Grower {
         const glm::dvec3 from =
             node.parent == none ? glm::dvec3(0.0) : bush_.nodes[node.parent].place;
         const double length =
-            node.parent == none ? bush_.trunk : wanted_[i].length * common_.height;
+            node.parent == none ? node.presence * bush_.trunk : wanted_[i].length * common_.height;
         node.place = from + node.beside + length * node.heading;
         if (node.children[0] == none) return;
         Bush::Node &main = bush_.nodes[node.children[0]], &other = bush_.nodes[node.children[1]];
@@ -370,13 +370,24 @@ class Grower {
 
     void eat(double bites) {
         if (!(bites > 0.0)) return;
-        for (std::size_t i = 0; i < bush_.nodes.size(); ++i) {
+        // What goes on from an eaten end comes down with it.
+        std::vector<glm::dvec3> down(bush_.nodes.size(), glm::dvec3(0.0));
+        for (std::uint32_t i = 0; i < bush_.nodes.size(); ++i) {
             Bush::Node& node = bush_.nodes[i];
-            if (node.children[0] != none || node.parent == none) continue;
-            node.eaten = draws_[i].depth * grown(draws_[i].onset, bites);
+            if (node.parent == none) continue;
             const Bush::Node& bearer = bush_.nodes[node.parent];
-            node.place -= node.eaten * (node.place - bearer.place);
-            node.from_tip = node.eaten * bearer.from_tip;
+            node.place -= down[node.parent];
+            down[i] = down[node.parent];
+            const double ends = bush_.ends(i);
+            if (!(ends > 0.0)) continue;
+            node.eaten = ends * draws_[i].depth * grown(draws_[i].onset, bites);
+            const glm::dvec3 bitten = node.eaten * (node.place - bearer.place);
+            node.place -= bitten;
+            down[i] += bitten;
+            if (node.children[0] == none)
+                node.from_tip = node.eaten * bearer.from_tip;
+            else
+                node.from_tip += node.eaten * (bearer.from_tip - node.from_tip);
         }
     }
 

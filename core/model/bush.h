@@ -42,7 +42,8 @@ struct Bush {
         glm::dvec3 beside{0.0};  ///< where its limb begins, from the end of its bearer, metres
         double radius = 0.0;     ///< metres
         double from_tip = 0.0;   ///< 1 at the top of a trunk, 0 at a tip: where its colours are
-        double eaten = 0.0;      ///< 0..1: how much of a last branch slugs have eaten
+        double eaten =
+            0.0;  ///< 0..1: how much of a last branch slugs have eaten, as far as it is one
     };
     std::vector<Node> nodes;           ///< bearers come before what they bear
     std::vector<std::uint32_t> roots;  ///< trunks, from the ground to their lowest fork
@@ -54,6 +55,12 @@ struct Bush {
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
     [[nodiscard]] bool is_tip(std::uint32_t node) const { return nodes[node].children[0] == none; }
+    /// How far a limb ends there, 0..1: where one species has a tip and another a fork, the share of the first.
+    [[nodiscard]] double ends(std::uint32_t node) const {
+        const Node& one = nodes[node];
+        if (one.children[0] == none) return 1.0;
+        return one.presence > 0.0 ? 1.0 - nodes[one.children[0]].presence / one.presence : 0.0;
+    }
 };
 
 /// Lays the ramifications of all species over each other, fork on fork from the ground up, and grows the limbs of what they come to.

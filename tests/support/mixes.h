@@ -30,6 +30,15 @@ inline std::vector<SpeciesPair> species_pairs() {
     return pairs;
 }
 
+/// Every pair of corals and antlers.
+inline std::vector<SpeciesPair> branched_pairs() {
+    const auto ids = branched_ids();
+    std::vector<SpeciesPair> pairs;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        for (std::size_t j = i + 1; j < ids.size(); ++j) pairs.emplace_back(ids[i], ids[j]);
+    return pairs;
+}
+
 /// At least `most` pairs in which every species comes equally often, or all there are; `most` evenly spread ones if there are more
 /// species than that. The ids stand in a ring, and each is paired with
 /// those some steps on: next to it are its kin by name, and half the ring away are strangers.

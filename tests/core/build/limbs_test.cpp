@@ -12,7 +12,6 @@
 #include "tests/support/meshes.h"
 #include "tests/support/mixes.h"
 #include "tests/support/orders.h"
-#include "tests/support/surfaces.h"
 
 namespace sporeprint {
 namespace {
@@ -64,37 +63,6 @@ TEST(Limbs, KeepTheTrianglesOfTheirLevelAndAreCountedBefore) {
             EXPECT_EQ(whole.positions.size(), most.vertices) << text_of(mix);
             EXPECT_EQ(whole.triangles(), most.triangles) << text_of(mix);
         }
-}
-
-TEST(Limbs, NoWeightJumps) {
-    const auto ids = branched_ids();
-    ASSERT_GE(ids.size(), 3U);
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        const std::string &a = ids[i], &b = ids[(i + 1) % ids.size()];
-        const int steps = static_cast<int>(effort(125, 10, 500));
-        Mesh last;
-        double size = 0.0;
-        for (int t = 0; t <= steps; ++t) {
-            const int weight = 1 + t * 998 / steps;
-            const Mesh now = mesh_of(mix_of({{a, 1000 - weight}, {b, weight}}, 0.6, 2, 1));
-            size = std::max(size, diagonal(bounds(now)));
-            if (t > 0) {
-                EXPECT_LT(jump(last, now), 0.04 * size) << a << ' ' << b << ' ' << weight;
-            }
-            last = now;
-        }
-    }
-}
-
-TEST(Limbs, AMixEndsWhereItsSpeciesBegins) {
-    const auto ids = branched_ids();
-    for (std::size_t i = 0; i < ids.size(); ++i) {
-        const std::string &a = ids[i], &b = ids[(i + 1) % ids.size()];
-        const Mesh alone = mesh_of(order_of(a, 0.6, 3));
-        const Mesh nearly = mesh_of(mix_of({{a, 999}, {b, 1}}, 0.6, 3));
-        EXPECT_LT(distance(bounds(alone), bounds(nearly)), 0.01 * diagonal(bounds(alone)))
-            << a << ' ' << b;
-    }
 }
 
 TEST(Limbs, GrowInUnitsOfSize) {

@@ -29,6 +29,16 @@ double hairs_breadth_of_flat(const Mesh& mesh) {
     return std::max(hairs_breadth(mesh), 0.0013 * diagonal(bounds(mesh)));
 }
 
+bool has_limbs(const MushroomOrder& order) {
+    return is_branched(atlas().find(order.mix.front().id)->species);
+}
+
+/// A bush has one graph with every other of its set, but not one set of rings: where one species ends and another goes on a limb has
+/// fewer than a tip alone, and tubes have fewer sides. 1 % of the height, or 4 % of a button's.
+double limbs_breadth(const Mesh& mesh, double age) {
+    return (age == 0.6 ? 0.01 : 0.04) * height(mesh);
+}
+
 /// Whether a set comes to so many triangles that its patches have fewer corners than those of the lone species.
 bool is_crowded(const MushroomOrder& order) {
     return budget_of(resolved(order), order.params.lod).ornaments.patch_sides <
@@ -49,17 +59,20 @@ MushroomOrder without_patches(MushroomOrder order) {
 /// expect_solids_converge().
 void expect_convergence(MushroomOrder alone, MushroomOrder beside,
                         double (*allowance)(const Mesh&)) {
-    alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
+    const bool limbs = has_limbs(alone);
+    if (!limbs) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
-    EXPECT_LT(hausdorff(pure, mixed), allowance(pure))
+    EXPECT_LT(hausdorff(pure, mixed),
+              limbs ? limbs_breadth(pure, alone.params.age) : allowance(pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
     // Layers of no thickness that lie on the surface would be seen by nothing but their area.
-    EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02)
+    EXPECT_NEAR(area(mixed) / area(pure), 1.0, limbs ? 0.04 : 0.02)
         << text_of(beside.mix) << ", age " << alone.params.age;
 }
 
 /// The same with gills, pores and spines.
 void expect_solids_converge(const MushroomOrder& alone, const MushroomOrder& beside) {
+    if (has_limbs(alone)) return expect_convergence(alone, beside, hairs_breadth_of_flat);
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), hairs_breadth(pure)) << text_of(beside.mix);
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << text_of(beside.mix);
@@ -101,6 +114,11 @@ INSTANTIATE_TEST_SUITE_P(Atlas, SomePairs, ::testing::ValuesIn(some_species_pair
                              return one.param.first + "_and_" + one.param.second;
                          });
 
+INSTANTIATE_TEST_SUITE_P(Branched, SomePairs, ::testing::ValuesIn(branched_pairs()),
+                         [](const auto& one) {
+                             return one.param.first + "_and_" + one.param.second;
+                         });
+
 TEST_P(SomePairs, ConvergesToEitherSpeciesWhenYoungAndWhenOld) {
     for (const auto& [age, corner] : {std::pair{0.1, 1000}, std::pair{1.0, 0}})
         expect_convergence(at(corner, age, 3, 0), at(std::abs(corner - 1), age, 3, 0),
@@ -115,7 +133,7 @@ TEST_P(SomePairs, SolidsConvergeToThoseOfEitherSpecies) {
 TEST_P(SomePairs, HasNoJumpFromOneSpeciesToTheOther) {
     for (const double age : {0.3, 0.6}) {
         Mesh last = mesh_of(at(0, age));
-        double worst = 0.0;
+        double worst = 0.0, worst_corner = 0.0;
         int where = 0;
         for (int t = 4; t <= 1000; t += 4) {  // a little more than 1/256
             Mesh now = mesh_of(at(t, age));
@@ -123,13 +141,17 @@ TEST_P(SomePairs, HasNoJumpFromOneSpeciesToTheOther) {
             const bool corner = t == 4 || t == 1000;
             const double share = (corner ? hausdorff(last, now) : jump(last, now)) /
                                  std::min(diagonal(bounds(last)), diagonal(bounds(now)));
-            if (share > worst) {
+            // Of the smaller limbs a mix of bushes keeps others than either alone, seen from afar.
+            if (corner && has_limbs(at(500, age)))
+                worst_corner = std::max(worst_corner, share);
+            else if (share > worst) {
                 worst = share;
                 where = t;
             }
             last = std::move(now);
         }
         EXPECT_LT(worst, 0.02) << "t " << where << ", age " << age;
+        EXPECT_LT(worst_corner, 0.05) << "age " << age;
     }
 }
 
