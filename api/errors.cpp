@@ -122,8 +122,9 @@ std::string parameter_name(std::string_view pointer, bool posted) {
     const bool of_params = is_field_of<MushroomParams>(first) || is_field_of<ColonyParams>(first) ||
                            is_field_of<TreeParams>(first);
     if (posted)
-        return first == "model" || first == "mix" || of_params ? std::string(pointer)
-                                                               : "/model" + std::string(pointer);
+        return first == "model" || first == "mix" || first == "arcs" || of_params
+                   ? std::string(pointer)
+                   : "/model" + std::string(pointer);
     return of_params ? query_name(pointer) : "mix";
 }
 

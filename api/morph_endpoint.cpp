@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "api/catalogue.h"
 #include "api/endpoints.h"
 #include "core/grow/species_morph.h"
 #include "core/params/reader.h"
@@ -19,6 +20,18 @@ Body told(const Context& context, const MorphRequest& asked, const std::string& 
     const SpeciesMorph found =
         species_morph(asked.species, asked.params.age, *context.atlas, loan.workshop());
     loan.workshop().observer(Step::pack);
+    Value body = Value::object();
+    body.set("canonical", canonical_address(asked));
+    body.set("v", version);
+    body.set("a", asked.species[0]);
+    body.set("b", asked.species[1]);
+    body.set("age", asked.params.age);
+    if (!found.limbs.empty()) {
+        body.set("family", name(Family::branched));
+        body.set("limbs", write(found.limbs));
+        body.set("certificate", write(found.limb_certificate));
+        return {slice_of(dump(body))};
+    }
     Value outlines = Value::object();
     for (std::size_t side = 0; side < 2; ++side) {
         Value outline = Value::object();
@@ -27,12 +40,7 @@ Body told(const Context& context, const MorphRequest& asked, const std::string& 
                         polyline(found.outlines[side][static_cast<std::size_t>(curve)]));
         outlines.set(side == 0 ? "a" : "b", std::move(outline));
     }
-    Value body = Value::object();
-    body.set("canonical", canonical_address(asked));
-    body.set("v", version);
-    body.set("a", asked.species[0]);
-    body.set("b", asked.species[1]);
-    body.set("age", asked.params.age);
+    body.set("family", name(Family::swept));
     body.set("outlines", std::move(outlines));
     body.set("arcs", write(found.arcs));
     body.set("certificate", write(found.certificate));
@@ -51,7 +59,11 @@ Plan plan_morph(Context& context, const Request& request, const MorphRequest& as
     resource.type = "application/json";
     resource.file_name = asked.species[0] + '-' + asked.species[1] + ".json";
     resource.asked_version = asked.version;
-    resource.weigh = [](const Memo&) { return Cost{4000, 0, 64u << 10}; };
+    const bool has_limbs =
+        family_of(context.atlas->find(asked.species[0])->species) == Family::branched;
+    resource.weigh = [has_limbs](const Memo&) {
+        return Cost{4000, 0, has_limbs ? 512u << 10 : 64u << 10};
+    };
     resource.make = [&context, asked, version = resource.version](Loan& loan) {
         return told(context, asked, version, loan);
     };

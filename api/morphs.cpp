@@ -71,11 +71,6 @@ SpeciesPair read_pair(std::string_view a, std::string_view b, const Atlas& atlas
         faults.add(422, "b",
                    in_quotes(b) + " is " + name(other) + " and " + in_quotes(a) + " is " +
                        name(family) + "; only species of one family can be morphed");
-    else if (family == Family::branched)
-        faults.add(422, "b",
-                   in_quotes(a) + " and " + in_quotes(b) +
-                       " branch: their limbs have no outlines that arcs could link. They mix as " +
-                       "/v1/mushrooms/" + std::string(a) + ":0.5," + std::string(b) + ":0.5.glb");
     return species;
 }
 

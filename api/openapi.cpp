@@ -12,6 +12,7 @@
 #include "api/routes.h"
 #include "api/surfaces.h"
 #include "core/colony/colony_order.h"
+#include "core/grow/species_morph.h"
 #include "core/model/request.h"
 #include "core/model/species.h"
 #include "core/params/schema.h"
@@ -288,14 +289,32 @@ Value morph_schema() {
         objects({{"stem", polyline}, {"hymenium", polyline}, {"cap", std::move(polyline)}});
     Value arcs = list_of(schema<Arc>());
     arcs.set("description", "Some of the pairs as shares of arc length, landmarks among them.");
-    return objects({{"canonical", typed("string")},
-                    {"v", typed("string")},
-                    {"a", typed("string")},
-                    {"b", typed("string")},
-                    {"age", typed("number")},
-                    {"outlines", objects({{"a", outline}, {"b", outline}})},
-                    {"arcs", std::move(arcs)},
-                    {"certificate", reference("schemas/certificate")}});
+    Value limbs = list_of(schema<LimbPair>());
+    limbs.set(
+        "description",
+        "The limbs of both, fork on fork: entry k of one species becomes entry k of the other. "
+        "Each as its template is, branching as that of seed 1.");
+    const auto answer = [&](Family family, std::initializer_list<Value::Member> correspondence) {
+        Value out = objects({{"canonical", typed("string")},
+                             {"v", typed("string")},
+                             {"a", typed("string")},
+                             {"b", typed("string")},
+                             {"age", typed("number")},
+                             {"family", object({{"const", name(family)}})}});
+        for (const auto& [key, value] : correspondence) {
+            out.find("properties")->set(key, value);
+            out.find("required")->push(key);
+        }
+        return out;
+    };
+    return object(
+        {{"oneOf",
+          Value(Value::Array{
+              answer(Family::swept, {{"outlines", objects({{"a", outline}, {"b", outline}})},
+                                     {"arcs", arcs},
+                                     {"certificate", reference("schemas/certificate")}}),
+              answer(Family::branched,
+                     {{"limbs", limbs}, {"certificate", schema<LimbCertificate>()}})})}});
 }
 
 Value schemas() {

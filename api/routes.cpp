@@ -36,7 +36,8 @@ constexpr std::array<Route, 34> table = {{
      json},
     {Endpoint::morph, "GET", "/v1/morphs/{a}/{b}", "get_morph",
      "Correspondence of two species: both outlines, what of one becomes what of the other, and "
-     "whether any morph between them crosses itself.",
+     "whether any morph between them crosses itself; of two that branch the limbs of both, fork "
+     "on fork.",
      json, ""},
     {Endpoint::colony_schema, "GET", "/v1/colonies/schema", "colony_schema",
      "JSON Schema of the query parameters of a colony.", "application/schema+json", ""},

@@ -7,18 +7,84 @@
 
 #include "core/atlas/atlas.h"
 #include "core/grow/workshop.h"
+#include "core/params/describe.h"
 #include "core/silhouette/morph_set.h"
 #include "core/silhouette/outline.h"
 
 namespace sporeprint {
 
-/// Two species of one age, each as its template is: no individual's own proportions.
+/// A limb of one species.
+struct LimbShape {
+    std::array<double, 3> start{}, end{};
+    double radius = 0.0, presence = 0.0;
+
+    static constexpr void fields(auto visit) {
+        using L = LimbShape;
+        visit(&L::start,
+              Info{.name = "start", .unit = "m", .min = -10, .max = 10, .doc = "Where it begins."});
+        visit(&L::end,
+              Info{.name = "end", .unit = "m", .min = -10, .max = 10, .doc = "Where it ends."});
+        visit(&L::radius, Info{.name = "radius", .unit = "m", .max = 1, .doc = "At its end."});
+        visit(&L::presence,
+              Info{.name = "presence",
+                   .max = 1,
+                   .doc = "How much of it there is: 0 for a limb that the species lacks, which has "
+                          "neither length nor radius."});
+    }
+    bool operator==(const LimbShape&) const = default;
+};
+
+/// A limb that two species have in common.
+struct LimbPair {
+    int bearer = -1;
+    bool goes_on = true;
+    LimbShape a, b;
+
+    static constexpr void fields(auto visit) {
+        using L = LimbPair;
+        visit(&L::bearer, Info{.name = "bearer",
+                               .min = -1,
+                               .max = 100000,
+                               .doc = "Place in this list of the limb that bears it, which comes "
+                                      "before it; -1 for a trunk."});
+        visit(&L::goes_on, Info{.name = "goes_on",
+                                .doc = "Whether it is the branch that goes on as its bearer; the "
+                                       "other leaves it."});
+        visit(&L::a, Info{.name = "a", .doc = "What it is in the first species."});
+        visit(&L::b, Info{.name = "b", .doc = "What it is in the second."});
+    }
+    bool operator==(const LimbPair&) const = default;
+};
+
+/// What is known about the bushes between two.
+struct LimbCertificate {
+    bool matched = true;
+    bool checked = false;
+
+    static constexpr void fields(auto visit) {
+        using C = LimbCertificate;
+        visit(&C::matched,
+              Info{.name = "matched",
+                   .doc = "Whether every limb has its counterpart at every moment: so by "
+                          "construction, both bushes are drawn on one graph, fork on fork."});
+        visit(&C::checked,
+              Info{.name = "checked",
+                   .doc = "Whether limbs between the two were looked at for passing through each "
+                          "other: they are not, and may."});
+    }
+    bool operator==(const LimbCertificate&) const = default;
+};
+
+/// Two species of one age, each as its template is: no individual's own proportions. Of what branches only the limbs are told, those of
+/// seed 1, of the others only outlines.
 struct SpeciesMorph {
     /// [species][CurveName] rings at LOD 0, metres: ring k of one species becomes ring k of the other.
     std::array<std::array<std::vector<OutlineSample>, 3>, 2> outlines;
     std::vector<Arc> arcs;  ///< some of what belongs together; the ends of sub-curves do anyway
     Certificate
         certificate;  ///< whether an outline on the way between the two touches itself, at any level of detail
+    std::vector<LimbPair> limbs;  ///< bearers first
+    LimbCertificate limb_certificate;
 };
 
 /// Finds what belongs together.

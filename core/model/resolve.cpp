@@ -440,16 +440,28 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     return individual;
 }
 
+std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas) {
+    std::vector<Problem> problems;
+    check(order.params, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    const std::vector<Source> sources = sources_of(order, atlas);
+    std::vector<Bush> bushes;
+    for (const Source& alone : sources) {
+        std::vector<BushShare> shares;
+        for (const Source& source : sources)
+            shares.push_back(
+                {&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0});
+        bushes.push_back(bush_of(shares, {}, 0.0, order.params.seed));
+    }
+    return bushes;
+}
+
 SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
                              const Remember<MorphSet>& morphs) {
     std::vector<Problem> problems;
     check(order.params, Info{.name = ""}, "", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     const std::vector<Source> sources = sources_of(order, atlas);
-    if (sources.front().is_branched())
-        throw Impossible("mix", sources.front().who +
-                                    " branches: what its limbs have in common with others is a "
-                                    "graph, which has no outlines to link");
     SpeciesShapes shapes;
     shapes.set = morph_set(sources, {}, order.params.age, morphs);
     std::size_t first = 0;

@@ -19,6 +19,13 @@ namespace sporeprint {
 [[nodiscard]] Individual resolve(const MushroomOrder& order, const Atlas& atlas,
                                  const Remember<MorphSet>& morphs = make_anew<MorphSet>);
 
+/// The bushes of the species of an order, by id, as their templates are: no individual's own. All have the same nodes, those of every
+/// species laid over each other; of what a species lacks the presence is 0.
+///
+/// pre     they branch
+/// throws  InvalidInput for a range or an unknown species
+[[nodiscard]] std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas);
+
 /// The control shapes of the species of an order, as their templates are: no individual's own.
 struct SpeciesShapes {
     std::shared_ptr<const MorphSet> set;
@@ -27,7 +34,7 @@ struct SpeciesShapes {
     std::vector<double> sizes;  ///< metres, by id: what the shapes of the set are divided by
 };
 
-/// pre     the order has no arcs
+/// pre     they do not branch; the order has no arcs
 /// throws  InvalidInput for a range or an unknown species
 [[nodiscard]] SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
                                            const Remember<MorphSet>& morphs = make_anew<MorphSet>);

@@ -185,11 +185,53 @@ TEST_F(MorphsTest, pairs_have_a_simple_correspondence_either_way) {
         }
 }
 
-TEST_F(MorphsTest, limbs_that_branch_have_no_outlines_to_link) {
-    const Answer both = ask(morph("ramaria_formosa", "xylaria_hypoxylon"));
-    expect_problem(both, 422);
-    EXPECT_NE(text_of(both).find("/v1/mushrooms/ramaria_formosa:0.5,xylaria_hypoxylon:0.5.glb"),
-              std::string::npos);
+TEST_F(MorphsTest, limb_k_of_one_bush_becomes_limb_k_of_the_other) {
+    const Answer answer = ask(morph("xylaria_hypoxylon", "ramaria_formosa"));
+    ASSERT_EQ(answer.status, 200) << text_of(answer);
+    const Value body = json_of(answer);
+    EXPECT_EQ(body.find("family")->as_string(), "branched");
+    EXPECT_FALSE(body.find("outlines"));
+    EXPECT_TRUE(body.at_pointer("/certificate/matched")->as_bool());
+    EXPECT_FALSE(body.at_pointer("/certificate/checked")->as_bool());
+    const auto& limbs = body.find("limbs")->items();
+    ASSERT_GT(limbs.size(), 20U);
+    int there[2] = {0, 0}, trunks = 0;
+    double highest[2] = {0.0, 0.0};
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+        const double bearer = limbs[i].find("bearer")->as_number();
+        EXPECT_LT(bearer, static_cast<double>(i)) << "bearers come first";
+        trunks += bearer < 0.0 ? 1 : 0;
+        for (int side = 0; side < 2; ++side) {
+            const Value& one = *limbs[i].find(side == 0 ? "a" : "b");
+            highest[side] = std::max(highest[side], one.at_pointer("/end/1")->as_number());
+            if (one.find("presence")->as_number() > 0.0) {
+                ++there[side];
+                continue;
+            }
+            EXPECT_EQ(one.find("radius")->as_number(), 0.0) << i;
+        }
+    }
+    EXPECT_EQ(trunks, 1);
+    EXPECT_LT(there[0], 15) << "candlesnuff has few branches";
+    EXPECT_GT(there[1], 200) << "a coral has many";
+    EXPECT_NEAR(highest[0], 0.055, 0.01);
+    EXPECT_NEAR(highest[1], 0.12, 0.03);
+
+    const Value back = json_of(ask(morph("ramaria_formosa", "xylaria_hypoxylon")));
+    ASSERT_EQ(back.find("limbs")->items().size(), limbs.size());
+    for (std::size_t i = 0; i < limbs.size(); ++i) {
+        EXPECT_EQ(dump(*back.find("limbs")->items()[i].find("a")), dump(*limbs[i].find("b")));
+        EXPECT_EQ(dump(*back.find("limbs")->items()[i].find("b")), dump(*limbs[i].find("a")));
+    }
+}
+
+TEST_F(MorphsTest, limbs_take_no_arcs_but_a_moment) {
+    const char *a = "ramaria_formosa", *b = "xylaria_hypoxylon";
+    const Answer linked =
+        ask(between(small("\"arcs\":[{\"curve\":\"cap\",\"a\":0.3,\"b\":0.4}]"), a, b));
+    expect_problem(linked, 422);
+    EXPECT_TRUE(names(linked, "/arcs", "no outlines"));
+    EXPECT_EQ(ask(between(small("\"t\":0.3"), a, b)).status, 200);
     const Answer strangers = ask(morph("ramaria_formosa", first));
     expect_problem(strangers, 422);
     EXPECT_NE(text_of(strangers).find("only species of one family"), std::string::npos);
