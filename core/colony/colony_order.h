@@ -84,30 +84,39 @@ struct ColonyParams {
                               .min = 1,
                               .max = 256,
                               .doc = "Individuals, at most: those for which there is no room are "
-                                     "left out."});
+                                     "left out.",
+                              .group = "placement"});
         visit(&P::distinct, Info{.name = "distinct",
                                  .min = 1,
                                  .max = 16,
                                  .doc = "Different individuals that are grown; all others are "
-                                        "their likes, turned and scaled."});
-        visit(&P::habit, Info{.name = "habit", .doc = "How they stand."});
+                                        "their likes, turned and scaled.",
+                                 .group = "individuals"});
+        visit(&P::habit, Info{.name = "habit", .doc = "How they stand.", .group = "placement"});
         visit(&P::age, Info{.name = "age",
                             .min = 0,
                             .max = 1,
                             .doc = "Of the oldest: button (0), maturity (0.6), decay (1). Others "
-                                   "are down to half as old."});
-        visit(&P::size, info_of<M>("size"));
+                                   "are down to half as old.",
+                            .group = "individuals"});
+        Info size = info_of<M>("size");
+        size.group = "individuals";
+        visit(&P::size, size);
         visit(&P::cap_scale, Info{.name = "cap_scale",
                                   .min = 0.25,
                                   .max = 3,
-                                  .doc = "Size of caps for the thickness of their stems."});
-        visit(&P::roots, Info{.name = "roots", .doc = "Roots above the ground, or none in sight."});
+                                  .doc = "Size of caps for the thickness of their stems.",
+                                  .group = "individuals"});
+        visit(&P::roots, Info{.name = "roots",
+                              .doc = "Roots above the ground, or none in sight.",
+                              .group = "roots"});
         visit(&P::trunk_radius, Info{.name = "trunk_radius",
                                      .unit = "m",
                                      .min = 0.005,
                                      .max = 5,
                                      .doc = "Of the trunk that a tier stands on, before size; its "
-                                            "surface touches the origin from behind."});
+                                            "surface touches the origin from behind.",
+                                     .group = "placement"});
         visit(&P::growth, Info{.name = ""});
         visit(&P::lod, info_of<M>("lod"));
         visit(&P::texture_size, info_of<M>("texture_size"));

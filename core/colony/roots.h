@@ -50,79 +50,98 @@ struct ColonyRootsOf {
 
     static constexpr void fields(auto visit) {
         using C = ColonyRootsOf;
-        visit(&C::field, Info{.name = "field", .doc = "What roots take their headings from."});
+        visit(
+            &C::field,
+            Info{.name = "field", .doc = "What roots take their headings from.", .group = "field"});
         visit(&C::field_scale,
               Info{.name = "field_scale",
                    .unit = "m",
                    .min = 0.02,
                    .max = 10,
-                   .doc = "Size of the field's features: smaller ones wind roots more."});
+                   .doc = "Size of the field's features: smaller ones wind roots more.",
+                   .group = "field"});
         visit(&C::heading_deg, Info{.name = "heading_deg",
                                     .unit = "deg",
                                     .min = -180,
                                     .max = 180,
-                                    .doc = "Angle that the first branch keeps to the field."});
+                                    .doc = "Angle that the first branch keeps to the field.",
+                                    .group = "field"});
         visit(&C::arms, Info{.name = "arms",
                              .min = 1,
                              .max = 12,
-                             .doc = "Branches that leave the base, evenly round it."});
+                             .doc = "Branches that leave the base, evenly round it.",
+                             .group = "roots"});
         visit(&C::segment_length, Info{.name = "segment_length",
                                        .unit = "m",
                                        .min = 0.002,
                                        .max = 1,
-                                       .doc = "Of root segments at the base."});
+                                       .doc = "Of root segments at the base.",
+                                       .group = "roots"});
         visit(&C::decay, Info{.name = "decay",
                               .min = 0,
                               .max = 1,
                               .doc = "How fast segments shorten: by e to the minus this from one "
-                                     "to the next."});
+                                     "to the next.",
+                              .group = "roots"});
         visit(&C::depth, Info{.name = "depth",
                               .min = 1,
                               .max = 60,
-                              .doc = "Segments from the base to the farthest tips."});
+                              .doc = "Segments from the base to the farthest tips.",
+                              .group = "roots"});
         visit(&C::branch_distance,
               Info{.name = "branch_distance",
                    .unit = "m",
                    .min = 0.005,
                    .max = 100,
-                   .doc = "Length of root between two branchings, in the mean."});
+                   .doc = "Length of root between two branchings, in the mean.",
+                   .group = "roots"});
         visit(&C::branch_jitter_deg, Info{.name = "branch_jitter_deg",
                                           .unit = "deg",
                                           .min = 0,
                                           .max = 80,
                                           .doc = "How far side branches depart from 90 deg, at "
-                                                 "most."});
+                                                 "most.",
+                                          .group = "roots"});
         visit(&C::root_radius, Info{.name = "root_radius",
                                     .unit = "m",
                                     .min = 0.0002,
                                     .max = 0.2,
-                                    .doc = "Of the root at the base."});
+                                    .doc = "Of the root at the base.",
+                                    .group = "roots"});
         visit(&C::area_decay, Info{.name = "area_decay",
                                    .min = 0,
                                    .max = 3,
                                    .doc = "How fast the section of roots shrinks, in decays of "
-                                          "their lengths."});
+                                          "their lengths.",
+                                   .group = "roots"});
         visit(&C::stem_height, Info{.name = "stem_height",
                                     .unit = "m",
                                     .min = 0.002,
                                     .max = 1,
-                                    .doc = "Of a stem at the base."});
+                                    .doc = "Of a stem at the base.",
+                                    .group = "stems"});
         visit(&C::stem_decay, Info{.name = "stem_decay",
                                    .min = 0,
                                    .max = 1,
-                                   .doc = "How fast stems grow lower away from the base."});
+                                   .doc = "How fast stems grow lower away from the base.",
+                                   .group = "stems"});
         visit(&C::stem_probability, Info{.name = "stem_probability",
                                          .min = 0,
                                          .max = 1,
-                                         .doc = "Share of root nodes that bear a stem."});
+                                         .doc = "Share of root nodes that bear a stem.",
+                                         .group = "stems"});
         visit(&C::stem_displacement,
               Info{.name = "stem_displacement",
                    .unit = "m",
                    .min = 0,
                    .max = 0.5,
-                   .doc = "How far the tops of stems stand away from the base, along a parabola."});
-        visit(&C::stem_segments,
-              Info{.name = "stem_segments", .min = 1, .max = 16, .doc = "Segments of a stem."});
+                   .doc = "How far the tops of stems stand away from the base, along a parabola.",
+                   .group = "stems"});
+        visit(&C::stem_segments, Info{.name = "stem_segments",
+                                      .min = 1,
+                                      .max = 16,
+                                      .doc = "Segments of a stem.",
+                                      .group = "stems"});
     }
     bool operator==(const ColonyRootsOf&) const = default;
 };

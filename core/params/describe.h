@@ -30,6 +30,8 @@ struct Info {
     std::size_t most = 0;         ///< longest list; longest text or upload in bytes
     const char* doc = "";         ///< one sentence, shown as tooltip and in the API docs
     double step = 0.0;            ///< a slider's step; 0 leaves it to the page
+    const char* group =
+        "";  ///< heading under which controls of one object stand together; empty: that of the object
 };
 
 /// A parameter struct: an aggregate that calls `visit(&T::member, Info{...})` for each member, in

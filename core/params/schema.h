@@ -93,7 +93,7 @@ void schema_members(const T& fallback, Value& properties, Value& choices) {
 }
 
 /// The schema of T, its defaults read off `fallback`. Leaves carry type, range or enum, default,
-/// title, description, "x-unit" and "x-step"; an empty optional has no default but
+/// title, description, "x-unit", "x-group" and "x-step"; an empty optional has no default but
 /// "x-default-from": "species". Unknown properties are refused.
 template <class T>
 Value schema(const T& fallback, const Info& info) {
@@ -161,6 +161,7 @@ Value schema(const T& fallback, const Info& info) {
         if (info.step > 0.0) out.set("x-step", info.step);
     }
     if (*info.unit) out.set("x-unit", info.unit);
+    if (*info.group) out.set("x-group", info.group);
     if (*info.name) out.set("title", title_of(info.name));
     if (*info.doc) out.set("description", info.doc);
     return out;

@@ -132,6 +132,16 @@ TEST_F(ColoniesTest, are_described_by_a_schema) {
     EXPECT_EQ(schema.at_pointer("/properties/count/default")->as_number(), 24.0);
     EXPECT_EQ(schema.at_pointer("/properties/habit/x-default-from")->as_string(), "species");
     EXPECT_EQ(schema.at_pointer("/properties/stem_height/x-default-from")->as_string(), "species");
+    const auto group = [&](const std::string& control) {
+        const Value* found = schema.at_pointer("/properties/" + control + "/x-group");
+        return found ? found->as_string() : std::string();
+    };
+    EXPECT_EQ(group("seed"), "");
+    EXPECT_EQ(group("habit"), "placement");
+    EXPECT_EQ(group("size"), "individuals");
+    EXPECT_EQ(group("field_scale"), "field");
+    EXPECT_EQ(group("roots"), "roots");
+    EXPECT_EQ(group("stem_decay"), "stems");
     EXPECT_EQ(json_of(ask("/v1")).at_pointer("/links/colony_schema")->as_string(),
               "/v1/colonies/schema");
 }
