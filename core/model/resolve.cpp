@@ -446,8 +446,10 @@ std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas)
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     const std::vector<Source> sources = sources_of(order, atlas);
     std::vector<Bush> bushes;
+    bushes.reserve(sources.size());
     for (const Source& alone : sources) {
         std::vector<BushShare> shares;
+        shares.reserve(sources.size());
         for (const Source& source : sources)
             shares.push_back(
                 {&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0});
