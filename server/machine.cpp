@@ -9,9 +9,10 @@
 #include <charconv>
 #include <chrono>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 #include <system_error>
+
+#include "server/text_files.h"
 
 namespace sporeprint::server {
 
@@ -22,12 +23,8 @@ namespace fs = std::filesystem;
 const double process_started =
     std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 
-std::string text_of(const fs::path& file) {
-    std::ifstream in(file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    return text.str();
-}
+/// What a file of the system says; nothing in it when there is none.
+std::string text_of(const fs::path& file) { return read_text(file).value_or(""); }
 
 std::optional<double> number_in(std::string_view text) {
     double number = 0;
@@ -97,6 +94,11 @@ Usage usage() {
          entry.increment(error))
         ++now.open_files;
     return now;
+}
+
+std::int64_t seconds_since_1970() {
+    using std::chrono::duration_cast, std::chrono::seconds, std::chrono::system_clock;
+    return duration_cast<seconds>(system_clock::now().time_since_epoch()).count();
 }
 
 fs::path program_folder() {

@@ -25,6 +25,9 @@ struct Usage {
 };
 [[nodiscard]] Usage usage();
 
+/// Now, in whole seconds since 1970.
+[[nodiscard]] std::int64_t seconds_since_1970();
+
 /// The folder this program stands in.
 [[nodiscard]] std::filesystem::path program_folder();
 

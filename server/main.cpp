@@ -9,10 +9,8 @@
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <sstream>
 #include <string>
 #include <thread>
 
@@ -26,6 +24,7 @@
 #include "server/reception.h"
 #include "server/reload.h"
 #include "server/signatures.h"
+#include "server/text_files.h"
 #include "server/transport.h"
 #include "server/warm.h"
 
@@ -41,15 +40,13 @@ int complain(const std::string& sentence, int code) {
     return code;
 }
 
-/// The text of a file.
+/// The text of the file of options; of none when no file is named.
 ///
 /// throws  std::runtime_error when it cannot be read
-std::string text_of(const std::string& file) {
-    std::ifstream in(file);
-    std::ostringstream text;
-    text << in.rdbuf();
-    if (!in || in.bad()) throw std::runtime_error("--config: " + file + " cannot be read");
-    return text.str();
+std::string config_text(const std::string& file) {
+    if (file.empty()) return {};
+    if (std::optional<std::string> text = read_text(file)) return *std::move(text);
+    throw std::runtime_error("--config: " + file + " cannot be read");
 }
 
 /// The folder of the built page: the one given, or where a build or an installation has it.
@@ -211,11 +208,7 @@ int sign(const Options& options, const std::string& target, std::int64_t seconds
         return complain("--sign takes path and query, all of an address after its host",
                         wrong_usage);
     std::optional<std::int64_t> expires;
-    if (seconds > 0)
-        expires = std::chrono::duration_cast<std::chrono::seconds>(
-                      std::chrono::system_clock::now().time_since_epoch())
-                      .count() +
-                  seconds;
+    if (seconds > 0) expires = seconds_since_1970() + seconds;
     const auto signatures = Signatures::from_file(options.sign_keys.string());
     std::printf("%s\n", signatures.signed_target("GET", target, {}, expires).c_str());
     return fine;
@@ -271,8 +264,7 @@ int run(int argc, char** argv) {
 
     Options options;
     try {
-        options = options_from(config, config.empty() ? std::string() : text_of(config),
-                               given_by_environment(variable), flags);
+        options = options_from(config, config_text(config), given_by_environment(variable), flags);
     } catch (const InvalidInput& invalid) {
         for (const Problem& problem : invalid.problems())
             complain(problem.path + ": " + problem.message, wrong_usage);

@@ -237,11 +237,15 @@ bool Reactor::make_room() {
 void Reactor::spare_memory() {
     while (hall_.pins.bytes() > options_.most_pinned) {
         Connection* slowest = nullptr;
+        double least = 0.0;
         std::size_t slow = 0;
         for (const auto& one : connections_) {
-            if (one->ended || !one->pace()) continue;
+            const std::optional<double> pace = one->ended ? std::nullopt : one->pace();
+            if (!pace) continue;
             ++slow;
-            if (!slowest || *one->pace() < *slowest->pace()) slowest = one.get();
+            if (slowest && *pace >= least) continue;
+            slowest = one.get();
+            least = *pace;
         }
         if (slow < 2) break;
         ++given_up_;

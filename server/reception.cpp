@@ -9,6 +9,7 @@
 #include "api/query.h"
 #include "api/routes.h"
 #include "api/stopwatch.h"
+#include "server/machine.h"
 
 namespace sporeprint::server {
 
@@ -189,10 +190,8 @@ Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visi
     const api::Match match =
         api::match_route(whole.method, api::split_target(whole.target, ignored).segments);
     if (!match.route || !api::makes(match.route->endpoint)) return asked;
-    const std::int64_t now = std::chrono::duration_cast<std::chrono::seconds>(
-                                 std::chrono::system_clock::now().time_since_epoch())
-                                 .count();
-    Checked checked = means.signatures->check(whole.method, whole.target, whole.body, now);
+    Checked checked =
+        means.signatures->check(whole.method, whole.target, whole.body, seconds_since_1970());
     if (!checked.good) {
         asked.why_not = std::move(checked.why);
         return asked;

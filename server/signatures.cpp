@@ -7,8 +7,6 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <stdexcept>
 #include <utility>
 
@@ -16,6 +14,7 @@
 #include "core/params/messages.h"
 #include "core/params/problems.h"
 #include "core/params/types.h"
+#include "server/text_files.h"
 
 namespace sporeprint::server {
 
@@ -120,30 +119,25 @@ Signatures::Signatures(std::vector<SigningKey> keys) : keys_(std::move(keys)) {
 
 Signatures Signatures::from_text(const std::string& name, std::string_view text) {
     std::vector<SigningKey> keys;
-    std::vector<int> lines;  // that they stand on
+    std::vector<std::size_t> lines;  // that they stand on
     std::vector<Problem> problems;
-    const auto at = [&](int line) { return name + ':' + std::to_string(line); };
-    for (int line = 1; !text.empty(); ++line) {
-        const std::size_t end = text.find('\n');
-        std::string_view rest = text.substr(0, end);
-        text.remove_prefix(end == std::string_view::npos ? text.size() : end + 1);
+    const auto at = [&](std::size_t line) { return name + ':' + std::to_string(line); };
+    for (auto [number, rest] : lines_of(text)) {
         std::vector<std::string_view> words;
-        while (!rest.empty()) {
-            const std::size_t begin = rest.find_first_not_of(" \t\r");
-            if (begin == std::string_view::npos) break;
+        for (std::size_t begin = 0; begin != std::string_view::npos;
+             begin = rest.find_first_not_of(" \t\r")) {
             rest.remove_prefix(begin);
             words.push_back(rest.substr(0, rest.find_first_of(" \t\r")));
             rest.remove_prefix(words.back().size());
         }
-        if (words.empty() || words.front().starts_with('#')) continue;
         const std::optional<std::string> secret =
             words.size() == 2 ? bytes_of(words[1]) : std::nullopt;
         if (!secret) {
-            report(problems, at(line), "a line is an id and a secret in hexadecimal digits");
+            report(problems, at(number), "a line is an id and a secret in hexadecimal digits");
             continue;
         }
         keys.push_back({std::string(words[0]), *secret});
-        lines.push_back(line);
+        lines.push_back(number);
     }
     for (const auto& [i, fault] : faults_of(keys)) report(problems, at(lines[i]), fault);
     if (keys.empty() && problems.empty()) report(problems, name, "there is no key");
@@ -152,10 +146,9 @@ Signatures Signatures::from_text(const std::string& name, std::string_view text)
 }
 
 Signatures Signatures::from_file(const std::filesystem::path& file) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text((std::istreambuf_iterator<char>(stream)), {});
-    if (!stream) throw InvalidInput(file.string(), "the file of keys cannot be read");
-    return from_text(file.string(), text);
+    const std::optional<std::string> text = read_text(file);
+    if (!text) throw InvalidInput(file.string(), "the file of keys cannot be read");
+    return from_text(file.string(), *text);
 }
 
 Checked Signatures::check(std::string_view method, std::string_view target, std::string_view body,

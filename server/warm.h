@@ -4,26 +4,15 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
-#include <string>
-#include <string_view>
-#include <vector>
 
 #include "server/log.h"
 #include "server/reception.h"
 
 namespace sporeprint::server {
 
-/// A line of a list: path and query.
-struct WarmTarget {
-    std::size_t line = 0;  ///< from 1
-    std::string target;
-};
-
-/// The lines of a list without blanks around them; empty ones and those that begin with '#' are passed over.
-[[nodiscard]] std::vector<WarmTarget> warm_targets(std::string_view text);
-
-/// Makes what a file lists, as many at once as there are slots, and logs each line of which nothing can be made, with its
-/// number and the problem; at the end how many were good. None of it is fatal, not even that there is no such file.
+/// Makes what a file lists, path and query a line (lines_of()), as many at once as there are slots, and logs each line of
+/// which nothing can be made, with its number and the problem; at the end how many were good. None of it is fatal, not even
+/// that there is no such file.
 ///
 /// stop     asked now and then: whether to leave the rest
 /// returns  how many lines were good

@@ -1,7 +1,7 @@
 // Hours of a server's life in minutes: arrivals at random, nine of ten for what is kept (by Zipf's law), one for a morph never asked for.
 //   node tests/bench/mixed_load.mjs URL [--minutes 30] [--rate 150] [--pid PID]
 // Arrivals do not wait for answers, so a server that falls behind is seen to. With --pid the server's resident memory is followed.
-// Ends with the table of README.md; exits 1 if anything but 200 and 503 with Retry-After came.
+// Ends with what README.md tells; exits 1 if anything but 200 and 503 with Retry-After came.
 import http from "node:http";
 import { readFileSync } from "node:fs";
 import { performance } from "node:perf_hooks";

@@ -7,21 +7,12 @@
 #include <string_view>
 #include <variant>
 
+#include "api/answers.h"
 #include "api/service.h"
 #include "core/atlas/atlas.h"
 #include "tests/fuzz/expect.h"
 
 using namespace sporeprint;
-
-namespace {
-
-std::string_view header_of(const api::Answer& answer, std::string_view name) {
-    for (const auto& [key, value] : answer.headers)
-        if (key == name) return value;
-    return {};
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static api::Service service(built_in_atlas(), api::ServiceOptions{});
@@ -42,15 +33,15 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const auto* answer = std::get_if<api::Answer>(&head);
     if (answer == nullptr) return 0;  // a document whose length is not known yet
     expect(answer->status == 200, "HEAD of what GET would make");
-    const std::string canonical(header_of(*answer, "Content-Location"));
+    const std::string canonical(api::header_of(*answer, "Content-Location"));
     if (canonical.empty()) return 0;
     const auto again = ask("GET", canonical);
     const auto* job = std::get_if<api::Job>(&again);
     expect(job != nullptr && job->key == key, "the canonical address means the same");
     const auto own = ask("HEAD", canonical);
-    expect(header_of(std::get<api::Answer>(own), "Content-Location") == canonical,
+    expect(api::header_of(std::get<api::Answer>(own), "Content-Location") == canonical,
            "and is its own canonical address");
-    expect(header_of(std::get<api::Answer>(own), "ETag") == header_of(*answer, "ETag"),
+    expect(api::header_of(std::get<api::Answer>(own), "ETag") == api::header_of(*answer, "ETag"),
            "with the same tag");
     return 0;
 }

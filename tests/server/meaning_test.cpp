@@ -16,6 +16,7 @@
 #include "core/atlas/atlas.h"
 #include "core/math/random.h"
 #include "server/signatures.h"
+#include "tests/api/support.h"
 
 namespace sporeprint::server {
 namespace {
@@ -198,19 +199,14 @@ Key key_of(const api::Request& request) {
     const auto plan = service.plan(request);
     if (const auto* job = std::get_if<api::Job>(&plan)) return job->key;
     const auto& answer = std::get<api::Answer>(plan);
-    std::string text = std::to_string(answer.status) + ' ';
-    for (const Slice& slice : answer.body)
-        text.append(reinterpret_cast<const char*>(slice.data()), slice.size);
-    RC_FAIL(request.target + ' ' + request.body + ": " + text);
+    RC_FAIL(request.target + ' ' + request.body + ": " + std::to_string(answer.status) + ' ' +
+            api::test::text_of(answer));
     return {};
 }
 
-Key key_of_get(const std::string& target) { return key_of({"GET", target, {}, {}, "test"}); }
+Key key_of_get(const std::string& target) { return key_of(api::test::get(target)); }
 
-Key key_of_post(const std::string& body) {
-    return key_of(
-        {"POST", "/v1/mushrooms.glb", {{"Content-Type", "application/json"}}, body, "test"});
-}
+Key key_of_post(const std::string& body) { return key_of(api::test::post(body)); }
 
 RC_GTEST_PROP(MeaningProperty, HasOneKeyHoweverItIsSaid, ()) {
     Draws draws(*rc::gen::arbitrary<std::uint32_t>());

@@ -24,18 +24,6 @@ std::string get(const std::string& target, const std::string& more = {}) {
 const std::string first = "/v1/mushrooms/amanita_muscaria.glb?lod=3&textures=none",
                   second = "/v1/mushrooms/boletus_edulis.glb?lod=3&texture_size=128";
 
-TEST(Warm, ListsAreReadByLines) {
-    const auto targets = warm_targets("# a\n\n  /a?b=c \t\r\n/d\n #e\n\r\n/f");
-    ASSERT_EQ(targets.size(), 3u);
-    EXPECT_EQ(targets[0].target, "/a?b=c");
-    EXPECT_EQ(targets[0].line, 3u);
-    EXPECT_EQ(targets[1].target, "/d");
-    EXPECT_EQ(targets[2].target, "/f");
-    EXPECT_EQ(targets[2].line, 7u);
-    EXPECT_TRUE(warm_targets("").empty());
-    EXPECT_TRUE(warm_targets("\n\n").empty());
-}
-
 class WarmStart : public testing::Test {
   protected:
     void SetUp() override {
