@@ -4,6 +4,6 @@
 namespace sporeprint {
 
 /// Raised whenever bytes change for an unchanged request.
-inline constexpr int generator_version = 9;
+inline constexpr int generator_version = 10;
 
 }  // namespace sporeprint

@@ -38,20 +38,21 @@ struct LimbDetail {
     double
         tips_shown;  ///< how much further down the colour of tips reaches when all others are gone
     double lean;     ///< 0..1: how far a limb turns to the middle of what it stands for
+    // Of limbs of a mix that belong to a species of few, each of them long: so many times the sides, and rings; 0: as of all others.
+    int few_sides = 1, few_steps = 0, few_tip_rings = 0, few_trunk_rings = 0;
 };
-constexpr std::array<LimbDetail, 10> ladder = {{{28, 28, 20, 18, 8, 12, 10, 0.3, 0.0},
-                                                {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
-                                                {16, 16, 10, 8, 3, 5, 6, 0.3, 0.0},
-                                                {14, 14, 8, 6, 2, 4, 5, 0.3, 0.0},
-                                                {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
-                                                {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
-                                                {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
-                                                {12, 6, 3, 3, 1, 1, 3, 0.3, 0.0},
-                                                {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
-                                                {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6}}};
+constexpr std::array<LimbDetail, 9> ladder = {{{28, 28, 20, 18, 6, 12, 11, 0.3, 0.0},
+                                               {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
+                                               {24, 8, 8, 8, 2, 3, 6, 0.3, 0.0, 2, 6, 12, 11},
+                                               {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
+                                               {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
+                                               {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
+                                               {12, 6, 3, 3, 1, 1, 3, 0.3, 0.0},
+                                               {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
+                                               {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6}}};
 /// The finest step of the ladder by level of detail, and the coarsest: what is too much for that loses its smallest limbs.
-constexpr std::array<std::size_t, 4> first_step = {0, 4, 8, 9};
-constexpr std::array<std::size_t, 4> last_step = {7, 7, 8, 9};
+constexpr std::array<std::size_t, 4> first_step = {0, 3, 7, 8};
+constexpr std::array<std::size_t, 4> last_step = {6, 6, 7, 8};
 /// Rather than a coarser step, this share of limbs is enough. A round limb of four sides is seen sooner than a twig that is not there.
 constexpr std::array<double, 4> enough = {0.9, 0.5, 0.0, 0.0};
 /// Tips that a tube bears at its beginning to count as thick.
@@ -94,36 +95,63 @@ std::vector<Chain> chains_of(const Bush& bush) {
     return chains;
 }
 
+/// Of a tube as species of many limbs draw it.
 int sides_of(const Chain& chain, const LimbDetail& detail) {
     if (chain.root) return detail.trunk_sides;
     if (chain.tips >= many_tips) return detail.thick_sides;
     return chain.tips > 1 ? detail.sides : detail.twig_sides;
 }
 
+/// Of a tube as it is drawn.
+int columns_of(const Bush& bush, const Chain& chain, const LimbDetail& detail) {
+    const bool few = !chain.root && bush.nodes[chain.nodes.front()].few > 0.0;
+    return sides_of(chain, detail) * (few ? detail.few_sides : 1);
+}
+
+/// Rings of a limb, whatever its end: where only some species of a mix have a tip it has as many as for one, for a mix ends where its
+/// species begin.
+int rings_of(const Bush::Node& end, const LimbDetail& detail) {
+    if (end.children[0] == none) return detail.tip_rings;
+    const bool few = end.few > 0.0;
+    const int steps = few ? std::max(detail.steps, detail.few_steps) : detail.steps;
+    if (!end.may_end) return steps;
+    return std::max({steps, detail.tip_rings, few ? detail.few_tip_rings : 0});
+}
+
+int trunk_rings_of(const Bush::Node& top, const LimbDetail& detail) {
+    return top.few > 0.0 ? std::max(detail.trunk_rings, detail.few_trunk_rings)
+                         : detail.trunk_rings;
+}
+
 /// Of a tube, without the trunk below it.
-std::uint64_t tube_triangles(const Chain& chain, const LimbDetail& detail) {
+std::uint64_t tube_triangles(const Bush& bush, const Chain& chain, const LimbDetail& detail) {
     // One ring at the fork where it begins, or at the top of the trunk.
-    const std::size_t rings = 1 + chain.forks.size() * static_cast<std::size_t>(detail.steps) +
-                              static_cast<std::size_t>(detail.tip_rings);
+    int rings = 1 + rings_of(bush.nodes[chain.nodes.back()], detail);
+    for (const std::size_t fork : chain.forks)
+        rings += rings_of(bush.nodes[chain.nodes[fork]], detail);
     return 2 * static_cast<std::uint64_t>(rings) *
-           static_cast<std::uint64_t>(sides_of(chain, detail));
+           static_cast<std::uint64_t>(columns_of(bush, chain, detail));
 }
 
 /// Of a trunk from the ground to its lowest fork; it is closed below.
-std::uint64_t trunk_triangles(const LimbDetail& detail) {
-    return 2 * static_cast<std::uint64_t>((detail.trunk_rings - 1) * detail.trunk_sides);
+std::uint64_t trunk_triangles(const Bush& bush, const Chain& chain, const LimbDetail& detail) {
+    return 2 *
+           static_cast<std::uint64_t>(trunk_rings_of(bush.nodes[chain.nodes.front()], detail) - 1) *
+           static_cast<std::uint64_t>(detail.trunk_sides);
 }
 
 /// Of a tube on which no other begins.
-MeshCount count_of(const Chain& chain, const LimbDetail& detail) {
-    const auto sides = static_cast<std::uint64_t>(sides_of(chain, detail));
+MeshCount count_of(const Bush& bush, const Chain& chain, const LimbDetail& detail) {
+    const auto sides = static_cast<std::uint64_t>(columns_of(bush, chain, detail));
     const auto rings = static_cast<std::uint64_t>(1 + detail.tip_rings);
     // A row at the beginning, a point at the tip.
-    MeshCount count{(chain.root ? rings : rings + 1) * sides + 1, tube_triangles(chain, detail)};
+    MeshCount count{(chain.root ? rings : rings + 1) * sides + 1,
+                    tube_triangles(bush, chain, detail)};
     if (chain.root) {
-        const auto trunk = static_cast<std::uint64_t>(detail.trunk_rings);
+        const auto trunk =
+            static_cast<std::uint64_t>(trunk_rings_of(bush.nodes[chain.nodes.front()], detail));
         count.vertices += (trunk + 1) * (sides + 1);
-        count.triangles += trunk_triangles(detail);
+        count.triangles += trunk_triangles(bush, chain, detail);
     }
     return count;
 }
@@ -137,9 +165,10 @@ bool is_there(const Bush& bush, const Chain& chain) {
 }
 
 /// Of the rings that a tube has more for another that begins on it.
-MeshCount fork_count(const Chain& bearer, const LimbDetail& detail) {
-    const auto rings = static_cast<std::uint64_t>(detail.steps) *
-                       static_cast<std::uint64_t>(sides_of(bearer, detail));
+MeshCount fork_count(const Bush& bush, const Chain& bearer, std::size_t at,
+                     const LimbDetail& detail) {
+    const auto rings = static_cast<std::uint64_t>(rings_of(bush.nodes[bearer.nodes[at]], detail)) *
+                       static_cast<std::uint64_t>(columns_of(bush, bearer, detail));
     return {rings, 2 * rings};
 }
 
@@ -173,10 +202,11 @@ Plan plan_of(const Bush& bush, int lod) {
         plan.detail = ladder[step];
         plan.count = {};
         for (kept = 0; kept < plan.chains.size(); ++kept) {
-            MeshCount one = count_of(plan.chains[kept], plan.detail);
+            MeshCount one = count_of(bush, plan.chains[kept], plan.detail);
             // A bearer bears more than what it bears, so that it came before.
             if (const Place* fork = fork_of(plan.chains[kept])) {
-                const MeshCount rings = fork_count(plan.chains[fork->chain], plan.detail);
+                const MeshCount rings =
+                    fork_count(bush, plan.chains[fork->chain], fork->at, plan.detail);
                 one.vertices += rings.vertices;
                 one.triangles += rings.triangles;
             }
@@ -209,6 +239,7 @@ struct Station {
     double radius = 0.0, wide = 1.0, thin = 1.0;  ///< in that way, and square to it
     double at_fork = 0.0;                         ///< 0..1: how near a fork it is
     double colour = 0.0;  ///< see Bush::Node::from_tip; of a trunk the share of its length
+    double few = 0.0;     ///< see Bush::Node::few
 };
 
 glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
@@ -379,9 +410,7 @@ class Tubes {
 
     // The way in which a tube passes the end of a limb: half-way between that limb and the next.
     [[nodiscard]] glm::dvec3 passing(std::uint32_t i) const {
-        if (bush_.is_tip(i)) return node(i).heading;
-        const glm::dvec3 next = node(node(i).children[0]).heading;
-        return unit_or(node(i).heading + (1.0 - bush_.ends(i)) * next, node(i).heading);
+        return unit_or(node(i).heading + node(node(i).children[0]).heading, node(i).heading);
     }
 
     static SplineSegment<glm::dvec3> way(const glm::dvec3& from, const glm::dvec3& leaving,
@@ -398,60 +427,131 @@ class Tubes {
         station.thin = std::sqrt(1.0 - flatness);
     }
 
-    // Stations of a tube from `from` on to the end of a limb.
+    // Stations of a tube from `from` on to the end of a limb. What the species of a mix draw each in its own way is between those ways as
+    // far as they weigh: where one has a tip and another goes on, and where one of few limbs has more rings.
     void add_limb(std::vector<Station>& stations, const Station& from, std::uint32_t i,
                   bool is_straight) const {
+        const LimbDetail& detail = plan_.detail;
+        const auto rings = static_cast<std::size_t>(rings_of(node(i), detail));
+        const auto drawn = [&](const auto& as, int own, int of_few) {
+            std::vector<Station> limb = divided(from, as(own), rings);
+            if (of_few > own && node(i).few > 0.0)
+                mix(limb, divided(from, as(of_few), rings), node(i).few);
+            return limb;
+        };
+        const auto as_fork = [&](int count) { return fork_of(from, i, count); };
+        const auto as_tip = [&](int count) { return tip_of(from, i, is_straight, count); };
+        std::vector<Station> limb;
+        if (bush_.is_tip(i)) {
+            limb = as_tip(detail.tip_rings);
+        } else {
+            limb = drawn(as_fork, detail.steps, detail.few_steps);
+            if (node(i).may_end)
+                mix(limb, drawn(as_tip, detail.tip_rings, detail.few_tip_rings), bush_.ends(i));
+        }
+        stations.insert(stations.end(), limb.begin(), limb.end());
+    }
+
+    // As many rings, on the straight pieces between those of a limb, which keep their places.
+    static std::vector<Station> divided(const Station& from, std::vector<Station> limb,
+                                        std::size_t rings) {
+        if (limb.size() == rings) return limb;
+        const std::size_t pieces = rings / limb.size(), rest = rings % limb.size();
+        std::vector<Station> all;
+        for (std::size_t k = 0; k < limb.size(); ++k) {
+            const Station& before = k == 0 ? from : limb[k - 1];
+            const std::size_t count = pieces + (k < rest ? 1 : 0);
+            for (std::size_t n = 1; n < count; ++n)
+                all.push_back(
+                    between(before, limb[k], static_cast<double>(n) / static_cast<double>(count)));
+            all.push_back(limb[k]);
+        }
+        return all;
+    }
+
+    static void mix(std::vector<Station>& limb, const std::vector<Station>& other, double share) {
+        for (std::size_t k = 0; k < limb.size(); ++k) limb[k] = between(limb[k], other[k], share);
+    }
+
+    static Station between(const Station& a, const Station& b, double t) {
+        const auto mixed = [t](const auto& x, const auto& y) { return (1.0 - t) * x + t * y; };
+        Station s;
+        s.at = mixed(a.at, b.at);
+        s.along = unit_or(mixed(a.along, b.along), a.along);
+        s.flat = mixed(a.flat, b.flat);
+        s.radius = mixed(a.radius, b.radius);
+        s.wide = mixed(a.wide, b.wide);
+        s.thin = mixed(a.thin, b.thin);
+        s.at_fork = mixed(a.at_fork, b.at_fork);
+        s.colour = mixed(a.colour, b.colour);
+        s.few = mixed(a.few, b.few);
+        return s;
+    }
+
+    // One station on the way from `from` to the end of a limb; its radius is left open.
+    Station on_the_way(const Station& from, std::uint32_t i, const glm::dvec3& arriving,
+                       const glm::dmat3& flat, double t, double near_end) const {
         const Node& end = node(i);
-        const bool tip = bush_.is_tip(i);
-        // Where one species of a mix has a tip and another goes on, it is both as far as they weigh.
-        const double ends = bush_.ends(i);
+        const auto sample = way(from.at, from.along, end.place, arriving).at(t);
+        Station s;
+        s.at = sample.position;
+        // Rings turn as headings do: where limbs leave side by side the tube is sheared, not bent.
+        s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
+        s.flat = (1.0 - t) * from.flat + t * flat;
+        shape(s, near_end + from.at_fork * (1.0 - smooth_step(0.0, 0.6, t)), 1.0);
+        s.colour = from.colour + t * (end.from_tip - from.colour);
+        s.few = end.few;
+        return s;
+    }
+
+    // Of a limb that forks at its end, and spreads there into both of the limbs that leave it.
+    std::vector<Station> fork_of(const Station& from, std::uint32_t i, int steps) const {
+        const glm::dvec3 arriving = passing(i);
+        const glm::dmat3 flat = square_of(node(i).across);
+        std::vector<Station> stations;
+        for (int k = 1; k <= steps; ++k) {
+            const double t = static_cast<double>(k) / steps;
+            Station s = on_the_way(from, i, arriving, flat, t, smooth_step(0.5, 1.0, t));
+            s.radius = from.radius + smooth_step(-0.15, 1.15, t) * (radius_at(i) - from.radius);
+            stations.push_back(s);
+        }
+        return stations;
+    }
+
+    // Of a last branch: cut off where slugs have eaten, or round; one that stands for many ends as their crown does.
+    std::vector<Station> tip_of(const Station& from, std::uint32_t i, bool is_straight,
+                                int rings) const {
+        const Node& end = node(i);
         // What passes forks without a ring goes straight to its end.
         const glm::dvec3 arriving =
-            tip && is_straight ? unit_or(end.place - from.at, end.heading) : passing(i);
-        const auto curve = way(from.at, from.along, end.place, arriving);
-        const double radius = radius_at(i), tip_radius = wide_as(i);
-        const glm::dmat3 flat = ends * from.flat + (1.0 - ends) * square_of(end.across);
-        const int steps = tip ? plan_.detail.tip_rings : plan_.detail.steps;
-        // A last branch is cut off where slugs have eaten, or ends round; one that stands for many ends as their crown does.
+            is_straight ? unit_or(end.place - from.at, end.heading) : end.heading;
+        const double tip_radius = wide_as(i);
         const double bluntness = 1.0 - (1.0 - bush_.bluntness) / stands_for_[i];
         const double blunt = bluntness + end.eaten * (1.0 - bluntness);
         const double length = std::max(glm::distance(from.at, end.place), 1e-12);
         const double round = std::min(0.8, blunt * tip_radius / length);
-        const double web_after = from.at_fork;
-        for (int k = 1; k <= steps; ++k) {
-            // Rings of a tip crowd towards its end.
-            const double share = static_cast<double>(k) / (steps + (tip ? 1 : 0));
-            const double crowded = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
-            double t = tip ? crowded : share;
+        std::vector<Station> stations;
+        for (int k = 1; k <= rings; ++k) {
+            // Rings crowd towards the end.
+            const double share = static_cast<double>(k) / (rings + 1);
+            double t = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
             // One ring alone stands where cylinder and cone are as large as cylinder and round end seen from the side: 2 - pi / 2.
-            if (tip && steps == 1) t = std::max(0.6, 1.0 - 0.43 * round);
-            const auto sample = curve.at(t);
-            Station s;
-            s.at = sample.position;
-            // Rings turn as headings do: where limbs leave side by side the tube is sheared, not bent.
-            s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
-            s.flat = (1.0 - t) * from.flat + t * flat;
-            if (!tip) s.radius = from.radius + smooth_step(-0.15, 1.15, t) * (radius - from.radius);
-            if (ends > 0.0) {
-                double closing = from.radius + t * (tip_radius - from.radius);
-                const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
-                closing *= end.eaten + (1.0 - end.eaten) * taper;
-                if (steps > 1 && t > 1.0 - round) {
-                    const double x = (t - 1.0 + round) / round;
-                    closing *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
-                }
-                s.radius += ends * (closing - s.radius);
+            if (rings == 1) t = std::max(0.6, 1.0 - 0.43 * round);
+            Station s = on_the_way(from, i, arriving, from.flat, t, 0.0);
+            s.radius = from.radius + t * (tip_radius - from.radius);
+            const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
+            s.radius *= end.eaten + (1.0 - end.eaten) * taper;
+            if (rings > 1 && t > 1.0 - round) {
+                const double x = (t - 1.0 + round) / round;
+                s.radius *= std::sqrt(std::max(0.0, 1.0 - x * x * (1.0 - end.eaten)));
             }
-            // A fork spreads into both of the limbs that leave it.
-            const double near_end = (1.0 - ends) * smooth_step(0.5, 1.0, t);
-            shape(s, near_end + web_after * (1.0 - smooth_step(0.0, 0.6, t)), 1.0);
-            s.colour = from.colour + t * (end.from_tip - from.colour);
             stations.push_back(s);
         }
+        return stations;
     }
 
     void add(const Chain& chain) {
-        const int sides = sides_of(chain, plan_.detail);
+        const int sides = columns_of(bush_, chain, plan_.detail);
         Station begin;
         std::vector<Station> stations;
         const std::uint32_t first = chain.nodes.front();
@@ -480,6 +580,7 @@ class Tubes {
             begin.radius = 0.97 * equal * wide;
             shape(begin, 0.0, 1.0);
             begin.colour = there.colour;
+            begin.few = node(first).few;
             Station inside = begin;
             const double deep = std::min(1.1 * there.radius, 0.7 * glm::length(there.at));
             inside.at = there.at - deep * there.along;
@@ -499,34 +600,47 @@ class Tubes {
         limb(chain, stations, sides);
     }
 
-    // Rows of a trunk from the ground to its lowest fork; what goes on begins where they end.
-    Station trunk(std::uint32_t root, int sides) {
+    // A trunk of so many rings of its own, with others between them.
+    std::vector<Station> trunk_of(std::uint32_t root, int own, std::size_t rings) const {
         const Node& top = node(root);
         const double radius = radius_at(root);
-        std::vector<Station> stations;
-        Station station;
-        station.flat = square_of(top.across);
         const glm::dvec3 foot(0.0, -0.2 * bush_.foot * radius, 0.0);
         const glm::dvec3 rise = unit_or(top.heading + glm::dvec3(0.0, 1.0, 0.0), top.heading);
         const auto curve = way(foot, rise, top.place, passing(root));
-        const int rings = plan_.detail.trunk_rings;
-        for (int k = 0; k < rings; ++k) {
-            const double t = static_cast<double>(k) / (rings - 1);
+        const double low = bush_.foot * wide_as(root);
+        const auto at = [&](double t) {
             const auto sample = curve.at(t);
+            Station station;
+            station.flat = square_of(top.across);
             station.at = sample.position;
             station.along = unit_or(sample.derivative, top.heading);
-            const double low = bush_.foot * wide_as(root);
             station.radius = low + smooth_step(0.0, 1.0, t) * (radius - low);
             station.colour = t;
             shape(station, smooth_step(0.5, 1.0, t), 0.5 + 0.5 * t);
-            stations.push_back(station);
-        }
+            return station;
+        };
+        const Station ground = at(0.0);
+        std::vector<Station> above;
+        for (int k = 1; k < own; ++k) above.push_back(at(static_cast<double>(k) / (own - 1)));
+        std::vector<Station> all = divided(ground, std::move(above), rings - 1);
+        all.insert(all.begin(), ground);
+        return all;
+    }
+
+    // Rows of a trunk from the ground to its lowest fork; what goes on begins where they end.
+    Station trunk(std::uint32_t root, int sides) {
+        const Node& top = node(root);
+        const LimbDetail& detail = plan_.detail;
+        const auto rings = static_cast<std::size_t>(trunk_rings_of(top, detail));
+        std::vector<Station> stations = trunk_of(root, detail.trunk_rings, rings);
+        if (rings > static_cast<std::size_t>(detail.trunk_rings))
+            mix(stations, trunk_of(root, detail.few_trunk_rings, rings), top.few);
         Station end = stations.front();
         end.radius = 0.0;
         stations.insert(stations.begin(), end);
         const auto row = static_cast<std::uint32_t>(sides + 1);
         side_ = square_to(stations.front().along, top.across);
-        const std::uint32_t base = rows(stations, sides, true, 0.0);
+        const std::uint32_t base = rows(stations, sides, 1, true, 0.0);
         const bool shown = options_.keep_absent || node(root).presence >= least_presence;
         for (std::uint32_t i = 0; shown && i + 1 < stations.size(); ++i)
             for (std::uint32_t j = 0; j + 1 < row; ++j) {
@@ -550,7 +664,8 @@ class Tubes {
                 : 2.0 * pi * Random(seed_, purposes::limb_turns, chain.nodes.front()).uniform();
         // What goes on from a trunk begins with the very ring in which that ends.
         if (!chain.root) side_ = square_to(stations.front().along, node(start).across);
-        const std::uint32_t base = rows(stations, sides, false, turn);
+        const std::uint32_t base =
+            rows(stations, sides, sides / sides_of(chain, plan_.detail), false, turn);
         const auto end = static_cast<std::uint32_t>(mesh_.positions.size());
         const double colour = colour_of(tip.from_tip);
         const auto [s, c] = sine_cosine(turn);
@@ -576,11 +691,21 @@ class Tubes {
     }
 
     // Appends the vertices of all rows: columns of a trunk end where they began, those of limbs meet round the chart's disc.
-    std::uint32_t rows(const std::vector<Station>& stations, int sides, bool strip, double turn) {
+    // Of columns that only species of few limbs have `times` as many, the others draw the same polygon without them.
+    std::uint32_t rows(const std::vector<Station>& stations, int sides, int times, bool strip,
+                       double turn) {
         const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
         const auto columns = static_cast<std::size_t>(sides);
         std::vector<glm::dvec3> places, outs;
-        const double wider = widened(sides);
+        const double wider = widened(sides), coarser = widened(sides / times);
+        // How far out the coarser polygon is at a column.
+        std::vector<double> reach(columns, coarser);
+        for (std::size_t j = 0; j < columns; ++j) {
+            const double corner = pi / (sides / times);
+            const double past =
+                2.0 * pi * static_cast<double>(j % static_cast<std::size_t>(times)) / sides;
+            if (past > 0.0) reach[j] *= cosine(corner) / cosine(past - corner);
+        }
         for (std::size_t i = 0; i < stations.size(); ++i) {
             const Station& station = stations[i];
             if (i > 0) carry(stations[i - 1].along, station.along);
@@ -593,7 +718,8 @@ class Tubes {
                     station.thin * out + (station.wide - station.thin) * (station.flat * out);
                 moved -= glm::dot(moved, station.along) * station.along;
                 outs.push_back(out);
-                places.push_back(station.at + wider * station.radius * moved);
+                const double wide = reach[j] + station.few * (wider - reach[j]);
+                places.push_back(station.at + wide * station.radius * moved);
             }
         }
         for (std::size_t i = 0; i < stations.size(); ++i)
@@ -672,8 +798,8 @@ MeshCount limb_count(const Bush& bush, int lod, bool keep_absent) {
     if (keep_absent) return count;
     for (const Chain& chain : plan.chains)
         if (!is_there(bush, chain)) {
-            count.triangles -= tube_triangles(chain, plan.detail);
-            if (chain.root) count.triangles -= trunk_triangles(plan.detail);
+            count.triangles -= tube_triangles(bush, chain, plan.detail);
+            if (chain.root) count.triangles -= trunk_triangles(bush, chain, plan.detail);
         }
     return count;
 }

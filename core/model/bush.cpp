@@ -208,14 +208,20 @@ class Grower {
                 const auto trunk = static_cast<std::uint32_t>(bush_.roots.size());
                 bush_.roots.push_back(append(none, way_on(0, trunk)));
             }
-        for (const BushShare& share : shares_)
+        for (const BushShare& share : shares_) {
+            const std::size_t first = sprouts_.size();
+            std::size_t tips = 0;
             for (int t = 0; t < share.shape->limbs.trunks; ++t) {
                 const auto trunk = static_cast<std::uint32_t>(t);
                 Ramification tree =
                     ramified(share.shape->ramification, trunk_seed(seed_, trunk), most_bush_tips);
                 std::vector<std::uint32_t> at(tree.nodes.size(), bush_.roots[trunk]);
                 for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
-                    if (tree.leaf(i)) continue;
+                    if (tree.leaf(i)) {
+                        bush_.nodes[at[i]].may_end = true;
+                        ++tips;
+                        continue;
+                    }
                     for (std::uint32_t k = 0; k < 2; ++k) {
                         if (bush_.nodes[at[i]].children[k] == none) {
                             const std::uint32_t made = append(at[i], way_on(ways_[at[i]], k));
@@ -230,6 +236,9 @@ class Grower {
                 sprouts_.push_back({Sprout(*share.shape, std::move(tree), std::move(draws)),
                                     std::move(at), share.weight});
             }
+            for (std::size_t i = first; i < sprouts_.size(); ++i)
+                sprouts_[i].few = tips <= few_tips;
+        }
         for (std::size_t i = bush_.nodes.size(); i > 0; --i) {
             Bush::Node& node = bush_.nodes[i - 1];
             if (node.children[0] != none)
@@ -239,9 +248,11 @@ class Grower {
 
     void blend_nodes() {
         wanted_.resize(bush_.nodes.size());
-        std::vector<double> angles(bush_.nodes.size(), 0.0);
-        for (const auto& [sprout, at, weight] : sprouts_)
+        std::vector<double> angles(bush_.nodes.size(), 0.0), have(bush_.nodes.size(), 0.0);
+        for (const auto& [sprout, at, weight, few] : sprouts_)
             for (std::uint32_t i = 0; i < at.size(); ++i) {
+                have[at[i]] += weight;
+                if (few) bush_.nodes[at[i]].few += weight;
                 const Wanted& one = sprout.wanted(i);
                 Wanted& all = wanted_[at[i]];
                 all.length += weight * one.length;
@@ -263,6 +274,7 @@ class Grower {
                 all.azimuth /= angles[i];
             }
             bush_.nodes[i].presence = all.presence;
+            bush_.nodes[i].few /= have[i];
             bush_.nodes[i].radius = all.radius * common_.height * own_.width;
         }
         for (std::size_t i = bush_.nodes.size(); i > 0; --i) {
@@ -321,7 +333,9 @@ class Grower {
         const SineCosine of_other = sine_cosine(free(node.children[1]) * wanted_[i].other_turn);
         const glm::dvec3 side = drawn.side * node.across;
         main.beside = -both * std::max(0.0, node.radius - main.radius) * side;
-        other.beside = std::max(0.0, node.radius - other.radius) * side;
+        // Where one species of a mix has a tip, what goes on leaves its end.
+        const double goes_on = 1.0 - bush_.ends(i);
+        other.beside = goes_on * std::max(0.0, node.radius - other.radius) * side;
         main.heading = of_main.cosine * node.heading - of_main.sine * side;
         other.heading = of_other.cosine * node.heading + of_other.sine * side;
         main.across = carried(node.across, node.heading, main.heading);
@@ -395,6 +409,7 @@ class Grower {
         Sprout sprout;
         std::vector<std::uint32_t> at;  // node of the bush, by node of the tree
         double weight;
+        bool few = false;  // whether its species has few limbs
     };
 
     const std::vector<BushShare>& shares_;

@@ -24,6 +24,9 @@ struct BushProportions {
     double spread = 1.0;  ///< of the angles of forks
 };
 
+/// Tips of a species of few limbs, at most: each of them is long.
+constexpr std::size_t few_tips = 12;
+
 /// A graph of limbs at rest: straight up from the origin. Which nodes there are follows from the species and the seed alone; weights and
 /// ages move only lengths, angles and radii, and what a species lacks has length and radius 0.
 struct Bush {
@@ -41,6 +44,8 @@ struct Bush {
         glm::dvec3 across{1.0, 0.0, 0.0};   ///< unit, square to it: the plane in which it forks
         glm::dvec3 beside{0.0};  ///< where its limb begins, from the end of its bearer, metres
         double radius = 0.0;     ///< metres
+        bool may_end = false;    ///< whether some species of the set has a tip there
+        double few = 0.0;        ///< 0..1: share of species of few limbs among those that have it
         double from_tip = 0.0;   ///< 1 at the top of a trunk, 0 at a tip: where its colours are
         double eaten =
             0.0;  ///< 0..1: how much of a last branch slugs have eaten, as far as it is one

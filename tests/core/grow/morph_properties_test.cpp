@@ -33,12 +33,6 @@ bool has_limbs(const MushroomOrder& order) {
     return is_branched(atlas().find(order.mix.front().id)->species);
 }
 
-/// A bush has one graph with every other of its set, but not one set of rings: where one species ends and another goes on a limb has
-/// fewer than a tip alone, and tubes have fewer sides. 1 % of the height, or 4 % of a button's.
-double limbs_breadth(const Mesh& mesh, double age) {
-    return (age == 0.6 ? 0.01 : 0.04) * height(mesh);
-}
-
 /// Whether a set comes to so many triangles that its patches have fewer corners than those of the lone species.
 bool is_crowded(const MushroomOrder& order) {
     return budget_of(resolved(order), order.params.lod).ornaments.patch_sides <
@@ -59,14 +53,12 @@ MushroomOrder without_patches(MushroomOrder order) {
 /// expect_solids_converge().
 void expect_convergence(MushroomOrder alone, MushroomOrder beside,
                         double (*allowance)(const Mesh&)) {
-    const bool limbs = has_limbs(alone);
-    if (!limbs) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
+    if (!has_limbs(alone)) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
-    EXPECT_LT(hausdorff(pure, mixed),
-              limbs ? limbs_breadth(pure, alone.params.age) : allowance(pure))
+    EXPECT_LT(hausdorff(pure, mixed), allowance(pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
     // Layers of no thickness that lie on the surface would be seen by nothing but their area.
-    EXPECT_NEAR(area(mixed) / area(pure), 1.0, limbs ? 0.04 : 0.02)
+    EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02)
         << text_of(beside.mix) << ", age " << alone.params.age;
 }
 
