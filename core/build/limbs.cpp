@@ -697,11 +697,12 @@ class Tubes {
         const auto base = static_cast<std::uint32_t>(mesh_.positions.size());
         const auto columns = static_cast<std::size_t>(sides);
         std::vector<glm::dvec3> places, outs;
-        const double wider = widened(sides), coarser = widened(sides / times);
+        const int corners = sides / times;
+        const double wider = widened(sides), coarser = widened(corners);
         // How far out the coarser polygon is at a column.
         std::vector<double> reach(columns, coarser);
         for (std::size_t j = 0; j < columns; ++j) {
-            const double corner = pi / (sides / times);
+            const double corner = pi / corners;
             const double past =
                 2.0 * pi * static_cast<double>(j % static_cast<std::size_t>(times)) / sides;
             if (past > 0.0) reach[j] *= cosine(corner) / cosine(past - corner);
