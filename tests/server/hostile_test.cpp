@@ -4,7 +4,10 @@
 
 #include <algorithm>
 #include <chrono>
+#include <filesystem>
 #include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <thread>
 #include <vector>
@@ -266,6 +269,71 @@ TEST_F(Hostile, RangesBombsAndEndlessHeadsCostNothing) {
     for (int i = 0; i < 5000; ++i) headers += "A:\r\n";
     RawClient client(port());
     EXPECT_EQ(client.ask(get("/livez", headers)).status, 431);
+}
+
+// What cpp-httplib would match against regular expressions that recurse once for each character.
+TEST_F(Hostile, LongValuesReachNoRegularExpression) {
+    RawClient client(port());
+    const std::string body = client.ask(get(large)).body;
+    const std::string digits(8100, '9'), document = "/v1/species";
+    EXPECT_TRUE(client.ask(get(large, "Range: bytes=0-" + digits + "\r\n")).body == body);
+    for (const char* range : {"bytes=", "bytes=1-", "bytes=-"}) {
+        const auto answer = client.ask(get(document, "Range: " + (range + digits) + "\r\n"));
+        EXPECT_EQ(answer.status, 200);
+        EXPECT_EQ(answer.header("Content-Range"), "");
+    }
+
+    const std::string part =
+        "--x\r\nContent-Disposition: form-data; name=\"a\"; filename*=UTF-8''" +
+        std::string(60'000, 'a') + "\r\n\r\nb\r\n--x--\r\n";
+    EXPECT_EQ(client
+                  .ask("POST /v1/inspect HTTP/1.1\r\nHost: x\r\nContent-Length: " +
+                       std::to_string(part.size()) +
+                       "\r\nContent-Type: multipart/form-data; boundary=x\r\n\r\n" + part)
+                  .status,
+              415);
+    EXPECT_EQ(client.ask(get("/livez")).status, 200) << "on the same connection";
+
+    EXPECT_EQ(client.ask(get("/" + std::string(4000, 'a'))).status, 404);
+    const auto begun = Clock::now();
+    RawClient longer(port());
+    longer.send(get("/" + std::string(100'000, 'a')));
+    EXPECT_TRUE(longer.receive_all().starts_with("HTTP/1.1 414 "));
+    EXPECT_LT(Clock::now() - begun, 4s) << "it does not wait for the idle limit";
+}
+
+TEST(HostileLog, ClientsWriteNoLinesOfTheirOwnAndTakeNobodysName) {
+    const auto log =
+        std::filesystem::temp_directory_path() / ("hostile." + std::to_string(::getpid()));
+    RealServer server(0, {}, log);
+    const std::string line = "{\"level\":\"error\",\"message\":\"FAKE\"}";
+    const std::vector<std::string> headers = {"User-Agent: x%0d%0a" + line,
+                                              "X-Request-Id: x%0d%0a" + line,
+                                              "Traceparent: 00-%0d%0a" + line,
+                                              "X-Forwarded-For: 1.2.3.4%0a" + line,
+                                              "Referer: \x1b[2J\xe2\x80\xa8" + line,
+                                              "REMOTE_ADDR: 1.2.3.4",
+                                              "REMOTE_PORT: 1",
+                                              "LOCAL_ADDR: 1.2.3.4",
+                                              "LOCAL_PORT: 1"};
+    for (const std::string& header : headers) {
+        RawClient client(server.port());
+        const std::string target = "/v1/species?limit=nonsense%0d%0a" + line;
+        EXPECT_EQ(client.ask(get(target, header + "\r\n")).status, 400) << header;
+    }
+    EXPECT_EQ(RawClient(server.port()).ask(get("/v1")).status, 200);
+    EXPECT_TRUE(server.logs("\"target\":\"/v1\""));
+    std::istringstream lines(server.log());
+    int count = 0;
+    for (std::string one; std::getline(lines, one); ++count) {
+        const auto entry = nlohmann::json::parse(one, nullptr, false);
+        ASSERT_TRUE(entry.is_object()) << one;
+        EXPECT_NE(entry.value("message", ""), "FAKE") << one;
+        EXPECT_EQ(entry.value("client", "127.0.0.1"), "127.0.0.1") << one;
+        EXPECT_EQ(entry.value("peer", "127.0.0.1"), "127.0.0.1") << one;
+    }
+    EXPECT_GT(count, 9);
+    std::filesystem::remove(log);
 }
 
 TEST(HostileLimits, RunningOutOfDescriptorsIsSurvived) {
