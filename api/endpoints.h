@@ -26,7 +26,11 @@ struct Context {
     ServiceOptions options;
     Answers answers;
     Store& store;
+    bool makes_correspondences = false;  ///< those that are not kept; otherwise NotKept is thrown
 };
+
+/// What plan() may ask for in this context.
+[[nodiscard]] Memo plan_memo(const Context& context);
 
 /// What is made once and kept, as HTTP sees it. What the address and the body mean is decided; nothing is made.
 struct Resource {

@@ -60,6 +60,8 @@ struct Job {
     Key key;
     Cost cost;
     std::function<Answer(std::stop_token, const Observer&, const Parallel&)> run;
+    bool prepares =
+        false;  ///< its answer is nobody's: when it is done, plan() is asked again, `prepared`
 };
 
 }  // namespace sporeprint::api

@@ -18,6 +18,9 @@ namespace sporeprint::api {
 
 namespace {
 
+/// Of eight species, the dearest: 28 pairs at a millisecond and a half, as vertices.
+constexpr Cost most_of_correspondence{.vertices = 168'000};
+
 bool kept_by_key(const Key& key) {
     return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.") ||
            key.starts_with("tree.") || key.starts_with("colony.");
@@ -61,37 +64,7 @@ std::optional<Answer> refuse_body(const Answers& answers, const Request& request
     return std::nullopt;
 }
 
-}  // namespace
-
-struct Service::Parts {
-    std::shared_ptr<Store> store;  ///< perhaps of other services too
-    Context context;
-    Shelf shelf;
-
-    Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
-          std::shared_ptr<Store> the_store)
-        : store(std::move(the_store)),
-          context{std::move(atlas), options, Answers(options.allow_origin), *store},
-          shelf(context.atlas, context.answers, options.assets) {}
-
-    Plan plan(const Request& request);
-
-    /// The image that a request for one asks for; nothing, with faults, for none, and for a route that is not of images.
-    std::optional<ImageResource> image_asked(const Match& match, const Target& target,
-                                             Faults& faults) const;
-};
-
-Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
-    : parts_(std::make_unique<Parts>(std::move(atlas), options, std::make_shared<Store>(options))) {
-}
-
-Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
-    : parts_(std::make_unique<Parts>(std::move(atlas), other.parts_->context.options,
-                                     other.parts_->store)) {}
-
-Service::~Service() = default;
-
-Plan Service::Parts::plan(const Request& request) {
+Plan plan_route(Context& context, const Shelf& shelf, const Request& request) {
     if (request.target.size() > longest_target)
         return context.answers.problem(request, 414,
                                        "the address has " + std::to_string(request.target.size()) +
@@ -230,6 +203,37 @@ Plan Service::Parts::plan(const Request& request) {
     return context.answers.problem(request, 404, "there is nothing at " + in_quotes(target.path));
 }
 
+}  // namespace
+
+struct Service::Parts {
+    std::shared_ptr<Store> store;  ///< perhaps of other services too
+    Context context, prepared;
+    Shelf shelf;
+
+    Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
+          std::shared_ptr<Store> the_store)
+        : store(std::move(the_store)),
+          context{std::move(atlas), options, Answers(options.allow_origin), *store},
+          prepared(context),
+          shelf(context.atlas, context.answers, options.assets) {
+        prepared.makes_correspondences = true;
+    }
+
+    /// The image that a request for one asks for; nothing, with faults, for none, and for a route that is not of images.
+    std::optional<ImageResource> image_asked(const Match& match, const Target& target,
+                                             Faults& faults) const;
+};
+
+Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
+    : parts_(std::make_unique<Parts>(std::move(atlas), options, std::make_shared<Store>(options))) {
+}
+
+Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
+    : parts_(std::make_unique<Parts>(std::move(atlas), other.parts_->context.options,
+                                     other.parts_->store)) {}
+
+Service::~Service() = default;
+
 std::optional<ImageResource> Service::Parts::image_asked(const Match& match, const Target& target,
                                                          Faults& faults) const {
     const auto image = [&](const auto& asked) {
@@ -248,9 +252,17 @@ std::optional<ImageResource> Service::Parts::image_asked(const Match& match, con
     return std::nullopt;
 }
 
-std::variant<Answer, Job> Service::plan(const Request& request) {
+std::variant<Answer, Job> Service::plan(const Request& request, bool prepared) {
     try {
-        return parts_->plan(request);
+        return plan_route(prepared ? parts_->prepared : parts_->context, parts_->shelf, request);
+    } catch (const NotKept& missing) {
+        const auto run = [this, request](std::stop_token, const Observer& observer,
+                                         const Parallel&) {
+            observer(Step::resolve);
+            static_cast<void>(plan(request, true));
+            return Answer();
+        };
+        return Job{"correspondence\n" + missing.key, most_of_correspondence, run, true};
     } catch (...) {
         return problem(request, std::current_exception());
     }
@@ -335,8 +347,14 @@ const Counters& Service::counters() const {
     return parts_->context.store.counters;
 }
 
-Answer handle(Service& service, const Request& request) {
+std::variant<Answer, Job> plan_here(Service& service, const Request& request) {
     std::variant<Answer, Job> planned = service.plan(request);
+    const Job* const job = std::get_if<Job>(&planned);
+    return job && job->prepares ? service.plan(request, true) : std::move(planned);
+}
+
+Answer handle(Service& service, const Request& request) {
+    std::variant<Answer, Job> planned = plan_here(service, request);
     if (Answer* answer = std::get_if<Answer>(&planned)) return std::move(*answer);
     Job& job = std::get<Job>(planned);
     try {

@@ -60,7 +60,10 @@ class Service {
     Service& operator=(const Service&) = delete;
 
     /// Parses, checks, makes the canonical text, compares ETags, looks into the caches. Never blocks, never throws.
-    [[nodiscard]] std::variant<Answer, Job> plan(const Request& request);
+    ///
+    /// prepared  a correspondence that the answer needs and that is not kept is made here, in milliseconds; otherwise that is
+    ///           a Job that `prepares`
+    [[nodiscard]] std::variant<Answer, Job> plan(const Request& request, bool prepared = false);
 
     /// Called once per flight with what the job returned: fills the cache.
     void finish(const Key& key, const Answer& answer);
@@ -88,6 +91,9 @@ class Service {
     struct Parts;
     std::unique_ptr<Parts> parts_;
 };
+
+/// plan() on a thread that may take milliseconds: never a Job that `prepares`.
+[[nodiscard]] std::variant<Answer, Job> plan_here(Service& service, const Request& request);
 
 /// plan + run inline: HTTP behaviour without sockets, for tests and tools.
 [[nodiscard]] Answer handle(Service& service, const Request& request);

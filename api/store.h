@@ -45,7 +45,9 @@ struct Store {
 };
 
 /// Thrown by `kept_only` for what is not kept.
-struct NotKept {};
+struct NotKept {
+    std::string key;
+};
 
 /// A Memo for plan(): finds what is kept, throws NotKept where something would have to be made. Counts nothing.
 [[nodiscard]] Memo kept_only(Store& store);

@@ -33,7 +33,7 @@ std::uint64_t texels_held(const PaintRecipe& recipe) {
 PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& faults) {
     try {
         PaintRecipe recipe =
-            painted_at(asked.address, asked.mix, *context.atlas, made_at_once(context.store));
+            painted_at(asked.address, asked.mix, *context.atlas, plan_memo(context));
         refuse_texels(context.options, texels_held(recipe), recipe.size() > 1, faults);
         return recipe;
     } catch (const Impossible& impossible) {

@@ -86,14 +86,7 @@ void Exchange::end(Over why) {
         over_ = why;
         tell.swap(tell_);
     }
-    if (tell)
-        back_.workers.post([self = shared_from_this(), tell = std::move(tell), why] {
-            try {
-                tell(why);
-            } catch (...) {
-                self->reply(self->back_.refusal(self->request_, 500, {}));
-            }
-        });
+    if (tell) resume([tell = std::move(tell), why] { tell(why); });
 }
 
 void Exchange::drop() { static_cast<void>(claim()); }
@@ -126,15 +119,13 @@ void Exchange::reply(api::Answer answer) {
     back_.mailbox.post(std::move(reply));
 }
 
-void Exchange::reply_with(std::function<api::Answer()> make) {
-    back_.workers.post([self = shared_from_this(), make = std::move(make)] {
-        api::Answer answer;
+void Exchange::resume(std::function<void()> go_on) {
+    back_.workers.post([self = shared_from_this(), go_on = std::move(go_on)] {
         try {
-            answer = make();
+            go_on();
         } catch (...) {
-            answer = self->back_.refusal(self->request_, 500, {});
+            self->reply(self->back_.refusal(self->request_, 500, {}));
         }
-        self->reply(std::move(answer));
     });
 }
 

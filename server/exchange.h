@@ -92,7 +92,7 @@ class Exchange final : public Visit, public std::enable_shared_from_this<Exchang
     [[nodiscard]] const Address& client() const override { return client_; }
     [[nodiscard]] bool gone() const override { return gone_; }
     void reply(api::Answer answer) override;
-    void reply_with(std::function<api::Answer()> make) override;
+    void resume(std::function<void()> go_on) override;
     void wait(std::function<void(Over)> over) override;
 
   private:

@@ -128,15 +128,20 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
     const std::string_view path = path_of(visit->request().target);
     if (is_own(path)) return visit->reply(housekeeping(visit->request(), path, options_.metrics));
     const Using means = this->means();
-    api::Service& service = *means->service;
     const Asked asked = this->asked(*means, visit);
-    const api::Request& request = *asked.request;
     if (!asked.why_not.empty()) {
         metrics_.rejected("signature");
-        return visit->reply(service.problem(request, 403, asked.why_not));
+        return visit->reply(means->service->problem(*asked.request, 403, asked.why_not));
     }
+    answer(means, visit, asked, false);
+}
+
+void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, const Asked& asked,
+                       bool prepared) {
+    api::Service& service = *means->service;
+    const api::Request& request = *asked.request;
     std::optional<Answers::Glance> glance(std::in_place, flights_);
-    std::variant<api::Answer, api::Job> planned = service.plan(request);
+    std::variant<api::Answer, api::Job> planned = service.plan(request, prepared);
     if (api::Answer* answer = std::get_if<api::Answer>(&planned)) {
         if (asked.expires) answer->repeatable = false;
         return visit->reply(std::move(*answer));
@@ -151,7 +156,23 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
             request, 429, "this client has had much made; there is room for more in a while",
             {{"Retry-After", std::to_string(seconds)}}));
     }
-    const std::optional<Answers::Seat> seat = board(means, visit, asked, std::move(job));
+    // Delivered by a worker of the transport: a slot is for making. After what only prepares it goes on when that has landed
+    // and its own wait is known, or the next would be taken for that.
+    const bool prepares = job.prepares;
+    const auto go_on = [this, means, visit, asked,
+                        other_came = std::make_shared<std::atomic<bool>>(false)] {
+        if (other_came->exchange(true))
+            visit->resume([=, this] { answer(means, visit, asked, true); });
+    };
+    const auto landed = [=, this](const Answers::Landing& landing) {
+        if (prepares && !landing.error) return go_on();
+        visit->resume([=, this] {
+            api::Answer answer = delivered(*means->service, *asked.request, landing);
+            if (asked.expires) answer.repeatable = false;
+            visit->reply(std::move(answer));
+        });
+    };
+    const std::optional<Answers::Seat> seat = board(means, std::move(job), landed);
     glance.reset();
     if (!seat) {
         if (work > 0) budgets_->give_back(client_of(visit->client()), work, Clock::now());
@@ -171,6 +192,7 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
         visit->reply(
             means->service->problem(visit->request(), 504, "this took longer than a request may"));
     });
+    if (prepares) go_on();
 }
 
 std::chrono::microseconds Reception::charge(const Address& client, const api::Key& key,
@@ -227,7 +249,7 @@ std::vector<api::Answer> Reception::warm(std::span<const std::string> targets) {
             request.method = "GET";
             request.target = targets[i];
             request.id = "warm";
-            auto planned = means->service->plan(request);
+            auto planned = api::plan_here(*means->service, request);
             if (const auto* job = std::get_if<api::Job>(&planned)) {
                 try {
                     answers[i] = made(*means->service, *job, {}, 0).answer;
@@ -242,9 +264,8 @@ std::vector<api::Answer> Reception::warm(std::span<const std::string> targets) {
     return answers;
 }
 
-std::optional<Reception::Answers::Seat> Reception::board(const Using& means,
-                                                         const std::shared_ptr<Visit>& visit,
-                                                         const Asked& asked, api::Job to_do) {
+std::optional<Reception::Answers::Seat> Reception::board(const Using& means, api::Job to_do,
+                                                         Answers::Then then) {
     const auto job = std::make_shared<const api::Job>(std::move(to_do));
     const Clock::time_point boarded = Clock::now();
     const auto work = [this, means, job, boarded](std::stop_token stop) {
@@ -252,15 +273,7 @@ std::optional<Reception::Answers::Seat> Reception::board(const Using& means,
             std::chrono::duration<double, std::milli>(Clock::now() - boarded).count();
         return made(*means->service, *job, std::move(stop), queue);
     };
-    // Delivered by a worker of the transport: a slot is for making.
-    return flights_.board(
-        job->key, work, [this, means, visit, asked](const Answers::Landing& landing) {
-            visit->reply_with([this, means, asked, landing] {
-                api::Answer answer = delivered(*means->service, *asked.request, landing);
-                if (asked.expires) answer.repeatable = false;
-                return answer;
-            });
-        });
+    return flights_.board(job->key, work, std::move(then));
 }
 
 api::Answer Reception::delivered(const api::Service& service, const api::Request& request,

@@ -96,10 +96,12 @@ class Reception {
     [[nodiscard]] Asked asked(const Means& means, const std::shared_ptr<Visit>& visit) const;
 
     void answer(const std::shared_ptr<Visit>& visit);
+    /// prepared  whether a job that `prepares` is behind it
+    void answer(const Using& means, const std::shared_ptr<Visit>& visit, const Asked& asked,
+                bool prepared);
     [[nodiscard]] Made made(api::Service& service, const api::Job& job, std::stop_token stop,
                             double queue);
-    std::optional<Answers::Seat> board(const Using& means, const std::shared_ptr<Visit>& visit,
-                                       const Asked& asked, api::Job job);
+    std::optional<Answers::Seat> board(const Using& means, api::Job job, Answers::Then then);
     /// Takes what a job costs from the budget of who asks, unless somebody has begun it.
     ///
     /// returns  how long until there is enough; zero if there is

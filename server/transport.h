@@ -80,10 +80,10 @@ class Visit {
     /// Answers, with status client_left for nobody. Only the first answer counts.
     virtual void reply(api::Answer answer) = 0;
 
-    /// Answers with what `make` returns; it is called on a worker.
-    virtual void reply_with(std::function<api::Answer()> make) = 0;
+    /// Calls `go_on` on a worker; what that throws is a bare 500.
+    virtual void resume(std::function<void()> go_on) = 0;
 
-    /// Once, when the answer will come later: `over` is called on a worker if the client leaves or
+    /// When the answer will come later, and again when the wait is for something else: `over` is called on a worker if the client leaves or
     /// TransportOptions::answer has passed before there is one; perhaps at once.
     virtual void wait(std::function<void(Over)> over) = 0;
 };

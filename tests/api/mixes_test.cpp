@@ -56,6 +56,50 @@ TEST_F(MixesTest, a_mix_is_grown_and_carries_all_its_headers) {
     EXPECT_EQ(ask(where, {{"If-None-Match", header(answer, "ETag")}}).status, 304);
 }
 
+TEST_F(MixesTest, what_needs_a_correspondence_to_be_answered_has_it_prepared) {
+    const std::string mix = a_ + ":0.7," + b_ + ":0.3";
+    const Request head = request("HEAD", glb(mix));
+    const std::vector<Request> asked = {
+        head, get(glb(mix), {{"If-None-Match", "*"}}), get(glb(mix, "&v=old")),
+        get("/v1/surfaces/mushrooms/" + mix + "/normal.jpg?texture_size=128")};
+    std::set<Key> keys;
+    for (const Request& one : asked) {
+        const auto planned = service_.plan(one);
+        const Job* const job = std::get_if<Job>(&planned);
+        ASSERT_TRUE(job && job->prepares) << one.method << one.target;
+        EXPECT_GT(job->cost.work(), 1000u);
+        keys.insert(job->key);
+    }
+    EXPECT_EQ(keys.size(), 1u) << "one flight for all of them";
+    const auto whole = service_.plan(get(glb(mix)));
+    ASSERT_TRUE(std::holds_alternative<Job>(whole));
+    EXPECT_FALSE(std::get<Job>(whole).prepares) << "the job that makes the file finds it";
+
+    EXPECT_EQ(service_.counters().morph_misses, 0u) << "plan() has made nothing";
+    const Answer nobodys = std::get<Job>(service_.plan(head))
+                               .run(
+                                   {}, [](Step) {}, in_turn);
+    service_.finish(*keys.begin(), nobodys);
+    EXPECT_EQ(service_.counters().morph_misses, 1u);
+    const int statuses[] = {200, 304, 410};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const auto planned = service_.plan(asked[i], i % 2 == 0);
+        ASSERT_TRUE(std::holds_alternative<Answer>(planned));
+        EXPECT_EQ(std::get<Answer>(planned).status, statuses[i]);
+    }
+    EXPECT_EQ(service_.counters().morph_misses, 1u);
+
+    const auto alone = service_.plan(asked[3]);  // paint needs those of each species alone, too
+    EXPECT_TRUE(std::get<Job>(alone).prepares);
+    std::get<Job>(alone).run(
+        {}, [](Step) {}, in_turn);
+    const auto image = service_.plan(asked[3]);
+    ASSERT_TRUE(std::holds_alternative<Job>(image));
+    EXPECT_FALSE(std::get<Job>(image).prepares);
+    EXPECT_EQ(service_.counters().morph_misses, 3u);
+    EXPECT_EQ(service_.counters().generated, 0u);
+}
+
 TEST_F(MixesTest, spellings_of_one_mix_are_one_resource) {
     const struct {
         std::vector<std::string> spellings;

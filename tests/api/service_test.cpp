@@ -815,8 +815,8 @@ TEST_F(ServiceTest, linked_textures_are_where_the_file_says) {
 TEST_F(ServiceTest, the_three_images_of_an_atlas_are_one_flight) {
     const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
     const std::string query = ".jpg?texture_size=128";
-    auto colour = service_.plan(get(path + "base_color" + query)),
-         normal = service_.plan(get(path + "normal" + query));
+    auto colour = plan_here(service_, get(path + "base_color" + query)),
+         normal = plan_here(service_, get(path + "normal" + query));
     ASSERT_TRUE(std::holds_alternative<Job>(colour));
     EXPECT_EQ(std::get<Job>(colour).key, std::get<Job>(normal).key);
     const Answer shared = std::get<Job>(colour).run(

@@ -38,7 +38,7 @@ class Guest final : public Visit {
         if (!answer_) answer_ = std::move(answer);
         changed_.notify_all();
     }
-    void reply_with(std::function<api::Answer()> make) override { reply(make()); }
+    void resume(std::function<void()> go_on) override { go_on(); }
     void wait(std::function<void(Over)> over) override {
         const std::lock_guard lock(mutex_);
         over_ = std::move(over);
@@ -299,6 +299,54 @@ TEST(Reception, ChargesOnceForWhatIsMadeOnceAndNotForWhatCouldNotBegin) {
     options.most_waiters = 0;
     House full(options);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(full.ask(heavy + "1").status, 503) << "given back";
+}
+
+TEST(Reception, FindsCorrespondencesInSlotsAndChargesThem) {
+    const std::string mix = "/v1/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5.glb?lod=3";
+    const std::string image =
+        "/v1/surfaces/mushrooms/amanita_muscaria:0.5,russula_vinosa:0.5/normal.jpg?texture_size=64";
+    House alone, house;
+    alone.ask(mix, "HEAD");
+    alone.ask(image);
+    {
+        std::vector<std::jthread> threads;
+        for (int i = 0; i < 32; ++i)
+            threads.emplace_back([&, i] {
+                const bool body = i % 2 == 1;
+                const api::Answer answer = house.ask(body ? image : mix, body ? "GET" : "HEAD");
+                EXPECT_EQ(answer.status, 200);
+                EXPECT_EQ(size_of(answer.body) > 0, body);
+            });
+    }
+    EXPECT_EQ(house.service->counters().morph_misses, alone.service->counters().morph_misses)
+        << "each made once";
+    EXPECT_EQ(house.service->counters().painted, 1u);
+    EXPECT_EQ(house.ask(mix, "HEAD").status, 200);
+    EXPECT_EQ(house.ask(mix + "&v=old").status, 410);
+
+    ReceptionOptions options;
+    options.budget = {.rate = 1, .burst = 1};
+    House charged(options);
+    EXPECT_EQ(charged.ask(mix, "HEAD").status, 200) << "the first piece may be of any size";
+    EXPECT_EQ(charged.ask(mix, "HEAD").status, 200) << "kept";
+    EXPECT_EQ(charged.ask(image).status, 429);
+
+    options = {};
+    options.longest_queue = 0;
+    options.most_waiters = 0;
+    House full(options);
+    EXPECT_EQ(full.ask(mix, "HEAD").status, 503);
+    House slow;
+    std::vector<std::jthread> crowd;
+    for (int i = 0; i < 30; ++i)
+        crowd.emplace_back([&, i] { EXPECT_EQ(slow.ask(heavy + std::to_string(i)).status, 200); });
+    while (text_of(slow.ask("/metrics")).find("sporeprint_waiters 30\n") == std::string::npos &&
+           slow.service->counters().generated < 15)
+        std::this_thread::yield();
+    EXPECT_EQ(slow.ask(mix, "HEAD", 0ms).status, 504);
+    EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, Visit::Over::left).status, client_left);
+    crowd.clear();
+    EXPECT_EQ(slow.service->counters().morph_misses, 1u) << "that of the crowd alone";
 }
 
 TEST(Reception, RefusesWithProblems) {

@@ -367,7 +367,7 @@ TEST(Transport, SurvivesHandlersThatThrow) {
         if (target == "/forgotten") return;
         if (target == "/odd") throw 42;
         if (target == "/later")
-            visit->reply_with([]() -> api::Answer { throw std::runtime_error("secret later"); });
+            visit->resume([] { throw std::runtime_error("secret later"); });
         else
             throw std::runtime_error("secret detail");
     };
