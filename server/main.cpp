@@ -94,6 +94,27 @@ int next_signal(const sigset_t& signals, std::chrono::milliseconds patience) {
     return std::max(sigtimedwait(&signals, nullptr, &time), 0);
 }
 
+/// Whether SIGTERM or SIGINT, both blocked, has come and waits to be taken.
+bool is_asked_to_end() {
+    sigset_t waiting;
+    return sigpending(&waiting) == 0 &&
+           (sigismember(&waiting, SIGTERM) == 1 || sigismember(&waiting, SIGINT) == 1);
+}
+
+/// Tells the person who has started this where it is, and what to know of that.
+void announce(const Options& options, bool has_page, int port) {
+    if (!is_loopback(options.host) && options.sign_keys.empty())
+        std::fprintf(stderr,
+                     "sporeprint: WARNING: listening on %s, beyond this machine, unsigned:\n"
+                     "sporeprint: WARNING: anyone who can reach this port can have anything made. "
+                     "Give --sign-keys a file, or put a reverse proxy in front.\n",
+                     options.host.string().c_str());
+    if (!has_page)
+        std::fprintf(stderr, "sporeprint: the page is not built; the API is served without it\n");
+    std::printf("Sporeprint is ready at %s\n", address_of(options.host, port).c_str());
+    std::fflush(stdout);
+}
+
 int serve(const Options& options) {
     sigset_t signals;
     sigemptyset(&signals);
@@ -154,28 +175,15 @@ int serve(const Options& options) {
         return complain("the first thing made for a test could not be made; not starting", failed);
     transport.start();
     if (metrics_transport) metrics_transport->start();
-    const auto pending = [] {
-        sigset_t waiting;
-        return sigpending(&waiting) == 0 &&
-               (sigismember(&waiting, SIGTERM) == 1 || sigismember(&waiting, SIGINT) == 1);
-    };
-    if (!options.warm.empty()) warm(options.warm.string(), reception, log, pending);
-    reception.open();
-
-    if (!is_loopback(options.host) && options.sign_keys.empty())
-        std::fprintf(stderr,
-                     "sporeprint: WARNING: listening on %s, beyond this machine, unsigned:\n"
-                     "sporeprint: WARNING: anyone who can reach this port can have anything made. "
-                     "Give --sign-keys a file, or put a reverse proxy in front.\n",
-                     options.host.string().c_str());
-    if (service_options.assets.empty())
-        std::fprintf(stderr, "sporeprint: the page is not built; the API is served without it\n");
-    std::printf("Sporeprint is ready at %s\n", address_of(options.host, transport.port()).c_str());
-    std::fflush(stdout);
-    log.event(LogLevel::info, "ready",
-              {{"version", Value(SPOREPRINT_VERSION)},
-               {"port", Value(transport.port())},
-               {"slots", Value(reception_options.slots)}});
+    if (!options.warm.empty()) warm(options.warm.string(), reception, log, is_asked_to_end);
+    if (!is_asked_to_end()) {
+        reception.open();
+        announce(options, !service_options.assets.empty(), transport.port());
+        log.event(LogLevel::info, "ready",
+                  {{"version", Value(SPOREPRINT_VERSION)},
+                   {"port", Value(transport.port())},
+                   {"slots", Value(reception_options.slots)}});
+    }
 
     means = {};
     for (int signal = 0; signal != SIGTERM && signal != SIGINT;) {

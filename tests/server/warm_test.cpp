@@ -111,6 +111,7 @@ TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndEndsWhenAsked) {
     }
     const pid_t pid = ::fork();
     if (pid == 0) {
+        ::dup2(::open((folder / "said").c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
         ::execl(SPOREPRINT_PROGRAM, "sporeprint", "--port", std::to_string(port).c_str(), "--warm",
                 (folder / "list").c_str(), "--log-level", "off", static_cast<char*>(nullptr));
         ::_exit(127);
@@ -127,6 +128,8 @@ TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndEndsWhenAsked) {
     int status = 0;
     ::waitpid(pid, &status, 0);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
+    std::ifstream said(folder / "said");
+    EXPECT_EQ(said.peek(), std::ifstream::traits_type::eof()) << "it never was ready";
 }
 
 }  // namespace
