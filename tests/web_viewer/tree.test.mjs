@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
 
 const base = serverUrl();
 let browser;
@@ -68,6 +68,7 @@ test("a change of the table grows a tree of one's own matrix, which stands in th
     assert.notEqual((await counts(page)).triangles, before);
     assert.ok(heard.requests.some((url) => url.endsWith("/v1/trees.glb")));
     assert.equal(await page.locator("#copy-url").isDisabled(), true, "no address says it");
+    await galleryComplete(page); // or the browser would speak of the pictures that it gives up
     await page.reload();
     await ready(page);
     assert.equal(await page.locator('#matrix input[data-cell="0-1"]').inputValue(), "0.6");
