@@ -102,6 +102,19 @@ std::string text_of(const api::Answer& answer) {
     return text;
 }
 
+/// So many who ask a house for as many heavy pieces; all of them wait when this returns, or half of them are served.
+std::vector<std::jthread> crowd_at(House& house, int count) {
+    std::vector<std::jthread> crowd;
+    for (int i = 0; i < count; ++i)
+        crowd.emplace_back(
+            [&house, i] { EXPECT_EQ(house.ask(heavy + std::to_string(i)).status, 200); });
+    const std::string all_wait = "sporeprint_waiters " + std::to_string(count) + '\n';
+    while (text_of(house.ask("/metrics")).find(all_wait) == std::string::npos &&
+           house.service->counters().generated < static_cast<std::uint64_t>(count) / 2)
+        std::this_thread::yield();
+    return crowd;
+}
+
 std::string header(const api::Answer& answer, std::string_view name) {
     for (const auto& [key, value] : answer.headers)
         if (key == name) return value;
@@ -265,12 +278,7 @@ TEST(Reception, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
     EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
 
     House left;  // one slot: whoever comes last waits for all before
-    std::vector<std::jthread> crowd;
-    for (int i = 0; i < 60; ++i)
-        crowd.emplace_back([&, i] { EXPECT_EQ(left.ask(heavy + std::to_string(i)).status, 200); });
-    while (text_of(left.ask("/metrics")).find("sporeprint_waiters 60\n") == std::string::npos &&
-           left.service->counters().generated < 30)
-        std::this_thread::yield();
+    std::vector<std::jthread> crowd = crowd_at(left, 60);
     EXPECT_EQ(left.ask(heavy + "1000", "GET", 0ms, Visit::Over::left).status, client_left);
     crowd.clear();
     EXPECT_EQ(left.service->counters().generated, 60u) << "nobody made what nobody waits for";
@@ -337,12 +345,7 @@ TEST(Reception, FindsCorrespondencesInSlotsAndChargesThem) {
     House full(options);
     EXPECT_EQ(full.ask(mix, "HEAD").status, 503);
     House slow;
-    std::vector<std::jthread> crowd;
-    for (int i = 0; i < 30; ++i)
-        crowd.emplace_back([&, i] { EXPECT_EQ(slow.ask(heavy + std::to_string(i)).status, 200); });
-    while (text_of(slow.ask("/metrics")).find("sporeprint_waiters 30\n") == std::string::npos &&
-           slow.service->counters().generated < 15)
-        std::this_thread::yield();
+    std::vector<std::jthread> crowd = crowd_at(slow, 30);
     EXPECT_EQ(slow.ask(mix, "HEAD", 0ms).status, 504);
     EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, Visit::Over::left).status, client_left);
     crowd.clear();
