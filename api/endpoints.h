@@ -26,11 +26,8 @@ struct Context {
     ServiceOptions options;
     Answers answers;
     Store& store;
-    bool makes_correspondences = false;  ///< those that are not kept; otherwise NotKept is thrown
+    Memo memo;  ///< what plan() asks: `kept_only`, or `made_at_once` when it is prepared
 };
-
-/// What plan() may ask for in this context.
-[[nodiscard]] Memo plan_memo(const Context& context);
 
 /// What is made once and kept, as HTTP sees it. What the address and the body mean is decided; nothing is made.
 struct Resource {

@@ -60,8 +60,7 @@ struct Job {
     Key key;
     Cost cost;
     std::function<Answer(std::stop_token, const Observer&, const Parallel&)> run;
-    bool prepares =
-        false;  ///< its answer is nobody's: when it is done, plan() is asked again, `prepared`
+    bool prepares = false;  ///< its answer is nobody's: plan() is asked again then, `prepared`
 };
 
 }  // namespace sporeprint::api

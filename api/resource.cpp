@@ -43,7 +43,7 @@ Cost weighed(const Request& request, const Resource& resource, const Memo& memo,
 /// 410, or whatever is stronger.
 Answer superseded(Context& context, const Request& request, const Resource& resource,
                   Faults& faults) {
-    static_cast<void>(weighed(request, resource, plan_memo(context), faults));
+    static_cast<void>(weighed(request, resource, context.memo, faults));
     faults.add(410, request.method == "POST" ? "/v" : "v",
                in_quotes(*resource.asked_version) + " is no longer made; today's version is " +
                    in_quotes(resource.version));
@@ -65,10 +65,6 @@ std::string too_many_texels(const ServiceOptions& options, std::uint64_t texels,
 }
 
 }  // namespace
-
-Memo plan_memo(const Context& context) {
-    return context.makes_correspondences ? made_at_once(context.store) : kept_only(context.store);
-}
 
 void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, bool of_every_species,
                         bool is_clip) {
@@ -145,7 +141,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
     // A correspondence that is not kept takes milliseconds: the job that makes the body finds it, if there is to be one.
     std::optional<Cost> cost;
     try {
-        cost = weighed(request, resource, plan_memo(context), faults);
+        cost = weighed(request, resource, context.memo, faults);
     } catch (const NotKept&) {
         if (request.method == "HEAD" || names_any(condition)) throw;
     }

@@ -64,6 +64,7 @@ std::optional<Answer> refuse_body(const Answers& answers, const Request& request
     return std::nullopt;
 }
 
+/// The answer to a request, or the job that leads to it. Throws NotKept where `context` keeps to what is kept.
 Plan plan_route(Context& context, const Shelf& shelf, const Request& request) {
     if (request.target.size() > longest_target)
         return context.answers.problem(request, 414,
@@ -213,11 +214,10 @@ struct Service::Parts {
     Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
           std::shared_ptr<Store> the_store)
         : store(std::move(the_store)),
-          context{std::move(atlas), options, Answers(options.allow_origin), *store},
-          prepared(context),
-          shelf(context.atlas, context.answers, options.assets) {
-        prepared.makes_correspondences = true;
-    }
+          context{std::move(atlas), options, Answers(options.allow_origin), *store,
+                  kept_only(*store)},
+          prepared{context.atlas, options, context.answers, *store, made_at_once(*store)},
+          shelf(context.atlas, context.answers, options.assets) {}
 
     /// The image that a request for one asks for; nothing, with faults, for none, and for a route that is not of images.
     std::optional<ImageResource> image_asked(const Match& match, const Target& target,
@@ -256,13 +256,12 @@ std::variant<Answer, Job> Service::plan(const Request& request, bool prepared) {
     try {
         return plan_route(prepared ? parts_->prepared : parts_->context, parts_->shelf, request);
     } catch (const NotKept& missing) {
-        const auto run = [this, request](std::stop_token, const Observer& observer,
-                                         const Parallel&) {
+        auto run = [this, request](std::stop_token, const Observer& observer, const Parallel&) {
             observer(Step::resolve);
             static_cast<void>(plan(request, true));
             return Answer();
         };
-        return Job{"correspondence\n" + missing.key, most_of_correspondence, run, true};
+        return Job{"correspondence\n" + missing.key, most_of_correspondence, std::move(run), true};
     } catch (...) {
         return problem(request, std::current_exception());
     }

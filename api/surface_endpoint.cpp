@@ -32,8 +32,7 @@ std::uint64_t texels_held(const PaintRecipe& recipe) {
 /// What is painted at an address; adds to `faults` what of it is impossible.
 PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& faults) {
     try {
-        PaintRecipe recipe =
-            painted_at(asked.address, asked.mix, *context.atlas, plan_memo(context));
+        PaintRecipe recipe = painted_at(asked.address, asked.mix, *context.atlas, context.memo);
         refuse_texels(context.options, texels_held(recipe), recipe.size() > 1, faults);
         return recipe;
     } catch (const Impossible& impossible) {

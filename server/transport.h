@@ -83,8 +83,9 @@ class Visit {
     /// Calls `go_on` on a worker; what that throws is a bare 500.
     virtual void resume(std::function<void()> go_on) = 0;
 
-    /// When the answer will come later, and again when the wait is for something else: `over` is called on a worker if the client leaves or
-    /// TransportOptions::answer has passed before there is one; perhaps at once.
+    /// When the answer will come later: `over` is called on a worker if the client leaves or
+    /// TransportOptions::answer has passed before there is one; perhaps at once. Called again, the
+    /// later `over` takes the place of the earlier.
     virtual void wait(std::function<void(Over)> over) = 0;
 };
 
