@@ -115,7 +115,45 @@ void announce(const Options& options, bool has_page, int port) {
     std::fflush(stdout);
 }
 
-int serve(const Options& options) {
+/// The variables of this process.
+Given variables_of_process() {
+    Given variables;
+    for (char* const* one = environ; *one; ++one) {
+        const std::string_view line = *one;
+        const std::size_t equals = line.find('=');
+        if (equals != line.npos)
+            variables.emplace_back(line.substr(0, equals), line.substr(equals + 1));
+    }
+    return variables;
+}
+
+Value list_of(const std::vector<std::string>& texts) {
+    Value::Array list;
+    for (const std::string& text : texts) list.emplace_back(text);
+    return Value(std::move(list));
+}
+
+/// Says which variables have no effect.
+void report_ignored(const Environment& environment, Log& log) {
+    if (!environment.service_links.empty())
+        log.event(LogLevel::info,
+                  "variables that Kubernetes injects for a Service of this name are ignored; "
+                  "'enableServiceLinks: false' in the pod's spec leaves them out",
+                  {{"variables", list_of(environment.service_links)}});
+    if (!environment.unknown.empty())
+        log.event(LogLevel::warning, "unknown SPOREPRINT_* variables are ignored",
+                  {{"variables", list_of(environment.unknown)}});
+}
+
+/// The text of a file that an option names.
+///
+/// throws  InvalidInput when it cannot be read
+std::string text_of_option(const std::string& flag, const std::string& file) {
+    if (std::optional<std::string> text = read_text(file)) return *std::move(text);
+    throw InvalidInput(flag, file + " cannot be read; allowed is the path of a file");
+}
+
+int serve(const Options& options, const Environment& environment) {
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
@@ -125,11 +163,19 @@ int serve(const Options& options) {
     signal(SIGPIPE, SIG_IGN);
 
     raise_descriptor_limit();
+    Log log(options.log_level);
+    report_ignored(environment, log);
+    std::string warm_list;
+    if (!options.warm.empty()) warm_list = text_of_option("--warm", options.warm.string());
     force_simd(options.simd);
     const std::shared_ptr<const Atlas> atlas =
         options.atlas.empty() ? built_in_atlas() : atlas_from(options.atlas.string());
 
     api::ServiceOptions service_options;
+    RepeatedWarning unwritten(log,
+                              "finished files cannot be written to the store; they are served, and "
+                              "made anew after a restart",
+                              std::chrono::minutes(1));
     service_options.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
     service_options.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
     service_options.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
@@ -150,7 +196,6 @@ int serve(const Options& options) {
     const Sources sources{options.atlas.string(), options.sign_keys.string()};
     if (!sources.keys.empty())
         means.signatures = std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
-    Log log(options.log_level);
     Metrics metrics(SPOREPRINT_VERSION, generator_version(*means.service));
     Reception reception(means, metrics, log, reception_options);
 
@@ -175,7 +220,8 @@ int serve(const Options& options) {
         return complain("the first thing made for a test could not be made; not starting", failed);
     transport.start();
     if (metrics_transport) metrics_transport->start();
-    if (!options.warm.empty()) warm(options.warm.string(), reception, log, is_asked_to_end);
+    if (!options.warm.empty())
+        warm(options.warm.string(), warm_list, reception, log, is_asked_to_end);
     if (!is_asked_to_end()) {
         reception.open();
         announce(options, !service_options.assets.empty(), transport.port());
@@ -267,12 +313,12 @@ int run(int argc, char** argv) {
     Given flags;
     for (std::size_t i = 0; i < lines.size(); ++i)
         if (app.count(lines[i].flag) > 0) flags.emplace_back(lines[i].name, texts[i]);
-    const auto variable = [](const char* name) -> const char* { return std::getenv(name); };
-    if (const char* file = variable("SPOREPRINT_CONFIG"); config.empty() && file) config = file;
+    const Environment environment = environment_from(variables_of_process());
+    if (config.empty()) config = environment.config;
 
     Options options;
     try {
-        options = options_from(config, config_text(config), given_by_environment(variable), flags);
+        options = options_from(config, config_text(config), environment.options, flags);
     } catch (const InvalidInput& invalid) {
         for (const Problem& problem : invalid.problems())
             complain(problem.path + ": " + problem.message, wrong_usage);
@@ -285,10 +331,13 @@ int run(int argc, char** argv) {
         return fine;
     }
     try {
-        return to_sign.empty() ? serve(options) : sign(options, to_sign, sign_for);
+        return to_sign.empty() ? serve(options, environment) : sign(options, to_sign, sign_for);
     } catch (const InvalidInput& invalid) {  // an instruction set or a template that is no good
         for (const Problem& problem : invalid.problems())
             complain((problem.path == "simd" ? "--simd" : problem.path) + ": " + problem.message,
+    if (print_config || !to_sign.empty())
+        for (const std::string& unknown : environment.unknown)
+            complain("ignored: unknown variable " + unknown, fine);
                      wrong_usage);
         return wrong_usage;
     }

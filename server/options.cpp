@@ -1,7 +1,9 @@
 #include "server/options.h"
 
 #include <algorithm>
+#include <charconv>
 
+#include "core/params/messages.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
 #include "core/params/value.h"
@@ -42,6 +44,72 @@ void read_given(const Given& given, Named named, Options& options, std::vector<P
         report(problems, named(problem.path), std::move(problem.message));
 }
 
+constexpr std::string_view variable_prefix = "SPOREPRINT_";
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
+
+/// A port from 1 to 65535 in decimal digits without leading zeros.
+bool is_port(std::string_view text) {
+    std::uint16_t port = 0;
+    const char* const end = text.data() + text.size();
+    const auto [stop, error] = std::from_chars(text.data(), end, port);
+    return stop == end && error == std::errc() && text.front() != '0';
+}
+
+/// "tcp://10.0.0.1:8080" or "udp://[fd00::1]:53".
+bool is_service_address(std::string_view text) {
+    const std::size_t scheme = text.find("://");
+    if (scheme == text.npos) return false;
+    const std::string_view protocol = text.substr(0, scheme);
+    if (protocol != "tcp" && protocol != "udp" && protocol != "sctp") return false;
+    text.remove_prefix(scheme + 3);
+    const std::size_t colon = text.rfind(':');
+    if (colon == text.npos || !is_port(text.substr(colon + 1))) return false;
+    const std::string_view host = text.substr(0, colon);
+    if (host.starts_with('[') && host.ends_with(']')) {
+        const auto address = address_in(host.substr(1, host.size() - 2));
+        return address && !address->is_v4();
+    }
+    const auto address = address_in(host);
+    return address && address->is_v4();
+}
+
+/// A host as a browser writes it into an origin: a name in lower case, or an address in its one form.
+bool is_origin_host(std::string_view host) {
+    if (host.starts_with('[') && host.ends_with(']')) {
+        const std::string_view inside = host.substr(1, host.size() - 2);
+        const auto address = address_in(inside);
+        return address && !address->is_v4() && text_of(*address) == inside;
+    }
+    const bool plain = std::all_of(host.begin(), host.end(), [](char c) {
+        return is_lower(c) || is_digit(c) || c == '-' || c == '_' || c == '.';
+    });
+    return plain && !host.empty() && host.front() != '.' && host.find("..") == host.npos;
+}
+
+/// An origin as browsers serialize it, https://a.example:8443: their comparison is byte by byte, so
+/// capitals, a port that is the scheme's own, a path or a slash at the end would never match.
+///
+/// source  RFC 6454 section 6.2
+bool is_serialized_origin(std::string_view text) {
+    const std::size_t colon = text.find("://");
+    if (colon == text.npos || colon == 0) return false;
+    const std::string_view scheme = text.substr(0, colon);
+    if (!is_lower(scheme.front()) || !std::all_of(scheme.begin(), scheme.end(), [](char c) {
+            return is_lower(c) || is_digit(c) || c == '+' || c == '-' || c == '.';
+        }))
+        return false;
+    const std::string_view authority = text.substr(colon + 3);
+    const std::size_t bracket = authority.rfind(']');
+    const std::size_t port = authority.find(':', bracket == authority.npos ? 0 : bracket);
+    if (!is_origin_host(authority.substr(0, port))) return false;
+    if (port == authority.npos) return true;
+    const std::string_view number = authority.substr(port + 1);
+    const bool own = (scheme == "http" && number == "80") || (scheme == "https" && number == "443");
+    return is_port(number) && !own;
+}
+
 }  // namespace
 
 void Options::check(const std::string& path, std::vector<Problem>& problems) const {
@@ -53,9 +121,13 @@ void Options::check(const std::string& path, std::vector<Problem>& problems) con
     };
     if (host.empty() || bad(host, " /"))
         report(problems, path + "/host", in_quotes(host) + " is not a host name or address");
-    if (bad(allow_origin, " ,"))
-        report(problems, path + "/allow_origin",
-               in_quotes(allow_origin) + " is not one origin; allowed are * and https://a.example");
+    if (!allow_origin.empty() && allow_origin.view() != "*" && !is_serialized_origin(allow_origin))
+        report(
+            problems, path + "/allow_origin",
+            in_quotes(allow_origin) +
+                " is not an origin; allowed are *, nothing, or one as a browser sends it: scheme "
+                "and host in lower case and no path, https://a.example or "
+                "http://localhost:8080 (null, which any page can have, is not)");
     try {
         static_cast<void>(Networks(trusted_proxies));
     } catch (const InvalidInput& invalid) {
@@ -85,13 +157,68 @@ std::vector<OptionLine> option_lines() {
     return lines;
 }
 
-Given given_by_environment(const char* (*variable)(const char*)) {
-    Given given;
-    for (const OptionLine& line : option_lines()) {
-        const char* text = variable(line.variable.c_str());
-        if (text && *text) given.emplace_back(line.name, text);
+Environment environment_from(const Given& variables) {
+    constexpr const char* config = "SPOREPRINT_CONFIG";
+    const std::vector<OptionLine> lines = option_lines();
+    std::vector<std::string> known = {config};
+    for (const OptionLine& line : lines) known.push_back(line.variable);
+    Environment environment;
+    for (const auto& [name, value] : variables) {
+        if (!name.starts_with(variable_prefix)) continue;
+        const auto line = std::find_if(lines.begin(), lines.end(),
+                                       [&n = name](const auto& one) { return one.variable == n; });
+        if (is_service_link(name, value)) {
+            environment.service_links.push_back(name);
+        } else if (line != lines.end()) {
+            if (!value.empty()) environment.options.emplace_back(line->name, value);
+        } else if (name == config) {
+            environment.config = value;
+        } else {
+            const std::string_view meant = closest(name, known);
+            environment.unknown.push_back(
+                printable(name) +
+                (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+        }
     }
-    return given;
+    return environment;
+}
+
+bool is_service_link(std::string_view name, std::string_view value) {
+    const auto is_name = [](std::string_view text) {
+        return !text.empty() && std::all_of(text.begin(), text.end(), [](char c) {
+            return (c >= 'A' && c <= 'Z') || is_digit(c) || c == '_';
+        });
+    };
+    const auto is_address = [](std::string_view text) { return address_in(text).has_value(); };
+    const auto is_protocol = [](std::string_view text) {
+        return text == "tcp" || text == "udp" || text == "sctp";
+    };
+    constexpr std::string_view service = "SPOREPRINT";
+    if (!name.starts_with(variable_prefix)) return false;
+    std::string_view rest = name.substr(service.size());  // begins where a part of the name does
+    for (std::size_t at = 0; at != rest.npos; at = rest.find('_', at + 1)) {
+        std::string_view ending = rest.substr(at);
+        if (at > 0 && !is_name(rest.substr(1, at - 1))) return false;
+        if (ending == "_SERVICE_HOST") return is_address(value);
+        if (ending == "_SERVICE_PORT") return is_port(value);
+        if (ending.starts_with("_SERVICE_PORT_") && is_name(ending.substr(14)))
+            return is_port(value);
+        if (ending == "_PORT") return is_service_address(value);
+        if (!ending.starts_with("_PORT_")) continue;
+        ending.remove_prefix(6);
+        const std::size_t digits = std::min(ending.find_first_not_of("0123456789"), ending.size());
+        if (!is_port(ending.substr(0, digits))) continue;
+        ending.remove_prefix(digits);
+        for (const std::string_view protocol : {"_TCP", "_UDP", "_SCTP"}) {
+            if (!ending.starts_with(protocol)) continue;
+            const std::string_view what = ending.substr(protocol.size());
+            if (what.empty()) return is_service_address(value);
+            if (what == "_PROTO") return is_protocol(value);
+            if (what == "_PORT") return is_port(value);
+            if (what == "_ADDR") return is_address(value);
+        }
+    }
+    return false;
 }
 
 Options options_from(const std::string& file_name, std::string_view file, const Given& environment,

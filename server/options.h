@@ -146,7 +146,8 @@ struct Options {
               Info{.name = "simd", .doc = "Instruction set to use; the bytes made are the same."});
         visit(&O::allow_origin,
               Info{.name = "allow_origin",
-                   .doc = "Access-Control-Allow-Origin of every answer; empty sends none."});
+                   .doc = "Access-Control-Allow-Origin of every answer: *, or one origin as a "
+                          "browser sends it, https://a.example; empty sends none."});
     }
 
     void check(const std::string& path, std::vector<Problem>& problems) const;
@@ -167,10 +168,32 @@ struct OptionLine {
 };
 [[nodiscard]] std::vector<OptionLine> option_lines();
 
-/// The SPOREPRINT_* variables that are set and not empty, by option name; others are not ours.
+/// What the SPOREPRINT_* variables come to.
+struct Environment {
+    Given options;       ///< those that are not empty, by option name
+    std::string config;  ///< SPOREPRINT_CONFIG
+    /// Names of those that Kubernetes injects for a Service whose name begins with "sporeprint".
+    std::vector<std::string> service_links;
+    /// All others, "SPOREPRINT_PROT; did you mean 'SPOREPRINT_PORT'?".
+    std::vector<std::string> unknown;
+};
+
+/// Sorts the variables of a process: options, what Kubernetes has injected, and the unknown.
 ///
-/// variable  like std::getenv: nullptr for what is not set
-[[nodiscard]] Given given_by_environment(const char* (*variable)(const char*));
+/// variables  name and value of each, as in environ; only those that begin with SPOREPRINT_ count
+[[nodiscard]] Environment environment_from(const Given& variables);
+
+/// Whether a variable is one of those that Kubernetes injects into every container for a Service
+/// of its namespace whose name begins with "sporeprint", unless the pod says
+/// `enableServiceLinks: false`. In the grammar of RFC 5234, where the value must agree:
+///
+///     service = "SPOREPRINT" *("_" 1*(ALPHA / DIGIT))
+///     name    = service "_SERVICE_HOST"                    ; an IP address
+///             / service "_SERVICE_PORT" ["_" port-name]    ; 1..65535
+///             / service "_PORT"                            ; tcp://10.0.0.1:8080
+///             / service "_PORT_" 1*DIGIT "_" ("TCP" / "UDP" / "SCTP")  ; the same
+///                 ["_PROTO" / "_PORT" / "_ADDR"]           ; tcp, 8080 or 10.0.0.1
+[[nodiscard]] bool is_service_link(std::string_view name, std::string_view value);
 
 /// Puts together what was given; a flag wins over a variable, that over the file.
 ///

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -24,16 +23,10 @@ Value problem_of(const api::Answer& answer) {
 
 }  // namespace
 
-std::size_t warm(const std::filesystem::path& file, Reception& reception, Log& log,
-                 const std::function<bool()>& stop) {
+std::size_t warm(const std::filesystem::path& file, std::string_view text, Reception& reception,
+                 Log& log, const std::function<bool()>& stop) {
     const auto begun = std::chrono::steady_clock::now();
-    const std::optional<std::string> text = read_text(file);
-    if (!text) {
-        log.event(LogLevel::error, "the warm list cannot be read",
-                  {{"file", Value(file.string())}});
-        return 0;
-    }
-    const std::vector<TextLine> list = lines_of(*text);
+    const std::vector<TextLine> list = lines_of(text);
     std::size_t good = 0, at = 0;
     while (at < list.size() && !stop()) {
         const std::size_t end = std::min(list.size(), at + 2 * reception.slots());

@@ -82,14 +82,115 @@ TEST(Options, AProblemNamesTheOptionItsValueAndWhatIsAllowed) {
     EXPECT_EQ(problems_of("", {}, {{"proxy_header", "x-real-ip"}}).size(), 1u);
 }
 
-TEST(Options, ComeFromTheEnvironmentByTheirOwnNamesOnly) {
-    const Given given = given_by_environment([](const char* name) -> const char* {
-        const std::string_view wanted = name;
-        if (wanted == "SPOREPRINT_IMAGE_CACHE_MB") return "7";
-        if (wanted == "SPOREPRINT_HOST") return "";
-        return nullptr;
-    });
-    EXPECT_EQ(given, (Given{{"image_cache_mb", "7"}}));
+TEST(Options, AllowOneOriginAsABrowserSendsIt) {
+    const auto allowed = [](const std::string& origin) {
+        return problems_of("", {}, {{"allow_origin", origin}}).empty();
+    };
+    for (const char* origin :
+         {"", "*", "https://a.example", "http://localhost:8080", "https://xn--bcher-kva.example",
+          "http://192.0.2.1:81", "http://[2001:db8::1]", "https://[2001:db8::1]:8443",
+          "http://a.example:443", "capacitor://localhost", "chrome-extension://abcdef"})
+        EXPECT_TRUE(allowed(origin)) << origin;
+    for (const char* origin : {"foo",
+                               "null",
+                               "a.example",
+                               "https://",
+                               "https://a.example/",
+                               "https://a.example/x",
+                               "https://a.example?x",
+                               "https://A.example",
+                               "HTTPS://a.example",
+                               "https://a.example:443",
+                               "http://a.example:80",
+                               "https://a.example:",
+                               "https://a.example:0",
+                               "https://a.example:08",
+                               "https://a.example:65536",
+                               "https://a.example:+1",
+                               "https://user@a.example",
+                               "https://*.example",
+                               "https://a.example https://b.example",
+                               "https://a.example,https://b.example",
+                               "https://b\xc3\xbc.example",
+                               "https://.example",
+                               "https://a..example",
+                               "http://[::1",
+                               "http://[2001:DB8::1]",
+                               "http://[1.2.3.4]",
+                               "://a.example",
+                               "1a://b",
+                               "*\r\nX-Evil: 1",
+                               "https://a.example\n"})
+        EXPECT_FALSE(allowed(origin)) << origin;
+    EXPECT_EQ(problems_of("", {}, {{"allow_origin", "foo"}})[0].substr(0, 38),
+              "--allow-origin: 'foo' is not an origin");
+}
+
+TEST(Options, ComeFromTheEnvironmentByTheirOwnNames) {
+    const Environment environment = environment_from({{"SPOREPRINT_IMAGE_CACHE_MB", "7"},
+                                                      {"SPOREPRINT_HOST", ""},
+                                                      {"SPOREPRINT_CONFIG", "/a"},
+                                                      {"PORT", "1"},
+                                                      {"sporeprint_port", "2"}});
+    EXPECT_EQ(environment.options, (Given{{"image_cache_mb", "7"}}));
+    EXPECT_EQ(environment.config, "/a");
+    EXPECT_TRUE(environment.unknown.empty() && environment.service_links.empty());
+}
+
+TEST(Options, UnknownVariablesAreNamedWithWhatWasMeant) {
+    const Environment environment = environment_from(
+        {{"SPOREPRINT_PROT", "9000"}, {"SPOREPRINT_", "x"}, {"SPOREPRINT_QUITE_OTHER", ""}});
+    EXPECT_TRUE(environment.options.empty());
+    EXPECT_EQ(environment.unknown,
+              (std::vector<std::string>{"SPOREPRINT_PROT; did you mean 'SPOREPRINT_PORT'?",
+                                        "SPOREPRINT_", "SPOREPRINT_QUITE_OTHER"}));
+}
+
+// As kubelet makes them: pkg/kubelet/envvars of Kubernetes.
+TEST(Options, VariablesOfAKubernetesServiceAreNoOptions) {
+    const Given injected = {{"SPOREPRINT_SERVICE_HOST", "10.0.0.1"},
+                            {"SPOREPRINT_SERVICE_PORT", "8080"},
+                            {"SPOREPRINT_SERVICE_PORT_HTTP", "8080"},
+                            {"SPOREPRINT_PORT", "tcp://10.0.0.1:8080"},
+                            {"SPOREPRINT_PORT_8080_TCP", "tcp://10.0.0.1:8080"},
+                            {"SPOREPRINT_PORT_8080_TCP_PROTO", "tcp"},
+                            {"SPOREPRINT_PORT_8080_TCP_PORT", "8080"},
+                            {"SPOREPRINT_PORT_8080_TCP_ADDR", "10.0.0.1"},
+                            {"SPOREPRINT_PORT_53_UDP", "udp://10.0.0.1:53"},
+                            {"SPOREPRINT_PORT_9_SCTP_PROTO", "sctp"},
+                            {"SPOREPRINT_METRICS_PORT", "tcp://[fd00::1]:9090"},
+                            {"SPOREPRINT_METRICS_SERVICE_HOST", "fd00::1"},
+                            {"SPOREPRINT_METRICS_SERVICE_PORT_PLAIN_TEXT", "9090"},
+                            {"SPOREPRINT_MY_2_PORT_9090_TCP_ADDR", "fd00::1"}};
+    Environment environment = environment_from(injected);
+    std::vector<std::string> names;
+    for (const auto& [name, value] : injected) names.push_back(name);
+    EXPECT_EQ(environment.service_links, names);
+    EXPECT_TRUE(environment.unknown.empty());
+    EXPECT_EQ(read("", environment.options), Options{});
+
+    // What is a little different was set by a person: a wrong value, or an unknown name.
+    for (const char* value : {"tcp://", "tcp://10.0.0.1", "tcp://10.0.0.1:", "tcp://10.0.0.1:0",
+                              "tcp://10.0.0.1:x", "tcp://10.0.0.1:80/", "http://10.0.0.1:80",
+                              "tcp://a.example:80", "tcp://fd00::1:80", "tcp://[10.0.0.1]:80",
+                              "TCP://10.0.0.1:80", "tcp//10.0.0.1:80", "x", " tcp://10.0.0.1:80"}) {
+        EXPECT_FALSE(is_service_link("SPOREPRINT_PORT", value)) << value;
+        environment = environment_from({{"SPOREPRINT_PORT", value}});
+        EXPECT_EQ(problems_of("", environment.options).size(), 1u) << value;
+    }
+    const Given others = {{"SPOREPRINT_SERVICE_HOST", "a.example"},
+                          {"SPOREPRINT_SERVICE_PORT", "http"},
+                          {"SPOREPRINT_SERVICE_PORT_", "80"},
+                          {"SPOREPRINT_SERVICE_PORT_http", "80"},
+                          {"SPOREPRINT_PORT_TCP", "tcp://10.0.0.1:80"},
+                          {"SPOREPRINT_PORT_80_TCP_HOST", "10.0.0.1"},
+                          {"SPOREPRINT_PORT_80_QUIC", "tcp://10.0.0.1:80"},
+                          {"SPOREPRINT_PORT_80_TCP_PROTO", "TCP"},
+                          {"SPOREPRINT__SERVICE_HOSTS", "10.0.0.1"},
+                          {"SPOREPRINT_x_SERVICE_HOST", "10.0.0.1"}};
+    for (const auto& [name, value] : others) EXPECT_FALSE(is_service_link(name, value)) << name;
+    EXPECT_EQ(environment_from(others).unknown.size(), others.size());
+    EXPECT_EQ(environment_from({{"SPOREPRINT_PORT", "9000"}}).options, (Given{{"port", "9000"}}));
 }
 
 TEST(Options, EachHasHelp) {

@@ -70,6 +70,11 @@ class RealServer {
     int stop() {
         if (pid_ <= 0) return -1;
         ::kill(pid_, SIGTERM);
+        return wait();
+    }
+
+    /// Waits for its end; returns its exit status, -1 when it did not exit by itself.
+    int wait() {
         int status = 0;
         ::waitpid(pid_, &status, 0);
         pid_ = -1;

@@ -57,11 +57,15 @@ TEST_F(WarmStart, MakesWhatIsListedBeforeItIsReadyAndNamesWhatCannotBe) {
     EXPECT_NE(log.find("7 is outside 0..1"), std::string::npos);
 }
 
-TEST_F(WarmStart, WithoutItsFileStartsAllTheSame) {
-    const RealServer server(0, {"--warm", folder / "nowhere"}, folder / "log");
-    ASSERT_GT(server.port(), 0);
-    EXPECT_EQ(RawClient(server.port()).ask(get("/readyz")).status, 200);
-    EXPECT_TRUE(server.logs("the warm list cannot be read"));
+TEST_F(WarmStart, WithoutItsFileDoesNotStart) {
+    for (const fs::path& file : {folder / "nowhere", folder}) {
+        RealServer server(0, {"--warm", file}, folder / "log");
+        EXPECT_EQ(server.port(), 0);
+        EXPECT_EQ(server.wait(), 2);
+        EXPECT_NE(server.log().find("--warm: " + file.string() + " cannot be read"),
+                  std::string::npos)
+            << server.log();
+    }
 }
 
 TEST_F(WarmStart, LinesOfTheLogBelongToTheTraceTheyCameWith) {
