@@ -1,8 +1,12 @@
 #include "api/directory_store.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
+#include <cerrno>
 #include <fstream>
 #include <memory>
 #include <system_error>
@@ -38,10 +42,53 @@ std::optional<Slice> body_in(const std::shared_ptr<const Bytes>& file, std::stri
     return Slice(file, fixed, text.size() - fixed);
 }
 
-std::shared_ptr<const Bytes> contents(const fs::path& path) {
+std::error_code last_error() { return {errno, std::generic_category()}; }
+
+std::error_code write_all(int file, const void* data, std::size_t size) {
+    const char* at = static_cast<const char*>(data);
+    while (size > 0) {
+        const ssize_t written = ::write(file, at, size);
+        if (written < 0 && errno == EINTR) continue;
+        if (written < 0) return last_error();
+        at += written;
+        size -= static_cast<std::size_t>(written);
+    }
+    return {};
+}
+
+/// Makes a file of a head and a body; the error when it cannot be made whole.
+std::error_code write(const fs::path& path, std::string_view head, const Body& body) {
+    const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+    if (file < 0) return last_error();
+    std::error_code error = write_all(file, head.data(), head.size());
+    for (const Slice& slice : body)
+        if (!error) error = write_all(file, slice.data(), slice.size);
+    if (::close(file) != 0 && !error) error = last_error();
+    return error;
+}
+
+/// Whether a name is one that the store gives: the hash of a key.
+bool is_name(std::string_view name) {
+    return name.size() == digest_length && name.find_first_not_of("0123456789abcdef") == name.npos;
+}
+
+/// Whether a file begins as those of the store do.
+bool begins_as_ours(const fs::path& path) {
+    std::array<char, format.size()> head{};
+    std::ifstream stream(path, std::ios::binary);
+    return stream.read(head.data(), head.size()) &&
+           std::string_view(head.data(), head.size()) == format;
+}
+
+/// The bytes of a file; nullptr when it cannot be read, or is too large for one of the store.
+///
+/// plausible  bytes up to which a file is read without a look at its beginning
+/// most       bytes up to which it is read at all
+std::shared_ptr<const Bytes> contents(const fs::path& path, std::uint64_t plausible,
+                                      std::uint64_t most) {
     std::error_code error;
     const std::uintmax_t size = fs::file_size(path, error);
-    if (error) return nullptr;
+    if (error || size > most || (size > plausible && !begins_as_ours(path))) return nullptr;
     std::ifstream stream(path, std::ios::binary);
     auto bytes = std::make_shared<Bytes>(static_cast<std::size_t>(size));
     if (!stream.read(reinterpret_cast<char*>(bytes->data()),
@@ -50,26 +97,25 @@ std::shared_ptr<const Bytes> contents(const fs::path& path) {
     return bytes;
 }
 
-bool write(const fs::path& path, std::string_view head, const Body& body) {
-    std::ofstream stream(path, std::ios::binary | std::ios::trunc);
-    stream.write(head.data(), static_cast<std::streamsize>(head.size()));
-    for (const Slice& slice : body)
-        stream.write(reinterpret_cast<const char*>(slice.data()),
-                     static_cast<std::streamsize>(slice.size));
-    stream.close();
-    return !stream.fail();
+/// Whether far fewer blocks are allocated than a file that was written has. A file system may have
+/// compressed it; by a factor of eight it cannot, for images and most numbers are dense already.
+bool has_holes(const struct stat& status) {
+    constexpr std::uint64_t block = 512;           // of st_blocks, whatever the file system has
+    constexpr std::uint64_t smallest = 64u << 10;  // below, a file may be kept inside its inode
+    const auto size = static_cast<std::uint64_t>(status.st_size);
+    return size >= smallest && static_cast<std::uint64_t>(status.st_blocks) * block < size / 8;
 }
 
 }  // namespace
 
-DirectoryStore::DirectoryStore(fs::path folder, std::uint64_t most_bytes)
-    : folder_(std::move(folder)), most_bytes_(most_bytes) {
+DirectoryStore::DirectoryStore(fs::path folder, std::uint64_t most_bytes, Report report)
+    : folder_(std::move(folder)), most_bytes_(most_bytes), report_(std::move(report)) {
     std::error_code error;
     fs::create_directories(folder_ / aside, error);
     const fs::path probe = folder_ / aside / ("probe." + std::to_string(getpid()));
-    if (error || !write(probe, format, {}))
-        throw InvalidInput(folder_.string(), "the folder cannot be written" +
-                                                 (error ? ": " + error.message() : std::string()));
+    if (!error) error = write(probe, format, {});
+    if (error)
+        throw InvalidInput(folder_.string(), "the folder cannot be written: " + error.message());
     fs::remove(probe, error);
     take_stock();
 }
@@ -86,6 +132,8 @@ void DirectoryStore::take_stock() {
         std::uint64_t bytes;
     };
     std::vector<Found> found;
+    StoreEvent foreign{StoreEvent::Kind::foreign, {}, 0, "not written by the store"};
+    std::uint64_t damaged = 0, evictions = 0;
     std::error_code error;
     for (fs::directory_iterator i(folder_ / aside, error), end; !error && i != end;
          i.increment(error)) {
@@ -94,19 +142,34 @@ void DirectoryStore::take_stock() {
     }
     for (fs::recursive_directory_iterator i(folder_, error), end; !error && i != end;
          i.increment(error)) {
-        const std::string name = i->path().stem().string();
-        std::error_code unknown;
-        if (i->path().extension() != extension || path_of(name) != i->path() ||
-            !i->is_regular_file(unknown))
-            continue;
-        const auto bytes = i->file_size(unknown);
-        const auto used = i->last_write_time(unknown);
-        if (!unknown) found.push_back({used, name, bytes});
+        const fs::path& path = i->path();
+        const std::string name = path.stem().string();
+        struct stat status {};
+        if (::lstat(path.c_str(), &status) != 0 || S_ISDIR(status.st_mode)) continue;
+        const bool named = S_ISREG(status.st_mode) && path.extension() == extension &&
+                           is_name(name) && path_of(name) == path;
+        const auto bytes = static_cast<std::uint64_t>(status.st_size);
+        const bool whole = !has_holes(status);
+        const bool plausible = bytes <= most_of_one() && whole;  // else written with another bound?
+        if (!named || (!plausible && !begins_as_ours(path))) {
+            if (foreign.files++ == 0) foreign.file = path;
+        } else if (!whole || bytes > most_bytes_) {
+            std::error_code gone_already;
+            fs::remove(path, gone_already);
+            ++(whole ? evictions : damaged);
+        } else {
+            std::error_code unknown;
+            const auto used = i->last_write_time(unknown);
+            if (!unknown) found.push_back({used, name, bytes});
+        }
     }
+    if (foreign.files > 0 && report_) report_(foreign);
     std::sort(found.begin(), found.end(), [](const Found& a, const Found& b) {
         return std::tie(a.used, a.name) < std::tie(b.used, b.name);
     });
     const std::lock_guard lock(mutex_);
+    stats_.damaged += damaged;
+    stats_.evictions += evictions;
     for (const Found& one : found) remember(one.name, one.bytes);
     make_room();
 }
@@ -141,7 +204,7 @@ void DirectoryStore::make_room() {
 std::optional<Slice> DirectoryStore::find(std::string_view key) {
     const std::string name = digest_of(key);
     const fs::path path = path_of(name);
-    const std::shared_ptr<const Bytes> file = contents(path);
+    const std::shared_ptr<const Bytes> file = contents(path, most_of_one(), most_bytes_);
     std::optional<Slice> body;
     if (file) body = body_in(file, key);
     std::error_code ignored;
@@ -168,7 +231,7 @@ void DirectoryStore::insert(std::string_view key, const Body& body) {
     const fs::path path = path_of(name);
     const std::string head = preamble(key) + digest_of(body);
     const std::uint64_t bytes = head.size() + size_of(body);
-    if (bytes > most_bytes_ / 8) return;
+    if (bytes > most_of_one()) return;
     fs::path temporary;
     {
         const std::lock_guard lock(mutex_);
@@ -177,16 +240,22 @@ void DirectoryStore::insert(std::string_view key, const Body& body) {
     }
     std::error_code error;
     fs::create_directories(path.parent_path(), error);
-    const bool written = write(temporary, head, body);
-    if (written) fs::rename(temporary, path, error);
-    const std::lock_guard lock(mutex_);
-    if (written && !error) {
-        remember(name, bytes);
-        make_room();
-        return;
+    if (!error) error = write(temporary, head, body);
+    if (!error) fs::rename(temporary, path, error);
+    if (error) {
+        std::error_code ignored;
+        fs::remove(temporary, ignored);
     }
-    ++stats_.unwritten;
-    fs::remove(temporary, error);
+    {
+        const std::lock_guard lock(mutex_);
+        if (!error) {
+            remember(name, bytes);
+            make_room();
+            return;
+        }
+        ++stats_.unwritten;
+    }
+    if (report_) report_({StoreEvent::Kind::unwritten, path, 1, error.message()});
 }
 
 DirectoryStats DirectoryStore::stats() const {

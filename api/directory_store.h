@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <list>
 #include <map>
 #include <mutex>
@@ -21,6 +22,18 @@ struct DirectoryStats {
     std::uint64_t bytes = 0, entries = 0;
 };
 
+/// What a store has to say to whoever runs it.
+struct StoreEvent {
+    enum class Kind {
+        unwritten,  ///< a body could not be written
+        foreign  ///< the folder holds files that are not of the store: left alone and not counted
+    };
+    Kind kind = Kind::unwritten;
+    std::filesystem::path file;  ///< the file, or the first of those
+    std::uint64_t files = 1;     ///< how many
+    std::string why;             ///< in words
+};
+
 /// A folder of bodies by key. Thread-safe; blocks for as long as the disk does, so it is asked by jobs, never by plan().
 ///
 /// A file is named by the hash of its key and holds the key, the hash of the body, and the body: what is read is what was
@@ -28,16 +41,21 @@ struct DirectoryStats {
 /// Processes may share a folder; each keeps what it has seen of it within its own bound.
 class DirectoryStore {
   public:
-    /// Makes the folder if it is missing, takes stock of it and removes what is over the bound or was left half written.
+    using Report = std::function<void(const StoreEvent&)>;
+
+    /// Makes the folder if it is missing, takes stock of it and removes what is over the bound or was left half written. Files
+    /// that the store has not written are left alone and not counted: those of other names, links, and what does not begin as
+    /// its own do where it is larger than any of them, or has holes. Its own with holes are damaged, and removed.
     ///
     /// most_bytes  of all files together; the least recently used go first, and none is larger than an eighth of it
+    /// report      called for events, here and on any thread that inserts, several at once; may be empty
     /// throws      InvalidInput if the folder cannot be made or written
-    DirectoryStore(std::filesystem::path folder, std::uint64_t most_bytes);
+    DirectoryStore(std::filesystem::path folder, std::uint64_t most_bytes, Report report = {});
 
     /// The body written under `key`; none if there is none that is whole.
     [[nodiscard]] std::optional<Slice> find(std::string_view key);
 
-    /// Writes a body under `key`. A body that cannot be written is counted and forgotten: it can be made again.
+    /// Writes a body under `key`. A body that cannot be written is counted, reported and forgotten: it can be made again.
     void insert(std::string_view key, const Body& body);
 
     [[nodiscard]] DirectoryStats stats() const;
@@ -49,6 +67,7 @@ class DirectoryStore {
     };
 
     [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
+    [[nodiscard]] std::uint64_t most_of_one() const { return most_bytes_ / 8; }
     void take_stock();
     void remember(const std::string& name, std::uint64_t bytes);  ///< as the latest used
     void forget(const std::string& name);
@@ -56,6 +75,7 @@ class DirectoryStore {
 
     std::filesystem::path folder_;
     std::uint64_t most_bytes_;
+    Report report_;
     mutable std::mutex mutex_;  ///< guards all below, and never waits for the disk but to remove
     std::list<Entry> used_;     ///< the latest first
     std::map<std::string, std::list<Entry>::iterator, std::less<>> by_name_;

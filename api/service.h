@@ -14,6 +14,8 @@
 namespace sporeprint::api {
 
 struct ServiceOptions {
+struct StoreEvent;
+
     std::size_t cache_bytes = 256u << 20;
     std::size_t image_cache_bytes = 128u << 20;
     std::size_t morph_cache_bytes = 16u << 20;
@@ -21,6 +23,8 @@ struct ServiceOptions {
     std::filesystem::path store;   ///< folder that finished files are kept in; empty for none
     std::uint64_t store_bytes = std::uint64_t{1} << 30;
     std::string allow_origin = "*";
+    std::function<void(const StoreEvent&)>
+        store_event;  ///< called on any thread, several at once; may be empty
     bool signed_addresses = false;  ///< only who holds a key makes addresses; so answers tell none
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
     std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB

@@ -45,7 +45,8 @@ Store::Store(const ServiceOptions& options)
       images(options.image_cache_bytes, [](const Painted& painted) { return weight_of(painted); }),
       morphs(options.morph_cache_bytes,
              [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }) {
-    if (!options.store.empty()) directory.emplace(options.store, options.store_bytes);
+    if (!options.store.empty())
+        directory.emplace(options.store, options.store_bytes, options.store_event);
 }
 
 void Store::measure() {

@@ -152,6 +152,17 @@ void Log::event(LogLevel level, std::string_view message, const Value::Object& m
     gather(line);
 }
 
+void RepeatedWarning::operator()(Value::Object members, Clock::time_point now) {
+    {
+        const std::lock_guard lock(mutex_);
+        ++times_;
+        if (now < next_) return;
+        next_ = now + pause_;
+        members.emplace_back("times", Value(static_cast<double>(std::exchange(times_, 0))));
+    }
+    log_.event(LogLevel::warning, message_, members);
+}
+
 void Log::gather(std::string_view line) {
     bool first = false;
     {

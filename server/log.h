@@ -2,14 +2,17 @@
 // thread of its own.
 #pragma once
 
+#include <chrono>
 #include <condition_variable>
 #include <cstddef>
+#include <cstdint>
 #include <deque>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <string_view>
 #include <thread>
+#include <utility>
 
 #include "core/params/value.h"
 #include "server/options.h"
@@ -52,3 +55,26 @@ class Log {
 };
 
 }  // namespace sporeprint::server
+/// A warning whose cause may recur many times a second: logged at once, then at most once in each
+/// pause. Thread-safe.
+class RepeatedWarning {
+  public:
+    using Clock = std::chrono::steady_clock;
+
+    /// log  outlives this
+    RepeatedWarning(Log& log, std::string message, std::chrono::seconds pause)
+        : log_(log), message_(std::move(message)), pause_(pause) {}
+
+    /// Logs the warning with these members and `times`, how often it has come since it was last
+    /// logged; or only counts it.
+    void operator()(Value::Object members, Clock::time_point now = Clock::now());
+
+  private:
+    Log& log_;
+    std::string message_;
+    std::chrono::seconds pause_;
+    std::mutex mutex_;
+    std::uint64_t times_ = 0;
+    Clock::time_point next_ = Clock::time_point::min();
+};
+

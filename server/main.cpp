@@ -14,6 +14,7 @@
 #include <string>
 #include <thread>
 
+#include "api/directory_store.h"
 #include "api/service.h"
 #include "core/math/noise.h"
 #include "server/health.h"
@@ -162,20 +163,28 @@ int serve(const Options& options, const Environment& environment) {
     pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by every thread made from here on
     signal(SIGPIPE, SIG_IGN);
 
-    raise_descriptor_limit();
     Log log(options.log_level);
     report_ignored(environment, log);
     std::string warm_list;
     if (!options.warm.empty()) warm_list = text_of_option("--warm", options.warm.string());
+    raise_descriptor_limit();
     force_simd(options.simd);
     const std::shared_ptr<const Atlas> atlas =
         options.atlas.empty() ? built_in_atlas() : atlas_from(options.atlas.string());
 
-    api::ServiceOptions service_options;
     RepeatedWarning unwritten(log,
                               "finished files cannot be written to the store; they are served, and "
                               "made anew after a restart",
                               std::chrono::minutes(1));
+    api::ServiceOptions service_options;
+    service_options.store_event = [&](const api::StoreEvent& event) {
+        Value::Object about = {{"file", Value(event.file.string())}, {"why", Value(event.why)}};
+        if (event.kind == api::StoreEvent::Kind::unwritten) return unwritten(std::move(about));
+        about.emplace_back("files", Value(static_cast<double>(event.files)));
+        log.event(LogLevel::warning,
+                  "files in the store's folder that are not its own are left alone and not counted",
+                  about);
+    };
     service_options.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
     service_options.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
     service_options.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
@@ -326,6 +335,9 @@ int run(int argc, char** argv) {
     } catch (const std::runtime_error& error) {
         return complain(error.what(), wrong_usage);
     }
+    if (print_config || !to_sign.empty())
+        for (const std::string& unknown : environment.unknown)
+            complain("ignored: unknown variable " + unknown, fine);
     if (print_config) {
         std::printf("%s\n", config_text(options).c_str());
         return fine;
@@ -335,9 +347,6 @@ int run(int argc, char** argv) {
     } catch (const InvalidInput& invalid) {  // an instruction set or a template that is no good
         for (const Problem& problem : invalid.problems())
             complain((problem.path == "simd" ? "--simd" : problem.path) + ": " + problem.message,
-    if (print_config || !to_sign.empty())
-        for (const std::string& unknown : environment.unknown)
-            complain("ignored: unknown variable " + unknown, fine);
                      wrong_usage);
         return wrong_usage;
     }

@@ -167,6 +167,92 @@ TEST(DirectoryStore, clears_what_a_process_left_half_written_and_touches_nothing
     EXPECT_EQ(store.stats().entries, 0u);
 }
 
+/// A file of a name that the store gives, with other contents.
+fs::path named_as_ours(const fs::path& folder, char digit) {
+    const std::string name(32, digit);
+    fs::create_directories(folder / name.substr(0, 2));
+    return folder / name.substr(0, 2) / (name + ".body");
+}
+
+TEST(DirectoryStore, counts_nothing_that_it_cannot_have_written) {
+    const Folder folder;
+    {
+        DirectoryStore store(folder.path(), 1 << 20);
+        for (int i = 0; i < 4; ++i)
+            store.insert(std::to_string(i), {slice_of(std::string(100'000, 'x'))});
+    }
+    // Two sparse files, one of 20 GB and one that would not be too large; one that is too large; a
+    // link; files of other names.
+    const fs::path huge = named_as_ours(folder.path(), 'a');
+    std::ofstream(huge) << "x";
+    fs::resize_file(huge, std::uintmax_t{20} << 30);
+    const fs::path sparse = named_as_ours(folder.path(), 'b');
+    std::ofstream(sparse) << "x";
+    fs::resize_file(sparse, (1 << 20) / 8);
+    const fs::path large = named_as_ours(folder.path(), 'c');
+    std::ofstream(large) << std::string((1 << 20) / 8 + 1, 'x');
+    const fs::path link = named_as_ours(folder.path(), 'd');
+    fs::create_symlink(huge, link);
+    fs::create_directories(folder.path() / "zz");
+    for (const char* other : {"zz/zz.body", "zz/notes.txt"})
+        std::ofstream(folder.path() / other) << std::string(900'000, 'x');
+
+    std::vector<StoreEvent> events;
+    DirectoryStore store(folder.path(), 1 << 20,
+                         [&](const StoreEvent& event) { events.push_back(event); });
+    EXPECT_EQ(store.stats().entries, 4u);
+    EXPECT_EQ(store.stats().evictions, 0u);
+    EXPECT_LT(store.stats().bytes, 500'000u);
+    for (int i = 0; i < 4; ++i) EXPECT_NE(found_in(store, std::to_string(i)), "(none)") << i;
+    for (const fs::path& foreign : {huge, sparse, large, link, folder.path() / "zz/zz.body"})
+        EXPECT_TRUE(fs::exists(fs::symlink_status(foreign))) << foreign;
+    ASSERT_EQ(events.size(), 1u) << "all in one";
+    EXPECT_EQ(events[0].kind, StoreEvent::Kind::foreign);
+    EXPECT_EQ(events[0].files, 6u);
+    EXPECT_TRUE(fs::exists(fs::symlink_status(events[0].file)));
+}
+
+TEST(DirectoryStore, keeps_what_it_wrote_under_a_larger_bound_as_far_as_it_has_room) {
+    const Folder folder;
+    {
+        DirectoryStore store(folder.path(), 8 << 20);
+        store.insert("large", {slice_of(std::string(900'000, 'x'))});
+        store.insert("small", {slice_of("body")});
+    }
+    std::vector<StoreEvent> events;
+    const auto report = [&](const StoreEvent& event) { events.push_back(event); };
+    {
+        DirectoryStore store(folder.path(), 1 << 20, report);
+        EXPECT_EQ(found_in(store, "large").size(), 900'000u);
+        EXPECT_EQ(found_in(store, "small"), "body");
+    }
+    DirectoryStore store(folder.path(), 500'000, report);
+    EXPECT_EQ(store.stats().entries, 1u);
+    EXPECT_EQ(store.stats().evictions, 1u);
+    EXPECT_EQ(found_in(store, "small"), "body") << "not evicted for what has no room anyway";
+    EXPECT_EQ(folder.files().size(), 1u);
+    EXPECT_TRUE(events.empty());
+}
+
+TEST(DirectoryStore, removes_its_own_with_holes_and_reads_nothing_that_is_huge) {
+    const Folder folder;
+    {
+        DirectoryStore store(folder.path(), 1 << 20);
+        store.insert("a", {slice_of("body")});
+    }
+    fs::resize_file(folder.files().front(), 120'000);
+    DirectoryStore store(folder.path(), 1 << 20);
+    EXPECT_TRUE(folder.files().empty());
+    EXPECT_EQ(store.stats().damaged, 1u);
+    EXPECT_EQ(store.stats().entries, 0u);
+
+    store.insert("a", {slice_of("body")});
+    fs::resize_file(folder.files().front(), std::uintmax_t{20} << 30);
+    EXPECT_EQ(found_in(store, "a"), "(none)");
+    store.insert("a", {slice_of("body")});
+    EXPECT_EQ(found_in(store, "a"), "body") << "written anew";
+}
+
 TEST(DirectoryStore, a_folder_that_cannot_be_written_is_named) {
     const Folder folder;
     std::ofstream(folder.path() / "file") << "no folder";
@@ -180,7 +266,9 @@ TEST(DirectoryStore, a_folder_that_cannot_be_written_is_named) {
 
 TEST(DirectoryStore, a_full_disk_loses_nothing_but_what_was_not_written) {
     const Folder folder;
-    DirectoryStore store(folder.path(), 1 << 20);
+    std::vector<StoreEvent> events;
+    DirectoryStore store(folder.path(), 1 << 20,
+                         [&](const StoreEvent& event) { events.push_back(event); });
     store.insert("before", {slice_of("body")});
     // A limit on the size of files stands for the end of a disk: writing stops in the middle.
     rlimit limit{};
@@ -192,6 +280,10 @@ TEST(DirectoryStore, a_full_disk_loses_nothing_but_what_was_not_written) {
     ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &limit), 0);
     std::signal(SIGXFSZ, handler);
     EXPECT_EQ(store.stats().unwritten, 1u);
+    ASSERT_EQ(events.size(), 1u);
+    EXPECT_EQ(events[0].kind, StoreEvent::Kind::unwritten);
+    EXPECT_EQ(events[0].why, "File too large");
+    EXPECT_EQ(events[0].file.extension(), ".body");
     EXPECT_EQ(found_in(store, "key"), "(none)");
     EXPECT_EQ(found_in(store, "before"), "body");
     EXPECT_EQ(folder.files().size(), 1u) << "nothing is left aside";
