@@ -1,16 +1,12 @@
 #include "server/head.h"
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <utility>
 
 namespace sporeprint::server {
 
 namespace {
-
-constexpr std::array<std::string_view, 10> known_methods = {
-    "GET", "HEAD", "POST", "PUT", "DELETE", "CONNECT", "OPTIONS", "TRACE", "PATCH", "PRI"};
 
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
@@ -145,8 +141,8 @@ Scan scan_head(std::string_view bytes) {
         scan.head.target.resize(longest_uri);
         return too_long_uri(std::move(scan));
     }
-    if (!is_token(scan.head.method) || !is_visible(scan.head.target) || scan.head.target.empty() ||
-        !is_version(version))
+    if (!is_token(scan.head.method) || scan.head.method.size() > longest_method ||
+        !is_visible(scan.head.target) || scan.head.target.empty() || !is_version(version))
         return refused(std::move(scan), 400, "the request line is malformed");
     if (version != "HTTP/1.1" && version != "HTTP/1.0")
         return refused(std::move(scan), 400, "HTTP/1.1 is spoken here");
@@ -156,9 +152,6 @@ Scan scan_head(std::string_view bytes) {
                            "the header is longer than " + std::to_string(longest_head) + " bytes");
         return scan;
     }
-    if (std::find(known_methods.begin(), known_methods.end(), scan.head.method) ==
-        known_methods.end())
-        return refused(std::move(scan), 501, "this method is not known");
     const std::string_view target = scan.head.target;
     if (target.front() != '/' && target != "*" && !target.starts_with("http://") &&
         !target.starts_with("https://"))

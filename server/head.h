@@ -15,6 +15,7 @@ namespace sporeprint::server {
 inline constexpr std::size_t longest_head = 16 * 1024;  ///< bytes, request line included (431)
 inline constexpr std::size_t longest_uri = 4096;        ///< bytes (414)
 inline constexpr std::size_t most_headers = 64;         ///< lines (431)
+inline constexpr std::size_t longest_method = 32;       ///< bytes (400)
 
 struct Head {
     std::string method;
@@ -39,8 +40,8 @@ struct Scan {
 /// bytes    from the first byte of a request on; may hold more than its head
 /// returns  incomplete while the empty line is missing and nothing is wrong yet; refused with
 ///          400 (malformed, a bare line feed, folded or repeated framing headers, another
-///          version), 411 (any Transfer-Encoding), 414, 415 (any Content-Encoding), 431, 501
-///          (unknown method)
+///          version), 411 (any Transfer-Encoding), 414, 415 (any Content-Encoding), 431. Any token
+///          is a method: which are answered, the route says (405)
 /// cost     O(bytes), at most longest_head of them
 /// source   RFC 9112 sections 2 to 6; differs: a server may be lenient in many places, this is not
 [[nodiscard]] Scan scan_head(std::string_view bytes);

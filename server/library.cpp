@@ -176,7 +176,11 @@ Sending Library::send(const std::string& request_line, const std::function<api::
                       const std::function<api::Answer(int status)>& refuse,
                       const std::function<bool()>& closing) {
     Sending sending;
-    const std::string in = request_line + "\r\n\r\n";
+    const std::string_view method =
+        std::string_view(request_line).substr(0, request_line.find(' '));
+    const bool is_known = method == "GET" || method == "HEAD" || method == "POST";
+    const std::string in =
+        (is_known ? request_line : "GET" + request_line.substr(method.size())) + "\r\n\r\n";
     HeadStream stream(in, sending.head);
     Exchange exchange{make, refuse, closing, sending};
     current = &exchange;
@@ -186,7 +190,7 @@ Sending Library::send(const std::string& request_line, const std::function<api::
         sending.head.clear();
     }
     current = nullptr;
-    sending.with_body = !request_line.starts_with("HEAD ") && has_length(sending.answer);
+    sending.with_body = method != "HEAD" && has_length(sending.answer);
     return sending;
 }
 

@@ -36,7 +36,8 @@ class Library {
 
     /// One request on its way through the library; may be used on any thread.
     ///
-    /// request_line  "GET /a HTTP/1.1"
+    /// request_line  "GET /a HTTP/1.1"; a method that the library does not know is as good as GET,
+    ///               since only HEAD changes a head
     /// make          the answer to a request that the library accepts
     /// refuse        the answer with this status when it does not; the connection ends then
     /// closing       asked last: whether the connection ends after this

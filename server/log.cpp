@@ -87,7 +87,48 @@ bool is_health_check(std::string_view target) {
     return path == "/livez" || path == "/readyz" || path == "/metrics";
 }
 
+/// Whether the name of a parameter, percent-encoded or not, is "sig".
+bool is_secret(std::string_view name) {
+    constexpr std::string_view secret = "sig";
+    const auto digit = [](char c) {
+        return c >= '0' && c <= '9'   ? c - '0'
+               : c >= 'A' && c <= 'F' ? c - 'A' + 10
+               : c >= 'a' && c <= 'f' ? c - 'a' + 10
+                                      : -1;
+    };
+    std::size_t length = 0;
+    for (std::size_t i = 0; i < name.size(); ++i, ++length) {
+        int byte = static_cast<unsigned char>(name[i]);
+        if (byte == '%' && i + 2 < name.size() && digit(name[i + 1]) >= 0 &&
+            digit(name[i + 2]) >= 0) {
+            byte = digit(name[i + 1]) * 16 + digit(name[i + 2]);
+            i += 2;
+        }
+        if (byte >= 'A' && byte <= 'Z') byte += 'a' - 'A';
+        if (length == secret.size() || byte != secret[length]) return false;
+    }
+    return length == secret.size();
+}
+
 }  // namespace
+
+std::string redacted(std::string_view target) {
+    const std::size_t query = target.find('?');
+    std::string text(target.substr(0, query));
+    if (query == target.npos) return text;
+    std::string_view rest = target.substr(query);
+    while (!rest.empty()) {  // begins with the mark before a parameter
+        const std::size_t end = std::min(rest.find_first_of("?&;#", 1), rest.size());
+        const std::string_view parameter = rest.substr(1, end - 1);
+        const std::size_t equals = parameter.find('=');
+        if (equals != parameter.npos && is_secret(parameter.substr(0, equals)))
+            (text += rest.substr(0, equals + 2)) += "[redacted]";
+        else
+            text += rest.substr(0, end);
+        rest.remove_prefix(end);
+    }
+    return text;
+}
 
 Log::Log(LogLevel least)
     : logger_(std::make_unique<spdlog::logger>("sporeprint",
@@ -127,7 +168,11 @@ void Log::request(const Served& served) {
         text(",\"parent_id\":", served.parent_id);
     }
     text(",\"method\":", served.method);
-    text(",\"target\":", served.target);
+    const std::string_view target = served.target;
+    if (target.find('?') == target.npos)
+        text(",\"target\":", target);
+    else
+        text(",\"target\":", redacted(target));
     line += ",\"status\":";
     append_number(line, served.status);
     line += ",\"bytes\":";

@@ -24,6 +24,10 @@ class logger;
 
 namespace sporeprint::server {
 
+/// A target as it may be logged: the value of each `sig` of its query, a secret while it is good,
+/// replaced by [redacted]. A name in other capitals, or percent-encoded, is taken for it too.
+[[nodiscard]] std::string redacted(std::string_view target);
+
 class Log {
   public:
     /// Writes to standard error, what has come in 10 ms at once. When lines come faster than they
@@ -34,7 +38,7 @@ class Log {
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;
 
-    /// One request; health checks are logged at debug, server faults at error.
+    /// One request, its target redacted(); health checks are logged at debug, server faults at error.
     ///
     /// cost  under a microsecond
     void request(const Served& served);
@@ -54,7 +58,6 @@ class Log {
     std::jthread writer_;
 };
 
-}  // namespace sporeprint::server
 /// A warning whose cause may recur many times a second: logged at once, then at most once in each
 /// pause. Thread-safe.
 class RepeatedWarning {
@@ -78,3 +81,4 @@ class RepeatedWarning {
     Clock::time_point next_ = Clock::time_point::min();
 };
 
+}  // namespace sporeprint::server

@@ -40,7 +40,7 @@ std::size_t warm(const std::filesystem::path& file, std::string_view text, Recep
                 log.event(LogLevel::warning, "nothing can be made of a line of the warm list",
                           {{"file", Value(file.string())},
                            {"line", Value(list[at + i].number)},
-                           {"target", Value(std::string(list[at + i].text))},
+                           {"target", Value(redacted(list[at + i].text))},
                            {"problem", problem_of(answers[i])}});
         }
         at = end;

@@ -72,7 +72,9 @@ TEST(Head, RefusesRequestLinesThatAreNone) {
           "G\tT / HTTP/1.1", "GET /\x01 HTTP/1.1", "GET /\xc3\xa9 HTTP/1.1", "GET / http/1.1",
           "GET a HTTP/1.1", "GET ftp://a/ HTTP/1.1", "{} / HTTP/1.1", "GET / XTTP/1.1"})
         EXPECT_EQ(status_of(std::string(line) + "\r\n\r\n"), 400) << line;
-    EXPECT_EQ(status_of("BREW / HTTP/1.1\r\n\r\n"), 501);
+    EXPECT_EQ(status_of("BREW / HTTP/1.1\r\n\r\n"), 200) << "any token is a method";
+    EXPECT_EQ(status_of(std::string(longest_method, 'A') + " / HTTP/1.1\r\n\r\n"), 200);
+    EXPECT_EQ(status_of(std::string(longest_method + 1, 'A') + " / HTTP/1.1\r\n\r\n"), 400);
     EXPECT_EQ(status_of("GET / HTTP/2.0\r\n\r\n"), 400);
     EXPECT_EQ(status_of("GET http://host/path HTTP/1.1\r\n\r\n"), 200);
     EXPECT_EQ(status_of("OPTIONS * HTTP/1.1\r\n\r\n"), 200);

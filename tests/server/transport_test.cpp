@@ -255,7 +255,6 @@ TEST(Transport, RefusesBeforeRoutingWithAProblem) {
         {"GET / HTTP/1.1\r\nA: " + std::string(20000, 'a') + "\r\n\r\n", 431},
         {"GET / HTTP/1.1\n\n", 400},
         {"\x16\x03\x01\x02\r\n\r\n", 400},
-        {"BREW / HTTP/1.1\r\n\r\n", 501},
         {"POST / HTTP/1.1\r\nContent-Length: 1001\r\n\r\n", 413},
         {"POST /large HTTP/1.1\r\nContent-Length: 99999999999\r\n\r\n", 413}};
     std::size_t count = 0;
@@ -268,6 +267,18 @@ TEST(Transport, RefusesBeforeRoutingWithAProblem) {
         EXPECT_FALSE(answer.body.empty());
         EXPECT_EQ(server.wait_for_served(++count).status, status);
     }
+}
+
+TEST(Transport, PassesAnyMethodOnAndGoesOnAfterIt) {
+    Fixture server(echo);
+    RawClient client(server.port());
+    for (const char* method : {"PROPFIND", "BREW", "TRACE", "DELETE", "get", "M-SEARCH", "QUERY"}) {
+        const auto answer = client.ask(std::string(method) + " /a HTTP/1.1\r\n\r\n");
+        EXPECT_EQ(answer.status, 200) << method;
+        EXPECT_EQ(answer.body, std::string(method) + " /a\n[]");
+    }
+    EXPECT_EQ(client.ask("PUT /a HTTP/1.1\r\nContent-Length: 2\r\n\r\nok").body,
+              "PUT /a\nContent-Length=2\n[ok]");
 }
 
 TEST(Transport, LetsAClientReadWhyItsLargeBodyWasRefused) {
