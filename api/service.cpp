@@ -64,44 +64,59 @@ std::optional<Answer> refuse_body(const Answers& answers, const Request& request
     return std::nullopt;
 }
 
-/// The answer to a request, or the job that leads to it. Throws NotKept where `context` keeps to what is kept.
-Plan plan_route(Context& context, const Shelf& shelf, const Request& request) {
-    if (request.target.size() > longest_target)
-        return context.answers.problem(request, 414,
-                                       "the address has " + std::to_string(request.target.size()) +
-                                           " bytes; at most " + std::to_string(longest_target) +
-                                           " are taken");
-    if (request.method == "OPTIONS" && request.target == "*")
-        return context.answers.options(request, "GET, HEAD, POST, OPTIONS");
-    const Atlas& atlas = *context.atlas;
+/// What the head of a request says: where it goes, and what is wrong with it so far.
+struct Head {
+    Target target;
+    Match match;
     Faults faults;
+};
+
+/// Reads the head of a request; an answer if that is final whatever the body is.
+std::optional<Answer> read_head(const Answers& answers, const Request& request, Head& head) {
+    if (request.target.size() > longest_target)
+        return answers.problem(request, 414,
+                               "the address has " + std::to_string(request.target.size()) +
+                                   " bytes; at most " + std::to_string(longest_target) +
+                                   " are taken");
+    if (request.method == "OPTIONS" && request.target == "*")
+        return answers.options(request, "GET, HEAD, POST, OPTIONS");
     std::vector<Problem> malformed;
-    const Target target = split_target(request.target, malformed);
+    head.target = split_target(request.target, malformed);
     const bool path_malformed = std::any_of(malformed.begin(), malformed.end(),
                                             [](const Problem& one) { return one.path == "path"; });
-    faults.add(400, malformed);
-    if (path_malformed) return context.answers.problem(request, faults);
+    head.faults.add(400, malformed);
+    if (path_malformed) return answers.problem(request, head.faults);
 
-    const Match match = match_route(request.method, target.segments);
+    head.match = match_route(request.method, head.target.segments);
+    const Match& match = head.match;
     if (match.allow.empty()) {
-        const std::string meant = closest_route(target.segments);
+        const std::string meant = closest_route(head.target.segments);
         const std::string detail =
-            "there is nothing at " + in_quotes(target.path) +
+            "there is nothing at " + in_quotes(head.target.path) +
             (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?");
-        return context.answers.problem(request, 404, detail, faults.problems());
+        return answers.problem(request, 404, detail, head.faults.problems());
     }
-    if (request.method == "OPTIONS") return context.answers.options(request, match.allow);
+    if (request.method == "OPTIONS") return answers.options(request, match.allow);
     if (!match.route) {
-        Answer answer = context.answers.problem(
+        Answer answer = answers.problem(
             request, 405,
             in_quotes(request.method) + " is not answered here; " + match.allow + " are");
         set_header(answer, "Allow", match.allow);
         return answer;
     }
+    return *match.route->takes ? refuse_body(answers, request, *match.route) : std::nullopt;
+}
+
+/// The answer to a request, or the job that leads to it. Throws NotKept where `context` keeps to what is kept.
+Plan plan_route(Context& context, const Shelf& shelf, const Request& request) {
+    Head head;
+    if (std::optional<Answer> answer = read_head(context.answers, request, head))
+        return *std::move(answer);
+    const Atlas& atlas = *context.atlas;
+    const Target& target = head.target;
+    const Match& match = head.match;
+    Faults& faults = head.faults;
     const Route& route = *match.route;
-    if (*route.takes)
-        if (std::optional<Answer> refusal = refuse_body(context.answers, request, route))
-            return *std::move(refusal);
 
     switch (route.endpoint) {
         case Endpoint::page:
@@ -339,6 +354,11 @@ std::size_t Service::most_body(std::string_view method, std::string_view target)
     const Match match =
         match_route(method, split_target(target.substr(0, longest_target), ignored).segments);
     return match.route ? longest_body(*match.route) : 256u << 10;
+}
+
+std::optional<Answer> Service::answer_to_head(const Request& request) const {
+    Head head;
+    return read_head(parts_->context.answers, request, head);
 }
 
 const Counters& Service::counters() const {

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <variant>
 
 #include "api/http.h"
@@ -13,18 +14,18 @@
 
 namespace sporeprint::api {
 
-struct ServiceOptions {
 struct StoreEvent;
 
+struct ServiceOptions {
     std::size_t cache_bytes = 256u << 20;
     std::size_t image_cache_bytes = 128u << 20;
     std::size_t morph_cache_bytes = 16u << 20;
     std::filesystem::path assets;  ///< folder of the built page; empty for none
     std::filesystem::path store;   ///< folder that finished files are kept in; empty for none
     std::uint64_t store_bytes = std::uint64_t{1} << 30;
-    std::string allow_origin = "*";
     std::function<void(const StoreEvent&)>
         store_event;  ///< called on any thread, several at once; may be empty
+    std::string allow_origin = "*";
     bool signed_addresses = false;  ///< only who holds a key makes addresses; so answers tell none
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
     std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB
@@ -85,6 +86,9 @@ class Service {
 
     /// Grows one mushroom, to know that it can: for /readyz.
     [[nodiscard]] bool self_test();
+
+    /// The final answer to a request whose body has not come yet, if its head alone decides: 400, 404, 405, 413, 414, 415.
+    [[nodiscard]] std::optional<Answer> answer_to_head(const Request& request) const;
 
     /// Whether a body of this size may come to this target (413), in bytes.
     [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view target) const;

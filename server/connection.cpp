@@ -271,6 +271,10 @@ Connection::Step Connection::begin(Scan scan) {
         if (hall_.body_memory + body_length_ > hall_.options.most_body_memory)
             return refuse(503, "too many large bodies are being received; try again");
         body_memory_ = body_length_;
+    if (head.expects_continue && in_.size() < length) {
+        std::optional<api::Answer> answer = hall_.back.judge_head(request_);
+        if (answer) return refuse([&] { return *answer; });
+    }
         hall_.body_memory += body_memory_;
     }
     if (head.expects_continue && in_.size() < body_length_) {
@@ -355,17 +359,14 @@ Connection::Step Connection::dispatch() {
 }
 
 Connection::Step Connection::refuse(int status, std::string_view detail) {
-    closing_ = unread_ = true;
-    ready_ = Clock::now();
-    request_ = api::Request();
     api::Request request;
     request.method = method_;
     request.target = target_;
     request.id = id_;
     label_ = hall_.back.label(method_, target_);
-    const auto refusal = [&] { return hall_.back.refusal(request, status, detail); };
     return send(std::make_shared<const Sending>(hall_.back.library.send(
-        "GET / HTTP/1.1", refusal, [&](int) { return refusal(); }, [] { return true; })));
+        method_ == "HEAD" ? "HEAD / HTTP/1.1" : "GET / HTTP/1.1", make, [&](int) { return make(); },
+        [] { return true; })));
 }
 
 Connection::Step Connection::send(const std::shared_ptr<const Sending>& sending) {
@@ -407,6 +408,14 @@ Connection::Step Connection::write() {
                 put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
             return Step::wait;
         case Outgoing::Progress::more:
+    return refuse([&] { return hall_.back.refusal(request, status, detail); });
+}
+
+/// Answers a request of which no more is read; the connection ends then.
+Connection::Step Connection::refuse(const std::function<api::Answer()>& make) {
+    closing_ = unread_ = true;
+    ready_ = Clock::now();
+    request_ = api::Request();
             put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
             return yield();
         case Outgoing::Progress::done:

@@ -6,6 +6,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
@@ -120,6 +121,7 @@ class Connection final : public Timed {
     Address peer_, client_;  ///< the other end, and for whom it asks
     std::string peer_text_;
     bool by_proxy_, limited_ = false;
+    Step refuse(const std::function<api::Answer()>& make);
     Phase phase_ = Phase::idle;
     bool readable_ = false, writable_ = true;
     bool left_ = false;  ///< the client has closed its writing end, or all

@@ -55,6 +55,15 @@ api::Answer Backroom::refusal(const api::Request& request, int status,
     }
 }
 
+std::optional<api::Answer> Backroom::judge_head(const api::Request& request) const {
+    if (!handlers.judge_head) return std::nullopt;
+    try {
+        return handlers.judge_head(request);
+    } catch (...) {
+        return std::nullopt;
+    }
+}
+
 std::string Backroom::label(std::string_view method, std::string_view target) const {
     try {
         return handlers.label(method, target);

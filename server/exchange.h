@@ -66,6 +66,9 @@ struct Backroom {
     [[nodiscard]] api::Answer refusal(const api::Request& request, int status,
                                       std::string_view detail) const;
 
+    /// handlers.judge_head, or none when it throws.
+    [[nodiscard]] std::optional<api::Answer> judge_head(const api::Request& request) const;
+
     /// handlers.label, or nothing when it throws.
     [[nodiscard]] std::string label(std::string_view method, std::string_view target) const;
 };

@@ -89,6 +89,12 @@ Handlers Reception::handlers() {
     handlers.most_body = [this](std::string_view method, std::string_view target) {
         return means()->service->most_body(method, target);
     };
+    handlers.judge_head = [this](const api::Request& request) -> std::optional<api::Answer> {
+        const std::string_view path = path_of(request.target);
+        if (!is_own(path)) return means()->service->answer_to_head(request);
+        if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
+        return housekeeping(request, path, options_.metrics);
+    };
     handlers.label = [](std::string_view method, std::string_view target) {
         return route_of(method, target);
     };
@@ -111,6 +117,7 @@ Handlers Reception::metrics_handlers() {
                                                      "only /metrics, /livez and /readyz are here"));
     };
     handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
+    handlers.judge_head = nullptr;  // no body is taken anyway
     return handlers;
 }
 

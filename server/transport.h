@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <thread>
@@ -100,6 +101,9 @@ struct Handlers {
     std::function<std::size_t(std::string_view method, std::string_view target)> most_body;
     /// A name for requests of this kind, of which there are few.
     std::function<std::string(std::string_view method, std::string_view target)> label;
+    /// The answer to a request whose body has not come, if it is the same whatever the body is: a
+    /// client that expects "100 Continue" gets it instead. None for no such answer.
+    std::function<std::optional<api::Answer>(const api::Request&)> judge_head;
     std::function<void(const Served&)> served;
     /// Targets whose answer to GET is always this: given by that thread itself, whatever waits.
     std::vector<std::pair<std::string, api::Answer>> standing;
