@@ -18,7 +18,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t small_body = 256u << 10;      ///< not counted against most_body_memory
 constexpr std::size_t head_at_once = 16u << 10;     ///< bytes received while a head is awaited
 constexpr std::size_t most_in_a_turn = 256u << 10;  ///< bytes received before others come first
 constexpr std::size_t most_discarded = 16u << 20;   ///< bytes of a refused request read and dropped
@@ -56,7 +55,8 @@ Hall::Hall(const TransportOptions& the_options, Backroom& the_back)
       back(the_back),
       now(Clock::now()),
       deadlines(now),
-      hot(the_options.hot_bytes) {
+      hot(the_options.hot_bytes),
+      bodies(the_options.most_body_memory, the_options.most_body_of_client) {
     std::random_device entropy;
     id_prefix_ = (static_cast<std::uint64_t>(entropy()) << 32) | entropy();
 }
@@ -89,7 +89,7 @@ Connection::Connection(Hall& hall, int socket, const Address& peer)
 
 Connection::~Connection() {
     add(hall_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
-    hall_.body_memory -= body_memory_;
+    release_body();
     unpin();
     ::close(socket_);
 }
@@ -145,6 +145,7 @@ bool Connection::is_late() {
 }
 
 bool Connection::answered(Reply reply) {
+    release_body();  // nobody reads it any more
     label_ = std::move(reply.label);
     if (reply.hot && reply.epoch == hall_.back.epoch) hall_.hot.insert(std::move(reply.hot));
     const auto sending = std::make_shared<const Sending>(std::move(reply.sending));
@@ -173,6 +174,18 @@ std::optional<double> Connection::pace() const {
 bool Connection::give_up() {
     report(false);
     return false;
+}
+
+std::optional<Connection::Upload> Connection::upload() const {
+    if (phase_ != Phase::body || (body_bytes_ == 0 && !waits_for_room_)) return std::nullopt;
+    const std::chrono::duration<double> taken = hall_.now - body_since_;
+    return Upload{body_client_, body_bytes_,
+                  static_cast<double>(body_bytes_) / std::max(taken.count(), 1e-3),
+                  body_has_share_};
+}
+
+bool Connection::give_up_upload(std::string_view detail) {
+    return refuse(503, detail) != Step::end && advance();
 }
 
 void Connection::limit() {
@@ -258,25 +271,23 @@ Connection::Step Connection::begin(Scan scan) {
 
     const std::uint64_t length = head.content_length.value_or(0);
     if (length == 0) return dispatch();
+    if (head.expects_continue && in_.size() < length) {
+        std::optional<api::Answer> answer = hall_.back.judge_head(request_);
+        if (answer) return refuse([&] { return *answer; });
+    }
     std::size_t most = 0;
     try {
         most = hall_.back.handlers.most_body(method_, target_);
     } catch (...) {  // then none
     }
+    body_client_ = client_of(client_);
+    body_has_share_ = !hall_.options.proxies.trusted.contain(client_);
+    most = std::min(
+        most, body_has_share_ ? hall_.options.most_body_of_client : hall_.options.most_body_memory);
     if (length > most)
         return refuse(413, "the body has " + std::to_string(length) + " bytes; at most " +
                                std::to_string(most) + " are taken here");
     body_length_ = static_cast<std::size_t>(length);
-    if (body_length_ > small_body) {
-        if (hall_.body_memory + body_length_ > hall_.options.most_body_memory)
-            return refuse(503, "too many large bodies are being received; try again");
-        body_memory_ = body_length_;
-    if (head.expects_continue && in_.size() < length) {
-        std::optional<api::Answer> answer = hall_.back.judge_head(request_);
-        if (answer) return refuse([&] { return *answer; });
-    }
-        hall_.body_memory += body_memory_;
-    }
     if (head.expects_continue && in_.size() < body_length_) {
         // Left out when the client has not even read the answers before: it need not wait for it.
         constexpr std::string_view go = "HTTP/1.1 100 Continue\r\n\r\n";
@@ -284,7 +295,7 @@ Connection::Step Connection::begin(Scan scan) {
         if (sent >= 0 && static_cast<std::size_t>(sent) < go.size()) return Step::end;
     }
     enter(Phase::body);
-    last_ = hall_.now + hall_.options.body * static_cast<int>(1 + body_length_ / small_body);
+    body_since_ = hall_.now;
     return Step::on;
 }
 
@@ -333,10 +344,44 @@ Connection::Step Connection::read_body() {
         body.append(in_, 0, there);
         in_.erase(0, there);
     }
+    count_body();
     if (body.size() >= body_length_) return dispatch();
-    put_off_until(std::min(last_, hall_.now + hall_.options.silence));
+    // Nothing more is taken while there is no room: the reactor gives an upload up before the next round.
+    waits_for_room_ = !has_room_for_body();
+    if (waits_for_room_) {
+        hall_.exceeding.push_back(body_client_);
+        return yield();
+    }
+    put_off_until(std::min(body_deadline(), hall_.now + hall_.options.silence));
     if (taken_ >= most_in_a_turn) return yield();
     return receive(&body, body_length_ - body.size());
+}
+
+bool Connection::has_room_for_body() const {
+    return !hall_.bodies.is_exceeded() &&
+           !(body_has_share_ && hall_.bodies.is_exceeded_by(body_client_));
+}
+
+/// When the client will have been too slow if nothing more comes: a body of n bytes has to come
+/// within T = body + n / body_rate, and of each part of T after the first `body` the same part of n.
+Clock::time_point Connection::body_deadline() const {
+    using Seconds = std::chrono::duration<double>;
+    const Seconds grace = hall_.options.body;
+    const auto length = static_cast<double>(body_length_);
+    const Seconds all = grace + Seconds(length / static_cast<double>(hall_.options.body_rate));
+    const Seconds earned = all * (static_cast<double>(request_.body.size()) / length);
+    return body_since_ + std::chrono::duration_cast<Clock::duration>(std::max(grace, earned));
+}
+
+/// Counts what of the body has arrived since the last call.
+void Connection::count_body() {
+    const std::size_t bytes = request_.body.size();
+    hall_.bodies.add(body_client_, bytes - body_bytes_);
+    body_bytes_ = bytes;
+}
+
+void Connection::release_body() {
+    hall_.bodies.remove(body_client_, std::exchange(body_bytes_, 0));
 }
 
 Connection::Step Connection::dispatch() {
@@ -363,6 +408,15 @@ Connection::Step Connection::refuse(int status, std::string_view detail) {
     request.method = method_;
     request.target = target_;
     request.id = id_;
+    return refuse([&] { return hall_.back.refusal(request, status, detail); });
+}
+
+/// Answers a request of which no more is read; the connection ends then.
+Connection::Step Connection::refuse(const std::function<api::Answer()>& make) {
+    closing_ = unread_ = true;
+    ready_ = Clock::now();
+    request_ = api::Request();
+    release_body();
     label_ = hall_.back.label(method_, target_);
     return send(std::make_shared<const Sending>(hall_.back.library.send(
         method_ == "HEAD" ? "HEAD / HTTP/1.1" : "GET / HTTP/1.1", make, [&](int) { return make(); },
@@ -408,14 +462,6 @@ Connection::Step Connection::write() {
                 put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
             return Step::wait;
         case Outgoing::Progress::more:
-    return refuse([&] { return hall_.back.refusal(request, status, detail); });
-}
-
-/// Answers a request of which no more is read; the connection ends then.
-Connection::Step Connection::refuse(const std::function<api::Answer()>& make) {
-    closing_ = unread_ = true;
-    ready_ = Clock::now();
-    request_ = api::Request();
             put_off_until(std::min(last_, hall_.now + hall_.options.blocked_write));
             return yield();
         case Outgoing::Progress::done:
@@ -514,8 +560,6 @@ void Connection::report(bool complete) {
     }
     unpin();
     out_.end();
-    hall_.body_memory -= body_memory_;
-    body_memory_ = 0;
 }
 
 }  // namespace sporeprint::server

@@ -13,6 +13,7 @@
 #include <string_view>
 #include <vector>
 
+#include "server/body_memory.h"
 #include "server/deadlines.h"
 #include "server/exchange.h"
 #include "server/head.h"
@@ -39,7 +40,8 @@ struct Hall {
     Deadlines deadlines;
     HotTable hot;
     std::uint64_t epoch = 0;  ///< of what the table holds
-    std::size_t body_memory = 0;
+    BodyMemory bodies;
+    std::vector<Address> exceeding;  ///< clients whose bodies wait for room
     Pins pins;
     std::vector<Connection*> again;  ///< have more to do, when the others have had their turn
     std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};
@@ -77,6 +79,20 @@ class Connection final : public Timed {
     /// Waits for its client no longer.
     [[nodiscard]] bool give_up();
 
+    /// A body that is being received.
+    struct Upload {
+        Address client;          ///< as bodies are counted
+        std::size_t bytes = 0;   ///< that have arrived
+        double pace = 0.0;       ///< of them in a second, in the mean
+        bool has_share = false;  ///< whether its client may only take its share
+    };
+
+    /// What it is receiving; nothing when nothing of a body has arrived, unless it waits for room.
+    [[nodiscard]] std::optional<Upload> upload() const;
+
+    /// Refuses the body that it is receiving (503) and gives its memory back.
+    [[nodiscard]] bool give_up_upload(std::string_view detail);
+
     /// Whether it may be closed to make room: it waits for a request, and has for a while.
     [[nodiscard]] bool may_make_room() const;
 
@@ -99,8 +115,13 @@ class Connection final : public Timed {
     Step begin(Scan scan);
     bool answer_at_once(const Head& head);
     Step read_body();
+    [[nodiscard]] bool has_room_for_body() const;
+    [[nodiscard]] Clock::time_point body_deadline() const;
+    void count_body();
+    void release_body();
     Step dispatch();
     Step refuse(int status, std::string_view detail);
+    Step refuse(const std::function<api::Answer()>& make);
     Step send(const std::shared_ptr<const Sending>& sending);
     void begin_to_send();
     Step write();
@@ -121,7 +142,6 @@ class Connection final : public Timed {
     Address peer_, client_;  ///< the other end, and for whom it asks
     std::string peer_text_;
     bool by_proxy_, limited_ = false;
-    Step refuse(const std::function<api::Answer()>& make);
     Phase phase_ = Phase::idle;
     bool readable_ = false, writable_ = true;
     bool left_ = false;  ///< the client has closed its writing end, or all
@@ -137,9 +157,14 @@ class Connection final : public Timed {
     // The request at hand.
     std::string method_, target_, id_, label_, trace_id_, parent_id_;
     api::Request request_;
-    std::size_t body_length_ = 0, body_memory_ = 0;
-    Clock::time_point last_;   ///< when body or answer must be through
-    Clock::time_point ready_;  ///< when its last byte had come
+    std::size_t body_length_ = 0;
+    std::size_t body_bytes_ = 0;    ///< of it, as counted in hall_.bodies
+    Address body_client_;           ///< for this client
+    bool body_has_share_ = false;   ///< whether that client may only take its share
+    bool waits_for_room_ = false;   ///< there was none for more of the body
+    Clock::time_point body_since_;  ///< when the body began to be awaited
+    Clock::time_point last_;        ///< when the answer must be through
+    Clock::time_point ready_;       ///< when its last byte had come
     Clock::time_point sending_since_;
     bool pins_ = false;  ///< whether what is held by its answer counts
     std::weak_ptr<Exchange> exchange_;

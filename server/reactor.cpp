@@ -78,6 +78,8 @@ Transport::Load Reactor::load() const {
     load.limited = limited_;
     load.pinned = pinned_;
     load.given_up = given_up_;
+    load.body_bytes = body_bytes_;
+    load.uploads_given_up = uploads_given_up_;
     const HotTable::Stats& hot = hall_.hot.stats();
     load.hot_hits = hot.hits;
     load.hot_not_modified = hot.not_modified;
@@ -143,7 +145,9 @@ void Reactor::run() {
         if (hall_.now >= accepting_again_) watch_listener(true);
         if (hall_.now >= farewell_end_) stop_listening();
         spare_memory();
+        spare_body_memory();
         bury();
+        body_bytes_.store(hall_.bodies.bytes(), std::memory_order_relaxed);
     }
 }
 
@@ -252,6 +256,59 @@ void Reactor::spare_memory() {
         let(*slowest, [](Connection& one) { return one.give_up(); });
     }
     pinned_.store(hall_.pins.bytes(), std::memory_order_relaxed);
+}
+
+/// Gives uploads up until those that wait for room have it, or are given up themselves.
+void Reactor::spare_body_memory() {
+    BodyMemory& bodies = hall_.bodies;
+    std::vector<Address> exceeding;
+    exceeding.swap(hall_.exceeding);
+    for (const Address& client : exceeding)
+        while (bodies.is_exceeded_by(client) &&
+               give_up_an_upload(&client,
+                                 "this client sends more at once than its share of the "
+                                 "memory for bodies; send one after another"))
+            continue;
+    while (bodies.is_exceeded() &&
+           give_up_an_upload(nullptr, "the memory for bodies is full; try again in a moment"))
+        continue;
+}
+
+/// Refuses one upload midway: of the clients that take at least as much as their mean, among the
+/// uploads that are at least as large as the mean of theirs, the slowest. So neither a small upload
+/// nor a quick one ends for the sake of a large slow one.
+///
+/// of_client  only its uploads come into question, as far as its share binds them; nullptr for all
+/// returns    whether there was one
+bool Reactor::give_up_an_upload(const Address* of_client, std::string_view why) {
+    struct Candidate {
+        Connection* connection;
+        Connection::Upload upload;
+    };
+    std::vector<Candidate> candidates;
+    for (const auto& one : connections_) {
+        const std::optional<Connection::Upload> upload = one->ended ? std::nullopt : one->upload();
+        if (!upload || (of_client && (upload->client != *of_client || !upload->has_share)))
+            continue;
+        candidates.push_back({one.get(), *upload});
+    }
+    if (candidates.empty()) return false;
+    const auto keep = [&](const auto& much) {
+        if (std::any_of(candidates.begin(), candidates.end(), much))
+            std::erase_if(candidates, [&](const Candidate& one) { return !much(one); });
+    };
+    keep([&](const Candidate& one) { return hall_.bodies.takes_much(one.upload.client); });
+    std::size_t sum = 0;
+    for (const Candidate& one : candidates) sum += one.upload.bytes;
+    keep([count = candidates.size(), sum](const Candidate& one) {
+        return one.upload.bytes * count >= sum;
+    });
+    const auto slowest = std::min_element(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.upload.pace < b.upload.pace; });
+    ++uploads_given_up_;
+    let(*slowest->connection, [&](Connection& one) { return one.give_up_upload(why); });
+    return true;
 }
 
 void Reactor::survive_exhaustion() {

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string_view>
 #include <vector>
 
 #include "server/connection.h"
@@ -41,6 +42,8 @@ class Reactor {
     [[nodiscard]] bool has_too_many(const Address& peer) const;
     bool make_room();
     void spare_memory();
+    void spare_body_memory();
+    bool give_up_an_upload(const Address* of_client, std::string_view why);
     void survive_exhaustion();
     void begin_to_drain();
     void stop_listening();
@@ -66,8 +69,8 @@ class Reactor {
     std::vector<Connection*> ended_;
     std::map<Address, std::size_t> of_client_;  ///< connections that count, if there is a limit
     std::size_t limited_now_ = 0;
-    std::atomic<std::uint64_t> refused_{0}, limited_{0}, given_up_{0};
-    std::atomic<std::size_t> pinned_{0};
+    std::atomic<std::uint64_t> refused_{0}, limited_{0}, given_up_{0}, uploads_given_up_{0};
+    std::atomic<std::size_t> pinned_{0}, body_bytes_{0};
 };
 
 }  // namespace sporeprint::server

@@ -32,13 +32,15 @@ struct TransportOptions {
     std::size_t hot_bytes = 64u << 20;          ///< of answers that are given again; 0: none
     int backlog = 1024;                         ///< connections the kernel keeps for us
     std::size_t most_requests = 1000;           ///< on one connection
-    std::size_t most_body_memory = 256u << 20;  ///< bytes of large bodies, all together
+    std::size_t most_body_memory = 256u << 20;  ///< bytes of bodies that have arrived, all together
+    std::size_t most_body_of_client = 64u << 20;  ///< of those, of one client but a trusted proxy
+    std::size_t body_rate = 1u << 20;  ///< bytes a second that a body has to come at, beside `body`
     std::size_t most_pinned = 256u << 20;  ///< bytes of answers that wait for slow clients likewise
-    std::chrono::milliseconds idle{30'000};    ///< for the first byte of a request
-    std::chrono::milliseconds silence{2000};   ///< between two bytes of a request
-    std::chrono::milliseconds head{5000};      ///< for a whole head
-    std::chrono::milliseconds body{10000};     ///< for a body of up to 256 kB; else in proportion
-    std::chrono::milliseconds answer{20'000};  ///< until Visit::wait() is told that it is late
+    std::chrono::milliseconds idle{30'000};         ///< for the first byte of a request
+    std::chrono::milliseconds silence{2000};        ///< between two bytes of a request
+    std::chrono::milliseconds head{5000};           ///< for a whole head
+    std::chrono::milliseconds body{10000};          ///< for a body, beside its length at body_rate
+    std::chrono::milliseconds answer{20'000};       ///< until Visit::wait() is told that it is late
     std::chrono::milliseconds blocked_write{5000};  ///< without the client taking a byte
     std::chrono::milliseconds farewell{100};        ///< accepting goes on for so long in drain()
 };
@@ -99,11 +101,11 @@ struct Handlers {
     /// are called by the thread that serves all connections.
     std::function<api::Answer(const api::Request&, int status, std::string_view detail)> refuse;
     std::function<std::size_t(std::string_view method, std::string_view target)> most_body;
-    /// A name for requests of this kind, of which there are few.
-    std::function<std::string(std::string_view method, std::string_view target)> label;
     /// The answer to a request whose body has not come, if it is the same whatever the body is: a
     /// client that expects "100 Continue" gets it instead. None for no such answer.
     std::function<std::optional<api::Answer>(const api::Request&)> judge_head;
+    /// A name for requests of this kind, of which there are few.
+    std::function<std::string(std::string_view method, std::string_view target)> label;
     std::function<void(const Served&)> served;
     /// Targets whose answer to GET is always this: given by that thread itself, whatever waits.
     std::vector<std::pair<std::string, api::Answer>> standing;
@@ -130,6 +132,8 @@ class Transport {
         std::size_t pinned = 0;  ///< bytes of answers that wait for slow clients
         std::uint64_t given_up =
             0;  ///< answers that were not waited for to their end, for others' sake
+        std::size_t body_bytes = 0;          ///< of request bodies that have arrived
+        std::uint64_t uploads_given_up = 0;  ///< bodies refused midway, as there was no room
 
         [[nodiscard]] std::size_t open() const {
             std::size_t sum = 0;

@@ -154,6 +154,46 @@ TEST(Limits, ATrustedProxySpeaksForOthersAndAStrangerDoesNot) {
     std::filesystem::remove(log);
 }
 
+TEST(Limits, SlowLargeUploadsOfOneClientLeaveRoomForThoseOfOthers) {
+    constexpr std::size_t megabyte = 1 << 20;
+    const RealServer server;
+    const auto upload = [](std::size_t length) {
+        return "POST /v1/inspect HTTP/1.1\r\nHost: x\r\nContent-Type: model/gltf-binary\r\n"
+               "Content-Length: " +
+               std::to_string(length) + "\r\n\r\n";
+    };
+    const auto gauge = [&](const std::string& name) {
+        const std::string text = RawClient(server.port(), 0, "127.0.0.3").ask(get("/metrics")).body;
+        const std::size_t at = text.find('\n' + name + ' ');
+        return at == text.npos ? -1.0 : std::atof(text.c_str() + at + name.size() + 2);
+    };
+    std::vector<std::unique_ptr<RawClient>> slow;
+    for (int i = 0; i < 4; ++i) {
+        slow.push_back(std::make_unique<RawClient>(server.port()));
+        EXPECT_TRUE(slow.back()->send(upload(64 * megabyte) + std::string(100'000, 'x')));
+    }
+    const auto others_upload = [&] {
+        RawClient other(server.port(), 0, "127.0.0.2");
+        other.send(upload(megabyte) + std::string(megabyte, 'y'));
+        return other.receive().status;
+    };
+    EXPECT_EQ(others_upload(), 400) << "read, and found to be no such file";
+    EXPECT_EQ(gauge("sporeprint_body_bytes"), 400'000);
+
+    // Each more until they have outgrown the share of one client.
+    for (auto& one : slow) one->send(std::string(20 * megabyte, 'x'));
+    for (int i = 0; i < 1000 && gauge("sporeprint_uploads_given_up_total") < 1; ++i)
+        std::this_thread::sleep_for(10ms);
+    EXPECT_EQ(gauge("sporeprint_uploads_given_up_total"), 1);
+    EXPECT_LE(gauge("sporeprint_body_bytes"), 64.0 * megabyte);
+    EXPECT_EQ(others_upload(), 400);
+    expect_problem(slow[0]->receive(), 503);
+    slow.clear();
+    for (int i = 0; i < 1000 && gauge("sporeprint_body_bytes") > 0; ++i)
+        std::this_thread::sleep_for(10ms);
+    EXPECT_EQ(gauge("sporeprint_body_bytes"), 0);
+}
+
 TEST(Limits, OffMeansOff) {
     const RealServer server;
     std::vector<std::unique_ptr<RawClient>> many;

@@ -314,30 +314,199 @@ TEST(Transport, TakesBodies) {
         << "no 100 before a refusal";
 }
 
-TEST(Transport, BoundsTheMemoryOfLargeBodies) {
+TEST(Transport, TellsWhoExpectsToGoOnThatItNeedNot) {
     TransportOptions options = Fixture::patient();
-    options.most_body_memory = 1 << 20;
-    Fixture server(echo, options);
-    RawClient first(server.port()), second(server.port());
-    // Whoever is told to go on has its memory.
-    EXPECT_EQ(first
-                  .ask("POST /large HTTP/1.1\r\nExpect: 100-continue\r\n"
-                       "Content-Length: 1000000\r\n\r\n")
-                  .status,
-              100);
-    EXPECT_EQ(second.ask("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n").status, 503);
-    first.send(std::string(1000000, 'x'));
-    EXPECT_EQ(first.receive().status, 200);
-    // What was taken is given back, a moment after the answer has left.
-    int status = 503;
-    for (int i = 0; i < 100 && status == 503; ++i) {
-        RawClient third(server.port());
-        third.send("POST /large HTTP/1.1\r\nContent-Length: 1000000\r\n\r\n");
-        third.send(std::string(1000000, 'x'));
-        status = third.receive().status;
-        if (status == 503) std::this_thread::sleep_for(50ms);
+    options.port = 0;
+    std::atomic<int> judged{0};
+    Handlers handlers;
+    handlers.answer = [](const std::shared_ptr<Visit>& visit) {
+        visit->reply(text_answer(visit->request().body));
+    };
+    handlers.label = [](std::string_view, std::string_view) { return std::string(); };
+    handlers.refuse = [](const api::Request&, int status, std::string_view) {
+        return text_answer("", status);
+    };
+    handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{1000}; };
+    handlers.served = [](const Served&) {};
+    handlers.judge_head = [&](const api::Request& request) -> std::optional<api::Answer> {
+        ++judged;
+        EXPECT_EQ(request.header("A"), "b");
+        if (request.target == "/good") return std::nullopt;
+        if (request.target == "/throws") throw std::runtime_error("secret");
+        return text_answer("no", 404);
+    };
+    Transport transport(options, handlers);
+    transport.start();
+    const std::string rest =
+        " HTTP/1.1\r\nA: b\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n";
+    RawClient good(transport.port());
+    for (const char* target : {"/good", "/throws"}) {
+        EXPECT_EQ(good.ask("POST " + std::string(target) + rest).status, 100) << target;
+        EXPECT_EQ(good.ask("ab").body, "ab");
     }
-    EXPECT_EQ(status, 200);
+    RawClient bad(transport.port());
+    const auto answer = bad.ask("POST /bad" + rest);
+    EXPECT_EQ(answer.status, 404);
+    EXPECT_EQ(answer.body, "no");
+    EXPECT_EQ(answer.header("Connection"), "close");
+    EXPECT_TRUE(bad.ends()) << "what comes may be the body or a request: nobody could tell";
+    RawClient head(transport.port());
+    EXPECT_EQ(head.ask("HEAD /bad" + rest, true).status, 404);
+    EXPECT_TRUE(head.ends()) << "without the bytes of a body";
+    EXPECT_EQ(judged, 4);
+    RawClient plain(transport.port());
+    EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nContent-Length: 2\r\n\r\nab").body, "ab");
+    EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nExpect: 100-continue\r\n\r\n").body, "")
+        << "nothing to wait for";
+    EXPECT_EQ(judged, 4);
+}
+
+constexpr std::size_t megabyte = 1 << 20;
+
+std::string head_of_upload(std::size_t length, const std::string& more = {}) {
+    return "POST /large HTTP/1.1\r\n" + more + "Content-Length: " + std::to_string(length) +
+           "\r\n\r\n";
+}
+
+std::size_t in_phase(const Transport::Load& load, Transport::Phase phase) {
+    return load.connections[static_cast<std::size_t>(phase)];
+}
+
+/// Waits until so many bytes of bodies have arrived, in all.
+void expect_body_bytes(const Fixture& server, std::size_t bytes) {
+    const auto load = [&] { return server.transport->load(); };
+    for (int i = 0; i < 2000 && load().body_bytes != bytes; ++i) std::this_thread::sleep_for(5ms);
+    EXPECT_EQ(load().body_bytes, bytes);
+}
+
+std::size_t length_of_body(const RawClient::Answer& answer) {
+    return answer.body.size() - answer.body.find('[') - 2;
+}
+
+TEST(Transport, CountsWhatHasArrivedOfBodiesAndNotWhatIsAnnounced) {
+    TransportOptions options = Fixture::patient();
+    options.most_body_memory = options.most_body_of_client = 4 * megabyte;
+    Fixture server(echo, options);
+    std::vector<std::unique_ptr<RawClient>> slow;
+    for (int i = 0; i < 8; ++i) {
+        slow.push_back(std::make_unique<RawClient>(server.port()));
+        // Whoever is told to go on has no memory yet either.
+        EXPECT_EQ(slow.back()->ask(head_of_upload(4 * megabyte, "Expect: 100-continue\r\n")).status,
+                  100);
+        slow.back()->send(std::string(1000, 'x'));
+    }
+    expect_body_bytes(server, 8000);
+    RawClient other(server.port(), 0, "127.0.0.2");
+    other.send(head_of_upload(2 * megabyte));
+    other.send(std::string(2 * megabyte, 'y'));
+    const auto answer = other.receive();
+    EXPECT_EQ(answer.status, 200);
+    EXPECT_EQ(length_of_body(answer), 2 * megabyte);
+    expect_body_bytes(server, 8000);
+    slow[0]->reset();
+    expect_body_bytes(server, 7000);
+    slow.clear();
+    expect_body_bytes(server, 0);
+    EXPECT_EQ(server.transport->load().uploads_given_up, 0u);
+}
+
+TEST(Transport, GivesUpTheSlowestOfTheLargestUploadsWhenThereIsNoRoom) {
+    TransportOptions options = Fixture::patient();
+    options.most_body_memory = 4 * megabyte;
+    options.most_body_of_client = 2 * megabyte;
+    Fixture server(echo, options);
+    RawClient slow(server.port(), 0, "127.0.0.2"), quicker(server.port(), 0, "127.0.0.3"),
+        small(server.port(), 0, "127.0.0.4"), other(server.port(), 0, "127.0.0.5");
+    const std::size_t part = 1'900'000;
+    slow.send(head_of_upload(2 * megabyte) + std::string(part, 'a'));
+    small.send(head_of_upload(1000) + "a");
+    expect_body_bytes(server, part + 1);
+    std::this_thread::sleep_for(200ms);
+    quicker.send(head_of_upload(2 * megabyte) + std::string(part, 'b'));
+    expect_body_bytes(server, 2 * part + 1);
+    other.send(head_of_upload(megabyte) + std::string(megabyte, 'c'));
+    EXPECT_EQ(length_of_body(other.receive()), megabyte);
+    const auto refusal = slow.receive();
+    EXPECT_EQ(refusal.status, 503);
+    EXPECT_EQ(refusal.header("Connection"), "close");
+    expect_body_bytes(server, part + 1);
+    EXPECT_EQ(server.transport->load().uploads_given_up, 1u);
+    quicker.send(std::string(2 * megabyte - part, 'b'));
+    EXPECT_EQ(length_of_body(quicker.receive()), 2 * megabyte);
+    small.send(std::string(999, 'a'));
+    EXPECT_EQ(length_of_body(small.receive()), 1000u);
+    expect_body_bytes(server, 0);
+}
+
+TEST(Transport, LeavesEachClientItsShareOfTheMemoryForBodies) {
+    TransportOptions options = Fixture::patient();
+    options.most_body_of_client = megabyte;
+    options.proxies.trusted = Networks("127.0.0.9");
+    Fixture server(echo, options);
+    RawClient first(server.port()), second(server.port()), third(server.port());
+    EXPECT_EQ(third.ask(head_of_upload(megabyte + 1)).status, 413) << "it would never have room";
+    const std::size_t part = 700'000;
+    first.send(head_of_upload(megabyte) + std::string(part, 'a'));
+    expect_body_bytes(server, part);
+    std::this_thread::sleep_for(50ms);
+    second.send(head_of_upload(megabyte) + std::string(part, 'b'));
+    EXPECT_EQ(first.receive().status, 503);
+    expect_body_bytes(server, part);
+    second.send(std::string(megabyte - part, 'b'));
+    EXPECT_EQ(length_of_body(second.receive()), megabyte);
+    EXPECT_EQ(server.transport->load().uploads_given_up, 1u);
+
+    // A trusted proxy speaks for clients that each have a share, and has none itself.
+    const std::vector<std::string> behind = {"X-Forwarded-For: 192.0.2.1\r\n",
+                                             "X-Forwarded-For: 192.0.2.2\r\n", "", ""};
+    std::vector<std::unique_ptr<RawClient>> proxy;
+    for (const std::string& header : behind) {
+        proxy.push_back(std::make_unique<RawClient>(server.port(), 0, "127.0.0.9"));
+        proxy.back()->send(head_of_upload(megabyte, header) + std::string(part, 'p'));
+    }
+    expect_body_bytes(server, 4 * part);
+    RawClient same(server.port(), 0, "127.0.0.9");
+    same.send(head_of_upload(megabyte, behind[1]) + std::string(part, 'p'));
+    EXPECT_EQ(proxy[1]->receive().status, 503) << "one client, on whichever connection";
+    expect_body_bytes(server, 4 * part);
+    proxy[1] = nullptr;
+    for (const auto& one : proxy)
+        if (one) one->send(std::string(megabyte - part, 'p'));
+    for (const auto& one : proxy)
+        if (one) EXPECT_EQ(length_of_body(one->receive()), megabyte);
+    EXPECT_EQ(server.transport->load().uploads_given_up, 2u);
+    same.close();
+    expect_body_bytes(server, 0);
+}
+
+TEST(Transport, EndsUploadsThatAreTooSlowForTheirLengthLongBeforeTheirEnd) {
+    TransportOptions options = Fixture::patient();
+    options.body = 500ms;
+    options.body_rate = megabyte;
+    Fixture server(echo, options);
+    const std::size_t length = 16 * megabyte;  // 16.5 s
+    const auto since = [begun = Clock::now()] { return Clock::now() - begun; };
+    RawClient dripping(server.port()), half(server.port()), small(server.port());
+    dripping.send(head_of_upload(length));
+    half.send(head_of_upload(4 * megabyte) + std::string(2 * megabyte, 'h'));  // 4.5 s
+    small.send(head_of_upload(10));
+    int small_parts = 0;
+    for (int i = 0; i < 1000 && in_phase(server.transport->load(), Transport::Phase::body) > 1;
+         ++i) {
+        if (!dripping.send(std::string(2000, 'd'))) break;
+        if (small_parts < 10 && small.send("s")) ++small_parts;
+        std::this_thread::sleep_for(10ms);
+    }
+    EXPECT_EQ(dripping.receive().status, 408);
+    EXPECT_LT(since(), 8s) << "half a second on a quiet machine";
+    EXPECT_EQ(small.receive().status, 200) << "small ones have their time";
+    EXPECT_EQ(half.receive().status, 408);
+    EXPECT_GT(since(), 2s) << "half of it earns half of its time";
+    expect_body_bytes(server, 0);
+    RawClient quick(server.port());
+    quick.send(head_of_upload(length));
+    quick.send(std::string(length, 'q'));
+    EXPECT_EQ(length_of_body(quick.receive()), length);
 }
 
 TEST(Transport, EndsConnectionsThatAreSilentOrDrip) {
@@ -733,7 +902,6 @@ TEST(Transport, ForgetsWhatItWouldGiveAgainAndWhatIsOnItsWay) {
 }
 
 TEST(Transport, BoundsWhatSlowClientsPinTogetherAndGivesTheSlowestUp) {
-    constexpr std::size_t megabyte = 1 << 20;
     TransportOptions options = Fixture::patient();
     options.most_pinned = 20 * megabyte;
     const auto common = std::make_shared<const Bytes>(8 * megabyte, std::uint8_t{'c'});
