@@ -14,7 +14,7 @@ ColonyRequest read_colony(std::string_view mix, Query query, const Atlas& atlas,
     request.version = take_version(query, rest, faults);
     std::vector<Problem> problems;
     read_query(rest, request.order.params, problems);
-    faults.add(400, problems);
+    add_problems(problems, request.order.params, "", false, faults);
     without_negative_zero(request.order.params);
     return request;
 }
@@ -32,7 +32,7 @@ ColonyRequest read_colony(std::string_view body, const Atlas& atlas, Faults& fau
     request.version = take_version(json, problems);
     json.erase("mix");
     read(json, request.order.params, Info{.name = ""}, "", problems);
-    faults.add(400, problems);
+    add_problems(problems, request.order.params, "", true, faults);
     without_negative_zero(request.order.params);
     return request;
 }

@@ -94,7 +94,7 @@ MushroomRequest read_morph(const SpeciesPair& species, std::string_view body, Fa
     request.version = take_version(*json, problems);
     MorphOrder order;
     read(*json, order, Info{.name = ""}, "", problems);
-    faults.add(400, problems);
+    add_problems(problems, order, "", true, faults);
     refuse_crossings(order.arcs, faults);
     without_negative_zero(order);
 

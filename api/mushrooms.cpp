@@ -1,7 +1,5 @@
 #include "api/mushrooms.h"
 
-#include <algorithm>
-
 #include "api/mix.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
@@ -18,7 +16,7 @@ MushroomRequest read_mushroom(std::string_view mix, Query query, const Atlas& at
     request.version = take_version(query, rest, faults);
     std::vector<Problem> problems;
     read_query(rest, request.order.params, problems);
-    faults.add(400, problems);
+    add_problems(problems, request.order.params, "", false, faults);
     without_negative_zero(request.order.params);
     return request;
 }
@@ -38,12 +36,15 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Faults&
                    "is missing; give {\"mix\":{\"species id\":1}} or a whole {\"model\":{...}}");
     else if (mix)
         request.order.mix = read_mix_object(*mix, atlas, faults);
-    else
-        read(*model, request.order.model.emplace(), Info{.name = ""}, "/model", problems);
+    else {
+        std::vector<Problem> of_model;
+        read(*model, request.order.model.emplace(), Info{.name = ""}, "/model", of_model);
+        add_problems(of_model, *request.order.model, "/model", true, faults);
+    }
     request.version = take_version(json, problems);
     for (const char* taken : {"mix", "model"}) json.erase(taken);
     read(json, request.order.params, Info{.name = ""}, "", problems);
-    faults.add(400, problems);
+    add_problems(problems, request.order.params, "", true, faults);
     without_negative_zero(request.order.params);
     if (request.order.model) without_negative_zero(*request.order.model);
     return request;

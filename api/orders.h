@@ -1,6 +1,7 @@
 // What requests for all products have in common: version token, body, canonical address, what their JSON tells.
 #pragma once
 
+#include <algorithm>
 #include <optional>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 #include "api/errors.h"
 #include "core/grow/product.h"
 #include "core/params/describe.h"
+#include "core/params/query.h"
 #include "core/params/value.h"
 
 namespace sporeprint::api {
@@ -36,6 +38,26 @@ enum class Product { glb, json };
 
 /// The JSON object of a body; empty, with the reason in `faults`, when it is none.
 [[nodiscard]] std::optional<Value> read_body(std::string_view body, Faults& faults);
+
+/// Adds what was found while `params` were read: values that are each in range but impossible together are 422, all else is 400.
+///
+/// path    JSON pointer of `params` in the body; "" for all of it, and for a query
+/// posted  the problems name places in a body; otherwise they name parameters of a query
+template <class Params>
+void add_problems(const std::vector<Problem>& problems, const Params& params,
+                  const std::string& path, bool posted, Faults& faults) {
+    if (problems.empty()) return;
+    std::vector<Problem> impossible;  // A value out of its range was not taken over.
+    check(params, Info{.name = ""}, path, impossible);
+    for (const Problem& problem : problems) {
+        const bool together =
+            std::any_of(impossible.begin(), impossible.end(), [&](const Problem& one) {
+                return (posted ? one.path : query_name(one.path)) == problem.path &&
+                       one.message == problem.message;
+            });
+        faults.add(together ? 422 : 400, problem.path, problem.message);
+    }
+}
 
 /// Makes each -0 of a described struct 0, so that equal keys cannot differ in the sign of a zero.
 template <class T>

@@ -95,21 +95,6 @@ typename Kind::Params own_params(std::string_view id) {
     return params_of(preset_of<Kind>(id, "", none));
 }
 
-/// What was found against `params`: each alone in its range but impossible together is 422, all else 400.
-template <class Params>
-void add_problems(const std::vector<Problem>& problems, const Params& params, bool posted,
-                  Faults& faults) {
-    const std::vector<Problem> impossible = problems_in(params);
-    for (const Problem& problem : problems) {
-        const bool together =
-            std::any_of(impossible.begin(), impossible.end(), [&](const Problem& one) {
-                return (posted ? one.path : query_name(one.path)) == problem.path &&
-                       one.message == problem.message;
-            });
-        faults.add(together ? 422 : 400, problem.path, problem.message);
-    }
-}
-
 /// Reads the {preset} and the query of an address.
 template <class Kind>
 PresetRequest<Kind> read_preset(std::string_view id, Query query, Faults& faults) {
@@ -119,7 +104,7 @@ PresetRequest<Kind> read_preset(std::string_view id, Query query, Faults& faults
     request.version = take_version(query, rest, faults);
     std::vector<Problem> problems;
     read_query(rest, request.order.params, problems);
-    add_problems(problems, request.order.params, false, faults);
+    add_problems(problems, request.order.params, "", false, faults);
     without_negative_zero(request.order.params);
     if constexpr (requires { Kind::settle(request.order.params); })
         Kind::settle(request.order.params);
@@ -148,7 +133,7 @@ PresetRequest<Kind> read_preset(std::string_view body, Faults& faults) {
         Kind::take_from_body(*json, faults);
     request.order = {preset.id, params_of(preset)};
     read(*json, request.order.params, Info{.name = ""}, "", problems);
-    add_problems(problems, request.order.params, true, faults);
+    add_problems(problems, request.order.params, "", true, faults);
     without_negative_zero(request.order.params);
     if constexpr (requires { Kind::settle(request.order.params); })
         Kind::settle(request.order.params);
@@ -196,7 +181,7 @@ PresetSurface<Kind> read_preset_surface(std::string_view id, std::string_view im
     asked.version = take_version(query, rest, faults);
     std::vector<Problem> problems;
     read_query(rest, asked.paint, problems);
-    add_problems(problems, asked.paint, false, faults);
+    add_problems(problems, asked.paint, "", false, faults);
     without_negative_zero(asked.paint);
     return asked;
 }

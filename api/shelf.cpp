@@ -5,6 +5,7 @@
 #include "api/catalogue.h"
 #include "api/mix.h"
 #include "api/openapi.h"
+#include "api/orders.h"
 #include "api/presets.h"
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
@@ -114,7 +115,7 @@ Answer Shelf::species_list(const Request& request, const Target& target, Faults&
     SpeciesFilter filter;
     std::vector<Problem> problems;
     read_query(target.query, filter, problems);
-    faults.add(400, problems);
+    add_problems(problems, filter, "", false, faults);
     if (!faults.empty()) return answers_.problem(request, faults);
     return answers_.document(request, filter == SpeciesFilter{}
                                           ? species_list_

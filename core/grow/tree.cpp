@@ -37,6 +37,18 @@ void finish(Mesh& mesh, const TreeParams& params) {
     order_for_vertex_cache(mesh);
 }
 
+// Parameters that are each allowed may together carry branches beyond what a skin is made of.
+void refuse_beyond_bounds(const Tree& tree) {
+    const std::vector<Problem> faults = faults_of(tree.skeleton);
+    if (faults.empty()) return;
+    const bool of_radius = faults.front().path.ends_with("/radius");
+    throw Impossible(
+        of_radius ? "/twig_radius" : "/twig_length",
+        std::string(of_radius ? "the radius" : "the place") +
+            " of a branch would be out of bounds, for its order makes so much of it: " +
+            faults.front().message);
+}
+
 // What is left of the leaves at a level of detail. From afar a leaf stands for others about its place: it grows about its middle,
 // not away from its twig.
 std::vector<PlacedLeaf> leaves_of(const Tree& tree, const TreeParams& params) {
@@ -93,6 +105,7 @@ TreeMeshes tree_meshes(const TreeOrder& order) {
     require_valid(params);
     static_cast<void>(estimate(order));  // refuses what is too much
     const Tree tree = grown_tree(params.look.shape, params.seed);
+    refuse_beyond_bounds(tree);
     TreeMeshes meshes{bark_of(tree, params.lod), {}};
     const std::vector<PlacedLeaf> leaves = leaves_of(tree, params);
     if (!leaves.empty())

@@ -429,7 +429,7 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     blend_amounts(model, sources);
     overlay_all(asked, model);
     model.deformation.check("/deformation", problems);
-    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    if (!problems.empty()) throw Impossible(std::move(problems));
 
     if (!sources.front().is_branched()) stand_upon(individual, asked, sources);
     report_effective(individual.effective, model, sources);

@@ -86,7 +86,7 @@ TEST_F(CoralsTest, a_model_of_ones_own_may_branch) {
     EXPECT_EQ(asked().status, 200) << text_of(asked());
     model.find("ramification")->set("order", 12);
     const Answer many = asked();
-    expect_problem(many, 400);
+    expect_problem(many, 422);
     EXPECT_TRUE(names(many, "/model/ramification/order", "tips; at most 600"));
     model.find("ramification")->set("order", 1);
     EXPECT_TRUE(names(asked(), "/model/ramification/order", "no fork"));

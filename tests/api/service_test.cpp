@@ -61,13 +61,13 @@ TEST_F(ServiceTest, faults_of_an_address_are_named) {
         {"lod=4", 400, "lod", "4 is outside 0..3"},
         {"texture_size=300", 400, "texture_size", "128, 256"},
         {"animation=dance", 400, "animation", "none, growth"},
-        {"frames=5", 400, "frames", "animation=growth"},
+        {"frames=5", 422, "frames", "animation=growth"},
         {"frames=17&animation=growth", 400, "frames", "2..16"},
         {"textures=fast", 400, "textures", "embedded, linked, none"},
         {"weathering.fade=2", 400, "weathering.fade", "outside"},
         {"weathering=1", 400, "weathering", "unknown"},
         {"fade=1", 400, "fade", "unknown"},
-        {"deformation.zone_from=0.9&deformation.zone_to=0.5", 400, "deformation.zone_to", ""},
+        {"deformation.zone_from=0.9&deformation.zone_to=0.5", 422, "deformation.zone_to", ""},
         {"age", 400, "age", "no value"},
         {"age=%zz", 400, "age", "hexadecimal"},
         {"age=0.1&&seed=2", 400, "query", "empty"},
@@ -187,6 +187,18 @@ TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
         {"{\"model\":{\"surface\":{\"cap\":{\"image\":\"?\"}}}}", 400, "/model/surface/cap/image",
          "base64"},
         {"{\"model\":{\"form\":\"spun\"}}", 400, "/model/form", "branched"},
+        {"{" + mix + ",\"frames\":5}", 422, "/frames", "animation=growth"},
+        {"{" + mix + ",\"deformation\":{\"zone_from\":0.9,\"zone_to\":0.5}}", 422,
+         "/deformation/zone_to", "exceed"},
+        {"{" + mix + ",\"deformation\":{\"zone_from\":0.95,\"zone_to\":0.5}}", 400,
+         "/deformation/zone_from", "outside"},
+        {"{" + mix + ",\"frames\":5,\"age\":2}", 400, "/age", "outside"},
+        {"{\"model\":{\"deformation\":{\"zone_from\":0.9,\"zone_to\":0.5}}}", 422,
+         "/model/deformation/zone_to", "exceed"},
+        {"{\"model\":{\"form\":\"branched\",\"ramification\":{\"order\":12}}}", 422,
+         "/model/ramification/order", "at most 600"},
+        {"{\"model\":{\"form\":\"branched\",\"ramification\":{\"matrix\":\"own\"}}}", 422,
+         "/model/ramification/rows", "no rows are given"},
     };
     for (const auto& [body, status, parameter, words] : cases) {
         const Answer answer = ask(post(body));
@@ -317,10 +329,10 @@ TEST_F(ServiceTest, species_are_filtered) {
     EXPECT_EQ(ids("habit=Rings"), matching([](const Facts& facts) {
                   return facts.habit.string().find("rings") != std::string::npos;
               }));
-    for (const char* query :
-         {"form=tree", "month=13", "month=1.5", "min_diameter_m=x", "colour=red&colour=red",
-          "colr=red", "min_diameter_m=0.2&max_diameter_m=0.1"})
+    for (const char* query : {"form=tree", "month=13", "month=1.5", "min_diameter_m=x",
+                              "colour=red&colour=red", "colr=red"})
         expect_problem(ask(std::string("/v1/species?") + query), 400);
+    expect_problem(ask("/v1/species?min_diameter_m=0.2&max_diameter_m=0.1"), 422);
 }
 
 TEST_F(ServiceTest, documents_are_conditional_and_compressed) {

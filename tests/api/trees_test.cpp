@@ -204,6 +204,14 @@ TEST_F(TreesTest, grow_from_a_matrix_of_ones_own) {
               200);
 }
 
+TEST_F(TreesTest, branches_beyond_all_bounds_are_422_and_named) {
+    const Answer far = ask(body(R"({"preset":"broadleaf","lod":3,"texture_size":128,"order":7,)"
+                                R"("length_rise":4,"twig_length":1,"leaves":{"per_tip":0}})"));
+    expect_problem(far, 422);
+    EXPECT_TRUE(names(far, "/twig_length", "outside -10000..10000 m")) << text_of(far);
+    EXPECT_EQ(errors_of(far).size(), 1u);
+}
+
 TEST_F(TreesTest, faults_of_a_matrix_are_named_by_row) {
     const auto refused = [&](const std::string& more, int status, const char* parameter,
                              const char* words) {
