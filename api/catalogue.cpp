@@ -62,4 +62,20 @@ Value species_list(const Atlas& atlas, const SpeciesFilter& filter) {
     return Value::object().set("species", std::move(list));
 }
 
+Value product_list(const Atlas& atlas, const std::string& product) {
+    const std::string root = "/v1/" + product + '/';
+    Value list = Value::array();
+    for (const AtlasEntry& entry : atlas.entries()) {
+        const std::string id = entry.species.id.string();
+        Value links = Value::object();
+        links.set("self", root + id + ".json").set("model", root + id + ".glb");
+        links.set("schema", root + "schema").set("species", "/v1/species/" + id);
+        list.push(Value::object()
+                      .set("id", id)
+                      .set("name", entry.species.facts.common_name.view())
+                      .set("links", std::move(links)));
+    }
+    return Value::object().set(product, std::move(list));
+}
+
 }  // namespace sporeprint::api

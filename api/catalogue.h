@@ -83,4 +83,9 @@ struct SpeciesFilter {
 /// {"species":[…]}, sorted by id.
 [[nodiscard]] Value species_list(const Atlas& atlas, const SpeciesFilter& filter = {});
 
+/// {"mushrooms":[{"id","name","links"}]}, sorted by id: the species that a product is grown of.
+///
+/// product  as in its addresses, /v1/{product}
+[[nodiscard]] Value product_list(const Atlas& atlas, const std::string& product);
+
 }  // namespace sporeprint::api

@@ -19,6 +19,7 @@ struct ProblemType {
     const char* slug;  ///< "/problems/<slug>"
     const char* title;
     const char* meaning;  ///< one sentence for the documents
+    const char* remedy;   ///< what the client can do about it
 };
 
 [[nodiscard]] std::span<const ProblemType> problem_types();

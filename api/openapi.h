@@ -9,7 +9,9 @@
 namespace sporeprint::api {
 
 /// The whole document.
-[[nodiscard]] Value openapi(const Atlas& atlas, std::string_view version);
+///
+/// is_signed  what is made is answered to signed addresses only
+[[nodiscard]] Value openapi(const Atlas& atlas, std::string_view version, bool is_signed = false);
 
 /// JSON Schema of a mushroom's query parameters, nested: the page's controls.
 [[nodiscard]] Value mushroom_schema();

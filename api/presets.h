@@ -202,6 +202,7 @@ Value preset_list() {
     for (const auto& preset : Kind::presets()) {
         Value links = Value::object();
         links.set("self", root + preset.id + ".json").set("model", root + preset.id + ".glb");
+        links.set("schema", root + "schema");
         Value item = Value::object().set("id", preset.id).set("name", preset.name);
         if constexpr (requires { Kind::tell(preset, item); }) Kind::tell(preset, item);
         list.push(std::move(item.set("links", std::move(links))));

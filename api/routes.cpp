@@ -13,7 +13,7 @@ namespace {
 constexpr const char* json = "application/json";
 constexpr const char* glb = "model/gltf-binary";
 
-constexpr std::array<Route, 34> table = {{
+constexpr std::array<Route, 37> table = {{
     {Endpoint::page, "GET", "/", "page", "The viewer page.", "text/html", ""},
     {Endpoint::docs, "GET", "/docs", "docs", "A page that shows this document.", "text/html", ""},
     {Endpoint::asset, "GET", "/assets/{name}", "asset", "A file of the viewer page.",
@@ -23,6 +23,8 @@ constexpr std::array<Route, 34> table = {{
      "The species of the atlas, filtered.", json, ""},
     {Endpoint::species, "GET", "/v1/species/{id}", "get_species", "The template of a species.",
      json, ""},
+    {Endpoint::mushroom_list, "GET", "/v1/mushrooms", "list_mushrooms",
+     "The species that mushrooms are grown of, with links.", json, ""},
     {Endpoint::mushroom_schema, "GET", "/v1/mushrooms/schema", "mushroom_schema",
      "JSON Schema of the query parameters of a mushroom.", "application/schema+json", ""},
     {Endpoint::mushroom_glb, "GET", "/v1/mushrooms/{mix}.glb", "get_mushroom",
@@ -39,6 +41,8 @@ constexpr std::array<Route, 34> table = {{
      "whether any morph between them crosses itself; of two that branch the limbs of both, fork "
      "on fork.",
      json, ""},
+    {Endpoint::colony_list, "GET", "/v1/colonies", "list_colonies",
+     "The species that colonies are grown of, with links.", json, ""},
     {Endpoint::colony_schema, "GET", "/v1/colonies/schema", "colony_schema",
      "JSON Schema of the query parameters of a colony.", "application/schema+json", ""},
     {Endpoint::colony_glb, "GET", "/v1/colonies/{mix}.glb", "get_colony",
@@ -81,11 +85,13 @@ constexpr std::array<Route, 34> table = {{
     {Endpoint::inspect, "POST", "/v1/inspect", "inspect",
      "Reads a GLB of Sporeprint and answers with the request that made it.", json, glb},
     {Endpoint::openapi, "GET", "/openapi.json", "openapi", "This document.", json, ""},
+    {Endpoint::problem_type, "GET", "/problems/{type}", "get_problem_type",
+     "What a type of problem means and what to do about it.", "text/html", ""},
     {Endpoint::livez, "GET", "/livez", "livez",
      "Whether the process lives; never queued behind work.", "text/plain", ""},
     {Endpoint::readyz, "GET", "/readyz", "readyz",
      "Whether it takes requests: atlas loaded, one mushroom grown, neither draining nor saturated.",
-     json, ""},
+     "text/plain", ""},
     {Endpoint::metrics, "GET", "/metrics", "metrics", "Counters as Prometheus text.", "text/plain",
      ""},
 }};
@@ -114,13 +120,16 @@ bool makes(Endpoint endpoint) {
         case Endpoint::root:
         case Endpoint::species_list:
         case Endpoint::species:
+        case Endpoint::mushroom_list:
         case Endpoint::mushroom_schema:
+        case Endpoint::colony_list:
         case Endpoint::colony_schema:
         case Endpoint::leaf_list:
         case Endpoint::leaf_schema:
         case Endpoint::tree_list:
         case Endpoint::tree_schema:
         case Endpoint::openapi:
+        case Endpoint::problem_type:
         case Endpoint::livez:
         case Endpoint::readyz:
         case Endpoint::metrics:

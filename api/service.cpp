@@ -127,6 +127,8 @@ Plan plan_route(Context& context, const Shelf& shelf, const Request& request) {
             return shelf.asset(request, match.captured[0]);
         case Endpoint::root:
             return shelf.about(request, target, faults);
+        case Endpoint::mushroom_list:
+            return shelf.mushroom_list(request, target, faults);
         case Endpoint::mushroom_schema:
             return shelf.mushroom_schema(request, target, faults);
         case Endpoint::openapi:
@@ -156,6 +158,10 @@ Plan plan_route(Context& context, const Shelf& shelf, const Request& request) {
             const SpeciesPair pair = read_pair(match.captured[0], match.captured[1], atlas, faults);
             return plan_mushroom(context, request, read_morph(pair, request.body, faults), faults);
         }
+        case Endpoint::problem_type:
+            return shelf.problem_type(request, target, match.captured[0], faults);
+        case Endpoint::colony_list:
+            return shelf.colony_list(request, target, faults);
         case Endpoint::colony_schema:
             return shelf.colony_schema(request, target, faults);
         case Endpoint::colony_glb:
@@ -232,7 +238,7 @@ struct Service::Parts {
           context{std::move(atlas), options, Answers(options.allow_origin), *store,
                   kept_only(*store)},
           prepared{context.atlas, options, context.answers, *store, made_at_once(*store)},
-          shelf(context.atlas, context.answers, options.assets) {}
+          shelf(context.atlas, context.answers, options) {}
 
     /// The image that a request for one asks for; nothing, with faults, for none, and for a route that is not of images.
     std::optional<ImageResource> image_asked(const Match& match, const Target& target,

@@ -17,21 +17,50 @@
 
 namespace sporeprint::api {
 
+namespace {
+
+/// Text of ours as HTML.
+std::string escaped(std::string_view text) {
+    std::string out;
+    for (const char c : text) {
+        if (c == '&')
+            out += "&amp;";
+        else if (c == '<')
+            out += "&lt;";
+        else
+            out += c;
+    }
+    return out;
+}
+
+/// What a type of problem means, for a person who follows the `type` of an answer.
+std::string page_of(const ProblemType& type) {
+    const std::string title = std::to_string(type.status) + ' ' + escaped(type.title);
+    return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+           "<meta name=\"viewport\" content=\"width=device-width\">\n<title>" +
+           title + " · Sporeprint</title>\n</head>\n<body>\n<h1>" + title + "</h1>\n<p>" +
+           escaped(type.meaning) + "</p>\n<h2>What to do</h2>\n<p>" + escaped(type.remedy) +
+           "</p>\n</body>\n</html>\n";
+}
+
+}  // namespace
+
 void refuse_query(const Target& target, Faults& faults) {
     for (const auto& pair : target.query)
         faults.add(400, printable(pair.first), "unknown parameter; this route takes none");
 }
 
 Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
-             const std::filesystem::path& assets)
+             const ServiceOptions& options)
     : atlas_(std::move(atlas)), answers_(answers) {
-    if (!assets.empty()) assets_ = read_assets(assets);
+    if (!options.assets.empty()) assets_ = read_assets(options.assets);
     Value links = Value::object();
-    links.set("species", "/v1/species").set("mushroom_schema", "/v1/mushrooms/schema");
+    links.set("species", "/v1/species");
+    links.set("mushrooms", "/v1/mushrooms").set("mushroom_schema", "/v1/mushrooms/schema");
     if (atlas_->entries().size() > 1)  // an example: any two will do
         links.set("morph", "/v1/morphs/" + atlas_->entries()[0].species.id.string() + '/' +
                                atlas_->entries()[1].species.id.string());
-    links.set("colony_schema", "/v1/colonies/schema");
+    links.set("colonies", "/v1/colonies").set("colony_schema", "/v1/colonies/schema");
     links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
     links.set("trees", "/v1/trees").set("tree_schema", "/v1/trees/schema");
     links.set("openapi", "/openapi.json").set("docs", "/docs");
@@ -42,13 +71,17 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
         .set("links", std::move(links));
     about_ = json_document(root);
     species_list_ = json_document(api::species_list(*atlas_));
+    mushroom_list_ = json_document(api::product_list(*atlas_, "mushrooms"));
     schema_ = json_document(api::mushroom_schema(), "application/schema+json");
+    colony_list_ = json_document(api::product_list(*atlas_, "colonies"));
     colony_schema_ = json_document(api::colony_schema(), "application/schema+json");
     leaf_list_ = json_document(preset_list<Leaves>());
     leaf_schema_ = json_document(api::leaf_schema(), "application/schema+json");
     tree_list_ = json_document(preset_list<Trees>());
     tree_schema_ = json_document(api::tree_schema(), "application/schema+json");
-    openapi_ = json_document(api::openapi(*atlas_, SPOREPRINT_VERSION));
+    openapi_ = json_document(api::openapi(*atlas_, SPOREPRINT_VERSION, options.signed_addresses));
+    for (const ProblemType& type : problem_types())
+        problem_types_.emplace(type.slug, document("text/html; charset=utf-8", page_of(type)));
     for (const AtlasEntry& entry : atlas_->entries())
         species_.emplace(entry.species.id.string(), document("application/json", entry.json));
     hint_ = document("text/plain; charset=utf-8",
@@ -83,8 +116,16 @@ Answer Shelf::about(const Request& request, const Target& target, Faults& faults
     return plain(request, target, about_, faults);
 }
 
+Answer Shelf::mushroom_list(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, mushroom_list_, faults);
+}
+
 Answer Shelf::mushroom_schema(const Request& request, const Target& target, Faults& faults) const {
     return plain(request, target, schema_, faults);
+}
+
+Answer Shelf::colony_list(const Request& request, const Target& target, Faults& faults) const {
+    return plain(request, target, colony_list_, faults);
 }
 
 Answer Shelf::colony_schema(const Request& request, const Target& target, Faults& faults) const {
@@ -127,6 +168,22 @@ Answer Shelf::species(const Request& request, const Target& target, const std::s
     refuse_query(target, faults);
     const auto found = species_.find(id);
     if (found == species_.end()) faults.add(404, "id", unknown_species(id, *atlas_));
+    return faults.empty() ? answers_.document(request, found->second)
+                          : answers_.problem(request, faults);
+}
+
+Answer Shelf::problem_type(const Request& request, const Target& target, const std::string& slug,
+                           Faults& faults) const {
+    refuse_query(target, faults);
+    const auto found = problem_types_.find(slug);
+    if (found == problem_types_.end()) {
+        std::vector<std::string> slugs;
+        for (const ProblemType& type : problem_types()) slugs.emplace_back(type.slug);
+        const std::string_view meant = closest(slug, slugs);
+        faults.add(404, "type",
+                   "unknown type of problem " + in_quotes(slug) +
+                       (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+    }
     return faults.empty() ? answers_.document(request, found->second)
                           : answers_.problem(request, faults);
 }

@@ -1,7 +1,6 @@
 // The documents that are made once at start and then only handed out: the page, the lists, the schemas.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
@@ -10,6 +9,7 @@
 #include "api/answers.h"
 #include "api/documents.h"
 #include "api/query.h"
+#include "api/service.h"
 #include "core/atlas/atlas.h"
 
 namespace sporeprint::api {
@@ -19,9 +19,9 @@ void refuse_query(const Target& target, Faults& faults);
 
 class Shelf {
   public:
-    /// assets  folder of the built page; empty for none
+    /// options  tell the folder of the built page, and whether addresses are signed
     Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
-          const std::filesystem::path& assets);
+          const ServiceOptions& options);
 
     /// A file of the page, as the root or a document shows it; a hint in plain text where it is not installed.
     [[nodiscard]] Answer page(const Request& request, std::string_view file) const;
@@ -30,8 +30,12 @@ class Shelf {
     [[nodiscard]] Answer asset(const Request& request, const std::string& file) const;
 
     [[nodiscard]] Answer about(const Request& request, const Target& target, Faults& faults) const;
+    [[nodiscard]] Answer mushroom_list(const Request& request, const Target& target,
+                                       Faults& faults) const;
     [[nodiscard]] Answer mushroom_schema(const Request& request, const Target& target,
                                          Faults& faults) const;
+    [[nodiscard]] Answer colony_list(const Request& request, const Target& target,
+                                     Faults& faults) const;
     [[nodiscard]] Answer colony_schema(const Request& request, const Target& target,
                                        Faults& faults) const;
     [[nodiscard]] Answer leaf_list(const Request& request, const Target& target,
@@ -53,15 +57,19 @@ class Shelf {
     [[nodiscard]] Answer species(const Request& request, const Target& target,
                                  const std::string& id, Faults& faults) const;
 
+    /// The page of one type of problem, which its `type` points to.
+    [[nodiscard]] Answer problem_type(const Request& request, const Target& target,
+                                      const std::string& slug, Faults& faults) const;
+
   private:
     Answer plain(const Request& request, const Target& target, const Document& document,
                  Faults& faults) const;
 
     std::shared_ptr<const Atlas> atlas_;
     const Answers& answers_;
-    std::map<std::string, Document, std::less<>> assets_, species_;
-    Document about_, species_list_, schema_, colony_schema_, leaf_list_, leaf_schema_, tree_list_,
-        tree_schema_, openapi_, hint_;
+    std::map<std::string, Document, std::less<>> assets_, species_, problem_types_;
+    Document about_, species_list_, mushroom_list_, schema_, colony_list_, colony_schema_,
+        leaf_list_, leaf_schema_, tree_list_, tree_schema_, openapi_, hint_;
 };
 
 }  // namespace sporeprint::api

@@ -53,6 +53,11 @@ TEST(OpenApi, holds_every_route_of_the_table) {
         EXPECT_EQ(operation->find("operationId")->as_string(), route.id);
         EXPECT_NE(operation->at_pointer("/responses/200/content"), nullptr) << route.pattern;
         EXPECT_EQ(operation->find("requestBody") != nullptr, *route.takes != '\0');
+        EXPECT_EQ(path->find("head") != nullptr, std::string_view(route.method) == "GET");
+        for (const auto& [method, one] : path->members()) {
+            EXPECT_GE(one.find("description")->as_string().size(), 20u) << route.pattern;
+            EXPECT_EQ(one.find("tags")->items().size(), 1u) << route.pattern;
+        }
         ids.insert(route.id);
     }
     EXPECT_EQ(api.find("paths")->members().size(), ids.size());
@@ -109,7 +114,8 @@ TEST(OpenApi, names_every_member_of_a_body) {
     const Value api = document();
     const auto properties = [&](const char* schema) {
         std::set<std::string> out;
-        const std::string at = std::string("/components/schemas/") + schema + "/properties";
+        const std::string at = std::string("/components/requestBodies/") + schema +
+                               "/content/application~1json/schema/properties";
         for (const auto& [key, ignored] : api.at_pointer(at)->members()) out.insert(key);
         return out;
     };
@@ -127,13 +133,12 @@ TEST(OpenApi, names_every_member_of_a_body) {
     EXPECT_EQ(properties("tree_order"), tree);
     EXPECT_EQ(properties("morph_order"), morph);
     EXPECT_EQ(properties("mushroom_order"), mushroom);
-    const auto& arc =
-        *api.at_pointer("/components/schemas/morph_order/properties/arcs/items/properties");
+    const std::string arcs =
+        "/components/requestBodies/morph_order/content/application~1json/schema/properties/arcs";
+    const auto& arc = *api.at_pointer(arcs + "/items/properties");
     EXPECT_EQ(arc.at_pointer("/curve/enum/1")->as_string(), "hymenium");
     EXPECT_EQ(arc.at_pointer("/a/maximum")->as_number(), 1.0);
-    EXPECT_EQ(
-        api.at_pointer("/components/schemas/morph_order/properties/arcs/maxItems")->as_number(),
-        static_cast<double>(most_arcs));
+    EXPECT_EQ(api.at_pointer(arcs + "/maxItems")->as_number(), static_cast<double>(most_arcs));
 }
 
 TEST(OpenApi, tells_ranges_units_and_whose_default_it_is) {
@@ -178,8 +183,9 @@ TEST(OpenApi, every_reference_leads_somewhere) {
 }
 
 TEST(OpenApi, every_kind_of_problem_has_a_response) {
-    const Value api = document();
+    const Value api = openapi(*built_in_atlas(), "0.0.0", true);
     for (const ProblemType& type : problem_types()) {
+        if (type.status == 501) continue;  // no operation has such a method
         const Value* response = api.find("components")->find("responses")->find(type.slug);
         ASSERT_NE(response, nullptr) << type.slug;
         EXPECT_EQ(response->find("content")
@@ -188,7 +194,113 @@ TEST(OpenApi, every_kind_of_problem_has_a_response) {
                       ->find("status")
                       ->as_number(),
                   type.status);
+        EXPECT_NE(response->find("headers")->find("Cache-Control"), nullptr);
     }
+    const auto header = [&](const char* slug, const char* name) {
+        return api.at_pointer(std::string("/components/responses/") + slug + "/headers/" + name);
+    };
+    EXPECT_NE(header("method-not-allowed", "Allow"), nullptr);
+    EXPECT_NE(header("unavailable", "Retry-After"), nullptr);
+    EXPECT_NE(header("too-many-requests", "RateLimit"), nullptr);
+    EXPECT_NE(header("range-not-satisfiable", "Content-Range"), nullptr);
+}
+
+const Value& responses(const Value& api, const char* path, const char* method) {
+    return *api.find("paths")->find(path)->find(method)->find("responses");
+}
+
+TEST(OpenApi, tells_conditions_and_ranges_where_they_are_answered) {
+    const Value api = document();
+    for (const Route& route : routes()) {
+        const bool posted = std::string_view(route.method) == "POST";
+        const Value& all = responses(api, route.pattern, posted ? "post" : "get");
+        if (posted) {
+            EXPECT_EQ(all.find("304"), nullptr) << route.pattern;
+            EXPECT_EQ(all.find("412") != nullptr, route.endpoint != Endpoint::inspect);
+        }
+        const bool is_file = !posted && (std::string_view(route.answers) == "model/gltf-binary" ||
+                                         std::string_view(route.answers) == "image/jpeg");
+        for (const char* status : {"206", "416"})
+            EXPECT_EQ(all.find(status) != nullptr, is_file) << route.pattern << status;
+    }
+    const Value& made = responses(api, "/v1/mushrooms/{mix}.glb", "get");
+    for (const char* name : {"ETag", "Cache-Control", "Cache-Status", "Content-Location",
+                             "Accept-Ranges", "RateLimit", "RateLimit-Policy", "X-Request-Id"})
+        EXPECT_NE(made.find("200")->find("headers")->find(name), nullptr) << name;
+}
+
+TEST(OpenApi, asks_for_signatures_only_where_they_are_asked_for) {
+    const Value plain = document();
+    const Value protected_api = openapi(*built_in_atlas(), "0.0.0", true);
+    EXPECT_EQ(plain.at_pointer("/components/securitySchemes"), nullptr);
+    EXPECT_EQ(plain.at_pointer("/components/responses/forbidden"), nullptr);
+    EXPECT_EQ(protected_api.at_pointer("/components/securitySchemes/signature/in")->as_string(),
+              "query");
+    for (const Route& route : routes()) {
+        const char* method = std::string_view(route.method) == "GET" ? "get" : "post";
+        const Value& operation = *protected_api.find("paths")->find(route.pattern)->find(method);
+        EXPECT_EQ(operation.find("security") != nullptr, makes(route.endpoint)) << route.pattern;
+        EXPECT_EQ(operation.at_pointer("/responses/403") != nullptr, makes(route.endpoint));
+        std::set<std::string> names;
+        if (operation.find("parameters")) names = query_names(operation);
+        for (const char* name : {"key", "expires", "sig"})
+            EXPECT_EQ(names.contains(name), makes(route.endpoint)) << route.pattern << name;
+        EXPECT_EQ(responses(plain, route.pattern, method).find("403"), nullptr);
+    }
+}
+
+TEST(OpenApi, tells_the_types_that_are_answered) {
+    const Value api = document();
+    EXPECT_NE(api.at_pointer("/paths/~1readyz/get/responses/200/content/text~1plain"), nullptr);
+    EXPECT_EQ(api.at_pointer("/paths/~1readyz/get/responses/503/$ref")->as_string(),
+              "#/components/responses/unavailable");
+    EXPECT_EQ(dump(*api.at_pointer("/components/schemas/inspection/properties/canonical/type")),
+              R"(["string","null"])");
+}
+
+TEST(OpenApi, a_body_requires_only_what_has_no_default_and_an_answer_tells_all) {
+    const Value api = document();
+    const std::function<void(const Value&)> none_in_answers = [&](const Value& value) {
+        if (value.is_array())
+            for (const Value& item : value.items()) none_in_answers(item);
+        if (!value.is_object()) return;
+        EXPECT_EQ(value.find("default"), nullptr) << dump(value);
+        for (const auto& [key, member] : value.members()) none_in_answers(member);
+    };
+    none_in_answers(*api.at_pointer("/components/schemas"));
+    const std::string body = "/content/application~1json/schema";
+    EXPECT_EQ(api.at_pointer("/components/requestBodies/mushroom_order" + body +
+                             "/properties/age/default")
+                  ->as_number(),
+              0.6);
+    EXPECT_EQ(dump(*api.at_pointer("/components/requestBodies/leaf_order" + body + "/required")),
+              R"(["preset"])");
+    const std::string required =
+        dump(*api.at_pointer("/components/schemas/mushroom_params/required"));
+    for (const char* name : {"\"seed\"", "\"age\"", "\"deformation\""})
+        EXPECT_NE(required.find(name), std::string::npos) << required;
+}
+
+/// The orders that the document allows a branched model are those that are grown.
+TEST(OpenApi, allows_a_bush_the_orders_that_it_can_have) {
+    const Value api = document();
+    const Value* model = api.at_pointer(
+        "/components/requestBodies/mushroom_order/content/application~1json/schema/properties/"
+        "model");
+    ASSERT_NE(model, nullptr);
+    int least = 0;
+    for (const Value& form : model->find("oneOf")->items())
+        if (const Value* found = form.at_pointer("/properties/ramification/properties/order"))
+            least = static_cast<int>(found->find("minimum")->as_number());
+    ASSERT_GT(least, 1);
+    Service service(built_in_atlas(), ServiceOptions{});
+    const auto grown = [&](int order) {
+        return handle(service, test::post(R"({"lod":3,"texture_size":128,"model":{"form":)"
+                                          R"("branched","ramification":{"order":)" +
+                                          std::to_string(order) + "}}}"));
+    };
+    EXPECT_EQ(grown(least).status, 200) << test::text_of(grown(least));
+    EXPECT_EQ(grown(least - 1).status, 422);
 }
 
 TEST(MushroomSchema, has_every_parameter_and_no_version) {

@@ -290,6 +290,46 @@ TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
     }
 }
 
+TEST_F(ServiceTest, mushrooms_and_colonies_are_listed_with_links_that_work) {
+    for (const std::string product : {"mushrooms", "colonies"}) {
+        const Answer answer = ask("/v1/" + product);
+        ASSERT_EQ(answer.status, 200) << text_of(answer);
+        const Value body = json_of(answer);
+        const auto& list = body.find(product)->items();
+        ASSERT_EQ(list.size(), built_in_atlas()->entries().size());
+        for (const Value& item : list) {
+            EXPECT_FALSE(item.find("name")->as_string().empty());
+            const Value& links = *item.find("links");
+            for (const char* link : {"self", "model", "schema", "species"})
+                EXPECT_EQ(ask(request("HEAD", links.find(link)->as_string())).status, 200)
+                    << links.find(link)->as_string();
+            EXPECT_EQ(links.find("model")->as_string(),
+                      "/v1/" + product + '/' + item.find("id")->as_string() + ".glb");
+        }
+        expect_problem(ask("/v1/" + product + "?lod=1"), 400);
+        EXPECT_EQ(json_of(ask("/v1")).at_pointer("/links/" + product)->as_string(),
+                  "/v1/" + product);
+    }
+}
+
+TEST_F(ServiceTest, every_type_of_problem_leads_to_a_page_that_tells_of_it) {
+    for (const ProblemType& type : problem_types()) {
+        const Answer page = ask(std::string("/problems/") + type.slug);
+        ASSERT_EQ(page.status, 200) << type.slug;
+        EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
+        EXPECT_FALSE(header(page, "ETag").empty());
+        for (const std::string words :
+             {std::to_string(type.status) + ' ' + type.title, std::string(type.remedy)})
+            EXPECT_NE(text_of(page).find(words), std::string::npos) << type.slug << words;
+    }
+    const Value problem = json_of(ask(small("&age=2")));
+    EXPECT_EQ(ask(problem.find("type")->as_string()).status, 200);
+    const Answer unknown = ask("/problems/imposible");
+    expect_problem(unknown, 404);
+    EXPECT_TRUE(names(unknown, "type", "did you mean 'impossible'?"));
+    expect_problem(ask("/problems/impossible?lod=1"), 400);
+}
+
 TEST_F(ServiceTest, species_are_filtered) {
     const auto ids = [&](const std::string& query) {
         std::vector<std::string> out;

@@ -62,7 +62,7 @@ interface Document_ {
     paths?: Record<string, PathItem>;
 }
 
-const verbs = ["get", "post", "put", "patch", "delete", "head", "options"];
+const verbs = ["get", "post", "put", "patch", "delete", "options"]; // HEAD agrees with GET
 const deepest = 5;
 
 let root: Document_ = {};
