@@ -1,0 +1,125 @@
+// One call of every operation of the document, by the types that openapi-typescript makes of it with its default flags. That it
+// compiles under `strict` is half of the test.
+import createClient from "openapi-fetch";
+import type { components, paths } from "./api.js";
+
+/** A body with what is required and nothing else. */
+type Body<Name extends keyof components["requestBodies"]> = components["requestBodies"][Name]["content"]["application/json"];
+const mushroom: Body<"mushroom_order"> = { mix: { amanita_muscaria: 1 } };
+const model: Body<"mushroom_order"> = { model: { form: "branched" } };
+const colony: Body<"colony_order"> = { mix: { hypholoma_fasciculare: 1 } };
+const leaf: Body<"leaf_order"> = { preset: "maple" };
+const tree: Body<"tree_order"> = { preset: "herb" };
+const morph: Body<"morph_order"> = {};
+
+interface Result {
+    response: Response;
+    data?: unknown;
+}
+
+/** Calls every operation; tells which, as "GET /v1", and with what status each was answered. */
+export async function callAll(baseUrl: string): Promise<Map<string, number>> {
+    const client = createClient<paths>({ baseUrl });
+    const statuses = new Map<string, number>();
+    client.use({
+        onResponse({ request, response, schemaPath }) {
+            statuses.set(`${request.method} ${schemaPath}`, response.status);
+        },
+    });
+    const both = async (head: Promise<Result>, get: Promise<Result>): Promise<void> => {
+        await head;
+        await get;
+    };
+    const small = { lod: 3, texture_size: 128 } as const;
+    const binary = { parseAs: "arrayBuffer" } as const;
+    const text = { parseAs: "text" } as const;
+
+    await both(client.HEAD("/", {}), client.GET("/", text));
+    await both(client.HEAD("/docs", {}), client.GET("/docs", text));
+    const asset = { params: { path: { name: "favicon.svg" } } };
+    await both(client.HEAD("/assets/{name}", asset), client.GET("/assets/{name}", { ...asset, ...text }));
+    await both(client.HEAD("/livez", {}), client.GET("/livez", text));
+    await both(client.HEAD("/readyz", {}), client.GET("/readyz", text));
+    await both(client.HEAD("/metrics", {}), client.GET("/metrics", text));
+    await both(client.HEAD("/openapi.json", {}), client.GET("/openapi.json", {}));
+    await both(client.HEAD("/v1", {}), client.GET("/v1", {}));
+
+    const filter = { params: { query: { family: "swept", month: 9 } } } as const;
+    await client.HEAD("/v1/species", filter);
+    const { data: species } = await client.GET("/v1/species", filter);
+    const id: string = species?.species[0]?.id ?? "";
+    const other: string = species?.species[1]?.id ?? "";
+    await both(client.HEAD("/v1/species/{id}", { params: { path: { id } } }), client.GET("/v1/species/{id}", { params: { path: { id } } }));
+
+    await client.HEAD("/v1/mushrooms", {});
+    const { data: mushrooms } = await client.GET("/v1/mushrooms", {});
+    const name: string = mushrooms?.mushrooms[0]?.name ?? "";
+    if (!name) throw new Error("the list of mushrooms is empty");
+    await both(client.HEAD("/v1/mushrooms/schema", {}), client.GET("/v1/mushrooms/schema", {}));
+    const mix = { params: { path: { mix: `${id}:0.7,${other}:0.3` }, query: { ...small, age: 0.5 } } };
+    await both(client.HEAD("/v1/mushrooms/{mix}.glb", mix), client.GET("/v1/mushrooms/{mix}.glb", { ...mix, ...binary }));
+    await client.HEAD("/v1/mushrooms/{mix}.json", mix);
+    const { data: described } = await client.GET("/v1/mushrooms/{mix}.json", mix);
+    const age: number = described?.effective.age ?? Number.NaN;
+    const bend: number | undefined = described?.effective.deformation.bend_deg;
+    if (age !== 0.5 || bend === undefined) throw new Error("the effective parameters are not told");
+    const { data: made } = await client.POST("/v1/mushrooms.glb", { body: { ...mushroom, ...small }, ...binary });
+    if (!(made instanceof ArrayBuffer)) throw new Error("no file");
+    void model;
+
+    await client.HEAD("/v1/surfaces/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { texture_size: 128 } } });
+    await client.GET("/v1/surfaces/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { texture_size: 128 } }, ...binary });
+
+    const pair = { params: { path: { a: id, b: other } } };
+    await client.HEAD("/v1/morphs/{a}/{b}", pair);
+    const { data: correspondence } = await client.GET("/v1/morphs/{a}/{b}", pair);
+    if (correspondence?.family === "swept") void correspondence.outlines.a.cap;
+    await client.POST("/v1/morphs/{a}/{b}.glb", { ...pair, body: { ...morph, ...small }, ...binary });
+
+    await both(client.HEAD("/v1/colonies", {}), client.GET("/v1/colonies", {}));
+    await both(client.HEAD("/v1/colonies/schema", {}), client.GET("/v1/colonies/schema", {}));
+    const some = { params: { path: { mix: id }, query: { ...small, count: 3 } } };
+    await both(client.HEAD("/v1/colonies/{mix}.glb", some), client.GET("/v1/colonies/{mix}.glb", { ...some, ...binary }));
+    await client.HEAD("/v1/colonies/{mix}.json", some);
+    const { data: stand } = await client.GET("/v1/colonies/{mix}.json", some);
+    const count: number = stand?.effective.count ?? Number.NaN;
+    if (count !== 3) throw new Error("the effective count is not told");
+    await client.POST("/v1/colonies.glb", { body: { ...colony, ...small, count: 3 }, ...binary });
+
+    await both(client.HEAD("/v1/leaves", {}), client.GET("/v1/leaves", {}));
+    await both(client.HEAD("/v1/leaves/schema", {}), client.GET("/v1/leaves/schema", {}));
+    const maple = { params: { path: { preset: "maple" }, query: small } };
+    await both(client.HEAD("/v1/leaves/{preset}.glb", maple), client.GET("/v1/leaves/{preset}.glb", { ...maple, ...binary }));
+    await both(client.HEAD("/v1/leaves/{preset}.json", maple), client.GET("/v1/leaves/{preset}.json", maple));
+    await client.POST("/v1/leaves.glb", { body: { ...leaf, ...small }, ...binary });
+    const vein = { params: { path: { preset: "maple", image: "orm" }, query: { texture_size: 128 } } } as const;
+    await both(client.HEAD("/v1/surfaces/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/surfaces/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
+
+    await both(client.HEAD("/v1/trees", {}), client.GET("/v1/trees", {}));
+    await both(client.HEAD("/v1/trees/schema", {}), client.GET("/v1/trees/schema", {}));
+    const herb = { params: { path: { preset: "herb" }, query: small } };
+    await both(client.HEAD("/v1/trees/{preset}.glb", herb), client.GET("/v1/trees/{preset}.glb", { ...herb, ...binary }));
+    await client.HEAD("/v1/trees/{preset}.json", herb);
+    const { data: plant } = await client.GET("/v1/trees/{preset}.json", herb);
+    const rows: number[][] | undefined = plant?.matrix;
+    if (!rows?.length) throw new Error("the matrix is not told");
+    await client.POST("/v1/trees.glb", { body: { ...tree, ...small }, ...binary });
+    const bark = { params: { path: { preset: "herb", image: "base_color" }, query: { texture_size: 128 } } } as const;
+    await both(client.HEAD("/v1/surfaces/trees/{preset}/{image}.jpg", bark), client.GET("/v1/surfaces/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
+
+    const { data: inspected } = await client.POST("/v1/inspect", {
+        body: made as unknown as string, // a file: its type is "string" of format "binary"
+        bodySerializer: (file: unknown) => file as ArrayBuffer,
+        headers: { "Content-Type": "model/gltf-binary" },
+    });
+    const canonical: string | null | undefined = inspected?.canonical;
+    if (!canonical?.startsWith("/v1/mushrooms/")) throw new Error("the file does not tell what made it");
+
+    const { error } = await client.GET("/v1/mushrooms/{mix}.json", { params: { path: { mix: id }, query: { age: 1.7 } } });
+    const parameter: string | undefined = error?.errors?.[0]?.parameter;
+    if (parameter !== "age") throw new Error("the culprit is not named");
+    await client.GET("/v1/mushrooms/{mix}.json", mix);
+    const type = { params: { path: { type: error?.type.split("/").pop() ?? "" } } };
+    await both(client.HEAD("/problems/{type}", type), client.GET("/problems/{type}", { ...type, ...text }));
+    return statuses;
+}
