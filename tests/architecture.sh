@@ -80,6 +80,16 @@ verdict 'no work left lying: an issue says it better' "$(code core api server te
     grep -rnE '//.*\b(TODO|FIXME|HACK|XXX)\b' --include='*.h' --include='*.cpp' core api server tests 2>/dev/null)"
 verdict 'every test runs' "$(code tests | grep -E '(DISABLED_[A-Za-z]|GTEST_SKIP)'
     grep -nE '\b(test|it|describe)\.(skip|todo|only)\b|skip: *true' tests/web_viewer/*.mjs 2>/dev/null)"
+verdict 'every source of core has a test of its own name, or a line in tests/core/unmirrored.txt that says why not' "$(
+    find core -name '*.cpp' | sort | while read -r source; do
+        name=${source#core/}
+        listed=$(grep -cE "^${name//./\\.} +[^ ]" tests/core/unmirrored.txt)
+        mirrored=$(find tests/core -path "tests/core/${name%.cpp}_test.cpp" | wc -l)
+        [ $((listed + mirrored)) -eq 1 ] || echo "$source: $mirrored tests, $listed lines"
+    done
+    grep -vE '^#' tests/core/unmirrored.txt | while read -r name _; do
+        [ -f "core/$name" ] || echo "tests/core/unmirrored.txt names core/$name, which is not there"
+    done)"
 verdict 'each room has a README.md' "$(for room in core api server web_viewer tests; do
     [ -f "$room/README.md" ] || echo "$room"; done)"
 verdict 'only the rooms stand at the top' "$(
