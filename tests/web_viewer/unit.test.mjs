@@ -4,6 +4,7 @@ import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
 import path from "node:path";
 import test from "node:test";
+import { coveringArray, product } from "./glb_urls.mjs";
 import { confusionTable, pass, points, readTrial, scored } from "./naming_trial.mjs";
 import { packages, root } from "./support.mjs";
 
@@ -441,4 +442,19 @@ test("the trial that was held last was passed, and its table is that of its answ
     const result = scored(trial.key, trial.judges);
     assert.ok(result.mean >= pass, `${result.mean}`);
     assert.equal(readFileSync(path.join(folder, "confusion.md"), "utf8").trim(), confusionTable(trial, result).trim());
+});
+
+test("a covering array holds every pair, and one of strength three every triple, in fewer rows than the product", () => {
+    const sizes = [7, 4, 3, 3, 2];
+    for (const strength of [2, 3]) {
+        const rows = coveringArray(sizes, strength);
+        assert.ok(rows.length < product(sizes).length / 2, `${rows.length} rows`);
+        assert.ok(rows.every((row) => row.length === sizes.length && row.every((value, i) => value >= 0 && value < sizes[i])));
+        const groups = product(sizes.map(() => 2)).filter((taken) => taken.filter(Boolean).length === strength)
+            .map((taken) => [...taken.keys()].filter((i) => taken[i]));
+        for (const group of groups) {
+            const seen = new Set(rows.map((row) => group.map((i) => row[i]).join()));
+            assert.equal(seen.size, group.reduce((n, i) => n * sizes[i], 1), `factors ${group}`);
+        }
+    }
 });

@@ -66,12 +66,15 @@ async function main() {
     // Each thread asks for the next one when it is done: some take a hundred times as long as others.
     let next = 0;
     let failed = 0;
+    let done = 0;
     await Promise.all(Array.from({ length: Math.min(workers, sources.length) }, () => new Promise((resolve, reject) => {
         const worker = new Worker(fileURLToPath(import.meta.url), { workerData: { allowed } });
         const give = () => (next < sources.length ? worker.postMessage(sources[next++]) : worker.terminate().then(resolve));
         worker.on("message", (faults) => {
             if (faults.length > 0) failed += 1;
             for (const line of faults) console.error(line);
+            done += 1;
+            if (done % 50 === 0) console.error(`[${done}/${sources.length}]`);
             give();
         });
         worker.on("error", reject);

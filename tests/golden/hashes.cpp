@@ -1,0 +1,545 @@
+// The one program that hashes whole GLB files, from core alone. It has two uses:
+//
+//   hashes check FILE             compares the hash of each golden request with the one in FILE
+//   hashes bless FILE             writes the golden hashes of this build to FILE
+//   hashes print [COUNT] [SIMD]   prints the hashes of COUNT random mushrooms, a fifth as many leaves and colonies, and a
+//                                 tenth as many trees, computed with one instruction set; requests that core refuses are
+//                                 printed with the refusal
+//   hashes --simd-names           prints the instruction sets of this processor
+//
+// A line of FILE is: generator_version, what is grown, its age, level of detail, texture size and hash. A leaf has its autumn
+// in place of the age, a tree its seed, a colony the number of individuals, a morph the weight of its second species.
+// tests/golden/equal_bytes.sh compares what builds by other compilers print.
+
+#include <xxhash.h>
+
+#include <algorithm>
+#include <atomic>
+#include <charconv>
+#include <cinttypes>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <fstream>
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <thread>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "core/grow/colony.h"
+#include "core/grow/leaf.h"
+#include "core/grow/mushroom.h"
+#include "core/grow/tree.h"
+#include "core/math/noise.h"
+#include "core/math/random.h"
+#include "core/params/query.h"
+#include "core/params/value.h"
+
+namespace {
+
+using namespace sporeprint;
+
+/// Returns the XXH3 hash of all slices as sixteen hexadecimal digits.
+std::string hash_of(const Body& body) {
+    const std::unique_ptr<XXH3_state_t, decltype(&XXH3_freeState)> state(XXH3_createState(),
+                                                                         &XXH3_freeState);
+    XXH3_64bits_reset(state.get());
+    for (const Slice& slice : body) XXH3_64bits_update(state.get(), slice.data(), slice.size);
+    char text[17];
+    std::snprintf(text, sizeof text, "%016" PRIx64, std::uint64_t{XXH3_64bits_digest(state.get())});
+    return text;
+}
+
+// ---- golden requests
+
+/// Name of a golden request, "what age lod texture_size", and the function that grows its file.
+using Requests = std::map<std::string, std::function<Body()>>;
+using Hashes = std::map<std::string, std::string>;
+
+constexpr int small_side = 128;
+
+std::string line_of(const std::string& id, double age, int lod, int side) {
+    return id + ' ' + number_text(age) + ' ' + std::to_string(lod) + ' ' + std::to_string(side);
+}
+
+/// Returns the order of a species or mix, painted small.
+MushroomOrder order_of(Mix mix, double age, int lod, int side = small_side) {
+    MushroomOrder order{.mix = std::move(mix), .model = {}, .params = {}};
+    order.params.age = age;
+    order.params.lod = lod;
+    order.params.texture_size.value = side;
+    return order;
+}
+
+/// Adds a mushroom under the name `called`.
+void add_mushroom(Requests& requests, const std::shared_ptr<const Atlas>& atlas,
+                  const std::string& called, const MushroomOrder& order) {
+    requests[line_of(called, order.params.age, order.params.lod, order.params.texture_size.value)] =
+        [order, atlas] { return grow_mushroom(order, *atlas).glb; };
+}
+
+/// Adds each species at several ages and every level of detail, small; and once as a game would ask for it.
+void add_species(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    for (const AtlasEntry& entry : atlas->entries()) {
+        const std::string id = entry.species.id.string();
+        for (const double age : {0.0, 0.3, 0.6, 0.85, 1.0})
+            for (int lod = 0; lod < 4; ++lod)
+                add_mushroom(requests, atlas, id, order_of({{id, 1000}}, age, lod));
+        add_mushroom(requests, atlas, id, order_of({{id, 1000}}, 0.6, 0, 512));
+    }
+}
+
+/// Returns the ids of the species of one family: those turned round an axis, or corals and antlers.
+std::vector<std::string> family_of(const Atlas& atlas, bool branched) {
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : atlas.entries())
+        if (std::holds_alternative<Branched>(entry.species.stages.front().model.shape) == branched)
+            ids.push_back(entry.species.id.string());
+    return ids;
+}
+
+std::string name_of(const Mix& mix) {
+    std::string name;
+    for (const MixPart& part : mix)
+        name += (name.empty() ? "" : ",") + part.id + ':' + number_text(part.weight / 1000.0);
+    return name;
+}
+
+/// Adds each species mixed with the next of its family at one level of detail, and larger mixes at all of them.
+void add_mixes(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    const auto add = [&](const Mix& mix, double age, int lod) {
+        add_mushroom(requests, atlas, "mix/" + name_of(mix), order_of(mix, age, lod));
+    };
+    for (const bool branched : {false, true}) {
+        const auto ids = family_of(*atlas, branched);
+        for (std::size_t i = 0; i + 1 < ids.size(); ++i)
+            add({{ids[i], 400}, {ids[i + 1], 600}}, 0.6, static_cast<int>(i % 4));
+        // From three species up to as many as a mix may have, taken at even distances.
+        for (const std::size_t count : {std::size_t{3}, std::size_t{8}}) {
+            if (ids.size() < count) continue;
+            Mix mix;
+            for (std::size_t i = 0; i < count; ++i)
+                mix.push_back({ids[i * ids.size() / count], static_cast<int>(1000 / count)});
+            mix.back().weight += 1000 % static_cast<int>(count);
+            for (int lod = 0; lod < 4; ++lod) add(mix, 0.5, lod);
+        }
+    }
+}
+
+/// Adds what stands between two species, for some near and far pairs: the file at each weight of the second one.
+void add_morphs(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    constexpr const char* pairs[][2] = {{"amanita_muscaria", "boletus_edulis"},
+                                        {"cantharellus_cibarius", "trametes_versicolor"},
+                                        {"coprinus_comatus", "phallus_impudicus"},
+                                        {"ramaria_formosa", "xylaria_hypoxylon"}};
+    for (const auto& [a, b] : pairs)
+        for (const int weight : {1, 250, 500, 750, 999})
+            for (const int lod : {0, 2}) {
+                const MushroomOrder order = order_of({{a, 1000 - weight}, {b, weight}}, 0.6, lod);
+                requests[line_of(std::string("morph/") + a + '~' + b, weight / 1000.0, lod,
+                                 small_side)] = [order, atlas] {
+                    return grow_mushroom(order, *atlas).glb;
+                };
+            }
+}
+
+/// Adds the growth clip of each species and of some mixes, with few and many frames.
+void add_clips(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    const auto add = [&](const Mix& mix, double age, int lod, int frames) {
+        MushroomOrder order = order_of(mix, age, lod);
+        order.params.animation = Animation::growth;
+        order.params.frames = frames;
+        const std::string whose = mix.size() == 1 ? mix.front().id : name_of(mix);
+        add_mushroom(requests, atlas, "clip/" + whose + '/' + std::to_string(frames), order);
+    };
+    for (const AtlasEntry& entry : atlas->entries()) {
+        const std::string id = entry.species.id.string();
+        add({{id, 1000}}, 0.6, 2, 9);
+        add({{id, 1000}}, 0.37, 3, 2);
+    }
+    add({{"amanita_muscaria", 1000}}, 0.6, 0, 5);
+    add({{"amanita_muscaria", 1000}}, 1.0, 1, 16);
+    add({{"amanita_muscaria", 500}, {"boletus_edulis", 500}}, 0.6, 1, 9);
+    add({{"ramaria_formosa", 500}, {"xylaria_hypoxylon", 500}}, 0.6, 2, 9);
+}
+
+/// Adds every effect of the weather at half and at full strength on each species of a list that can have it.
+///
+/// throws  std::logic_error for an effect that none of these species can have: the list then lacks a species
+void add_weathering(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    constexpr const char* species[] = {"amanita_muscaria", "boletus_edulis",
+                                       "coprinus_comatus", "trametes_versicolor",
+                                       "ramaria_formosa",  "disciotis_venosa"};
+    WeatheringOf<Maybe>::fields([&](auto effect, const Info& info) {
+        bool found = false;
+        for (const char* id : species)
+            for (const double strength : {0.5, 1.0})
+                for (const int lod : {0, 2}) {
+                    MushroomOrder order = order_of({{id, 1000}}, 0.85, lod);
+                    order.params.weathering.*effect = strength;
+                    try {
+                        static_cast<void>(estimate(order, *atlas));
+                    } catch (const InvalidInput&) {
+                        continue;  // This species cannot have the effect.
+                    }
+                    found = true;
+                    add_mushroom(requests, atlas,
+                                 std::string("weathering/") + std::string(info.name) + '/' +
+                                     number_text(strength) + '/' + id,
+                                 order);
+                }
+        if (!found)
+            throw std::logic_error("no species of the list can have " + std::string(info.name));
+    });
+}
+
+/// Adds each leaf through the year, at every level of detail, small.
+void add_leaves(Requests& requests) {
+    for (const LeafPreset& preset : leaf_presets())
+        for (const double autumn : {0.0, 0.5, 1.0})
+            for (int lod = 0; lod < leaf_lods; ++lod) {
+                LeafOrder order{preset.id, params_of(preset)};
+                order.params.autumn = autumn;
+                order.params.lod = lod;
+                order.params.texture_size.value = small_side;
+                requests[line_of(std::string("leaf/") + preset.id, autumn, lod, small_side)] =
+                    [order] { return grow_leaf(order).glb; };
+            }
+}
+
+/// Adds some individuals of each tree, at every level of detail, small.
+void add_trees(Requests& requests) {
+    for (const TreePreset& preset : tree_presets())
+        for (const std::uint32_t seed : {1u, 2u, 3u})
+            for (int lod = 0; lod < tree_lods; ++lod) {
+                TreeOrder order{preset.id, params_of(preset)};
+                order.params.seed = seed;
+                order.params.lod = lod;
+                order.params.texture_size.value = small_side;
+                requests[line_of(std::string("tree/") + preset.id, seed, lod, small_side)] =
+                    [order] { return grow_tree(order).glb; };
+            }
+}
+
+/// Adds each species' colony in its own habit, at every level of detail, small; and two on roots, instanced.
+void add_colonies(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    const auto add = [&](const std::string& id, const std::string& called, ColonyParams params) {
+        params.texture_size.value = small_side;
+        requests[line_of("colony/" + called, params.count, params.lod, small_side)] = [id, params,
+                                                                                       atlas] {
+            return grow_colony({.mix = {{id, 1000}}, .params = params}, *atlas).glb;
+        };
+    };
+    for (const AtlasEntry& entry : atlas->entries())
+        for (int lod = 0; lod < 4; ++lod) {
+            ColonyParams params;
+            params.count = 9;
+            params.distinct = 3;
+            params.lod = lod;
+            add(entry.species.id.string(), entry.species.id.string(), params);
+        }
+    for (const char* id : {"hypholoma_fasciculare", "lycoperdon_perlatum"}) {
+        ColonyParams params;
+        params.count = 64;
+        params.habit = Habit::rooted;
+        params.instancing = Instancing::gpu;
+        add(id, std::string(id) + "/rooted", params);
+    }
+}
+
+Requests golden_requests() {
+    const std::shared_ptr<const Atlas> atlas = built_in_atlas();
+    Requests requests;
+    add_species(requests, atlas);
+    add_mixes(requests, atlas);
+    add_morphs(requests, atlas);
+    add_clips(requests, atlas);
+    add_weathering(requests, atlas);
+    add_leaves(requests);
+    add_trees(requests);
+    add_colonies(requests, atlas);
+    return requests;
+}
+
+/// Grows every golden request, on all processors. A request that cannot be grown has its error in place of a hash.
+Hashes hashes_of_this_build() {
+    const Requests requests = golden_requests();
+    std::vector<Requests::const_iterator> order;
+    for (auto at = requests.begin(); at != requests.end(); ++at) order.push_back(at);
+    Hashes hashes;
+    std::mutex mutex;
+    std::atomic<std::size_t> next = 0;
+    const auto work = [&] {
+        for (std::size_t i = next++; i < order.size(); i = next++) {
+            std::string hash;
+            try {
+                hash = hash_of(order[i]->second());
+            } catch (const std::exception& error) {
+                hash = std::string("error:") + error.what();
+                std::replace(hash.begin(), hash.end(), ' ', '_');
+            }
+            const std::lock_guard lock(mutex);
+            hashes[order[i]->first] = hash;
+            if (hashes.size() % 100 == 0)
+                std::fprintf(stderr, "[%zu/%zu]\n", hashes.size(), order.size());
+        }
+    };
+    {
+        std::vector<std::jthread> threads;
+        for (unsigned i = 0; i < std::max(1u, std::thread::hardware_concurrency()); ++i)
+            threads.emplace_back(work);
+    }
+    return hashes;
+}
+
+/// Reads the golden hashes and the generator version that they belong to.
+std::pair<Hashes, int> written(const char* path) {
+    Hashes hashes;
+    int version = 0;
+    std::ifstream file(path);
+    std::string species, age, lod, side, hash;
+    while (file >> version >> species >> age >> lod >> side >> hash)
+        hashes[species + ' ' + age + ' ' + lod + ' ' + side] = hash;
+    return {hashes, version};
+}
+
+/// Compares this build with the golden hashes; returns the exit status.
+int check(const char* path) {
+    const auto [golden, version] = written(path);
+    if (golden.empty()) {
+        std::printf("%s holds no hashes: bless\n", path);
+        return 1;
+    }
+    const Hashes today = hashes_of_this_build();
+    std::size_t changed = 0, missing = 0, gone = 0;
+    for (const auto& [request, hash] : today) {
+        const auto old = golden.find(request);
+        if (old == golden.end()) {
+            ++missing;
+        } else if (old->second != hash) {
+            if (changed++ < 10) std::printf("other bytes: %s\n", request.c_str());
+        }
+    }
+    for (const auto& [request, hash] : golden) gone += today.contains(request) ? 0 : 1;
+    if (changed + missing + gone == 0 && version == generator_version) {
+        std::printf("%zu files have the bytes they had\n", today.size());
+        return 0;
+    }
+    std::printf("%zu of %zu files changed, %zu are new, %zu are gone\n", changed, today.size(),
+                missing, gone);
+    std::puts(changed > 0 && version == generator_version ? "raise generator_version, then bless"
+                                                          : "bless");
+    return 1;
+}
+
+/// Writes the hashes of this build; returns the exit status.
+int bless(const char* path) {
+    const Hashes today = hashes_of_this_build();
+    for (const auto& [request, hash] : today) {
+        if (!hash.starts_with("error:")) continue;
+        std::printf("%s: %s\n", request.c_str(), hash.c_str());
+        return 1;
+    }
+    std::ofstream file(path);
+    for (const auto& [request, hash] : today)
+        file << generator_version << ' ' << request << ' ' << hash << '\n';
+    file.close();
+    if (!file) {
+        std::printf("%s cannot be written\n", path);
+        return 1;
+    }
+    std::printf("%zu hashes written\n", today.size());
+    return 0;
+}
+
+// ---- random requests
+
+/// Sets a third of the optional members, anywhere below, to a random allowed value.
+template <class T>
+void draw_overrides(T& value, const Info& info, Random& random) {
+    if constexpr (std::is_same_v<T, std::optional<double>>) {
+        const double chance = random.uniform();
+        const double drawn = random.uniform(info.min, info.max);
+        if (chance < 0.3) value = drawn;
+    } else if constexpr (std::is_same_v<T, std::optional<int>>) {
+        const double chance = random.uniform();
+        const double drawn = random.uniform(info.min, info.max);
+        if (chance < 0.3) value = static_cast<int>(drawn);
+    } else if constexpr (Described<T>) {
+        T::fields(
+            [&](auto member, const Info& sub) { draw_overrides(value.*member, sub, random); });
+    }
+}
+
+MushroomOrder random_order(std::uint32_t number, const Atlas& atlas) {
+    Random random(number, 0x68617368);
+    const auto& entries = atlas.entries();
+    const auto any_species = [&] { return entries[random.bits() % entries.size()].species.id; };
+
+    MushroomOrder order;
+    order.mix.push_back({std::string(any_species().view()), 1000});
+    order.params.seed = random.bits();
+    order.params.age = random.uniform();
+    order.params.size = random.uniform(0.25, 4.0);
+    order.params.variation = random.uniform();
+    order.params.lod = static_cast<int>(random.bits() % 4);
+    order.params.texture_size.value = 128;
+    const std::uint32_t textures = random.bits() % 8;
+    if (textures == 0) order.params.textures = Textures::none;
+    if (random.bits() % 2 == 0) draw_overrides(order.params, Info{.name = ""}, random);
+    return order;
+}
+
+/// Prints the line of one request and returns whether a mushroom was grown.
+bool print_line(const MushroomOrder& order, const Atlas& atlas) {
+    const std::string request = order.mix.front().id + '?' + query_text(order.params);
+    try {
+        const Mushroom mushroom = grow_mushroom(order, atlas);
+        std::printf("%s %8zu  %s\n", hash_of(mushroom.glb).c_str(), size_of(mushroom.glb),
+                    request.c_str());
+        return true;
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+        return false;
+    }
+}
+
+/// Prints the line of a leaf of random veins, or that it cannot be.
+void print_leaf(std::uint32_t number) {
+    Random random(number, 0x6c656166);
+    const LeafPreset& preset = leaf_presets()[number % leaf_presets().size()];
+    LeafOrder order{preset.id, params_of(preset)};
+    LeafParams& params = order.params;
+    params.seed = random.bits();
+    params.variation = random.uniform();
+    params.autumn = random.uniform();
+    params.lod = static_cast<int>(random.bits() % leaf_lods);
+    params.texture_size.value = 128;
+    params.shape.curl_deg = random.uniform(-180.0, 180.0);
+    params.shape.venation.rise = random.uniform(0.0, 4.0);
+    params.shape.venation.border = random.uniform(1.0, 2.0);
+    params.shape.venation.side_deg = random.uniform(15.0, 88.0);
+    const std::string request =
+        std::string("leaf/") + preset.id + '?' + query_text(params, params_of(preset));
+    try {
+        const Grown leaf = grow_leaf(order);
+        std::printf("%s %8zu  %s\n", hash_of(leaf.glb).c_str(), size_of(leaf.glb), request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
+/// Prints the line of a tree of random angles, laws and leaves, or that it cannot be.
+void print_tree(std::uint32_t number) {
+    Random random(number, 0x74726565);
+    const TreePreset& preset = tree_presets()[number % tree_presets().size()];
+    TreeOrder order{preset.id, params_of(preset)};
+    TreeParams& params = order.params;
+    TreeShape& shape = params.look.shape;
+    params.seed = random.bits();
+    params.autumn = random.uniform();
+    params.lod = static_cast<int>(random.bits() % tree_lods);
+    params.texture_size.value = 128;
+    params.look.leaf = static_cast<LeafKind>(random.bits() % leaf_presets().size());
+    params.look.leaves.droop = random.uniform();
+    params.look.bark.furrows = random.uniform();
+    shape.width_rise = random.uniform(1.0, 3.0);
+    shape.length_rise = random.uniform(0.6, 1.4);
+    shape.fork_deg = random.uniform(0.0, 80.0);
+    shape.side_deg = random.uniform(0.0, 100.0);
+    shape.gravitropism = random.uniform(-0.2, 0.2);
+    shape.phototropism = random.uniform(0.0, 0.2);
+    shape.plagiotropy = random.uniform();
+    shape.variation = random.uniform();
+    if (random.bits() % 4 == 0) shape.topology.growth = TreeGrowth::drawn;
+    const std::string request =
+        std::string("tree/") + preset.id + '?' + query_text(params, params_of(preset));
+    try {
+        const Grown tree = grow_tree(order);
+        std::printf("%s %8zu  %s\n", hash_of(tree.glb).c_str(), size_of(tree.glb), request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
+/// Prints the line of a colony of one species, or that it cannot be.
+void print_colony(std::uint32_t number, const Atlas& atlas) {
+    Random random(number, 0x636f6c6f);
+    const auto& entries = atlas.entries();
+    ColonyOrder order;
+    order.mix = {{entries[random.bits() % entries.size()].species.id.string(), 1000}};
+    ColonyParams& params = order.params;
+    params.seed = random.bits();
+    params.count = static_cast<int>(random.uniform(1.0, 48.0));
+    params.distinct = static_cast<int>(random.uniform(1.0, 6.0));
+    params.age = random.uniform();
+    params.size = random.uniform(0.25, 4.0);
+    params.lod = static_cast<int>(random.bits() % 4);
+    params.texture_size.value = 128;
+    if (random.bits() % 2 == 0) params.habit = static_cast<Habit>(random.bits() % 5);
+    if (random.bits() % 2 == 0) params.instancing = Instancing::gpu;
+    const std::string request = "colony/" + order.mix.front().id + '?' + query_text(params);
+    try {
+        const Grown colony = grow_colony(order, atlas);
+        std::printf("%s %8zu  %s\n", hash_of(colony.glb).c_str(), size_of(colony.glb),
+                    request.c_str());
+    } catch (const InvalidInput& refusal) {
+        std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
+    }
+}
+
+/// Prints the hashes of `count` random mushrooms and of leaves, trees and colonies.
+///
+/// throws  GenerationError if hardly any of the random requests can be grown
+void print(std::uint32_t count) {
+    const auto atlas = built_in_atlas();
+    for (std::uint32_t number = 0, grown = 0; grown < count; ++number) {
+        if (number > 100 * count) throw GenerationError("hardly any random request can be grown");
+        if (print_line(random_order(number, *atlas), *atlas)) ++grown;
+    }
+    for (std::uint32_t number = 0; number < count / 5; ++number) print_leaf(number);
+    for (std::uint32_t number = 0; number < count / 10; ++number) print_tree(number);
+    for (std::uint32_t number = 0; number < count / 5; ++number) print_colony(number, *atlas);
+}
+
+int usage() {
+    std::fputs("usage: hashes check FILE | bless FILE | print [COUNT] [SIMD] | --simd-names\n",
+               stderr);
+    return 2;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+    const std::vector<std::string_view> arguments(argv + 1, argv + argc);
+    const std::string_view what = arguments.empty() ? "" : arguments[0];
+    if (what == "check" && argc == 3) return check(argv[2]);
+    if (what == "bless" && argc == 3) return bless(argv[2]);
+    if (what == "--simd-names" && argc == 2) {
+        for (const std::string& name : simd_names()) std::puts(name.c_str());
+        return 0;
+    }
+    if (what != "print" || argc > 4) return usage();
+    std::uint32_t count = 200;
+    if (argc > 2) {
+        const std::string_view text = arguments[1];
+        const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
+        if (error != std::errc() || end != text.data() + text.size()) return usage();
+    }
+    if (argc > 3) force_simd(arguments[2]);
+    print(count);
+    return 0;
+} catch (const std::exception& error) {
+    std::fprintf(stderr, "hashes: %s\n", error.what());
+    return 1;
+}

@@ -1,0 +1,134 @@
+// Prints URLs of GLBs that cover what can be asked for, one a line, for validate_glbs.mjs.
+//
+//   node tests/web_viewer/glb_urls.mjs SERVER 2         every pair of values of two parameters stands in some URL
+//   node tests/web_viewer/glb_urls.mjs SERVER 3         every triple
+//   node tests/web_viewer/glb_urls.mjs SERVER product   every combination
+//
+// The same server and strength give the same URLs. The file as it is served to who asks for nothing is always among them.
+import { fileURLToPath } from "node:url";
+
+/**
+ * Returns rows that together hold every combination of values of `strength` factors (a covering array), found greedily: each
+ * row begins with a combination that no row has yet, and takes for every other factor the value that adds most new ones.
+ *
+ * @param {number[]} sizes number of values of each factor
+ * @param {number} strength from 1 to the number of factors
+ * @returns {number[][]} indices of values, one for each factor
+ */
+export function coveringArray(sizes, strength) {
+    const groups = [];
+    const choose = (from, group) => {
+        if (group.length === strength) return void groups.push(group);
+        for (let i = from; i < sizes.length; ++i) choose(i + 1, [...group, i]);
+    };
+    choose(0, []);
+    // What no row has yet: for each group of factors a number for each combination of their values.
+    const missing = groups.map((group) => new Set(Array(group.reduce((n, i) => n * sizes[i], 1)).keys()));
+    const place = (group, row) => group.reduce((n, i) => n * sizes[i] + row[i], 0);
+    const rows = [];
+    for (let g = 0; g < groups.length; ++g) {
+        while (missing[g].size > 0) {
+            const row = Array(sizes.length).fill(-1);
+            let [rest] = missing[g];
+            for (const i of [...groups[g]].reverse()) {
+                row[i] = rest % sizes[i];
+                rest = Math.floor(rest / sizes[i]);
+            }
+            for (let i = 0; i < sizes.length; ++i) {
+                if (row[i] >= 0) continue;
+                const complete = groups.map((group, k) => [group, k])
+                    .filter(([group]) => group.includes(i) && group.every((j) => j === i || row[j] >= 0));
+                let best = 0;
+                let most = -1;
+                // Ties go to another value in each row, so that all of them come equally often.
+                for (let n = 0; n < sizes[i]; ++n) {
+                    const value = (n + rows.length) % sizes[i];
+                    row[i] = value;
+                    const gain = complete.filter(([group, k]) => missing[k].has(place(group, row))).length;
+                    if (gain > most) [most, best] = [gain, value];
+                }
+                row[i] = best;
+            }
+            groups.forEach((group, k) => missing[k].delete(place(group, row)));
+            rows.push(row);
+        }
+    }
+    return rows;
+}
+
+/** Returns all rows of a product. */
+export function product(sizes) {
+    return sizes.reduce((rows, size) => rows.flatMap((row) => [...Array(size).keys()].map((value) => [...row, value])), [[]]);
+}
+
+const small = "texture_size=128";
+const images = [small, small, "textures=none"]; // images are where most can be wrong
+const lods = ["", "lod=1", "lod=2", "lod=3"];
+
+/** Returns what can be asked for: for each product its route, its factors (values are parts of a query), and what stands alone. */
+async function offers(server) {
+    const list = async (route, key) => {
+        const response = await fetch(`${server}${route}`);
+        if (!response.ok) throw new Error(`${route} answered ${response.status}`);
+        const found = (await response.json())[key].map(({ id }) => id);
+        if (found.length < 3) throw new Error(`${route} has only ${found.length} ${key}`);
+        return found;
+    };
+    const species = await list("/v1/species", "species");
+    const mixes = [];
+    for (const family of ["swept", "branched"]) {
+        const kin = await list(`/v1/species?family=${family}`, "species");
+        for (let i = 1; i < kin.length; ++i) mixes.push(`${kin[i - 1]}:0.4,${kin[i]}:0.6`);
+    }
+    const leaves = await list("/v1/leaves", "leaves");
+    const trees = await list("/v1/trees", "trees");
+    const ages = ["age=0", "age=0.25", "age=0.5", "age=0.75", "age=1"];
+    const clips = ["", "", "animation=growth", "animation=growth&frames=2", "animation=growth&frames=16"];
+    return [
+        { route: "mushrooms", factors: [species, ages, lods, ["seed=7", "seed=8", "seed=9&variation=1"], images, clips] },
+        { route: "mushrooms", factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, images, clips] },
+        {
+            route: "leaves",
+            factors: [leaves, ["autumn=0", "autumn=0.5", "autumn=1"], lods, ["seed=7", "seed=7&variation=1"], images,
+                ["", "curl_deg=180&size=0.25", "venation.teeth=1&venation.teeth_per_vein=6"]],
+        },
+        {
+            route: "trees",
+            factors: [trees, ["autumn=0", "autumn=0.5"], lods, ["seed=7", "seed=8"], images, ["", "size=0.25", "leaves.per_tip=0"],
+                ["", "growth=drawn"]],
+        },
+        {
+            route: "colonies",
+            factors: [[...species, "amanita_muscaria:0.5,boletus_edulis:0.5"], lods, ["count=9&distinct=3", "count=3&distinct=1"],
+                ["seed=7", "seed=8"], images, ["", "", "instancing=gpu"]],
+        },
+        { route: "mushrooms", factors: [species] },
+        { route: "leaves", factors: [leaves] },
+        { route: "trees", factors: [trees] },
+        { route: "colonies", factors: [["hypholoma_fasciculare"]] },
+        { route: "colonies", factors: [["amanita_muscaria:0.5,boletus_edulis:0.5"], ["habit=rooted&textures=none&roots=shown"]] },
+    ];
+}
+
+async function main() {
+    const [server, strength] = process.argv.slice(2);
+    if (!/^https?:/.test(server ?? "") || !/^([23]|product)$/.test(strength ?? "")) {
+        console.error("usage: glb_urls.mjs SERVER 2|3|product");
+        process.exit(2);
+    }
+    const urls = new Set();
+    for (const { route, factors } of await offers(server.replace(/\/+$/, ""))) {
+        // What stands twice in a list is only more often taken; in a whole product once is enough.
+        const values = strength === "product" ? factors.map((list) => [...new Set(list)]) : factors;
+        const sizes = values.map((list) => list.length);
+        const rows = strength === "product" ? product(sizes) : coveringArray(sizes, Math.min(Number(strength), sizes.length));
+        for (const row of rows) {
+            const [id, ...query] = row.map((value, i) => values[i][value]);
+            const asked = query.filter(Boolean).join("&");
+            urls.add(`${server}/v1/${route}/${id}.glb${asked && `?${asked}`}`);
+        }
+    }
+    console.log([...urls].join("\n"));
+}
+
+if (process.argv[1] === fileURLToPath(import.meta.url)) await main();
