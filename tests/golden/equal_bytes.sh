@@ -8,9 +8,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 . server/common.sh
 jobs=${SPOREPRINT_JOBS:-$(nproc)}
 requests=${SPOREPRINT_HASH_REQUESTS:-200}
-# At -O0 each instruction set computes a quarter of the requests, the one that the processor would
+# At -O0 each instruction set computes an eighth of the requests, the one that the processor would
 # choose all of them.
-few=${SPOREPRINT_HASH_REQUESTS_AT_O0:-$((requests / 4))}
+few=${SPOREPRINT_HASH_REQUESTS_AT_O0:-$((requests / 8))}
 passed=0 failed=0
 
 verdict() { # ok|bad, what
