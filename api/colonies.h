@@ -7,7 +7,7 @@
 
 #include "api/orders.h"
 #include "core/atlas/atlas.h"
-#include "core/colony/colony_order.h"
+#include "core/colony/colony_spec.h"
 
 namespace sporeprint::api {
 

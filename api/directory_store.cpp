@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "api/encoding.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::api {
 

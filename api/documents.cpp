@@ -9,7 +9,7 @@
 
 #include "api/encoding.h"
 #include "api/text.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::api {
 

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <array>
 
-#include "core/colony/colony_order.h"
-#include "core/model/request.h"
+#include "core/colony/colony_spec.h"
+#include "core/individual/mushroom_spec.h"
 #include "core/params/query.h"
-#include "core/plant/tree_order.h"
+#include "core/plant/tree_spec.h"
 
 namespace sporeprint::api {
 

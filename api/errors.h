@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "api/http.h"
-#include "core/params/problems.h"
 #include "core/params/value.h"
+#include "core/problems.h"
 
 namespace sporeprint::api {
 

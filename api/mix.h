@@ -8,7 +8,7 @@
 
 #include "api/errors.h"
 #include "core/atlas/atlas.h"
-#include "core/model/request.h"
+#include "core/individual/mushroom_spec.h"
 
 namespace sporeprint::api {
 

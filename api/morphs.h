@@ -12,7 +12,7 @@
 #include "api/errors.h"
 #include "api/mushrooms.h"
 #include "core/atlas/atlas.h"
-#include "core/model/request.h"
+#include "core/individual/mushroom_spec.h"
 #include "core/silhouette/morph_set.h"
 
 namespace sporeprint::api {

@@ -7,7 +7,7 @@
 
 #include "api/orders.h"
 #include "core/atlas/atlas.h"
-#include "core/model/request.h"
+#include "core/individual/mushroom_spec.h"
 
 namespace sporeprint::api {
 

@@ -10,9 +10,9 @@
 #include "api/openapi.h"
 #include "api/presets.h"
 #include "api/surfaces.h"
-#include "core/colony/colony_order.h"
+#include "core/colony/colony_spec.h"
 #include "core/grow/species_morph.h"
-#include "core/model/request.h"
+#include "core/individual/mushroom_spec.h"
 #include "core/model/species.h"
 #include "core/params/schema.h"
 

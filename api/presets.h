@@ -14,8 +14,8 @@
 #include "core/params/messages.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
-#include "core/plant/leaf_order.h"
-#include "core/plant/tree_order.h"
+#include "core/plant/leaf_spec.h"
+#include "core/plant/tree_spec.h"
 
 namespace sporeprint::api {
 

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::api {
 

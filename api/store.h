@@ -15,7 +15,7 @@
 #include "api/cache.h"
 #include "api/directory_store.h"
 #include "api/service.h"
-#include "core/grow/workshop.h"
+#include "core/grow/execution_context.h"
 
 namespace sporeprint::api {
 

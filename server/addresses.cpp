@@ -8,7 +8,7 @@
 #include <cstring>
 
 #include "core/params/messages.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "server/head.h"
 
 namespace sporeprint::server {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "core/atlas/atlas.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::server {
 

@@ -12,8 +12,8 @@
 
 #include "api/query.h"
 #include "core/params/messages.h"
-#include "core/params/problems.h"
 #include "core/params/types.h"
+#include "core/problems.h"
 #include "server/text_files.h"
 
 namespace sporeprint::server {

@@ -48,6 +48,15 @@ forbid core '#include [<"](\.\./|[^/">]+\.h")' 'includes go from the project roo
 forbid api '#include [<"](\.\./|[^/">]+\.h")' 'includes go from the project root'
 forbid server '#include [<"](\.\./|[^/">]+\.h")' 'includes go from the project root'
 
+# One direction between the folders inside core, api and server as well.
+folder_arrows() { # [folder ...]: "including included" for each include that crosses folders, without repeats
+    grep -rHoE '^#include "[^"]+/[^"/]+"' --include='*.h' --include='*.cpp' --include='*.inl' "$@" |
+        sed -nE 's#^(.*)/[^/:]+:\#include "(.*)/[^/"]+"$#\1 \2#p' | sort -u | awk '$1 != $2'
+}
+verdict 'folders include each other in a circle' "$(
+    folder_arrows core api server | tsort 2>&1 >/dev/null | sed 's/^tsort: \(-: \)\?//' | tr '\n' ' ' |
+        sed 's/ *input contains a loop: */\nfolders in a circle: /g' | sed '/^$/d')"
+
 # The same bytes everywhere.
 forbid core 'std::(random_device|mt19937|minstd_rand|default_random_engine|[a-z_]+_distribution|unordered_|hash<|shuffle\b|sample\b|async\b|reduce\b|execution)|#include <(random|chrono|ctime|unordered_(map|set)|execution)>' \
     'results depend on seed and parameters only'
@@ -59,7 +68,7 @@ forbid core 'glm::(rotate|angleAxis|slerp|mix\(.*quat|perlin|simplex|linearRand|
 forbid core '\b(Mul(Add|Sub)|NegMul(Add|Sub))\(|\b(SumOfLanes|MinOfLanes|MaxOfLanes|ReduceSum)\(|Approximate[A-Z]' 'differs between SIMD targets'
 forbid core 'std::(stof|stod|strtod|atof|ostringstream|stringstream|istringstream)\b|(^|[^A-Za-z0-9_])(strtod|atof|setlocale)\(' 'numbers go through from_chars and to_chars'
 
-forbid core '(constexpr|const) std::uint32_t [a-z_]*purpose[a-z_]* *=|Random( [a-z_]+)?\([^,()]*(\(\))?, [0-9]' 'purposes of random streams stand in one list, core/model/purposes.h'
+forbid core '(constexpr|const) std::uint32_t [a-z_]*purpose[a-z_]* *=|Random( [a-z_]+)?\([^,()]*(\(\))?, [0-9]' 'purposes of random streams stand in one list, core/math/purposes.h'
 
 # Heavy or narrow headers stay where they belong.
 verdict 'Highway in two places: the noise of core/math and the paint kernels of core/surface' "$(

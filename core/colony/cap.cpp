@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <vector>
 
-#include "core/build/sweep.h"
+#include "core/geometry/sweep.h"
+#include "core/individual/proportion.h"
+#include "core/math/purposes.h"
 #include "core/mesh/index_order.h"
-#include "core/model/proportion.h"
-#include "core/model/purposes.h"
 
 namespace sporeprint {
 

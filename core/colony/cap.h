@@ -1,8 +1,8 @@
 // The cap of a mushroom without its stem, to be set on a stem of a colony.
 #pragma once
 
+#include "core/individual/individual.h"
 #include "core/mesh/mesh.h"
-#include "core/model/individual.h"
 
 namespace sporeprint {
 

@@ -1,7 +1,7 @@
 // The skin of a colony: its roots and stems as one closed mesh that wears the stem of its species.
 #pragma once
 
-#include "core/colony/apart.h"
+#include "core/colony/separation.h"
 #include "core/mesh/mesh.h"
 
 namespace sporeprint {

@@ -6,8 +6,8 @@
 #include <utility>
 
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
 #include "core/math/random.h"
-#include "core/model/purposes.h"
 #include "core/params/blend.h"
 
 namespace sporeprint {

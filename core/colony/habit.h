@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/colony/cap.h"
-#include "core/colony/colony_order.h"
+#include "core/colony/colony_spec.h"
 #include "core/skeleton/skeleton.h"
 
 namespace sporeprint {

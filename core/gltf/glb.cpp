@@ -9,7 +9,7 @@
 #include <optional>
 #include <utility>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/version.h"
 
 namespace sporeprint {

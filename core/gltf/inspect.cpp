@@ -4,8 +4,8 @@
 
 #include <cstring>
 
-#include "core/params/problems.h"
 #include "core/params/value.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 

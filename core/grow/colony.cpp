@@ -8,9 +8,9 @@
 
 #include "core/colony/colony_skin.h"
 #include "core/grow/mushroom.h"
+#include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/mesh/index_order.h"
-#include "core/model/purposes.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
 

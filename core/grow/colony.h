@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "core/atlas/atlas.h"
-#include "core/colony/apart.h"
-#include "core/colony/colony_order.h"
+#include "core/colony/colony_spec.h"
+#include "core/colony/separation.h"
 #include "core/grow/painting.h"
 #include "core/grow/product.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 

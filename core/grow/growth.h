@@ -5,9 +5,9 @@
 
 #include "core/atlas/atlas.h"
 #include "core/gltf/glb.h"
-#include "core/grow/workshop.h"
+#include "core/grow/execution_context.h"
+#include "core/individual/mushroom_spec.h"
 #include "core/mesh/mesh.h"
-#include "core/model/request.h"
 
 namespace sporeprint {
 

@@ -1,7 +1,7 @@
 #include "core/grow/mushroom.h"
 
-#include "core/build/budget.h"
-#include "core/build/limbs.h"
+#include "core/geometry/branches.h"
+#include "core/geometry/budget.h"
 #include "core/gltf/glb.h"
 #include "core/grow/growth.h"
 #include "core/grow/painting.h"

@@ -2,10 +2,10 @@
 #pragma once
 
 #include "core/atlas/atlas.h"
-#include "core/build/sweep.h"
+#include "core/geometry/sweep.h"
 #include "core/grow/product.h"
-#include "core/model/request.h"
-#include "core/model/resolve.h"
+#include "core/individual/mushroom_spec.h"
+#include "core/individual/resolve.h"
 #include "core/version.h"
 
 namespace sporeprint {

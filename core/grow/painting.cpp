@@ -5,11 +5,11 @@
 #include <numeric>
 #include <utility>
 
-#include "core/build/detail.h"
 #include "core/grow/mushroom.h"
+#include "core/mesh/detail.h"
 #include "core/params/canonical.h"
-#include "core/surface/dissolve.h"
-#include "core/surface/given.h"
+#include "core/surface/image_blend.h"
+#include "core/surface/uploaded_image.h"
 
 namespace sporeprint {
 

@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "core/atlas/atlas.h"
-#include "core/grow/workshop.h"
-#include "core/model/request.h"
-#include "core/model/resolve.h"
+#include "core/grow/execution_context.h"
+#include "core/individual/mushroom_spec.h"
+#include "core/individual/resolve.h"
 
 namespace sporeprint {
 

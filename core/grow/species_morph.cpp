@@ -3,7 +3,7 @@
 #include <utility>
 #include <variant>
 
-#include "core/model/resolve.h"
+#include "core/individual/resolve.h"
 
 namespace sporeprint {
 

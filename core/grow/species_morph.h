@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/atlas/atlas.h"
-#include "core/grow/workshop.h"
+#include "core/grow/execution_context.h"
 #include "core/params/describe.h"
 #include "core/silhouette/morph_set.h"
 #include "core/silhouette/outline.h"

@@ -4,9 +4,9 @@
 #include <memory>
 #include <string>
 
+#include "core/grow/execution_context.h"
 #include "core/grow/product.h"
-#include "core/grow/workshop.h"
-#include "core/plant/tree_order.h"
+#include "core/plant/tree_spec.h"
 
 namespace sporeprint {
 

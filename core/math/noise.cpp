@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <utility>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 #undef HWY_TARGET_INCLUDE
 #define HWY_TARGET_INCLUDE "core/math/noise_batch.inl"

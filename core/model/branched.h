@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "core/params/describe.h"
-#include "core/plant/topology.h"
+#include "core/ramification/topology.h"
 
 namespace sporeprint {
 

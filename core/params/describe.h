@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/params/messages.h"
-#include "core/params/problems.h"
 #include "core/params/types.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 

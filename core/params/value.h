@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 

@@ -9,10 +9,10 @@
 #include <vector>
 
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
 #include "core/math/random.h"
 #include "core/mesh/tangents.h"
-#include "core/model/purposes.h"
-#include "core/plant/leaf_grid.h"
+#include "core/plant/lamina.h"
 
 namespace sporeprint {
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
 #include "core/math/random.h"
-#include "core/model/purposes.h"
 
 namespace sporeprint {
 

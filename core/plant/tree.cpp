@@ -7,8 +7,8 @@
 
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
 #include "core/math/random.h"
-#include "core/model/purposes.h"
 #include "core/params/messages.h"
 
 namespace sporeprint {

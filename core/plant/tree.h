@@ -11,8 +11,8 @@
 #include "core/mesh/mesh.h"
 #include "core/plant/bark_image.h"
 #include "core/plant/leaf.h"
-#include "core/plant/ramification.h"
-#include "core/plant/topology.h"
+#include "core/ramification/ramification.h"
+#include "core/ramification/topology.h"
 #include "core/skeleton/skeleton.h"
 
 namespace sporeprint {

@@ -11,7 +11,7 @@
 #include <utility>
 
 #include "core/math/elementary.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/silhouette/correspondence.h"
 
 namespace sporeprint {

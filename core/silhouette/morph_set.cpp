@@ -5,8 +5,8 @@
 #include <string>
 #include <utility>
 
-#include "core/params/problems.h"
-#include "core/silhouette/bud.h"
+#include "core/problems.h"
+#include "core/silhouette/intermediate_shape.h"
 
 namespace sporeprint {
 

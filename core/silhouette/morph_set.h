@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "core/build/detail.h"
+#include "core/mesh/detail.h"
 #include "core/silhouette/aligned.h"
-#include "core/silhouette/detours.h"
+#include "core/silhouette/indirect_path.h"
 #include "core/silhouette/outline.h"
 #include "core/silhouette/proof.h"
 

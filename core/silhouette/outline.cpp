@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/build/detail.h"
-#include "core/params/problems.h"
+#include "core/mesh/detail.h"
+#include "core/problems.h"
 #include "core/silhouette/proof.h"
 
 namespace sporeprint {

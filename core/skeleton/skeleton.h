@@ -5,7 +5,7 @@
 #include <glm/vec3.hpp>
 #include <vector>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 

@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <memory>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 namespace {

@@ -7,8 +7,8 @@
 #define SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
 #endif
 
-#include "core/model/comb.h"
-#include "core/surface/comb.inl"
+#include "core/individual/gill_layout.h"
+#include "core/surface/gill_layout.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {

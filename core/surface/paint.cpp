@@ -8,20 +8,20 @@
 #include <utility>
 
 #include "core/math/elementary.h"
+#include "core/math/purposes.h"
 #include "core/math/random.h"
-#include "core/model/purposes.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/surface/canvas.h"
 #include "core/surface/charts.h"
-#include "core/surface/given.h"
 #include "core/surface/part_plans.h"
 #include "core/surface/plan.h"
+#include "core/surface/uploaded_image.h"
 
 #undef HWY_TARGET_INCLUDE
-#define HWY_TARGET_INCLUDE "core/surface/dissolve.inl"
+#define HWY_TARGET_INCLUDE "core/surface/image_blend.inl"
 #include <hwy/foreach_target.h>
 
-#include "core/surface/dissolve.inl"
+#include "core/surface/image_blend.inl"
 
 namespace sporeprint {
 

@@ -6,10 +6,10 @@
 #include <span>
 
 #include "core/bytes.h"
-#include "core/model/comb.h"
-#include "core/model/patches.h"
-#include "core/model/relief.h"
-#include "core/model/request.h"
+#include "core/individual/gill_layout.h"
+#include "core/individual/mushroom_spec.h"
+#include "core/individual/patches.h"
+#include "core/individual/relief.h"
 #include "core/surface/metrics.h"
 
 namespace sporeprint {

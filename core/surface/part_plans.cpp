@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/individual/gill_layout.h"
 #include "core/math/elementary.h"
-#include "core/model/comb.h"
-#include "core/model/purposes.h"
+#include "core/math/purposes.h"
 #include "core/surface/canvas.h"
 #include "core/surface/charts.h"
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/surface/charts.h"
-#include "core/surface/scars.h"
+#include "core/surface/damage.h"
 
 namespace sporeprint {
 

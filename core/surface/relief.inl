@@ -1,4 +1,4 @@
-// Relief of the upper face on vectors of texels: the same folds, pits and tiers that core/build/relief.cpp raises in the mesh.
+// Relief of the upper face on vectors of texels: the same folds, pits and tiers that core/geometry/relief.cpp raises in the mesh.
 #if defined(SPOREPRINT_CORE_SURFACE_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_RELIEF_INL
 #undef SPOREPRINT_CORE_SURFACE_RELIEF_INL
@@ -6,7 +6,7 @@
 #define SPOREPRINT_CORE_SURFACE_RELIEF_INL
 #endif
 
-#include "core/model/relief.h"
+#include "core/individual/relief.h"
 #include "core/surface/texel.inl"
 
 HWY_BEFORE_NAMESPACE();

@@ -14,7 +14,7 @@
 
 #include "core/surface/cap.inl"
 #include "core/surface/hymenium.inl"
-#include "core/surface/scars.inl"
+#include "core/surface/damage.inl"
 #include "core/surface/stem.inl"
 #include "core/surface/tissue.inl"
 

@@ -7,7 +7,7 @@
 #define SPOREPRINT_CORE_SURFACE_STEM_INL
 #endif
 
-#include "core/surface/comb.inl"
+#include "core/surface/gill_layout.inl"
 
 HWY_BEFORE_NAMESPACE();
 namespace sporeprint {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "api/service.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::api {
 namespace {

@@ -10,7 +10,7 @@
 #include "api/presets.h"
 #include "api/routes.h"
 #include "api/surfaces.h"
-#include "core/model/request.h"
+#include "core/individual/mushroom_spec.h"
 #include "tests/api/support.h"
 
 namespace sporeprint::api {

@@ -8,7 +8,7 @@
 #include "core/grow/painting.h"
 #include "core/math/noise.h"
 #include "core/surface/codecs.h"
-#include "core/surface/dissolve.h"
+#include "core/surface/image_blend.h"
 #include "core/surface/paint.h"
 
 namespace {

@@ -2,7 +2,7 @@
 
 #include <benchmark/benchmark.h>
 
-#include "core/colony/roots.h"
+#include "core/colony/root_system.h"
 #include "core/plant/leaf_image.h"
 #include "core/plant/tree.h"
 #include "core/skeleton/skin.h"

@@ -7,7 +7,7 @@
 
 #include "core/gltf/glb.h"
 #include "core/math/random.h"
-#include "core/plant/ramification.h"
+#include "core/ramification/ramification.h"
 #include "core/skeleton/skin.h"
 
 namespace {

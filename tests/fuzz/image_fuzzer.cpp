@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/surface/codecs.h"
 #include "tests/fuzz/expect.h"
 

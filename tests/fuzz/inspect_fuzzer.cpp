@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "core/gltf/inspect.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 using namespace sporeprint;
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "core/params/describe.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/silhouette/morph_set.h"
 #include "tests/fuzz/expect.h"
 

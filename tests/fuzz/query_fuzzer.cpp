@@ -8,7 +8,7 @@
 #include "api/mix.h"
 #include "api/query.h"
 #include "core/atlas/atlas.h"
-#include "core/model/request.h"
+#include "core/individual/mushroom_spec.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "tests/fuzz/expect.h"

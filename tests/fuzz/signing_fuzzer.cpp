@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "server/signatures.h"
 #include "tests/fuzz/expect.h"
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "core/model/swept.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/silhouette/outline.h"
 #include "tests/fuzz/expect.h"
 

@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::server {
 namespace {

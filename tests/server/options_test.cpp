@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::server {
 namespace {

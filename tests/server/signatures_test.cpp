@@ -5,7 +5,7 @@
 
 #include <string>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint::server {
 namespace {

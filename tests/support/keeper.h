@@ -11,7 +11,7 @@
 #include <vector>
 
 #include "core/bytes.h"
-#include "core/grow/workshop.h"
+#include "core/grow/execution_context.h"
 
 namespace sporeprint {
 

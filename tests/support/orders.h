@@ -14,7 +14,7 @@
 #include <vector>
 
 #include "core/grow/mushroom.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "tests/core/params/arbitrary.h"
 #include "tests/support/refusals.h"
 

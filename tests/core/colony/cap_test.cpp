@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "core/build/sweep.h"
-#include "core/colony/colony_order.h"
+#include "core/colony/colony_spec.h"
+#include "core/geometry/sweep.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 

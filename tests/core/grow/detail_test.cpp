@@ -1,5 +1,5 @@
 // Levels of detail show the same individual: an eye that sees one replaced by the next sees no step.
-#include "core/build/detail.h"
+#include "core/mesh/detail.h"
 
 #include <gtest/gtest.h>
 

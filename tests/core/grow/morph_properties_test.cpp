@@ -6,7 +6,7 @@
 #include <cmath>
 #include <string>
 
-#include "core/build/budget.h"
+#include "core/geometry/budget.h"
 #include "tests/support/meshes.h"
 #include "tests/support/mixes.h"
 #include "tests/support/surfaces.h"

@@ -15,7 +15,7 @@
 #include <vector>
 
 #include "core/grow/mushroom.h"
-#include "core/surface/dissolve.h"
+#include "core/surface/image_blend.h"
 #include "tests/support/orders.h"
 #include "tests/support/paintings.h"
 

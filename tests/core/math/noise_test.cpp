@@ -7,7 +7,7 @@
 #include <cstring>
 #include <vector>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "core/colony/roots.h"
+#include "core/colony/root_system.h"
 #include "core/params/canonical.h"
 #include "core/params/reader.h"
 #include "core/params/schema.h"

@@ -10,8 +10,8 @@
 #include <string>
 #include <string_view>
 
-#include "core/build/detail.h"
 #include "core/math/random.h"
+#include "core/mesh/detail.h"
 #include "core/silhouette/weights.h"
 #include "tests/support/mixes.h"
 

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/math/random.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 
 namespace sporeprint {
 namespace {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/math/noise.h"
-#include "core/model/purposes.h"
-#include "core/params/problems.h"
+#include "core/math/purposes.h"
+#include "core/problems.h"
 #include "core/surface/charts.h"
 #include "core/surface/codecs.h"
 #include "tests/support/instruction_sets.h"

@@ -1,0 +1,136 @@
+#include "core/colony/colony_spec.h"
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "core/params/messages.h"
+
+namespace sporeprint {
+
+namespace {
+
+/// Forms with a stem that can be told from what it bears.
+bool has_cap_on_stem(GrowthForm form) {
+    switch (form) {
+        case GrowthForm::agaric:
+        case GrowthForm::bolete:
+        case GrowthForm::chanterelle:
+        case GrowthForm::club:
+        case GrowthForm::morel:
+        case GrowthForm::tooth:
+        case GrowthForm::stinkhorn:
+            return true;
+        case GrowthForm::cup:
+        case GrowthForm::bracket:
+        case GrowthForm::shelving_agaric:
+        case GrowthForm::puffball:
+        case GrowthForm::earthstar:
+        case GrowthForm::jelly:
+        case GrowthForm::coral:
+        case GrowthForm::antler:
+            return false;
+    }
+    return false;
+}
+
+bool is_lateral(GrowthForm form) {
+    return form == GrowthForm::bracket || form == GrowthForm::shelving_agaric;
+}
+
+/// Controls that only roots have, and those that only stems have.
+template <class Report>
+void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, const Report& say) {
+    static constexpr std::array<std::string_view, 4> of_stems = {"stem_height", "stem_displacement",
+                                                                 "stem_segments", "stem_decay"};
+    ColonyRootsOf<Maybe>::fields([&](auto member, const Info& info) {
+        if (!(growth.*member)) return;
+        const std::string_view name = info.name;
+        const bool stem = std::find(of_stems.begin(), of_stems.end(), name) != of_stems.end();
+        if (!stems && stem)
+            say(name, "these species stand without a stem of the colony's");
+        else if (!roots && name != "root_radius" && (!stem || name == "stem_decay"))
+            say(name, "only habit=rooted has it");
+    });
+}
+
+}  // namespace
+
+Habit habit_of(const Facts& facts) {
+    // The words of field guides; what is recorded first is the rule.
+    struct Word {
+        std::string_view text;
+        Habit habit;
+    };
+    static constexpr std::array<Word, 14> words = {{{"tuft", Habit::tuft},
+                                                    {"cluster", Habit::tuft},
+                                                    {"caespitose", Habit::tuft},
+                                                    {"tier", Habit::tier},
+                                                    {"shelf", Habit::tier},
+                                                    {"rosette", Habit::tier},
+                                                    {"trunk", Habit::tier},
+                                                    {"branch", Habit::tier},
+                                                    {"ring", Habit::ring},
+                                                    {"troop", Habit::troop},
+                                                    {"group", Habit::troop},
+                                                    {"swarm", Habit::troop},
+                                                    {"scattered", Habit::troop},
+                                                    {"gregarious", Habit::troop}}};
+    const std::string_view text = facts.habit.view();
+    Habit found = Habit::troop;
+    std::size_t first = std::string_view::npos;
+    for (const Word& word : words)
+        if (const std::size_t at = text.find(word.text); at < first) {
+            first = at;
+            found = word.habit;
+        }
+    return is_lateral(facts.form) ? Habit::tier : found;
+}
+
+ColonyNature colony_nature(const ColonyOrder& order, const Atlas& atlas) {
+    const ColonyParams& params = order.params;
+    std::vector<Problem> problems;
+    check(params, Info{.name = ""}, "", problems);
+    const MixPart* most = nullptr;
+    ColonyNature nature;
+    for (const MixPart& part : order.mix) {
+        const AtlasEntry* entry = atlas.find(part.id);
+        if (!entry) {
+            report(problems, "mix", in_quotes(part.id) + " is no species of the atlas");
+            continue;
+        }
+        const Facts& facts = entry->species.facts;
+        nature.lateral = nature.lateral || is_lateral(facts.form);
+        nature.capped = nature.capped && has_cap_on_stem(facts.form);
+        if (!most || part.weight > most->weight ||
+            (part.weight == most->weight && part.id < most->id)) {
+            most = &part;
+            nature.habit = habit_of(facts);
+        }
+    }
+    if (order.mix.empty()) report(problems, "mix", "names no species");
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+
+    if (nature.lateral) nature.habit = Habit::tier;
+    if (params.habit && nature.lateral && *params.habit != Habit::tier)
+        report(problems, "/habit", "what grows from a wall stands in tiers");
+    nature.habit = params.habit.value_or(nature.habit);
+    nature.roots = params.roots.value_or(nature.habit == Habit::rooted ? RootsShown::shown
+                                                                       : RootsShown::buried);
+    if (nature.roots == RootsShown::shown && nature.habit != Habit::rooted)
+        report(problems, "/roots", "only habit=rooted has roots to show");
+    if (params.trunk_radius && nature.habit != Habit::tier)
+        report(problems, "/trunk_radius", "only habit=tier has a trunk");
+    report_given(params.growth, nature.habit == Habit::rooted, nature.capped,
+                 [&](std::string_view name, const char* why) {
+                     report(problems, '/' + std::string(name), why);
+                 });
+    if (!nature.capped && params.cap_scale != ColonyParams{}.cap_scale)
+        report(problems, "/cap_scale", "these species stand whole: no cap is set on a stem");
+    if (!problems.empty()) throw Impossible(std::move(problems));
+    return nature;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,155 @@
+// What a person may ask of a colony: a mix of species, a habit, and every control of the source.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+
+#include "core/atlas/atlas.h"
+#include "core/colony/root_system.h"
+#include "core/individual/mushroom_spec.h"
+
+namespace sporeprint {
+
+/// How the individuals of a colony stand. rooted: on a root system, as in the source. tuft: fused at the base. troop: scattered,
+/// none nearer than it must. ring: a fairy ring. tier: on a trunk, one above the other.
+enum class Habit { rooted, tuft, troop, ring, tier };
+
+constexpr const char* name(Habit habit) {
+    switch (habit) {
+        case Habit::rooted:
+            return "rooted";
+        case Habit::tuft:
+            return "tuft";
+        case Habit::troop:
+            return "troop";
+        case Habit::ring:
+            return "ring";
+        case Habit::tier:
+            return "tier";
+    }
+    return nullptr;
+}
+
+/// Whether roots are seen.
+enum class RootsShown { shown, buried };
+
+constexpr const char* name(RootsShown roots) {
+    switch (roots) {
+        case RootsShown::shown:
+            return "shown";
+        case RootsShown::buried:
+            return "buried";
+    }
+    return nullptr;
+}
+
+/// How a file repeats a mesh. nodes: core glTF, one node each. gpu: EXT_mesh_gpu_instancing.
+enum class Instancing { nodes, gpu };
+
+constexpr const char* name(Instancing instancing) {
+    switch (instancing) {
+        case Instancing::nodes:
+            return "nodes";
+        case Instancing::gpu:
+            return "gpu";
+    }
+    return nullptr;
+}
+
+/// Query parameters of /v1/colonies. Unset optionals are the species' own.
+struct ColonyParams {
+    std::uint32_t seed = 1;
+    int count = 24;
+    int distinct = 8;
+    std::optional<Habit> habit;
+    double age = 0.6;
+    double size = 1.0;
+    double cap_scale = 1.0;
+    std::optional<RootsShown> roots;
+    std::optional<double> trunk_radius;
+    ColonyRootsOf<Maybe> growth;
+    int lod = 0;
+    TextureSize texture_size{1024};
+    Textures textures = Textures::embedded;
+    Instancing instancing = Instancing::nodes;
+
+    static constexpr void fields(auto visit) {
+        using P = ColonyParams;
+        using M = MushroomParams;
+        visit(&P::seed, Info{.name = "seed",
+                             .min = 0,
+                             .max = 4294967295.0,
+                             .doc = "The colony: same seed and parameters, same bytes."});
+        visit(&P::count, Info{.name = "count",
+                              .min = 1,
+                              .max = 256,
+                              .doc = "Individuals, at most: those for which there is no room are "
+                                     "left out.",
+                              .group = "placement"});
+        visit(&P::distinct, Info{.name = "distinct",
+                                 .min = 1,
+                                 .max = 16,
+                                 .doc = "Different individuals that are grown; all others are "
+                                        "their likes, turned and scaled.",
+                                 .group = "individuals"});
+        visit(&P::habit, Info{.name = "habit", .doc = "How they stand.", .group = "placement"});
+        visit(&P::age, Info{.name = "age",
+                            .min = 0,
+                            .max = 1,
+                            .doc = "Of the oldest: button (0), maturity (0.6), decay (1). Others "
+                                   "are down to half as old.",
+                            .group = "individuals"});
+        Info size = info_of<M>("size");
+        size.group = "individuals";
+        visit(&P::size, size);
+        visit(&P::cap_scale, Info{.name = "cap_scale",
+                                  .min = 0.25,
+                                  .max = 3,
+                                  .doc = "Size of caps for the thickness of their stems.",
+                                  .group = "individuals"});
+        visit(&P::roots, Info{.name = "roots",
+                              .doc = "Roots above the ground, or none in sight.",
+                              .group = "roots"});
+        visit(&P::trunk_radius, Info{.name = "trunk_radius",
+                                     .unit = "m",
+                                     .min = 0.005,
+                                     .max = 5,
+                                     .doc = "Of the trunk that a tier stands on, before size; its "
+                                            "surface touches the origin from behind.",
+                                     .group = "placement"});
+        visit(&P::growth, Info{.name = ""});
+        visit(&P::lod, info_of<M>("lod"));
+        visit(&P::texture_size, info_of<M>("texture_size"));
+        visit(&P::textures, info_of<M>("textures"));
+        visit(&P::instancing,
+              Info{.name = "instancing",
+                   .doc = "How a mesh is repeated: by nodes, or by EXT_mesh_gpu_instancing."});
+    }
+    bool operator==(const ColonyParams&) const = default;
+};
+static_assert(well_described<ColonyParams>());
+
+struct ColonyOrder {
+    Mix mix;
+    ColonyParams params;
+};
+
+/// The habit that is recorded first among the words of a species' facts; a troop where none is.
+[[nodiscard]] Habit habit_of(const Facts& facts);
+
+/// What the species of a mix make of a colony.
+struct ColonyNature {
+    Habit habit = Habit::troop;  ///< asked for, or that of the species with the most weight
+    bool capped = true;          ///< caps on stems of the colony; else whole individuals
+    bool lateral = false;        ///< they grow from a wall
+    RootsShown roots = RootsShown::buried;
+    bool operator==(const ColonyNature&) const = default;
+};
+
+/// Refuses what does not go together, before any work.
+///
+/// throws  InvalidInput for ranges, an empty mix or an unknown species ("mix"); Impossible for a habit that the species cannot
+///         have, for controls of roots without roots, of stems without stems, of a trunk without a trunk
+[[nodiscard]] ColonyNature colony_nature(const ColonyOrder& order, const Atlas& atlas);
+
+}  // namespace sporeprint

@@ -1,0 +1,210 @@
+#include "core/geometry/damage_cuts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "core/individual/proportion.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/mesh/detail.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr double whole_turn = 2.0 * pi;
+
+// What stays of a face under the deepest cut.
+constexpr double least_cap = 0.28, least_lower = 0.14;
+// Further in than this nothing moves.
+constexpr double still_cap = 0.18, still_lower = 0.06;
+// Columns nearer to each other than this, in turns, are one.
+constexpr double nearest = 0.0002;
+// A cut is as good as open when so much of it has come: from then on its columns stand at their own places.
+constexpr double opens_until = 0.12;
+
+// What a level of detail can carry; `inside`: columns on each side of a bite's middle, beside its edge.
+struct Carried {
+    int bites, inside, splits;
+};
+constexpr std::array<Carried, 4> carried = {{{4, 2, 9}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0}}};
+// Shares of a bite's half width: its arc is steepest at its edges, even columns stand in its middle.
+constexpr std::array<double, 2> inside_at = {0.95, 0.78};
+
+// A place slides along its meridian so that the end goes to `last`; what lies within `still` stays.
+double slid(double share, double still, double last) {
+    if (share <= still || last >= 1.0) return share;
+    return still + (share - still) * (last - still) / (1.0 - still);
+}
+
+// The notches that a level of detail carries, in the order in which they come.
+std::vector<Notch> notches_of(const Individual& individual, const Carried& carries) {
+    const std::uint32_t seed = individual.effective.seed;
+    std::vector<Notch> out;
+    const auto add = [&out](const std::vector<Notch>& all, int most) {
+        const auto count = std::min(all.size(), static_cast<std::size_t>(most));
+        out.insert(out.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
+    };
+    if (individual.wear.bites && carries.bites > 0) add(bites(seed), carries.bites);
+    if (individual.wear.splits && carries.splits > 0) add(splits(seed), carries.splits);
+    return out;
+}
+
+double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
+    return begun(notch.onset, notch.bitten ? amounts.bites : amounts.splits);
+}
+
+}  // namespace
+
+Cuts::Cuts(const Individual& individual, int lod) {
+    const Outline& outline = individual.outline;
+    const WeatheringOf<Plain>& amounts = individual.wear.amounts;
+    const Carried& carries = carried[static_cast<std::size_t>(lod)];
+    std::vector<Notch> notches;
+    if (!outline.hymenium.empty()) {
+        notches = notches_of(individual, carries);
+        melts_ = individual.wear.melts;
+    }
+    possible_ = melts_ || !notches.empty();
+    if (possible_) {
+        cap_length_ = outline.cap.length();
+        lower_length_ = outline.hymenium.length();
+        const double radius = greatest_radius(outline.cap);
+        for (const Notch& notch : notches) {
+            const double share = share_of(notch, amounts);
+            if (share > 0.0) open_.push_back({notch, notch.depth * share * radius});
+        }
+    }
+    if (melts_) {
+        melted_ = melted(amounts.deliquescence) * cap_length_;
+        phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
+    }
+    place_columns(notches, amounts, carries.inside, detail_of(lod).columns);
+    laid_ = turns_;
+    const auto turn_of = [this](std::size_t k) { return k == turns_.size() ? 1.0 : turns_[k]; };
+    for (const Between& column : between_) {
+        double on_ways = 0.0;
+        for (const Way& way : ways(column))
+            on_ways +=
+                way.weight * (turn_of(way.left) +
+                              closed_width * way.share * (turn_of(way.right) - turn_of(way.left)));
+        laid_[column.column] = on_ways + column.open * (turns_[column.column] - on_ways);
+    }
+    if (none()) return;
+    for (const double turn : turns_) depths_.push_back(cut_at(whole_turn * turn));
+    depths_.push_back(depths_.front());
+    const std::vector<double> own = depths_;
+    for (const Between& column : between_) {
+        double on_ways = 0.0;
+        for (const Way& way : ways(column))
+            on_ways += way.weight * (own[way.left] + way.share * (own[way.right] - own[way.left]));
+        depths_[column.column] = on_ways + column.open * (own[column.column] - on_ways);
+    }
+}
+
+void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
+                         int inside, int even) {
+    struct Own {
+        double turn, open;
+    };
+    std::vector<Own> own;
+    for (const Notch& notch : notches) {
+        const double open = smooth_step(0.0, opens_until, share_of(notch, amounts));
+        const auto add = [&](double angle) {
+            const double turn = angle / whole_turn;
+            own.push_back({turn - std::floor(turn), open});
+        };
+        if (!notch.bitten) add(notch.theta);
+        for (const double side : {-1.0, 1.0}) {
+            add(notch.theta + side * notch.half_width);
+            for (int k = 0; notch.bitten && k < inside; ++k)
+                add(notch.theta + side * inside_at[static_cast<std::size_t>(k)] * notch.half_width);
+        }
+    }
+    std::stable_sort(own.begin(), own.end(),
+                     [](const Own& a, const Own& b) { return a.turn < b.turn; });
+    auto next = own.begin();
+    std::vector<double> open;  // of the columns from an even one to the next
+    for (int j = 0; j < even; ++j) {
+        const double from = static_cast<double>(j) / even, to = static_cast<double>(j + 1) / even;
+        const std::size_t left = turns_.size();
+        turns_.push_back(from);
+        open.assign(1, 1.0);
+        for (; next != own.end() && next->turn < to; ++next) {
+            if (to - next->turn <= nearest) continue;
+            if (next->turn - turns_.back() > nearest) {
+                turns_.push_back(next->turn);
+                open.push_back(next->open);
+            } else {
+                open.back() = std::max(open.back(), next->open);
+            }
+        }
+        open.push_back(1.0);
+        const bool reached =
+            melts_ || std::any_of(notches.begin(), notches.end(), [&](const Notch& notch) {
+                return std::abs(turn_between(notch.theta, pi * (from + to))) <=
+                       notch.half_width + pi * (to - from) + 1e-9;
+            });
+        may_cut_.insert(may_cut_.end(), turns_.size() - left, reached);
+        const auto turn_of = [&](std::size_t k) {
+            return k + 1 == open.size() ? to : turns_[left + k];
+        };
+        for (std::size_t k = 1; k + 1 < open.size(); ++k) {
+            Between column{left + k, open[k], ways_.size(), 0};
+            double before = 1.0;  // weight of what lies beyond on the left
+            for (std::size_t l = k; l-- > 0 && before > 0.0; before *= 1.0 - open[l]) {
+                double after = before * open[l];
+                for (std::size_t r = k + 1; r < open.size() && after > 0.0; ++r) {
+                    if (open[r] > 0.0)
+                        ways_.push_back({left + l, left + r,
+                                         (turn_of(k) - turn_of(l)) / (turn_of(r) - turn_of(l)),
+                                         after * open[r]});
+                    after *= 1.0 - open[r];
+                }
+            }
+            column.last = ways_.size();
+            between_.push_back(column);
+        }
+    }
+}
+
+double Cuts::cut_at(double angle) const {
+    double deepest = 0.0;
+    for (const Open& cut : open_)
+        deepest = std::max(deepest, cut.depth * notch_profile(cut.notch, angle));
+    if (melted_ > 0.0) {
+        const double ragged = 0.5 * sine(3.0 * angle + phase_) + 0.3 * sine(7.0 * angle - phase_) +
+                              0.2 * sine(13.0 * angle + 2.0 * phase_);
+        deepest += melted_ * (1.0 + 0.2 * ragged);
+    }
+    return deepest;
+}
+
+double Cuts::depth(double angle) const {
+    if (depths_.empty()) return 0.0;
+    double turn = angle / whole_turn;
+    turn -= std::floor(turn);
+    const auto next = static_cast<std::size_t>(
+        std::upper_bound(turns_.begin(), turns_.end(), turn) - turns_.begin());
+    const double from = turns_[next - 1], to = next == turns_.size() ? 1.0 : turns_[next];
+    const double t = (turn - from) / (to - from);
+    return depths_[next - 1] + t * (depths_[next] - depths_[next - 1]);
+}
+
+double Cuts::cap_end(double angle) const {
+    if (none() || cap_length_ <= 0.0) return 1.0;
+    return std::max(1.0 - depth(angle) / cap_length_, least_cap);
+}
+
+double Cuts::lower_end(double angle) const {
+    if (none() || lower_length_ <= 0.0) return 1.0;
+    return std::max(1.0 - depth(angle) / lower_length_, least_lower);
+}
+
+double Cuts::cap_to(double sigma, double end) { return slid(sigma, still_cap, end); }
+
+double Cuts::lower_to(double share, double end) { return slid(share, still_lower, end); }
+
+}  // namespace sporeprint

@@ -1,0 +1,96 @@
+#include "core/geometry/damage_dents.h"
+
+#include <algorithm>
+
+#include "core/math/elementary.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr double whole_turn = 2.0 * pi;
+
+// Of a furrow, to each side of its middle.
+constexpr double furrow_half_width = 0.045 * whole_turn;
+
+}  // namespace
+
+double furrow_valley(double middle, double angle) {
+    const double x = turn_between(middle, angle) / furrow_half_width;
+    return x <= -1.0 || x >= 1.0 ? 0.0 : (1.0 - x * x) * (1.0 - x * x);
+}
+
+double mean_radius(const SubCurve& stem) {
+    double sum = 0.0;
+    for (int i = 0; i <= 16; ++i) sum += stem.at(i / 16.0).r / 17.0;
+    return sum;
+}
+
+double stem_freedom(double share) {
+    return smooth_step(0.0, 0.06, share) * (1.0 - smooth_step(0.93, 0.995, share));
+}
+
+Dents::Dents(const Individual& individual)
+    : outline_(individual.outline),
+      bumps_(individual.wear.amounts.bumps),
+      creases_(individual.wear.amounts.creases),
+      clubs_(individual.wear.clubs) {
+    const std::uint32_t seed = individual.effective.seed;
+    if (bumps_ > 0.0) {
+        cap_lumps_ = marks(MarkKind::lump, CurveName::cap, seed);
+        stem_lumps_ = marks(MarkKind::lump, CurveName::stem, seed);
+    }
+    if (creases_ > 0.0) furrows_ = furrows(seed);
+    if (bumps_ > 0.0 || creases_ > 0.0) radius_ = mean_radius(outline_.stem);
+}
+
+double Dents::lumps(const SubCurve& curve, const std::vector<Mark>& marks, double unit, bool stem,
+                    double sigma, double angle) const {
+    const double length = curve.length(), ring = curve.at(stem ? sigma : 1.0 - sigma).r;
+    double height = 0.0;
+    for (const Mark& mark : marks) {
+        const double scale = grown(mark.onset, bumps_);
+        const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * unit;
+        const double a = (sigma - mark.sigma) * length / (size * mark.elongation);
+        if (scale <= 0.0 || a < -1.0 || a > 1.0) continue;
+        const double r = std::max(curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r, 1e-4);
+        const double chord = 2.0 * sine(0.5 * turn_between(mark.theta, angle));
+        const double square = a * a + r * ring * chord * chord / (size * size);
+        if (square < 1.0)
+            height += lump_height(mark) * scale * unit * (1.0 - square) * (1.0 - square);
+    }
+    return height;
+}
+
+double Dents::furrow(double sigma, double angle, bool on_stem) const {
+    double deepest = 0.0;
+    for (const Furrow& furrow : furrows_) {
+        const double scale = grown(furrow.onset, creases_);
+        if (scale <= 0.0) continue;
+        deepest = std::max(deepest, (on_stem ? furrow_depth(furrow, sigma) : furrow.depth) * scale *
+                                        furrow_valley(furrow_angle(furrow, sigma), angle));
+    }
+    return furrow_deep * radius_ * deepest;
+}
+
+double Dents::cap(double sigma, double angle) const {
+    double height = 0.0;
+    if (bumps_ > 0.0)
+        height = lumps(outline_.cap, cap_lumps_, outline_.cap.length(), false, sigma, angle);
+    if (creases_ > 0.0 && clubs_ > 0.0) {
+        const double share = 1.0 - sigma;
+        height -= club_carried * clubs_ * club_fade(share) * smooth_step(0.0, 0.08, share) *
+                  furrow(1.0 + share, angle, false);
+    }
+    return height;
+}
+
+double Dents::stem(double sigma, double angle) const {
+    double height = 0.0;
+    if (bumps_ > 0.0)
+        height = lumps(outline_.stem, stem_lumps_, whole_turn * radius_, true, sigma, angle);
+    if (creases_ > 0.0) height = std::min(height, -furrow(sigma, angle, true));
+    return height * stem_freedom(sigma);
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,247 @@
+#include "core/geometry/relief.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/vec2.hpp>
+#include <limits>
+
+namespace sporeprint {
+
+namespace {
+
+constexpr std::uint32_t prime_x = 0x9E3779B1U, prime_y = 0x85EBCA77U, prime_z = 0xC2B2AE3DU;
+
+// The hash of core/math/noise.inl, one number at a time.
+std::uint32_t hashed(std::uint32_t h) {
+    h *= 0x27D4EB2DU;
+    return h ^ (h >> 15U);
+}
+
+std::uint32_t whole_bits(double whole) {
+    return 0x4B400000U + static_cast<std::uint32_t>(static_cast<std::int32_t>(whole));
+}
+
+double upper_part(std::uint32_t h) { return static_cast<std::int32_t>(h) / 2147483648.0; }
+
+struct Step {
+    double value, slope;
+};
+
+/// smooth_step() and its derivative.
+Step step_at(double from, double to, double x) {
+    const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
+    return {t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / (to - from)};
+}
+
+/// How deep a crease is at a value of noise: 1 where it is 0.
+Step crease_at(double noise) {
+    constexpr double square = crease * crease;
+    const double depth = square / (noise * noise + square);
+    return {depth, -2.0 * noise * depth * depth / square};
+}
+
+/// Nothing at the apex and at the margin, where the face meets others.
+Step window_at(double sigma) {
+    const Step apex = step_at(relief_apex, relief_apex_end, sigma),
+               margin = step_at(relief_margin, 1.0, sigma);
+    return {apex.value * (1.0 - margin.value),
+            apex.slope * (1.0 - margin.value) - apex.value * margin.slope};
+}
+
+}  // namespace
+
+NoiseSample noise_sample(const std::array<double, 3>& at, std::uint32_t seed) {
+    constexpr std::array<std::uint32_t, 3> primes = {prime_x, prime_y, prime_z};
+    std::array<std::array<double, 2>, 3> offset{}, weight{}, weight_by{};
+    std::array<std::array<std::uint32_t, 2>, 3> lattice{};
+    for (std::size_t i = 0; i < 3; ++i) {
+        const double floor = std::floor(at[i]), f = at[i] - floor;
+        const double t = f * f * f * (f * (f * 6.0 - 15.0) + 10.0);
+        const double by = 30.0 * f * f * (1.0 - f) * (1.0 - f);
+        offset[i] = {f, f - 1.0};
+        weight[i] = {1.0 - t, t};
+        weight_by[i] = {-by, by};
+        lattice[i][0] = whole_bits(floor) * primes[i] + (i == 1 ? seed : 0U);
+        lattice[i][1] = lattice[i][0] + primes[i];
+    }
+    NoiseSample noise;
+    for (std::size_t corner = 0; corner < 8; ++corner) {
+        const std::array<std::size_t, 3> k = {corner & 1U, corner >> 1U & 1U, corner >> 2U};
+        const std::uint32_t h = hashed(lattice[0][k[0]] ^ (lattice[1][k[1]] ^ lattice[2][k[2]]));
+        const std::array<double, 3> gradient = {upper_part(h), upper_part(h << 11U),
+                                                upper_part(h << 21U)};
+        double slope = 0.0, all = 1.0;
+        for (std::size_t i = 0; i < 3; ++i) {
+            slope += gradient[i] * offset[i][k[i]];
+            all *= weight[i][k[i]];
+        }
+        noise.value += all * slope;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const std::size_t j = (i + 1) % 3, l = (i + 2) % 3;
+            noise.by[i] +=
+                all * gradient[i] + weight_by[i][k[i]] * weight[j][k[j]] * weight[l][k[l]] * slope;
+        }
+    }
+    noise.value *= 1.8;
+    for (double& by : noise.by) by *= 1.8;
+    return noise;
+}
+
+PitSample pit_sample(const ReliefStyle& style, double turn, double row, std::uint32_t seed) {
+    struct Point {
+        double x, y, columns;
+        std::uint32_t id;
+    };
+    std::array<Point, 9> points{};
+    std::size_t count = 0, nearest = 0;
+    const double here = std::floor(row);
+    for (int j = -1; j <= 1; ++j) {
+        const double this_row = here + j;
+        const double rise = pit_first + pit_rise * (this_row + 0.5) / style.pit_rows;
+        const double columns =
+            std::max(std::floor(style.pit_columns * std::clamp(rise, 0.0, 1.0) + 0.5), 3.0);
+        const double half = 0.5 * this_row;
+        const double x = turn * columns - (half - std::floor(half));
+        const double column = std::floor(x);
+        for (int i = -1; i <= 1; ++i) {
+            double wrapped = column + i;
+            if (wrapped < 0.0) wrapped += columns;
+            if (wrapped >= columns) wrapped -= columns;
+            const std::uint32_t h =
+                hashed(whole_bits(wrapped) * prime_x ^ (whole_bits(this_row) * prime_y + seed));
+            points[count] = {column + i + 0.5 + upper_part(h) * pit_jitter - x,
+                             this_row + 0.5 + upper_part(h << 16U) * pit_jitter - row, columns, h};
+            const auto square = [&](std::size_t k) {
+                return points[k].x * points[k].x + points[k].y * points[k].y;
+            };
+            if (square(count) < square(nearest)) nearest = count;
+            ++count;
+        }
+    }
+    // Half the distance to the nearest bisector with another point, as in core/surface/texel.inl.
+    const Point& near = points[nearest];
+    PitSample sample{1e9, 0.0, 0.0, 0.85 + 0.15 * upper_part(hashed(near.id))};
+    for (const Point& point : points) {
+        const double ex = point.x - near.x, ey = point.y - near.y;
+        const double apart = ex * ex + ey * ey;
+        if (apart <= 1e-6) continue;
+        const double root = std::sqrt(apart);
+        const double twice =
+            point.x * point.x + point.y * point.y - near.x * near.x - near.y * near.y;
+        const double border = 0.5 * twice / root;
+        if (border >= sample.border) continue;
+        sample.border = border;
+        // Points of other rows move at another pace when the turn changes.
+        const double px = -point.columns, nx = -near.columns, ex_by = px - nx;
+        sample.by_turn = (point.x * px - near.x * nx) / root - border * ex * ex_by / apart;
+        sample.by_row = -ey / root;
+    }
+    return sample;
+}
+
+Relief::Relief(const Individual& individual, const Detail& detail)
+    : styles_(individual.reliefs),
+      seeds_(relief_seeds(individual.effective.seed)),
+      meridian_(individual.outline.cap.length()) {
+    for (ReliefStyle& style : styles_) {
+        const CarriedRelief carried = carried_relief(style, detail.columns, detail.cap_rings);
+        style.folds *= carried.folds;
+        style.pits *= carried.pits;
+        style.tiers *= carried.tiers;
+    }
+    std::erase_if(styles_, [](const ReliefStyle& style) { return !style.any(); });
+    if (styles_.empty()) return;
+    const double keep = room(individual.outline);
+    for (ReliefStyle& style : styles_) {
+        style.folds *= keep;
+        style.pits *= keep;
+        style.tiers *= keep;
+    }
+}
+
+double Relief::room(const Outline& outline) const {
+    double deepest = 0.0;
+    for (const ReliefStyle& style : styles_) deepest += style.folds + style.pits + style.tiers;
+    deepest *= meridian_;
+    std::vector<glm::dvec2> others;
+    for (const SubCurve* curve : {&outline.stem, &outline.hymenium})
+        for (int i = 0; i <= 24 && !curve->empty(); ++i) {
+            const OutlineSample at = curve->at(i / 24.0);
+            others.emplace_back(at.r, at.y);
+        }
+    constexpr double spare = 0.7;
+    double keep = 1.0;
+    for (int i = 1; i < 48; ++i) {
+        const double sigma = i / 48.0;
+        const double depth = deepest * window_at(sigma).value;
+        if (depth <= 0.0) continue;
+        const OutlineSample at = outline.cap.at(1.0 - sigma);
+        // Curvature over a stretch of the meridian: at a point it differs between a species' own nodes and those of a set, and so
+        // would all depths.
+        const OutlineSample before = outline.cap.at(1.0 - sigma - 1.0 / 48.0),
+                            after = outline.cap.at(1.0 - sigma + 1.0 / 48.0);
+        const double turn = before.tangent_r * after.tangent_y - before.tangent_y * after.tangent_r;
+        double clear =
+            turn > 0.0 ? meridian_ / (24.0 * turn) : std::numeric_limits<double>::infinity();
+        if (at.tangent_y > 0.0) clear = std::min(clear, at.r / at.tangent_y);
+        for (const glm::dvec2& other : others) {
+            const double dr = other.x - at.r, dy = other.y - at.y;
+            clear = std::min(clear, std::sqrt(dr * dr + dy * dy));
+        }
+        keep = std::min(keep, spare * clear / depth);
+    }
+    return keep;
+}
+
+void Relief::add_folds(Depth& depth, const ReliefStyle& style, double sigma,
+                       const SineCosine& turn) const {
+    // On the hemisphere that the face was when it was young.
+    const auto tilt = sine_cosine(0.5 * pi * sigma);
+    for (int octave = 0; octave < 2; ++octave) {
+        const double f = 0.5 * style.fold_count * (octave == 0 ? 1.0 : 2.03);
+        const double weight = style.folds * (octave == 0 ? 1.0 - fine_creases : fine_creases);
+        const NoiseSample noise = noise_sample(
+            {f * tilt.sine * turn.cosine, f * (1.0 - tilt.cosine), f * tilt.sine * turn.sine},
+            seeds_[static_cast<std::size_t>(octave)]);
+        const Step fold = crease_at(noise.value);
+        depth.value += weight * fold.value;
+        depth.by_sigma += weight * fold.slope * 0.5 * pi * f *
+                          (tilt.cosine * (noise.by[0] * turn.cosine + noise.by[2] * turn.sine) +
+                           tilt.sine * noise.by[1]);
+        depth.by_angle += weight * fold.slope * f * tilt.sine *
+                          (noise.by[2] * turn.cosine - noise.by[0] * turn.sine);
+    }
+}
+
+void Relief::add_pits(Depth& depth, const ReliefStyle& style, double sigma, double angle) const {
+    const double rows = style.pit_rows;
+    const PitSample pit = pit_sample(style, angle / (2.0 * pi), sigma * rows, seeds_[2]);
+    const double rib = pit_rib * style.rib;
+    const Step floor = step_at(rib, rib + pit_slope, pit.border);
+    const double weight = style.pits * pit.deep;
+    depth.value += weight * floor.value;
+    depth.by_sigma += weight * floor.slope * pit.by_row * rows;
+    depth.by_angle += weight * floor.slope * pit.by_turn / (2.0 * pi);
+}
+
+Relief::Height Relief::at(Part part, double share, double angle, const SineCosine& turn) const {
+    if (flat(part)) return {};
+    const double sigma = 1.0 - share;
+    Depth depth;
+    for (const ReliefStyle& style : styles_) {
+        if (style.folds > 0.0) add_folds(depth, style, sigma, turn);
+        if (style.pits > 0.0) add_pits(depth, style, sigma, angle);
+        if (style.tiers > 0.0) {
+            const auto wave = sine_cosine(2.0 * pi * style.tier_count * sigma);
+            const double groove = 0.5 + 0.5 * wave.cosine;
+            depth.value += style.tiers * groove * groove;
+            depth.by_sigma -= style.tiers * groove * wave.sine * 2.0 * pi * style.tier_count;
+        }
+    }
+    const Step window = window_at(sigma);
+    return {-meridian_ * depth.value * window.value,
+            meridian_ * (depth.by_sigma * window.value + depth.value * window.slope),
+            -meridian_ * depth.by_angle * window.value};
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,92 @@
+#include "core/individual/ornaments.h"
+
+#include <cstdint>
+
+#include "core/math/purposes.h"
+#include "core/params/blend.h"
+
+namespace sporeprint {
+
+namespace {
+
+// A ring or sac this wide, as a share of its species' size, has half a say in the shape of that of a mix.
+constexpr double half_a_say = 0.01;
+
+// By extent alone a thousandth of a wide ring would pull a narrow one up the stem.
+template <class Style>
+Style shell_of(const std::vector<Source>& sources, Style Model::*shell, double Style::*extent,
+               double OrnamentsOf<Plain>::*amount, double size) {
+    std::vector<Style> styles;
+    std::vector<double> says;
+    double whole = 0.0, said = 0.0;
+    for (const Source& source : sources) {
+        Style style = source.now.*shell;
+        style.thickness /= source.size;
+        const double wide = source.now.ornaments.*amount * style.*extent / source.size;
+        whole += source.weight * wide;
+        says.push_back(source.weight * wide / (wide + half_a_say));
+        said += says.back();
+        styles.push_back(style);
+    }
+    Shares<Style> shares;
+    for (std::size_t i = 0; i < styles.size(); ++i)
+        shares.add(styles[i], said > 0.0 ? says[i] / said : sources[i].weight);
+    Style one = blend(shares);
+    one.*extent = whole * size;
+    one.thickness *= size;
+    return one;
+}
+
+}  // namespace
+
+std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const MorphSet& set) {
+    std::vector<PatchLayer> layers;
+    const auto segments_of = [&](std::size_t species) {
+        std::vector<double> weights;
+        for (std::size_t i = 0; i < sources.size(); ++i)
+            for (const double mature : sources[i].mature)
+                weights.push_back(i == species ? mature : 0.0);
+        return Outline(set.nodes(weights)).stem.segment_shares();
+    };
+    const auto lay = [&](std::uint32_t purpose, PatchStyle Model::*style, auto amount) {
+        std::vector<bool> merged(sources.size(), false);
+        for (std::size_t i = 0; i < sources.size(); ++i) {
+            const PatchStyle& one = sources[i].now.*style;
+            if (one.count == 0 || merged[i]) continue;
+            const auto alike = [&](const Source& other) {
+                const PatchStyle& two = other.now.*style;
+                return two.count == one.count && two.from == one.from && two.to == one.to &&
+                       two.elongation == one.elongation;
+            };
+            double weight = 0.0;
+            for (std::size_t j = i; j < sources.size(); ++j)
+                if (alike(sources[j])) {
+                    merged[j] = true;
+                    weight += sources[j].weight;
+                }
+            layers.push_back(
+                {purpose,
+                 among(sources, alike,
+                       [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
+                 among(sources, alike, amount), weight,
+                 purpose == purposes::bulb_scales ? segments_of(i) : std::vector<double>{}});
+        }
+    };
+    lay(purposes::warts, &Model::warts,
+        [](const Source& s) -> const double& { return s.now.ornaments.warts; });
+    lay(purposes::scales, &Model::scales,
+        [](const Source& s) -> const double& { return s.now.ornaments.scales; });
+    lay(purposes::bulb_scales, &Model::volva,
+        [](const Source& s) -> const double& { return s.now.ornaments.volva; });
+    return layers;
+}
+
+RingStyle ring_of(const std::vector<Source>& sources, double size) {
+    return shell_of(sources, &Model::ring, &RingStyle::width, &OrnamentsOf<Plain>::ring, size);
+}
+
+SacStyle sac_of(const std::vector<Source>& sources, double size) {
+    return shell_of(sources, &Model::sac, &SacStyle::height, &OrnamentsOf<Plain>::volva, size);
+}
+
+}  // namespace sporeprint

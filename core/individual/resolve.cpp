@@ -1,0 +1,481 @@
+#include "core/individual/resolve.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/individual/anatomy.h"
+#include "core/individual/damage.h"
+#include "core/individual/ornaments.h"
+#include "core/individual/proportion.h"
+#include "core/individual/sources.h"
+#include "core/math/elementary.h"
+#include "core/math/purposes.h"
+#include "core/math/random.h"
+#include "core/mesh/detail.h"
+#include "core/params/blend.h"
+#include "core/params/canonical.h"
+#include "core/version.h"
+
+namespace sporeprint {
+
+namespace {
+
+constexpr int most_pores = 3000;  // as solids; of more, all live in the images alone
+constexpr double most_natural_fold =
+    0.6;  // curvature of the axis times the radius of the stem; it folds at 1
+
+/// The individual's own draws, -1..1 or 0..1. Drawn in a fixed order; a new one goes last.
+struct Draws {
+    double size, stem_length, stem_width, cap_height, bend, lean, imperfection, lightness;
+};
+
+Draws draws_of(std::uint32_t seed) {
+    Random random(seed, purposes::variation);
+    Draws d{};
+    d.size = random.symmetric();
+    d.stem_length = random.symmetric();
+    d.stem_width = random.symmetric();
+    d.cap_height = random.symmetric();
+    d.bend = random.uniform();
+    d.lean = random.uniform();
+    d.imperfection = random.uniform();
+    d.lightness = random.symmetric();
+    return d;
+}
+
+double factor(double draw, double spread, double variation) {
+    return exponential(draw * spread * variation);
+}
+
+/// The correspondence of all control shapes of the sources: kept under what they are.
+std::shared_ptr<const MorphSet> morph_set(const std::vector<Source>& sources,
+                                          const std::vector<Arc>& arcs, double age,
+                                          const Remember<MorphSet>& morphs) {
+    std::string key = "morph " + std::to_string(generator_version);
+    for (const Source& source : sources)
+        if (source.id.empty()) {
+            key += ' ';
+            canonical(silhouette_of(source.first()), key);
+        } else {
+            key += ' ' + source.id + ' ' + std::to_string(source.hash);
+        }
+    if (!arcs.empty()) key += " at " + number_text(age);
+    for (const Arc& arc : arcs) {
+        key += ' ';
+        canonical(arc, key);
+    }
+    return morphs(key, [&] {
+        std::vector<ControlShape> shapes;
+        for (std::size_t kin = 0; kin < sources.size(); ++kin)
+            for (std::size_t i = 0; i < sources[kin].stages.size(); ++i)
+                shapes.push_back({silhouette_of(*sources[kin].stages[i]), sources[kin].size, kin,
+                                  sources[kin].ages[i]});
+        return std::make_shared<const MorphSet>(std::move(shapes), arcs, age);
+    });
+}
+
+/// Weights of all control shapes, in the order of morph_set().
+std::vector<double> shape_weights(const std::vector<Source>& sources) {
+    std::vector<double> weights;
+    for (const Source& source : sources)
+        for (const double growth : source.growth) weights.push_back(source.weight * growth);
+    return weights;
+}
+
+/// The same at the beginning of life.
+std::vector<double> young_weights(const std::vector<Source>& sources) {
+    std::vector<double> weights;
+    for (const Source& source : sources)
+        for (std::size_t i = 0; i < source.stages.size(); ++i)
+            weights.push_back(i == 0 ? source.weight : 0.0);
+    return weights;
+}
+
+/// How the cap's skin has been strained since it was young.
+double strain_of(const MorphSet& set, const std::vector<Source>& sources) {
+    const auto cap = [&](const std::vector<double>& weights) {
+        return SubCurve(set.nodes(weights).cap, {-1.0, 0.0});
+    };
+    return radial_strain(cap(young_weights(sources)), cap(shape_weights(sources)));
+}
+
+/// Weathering for geometry.
+Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& asked) {
+    using Amount = double WeatheringOf<Plain>::*;
+    Wear wear;
+    const auto lay = [&](Amount amount, const std::optional<double>& wanted, auto able) {
+        bool can = false;
+        double& sum = wear.amounts.*amount;
+        for (const Source& source : sources) {
+            if (!able(source)) continue;
+            sum += source.weight * (source.now.weathering.*amount);
+            can = can || (wanted && *wanted > 0.0) ||
+                  std::any_of(source.stages.begin(), source.stages.end(),
+                              [&](const Model* stage) { return stage->weathering.*amount > 0.0; });
+        }
+        return can;
+    };
+    using W = WeatheringOf<Plain>;
+    const auto all = [](const Source&) { return true; };
+    const auto margin = [](const Source& s) { return s.has_margin(); };
+    for (const Source& source : sources)
+        if (!source.has_margin()) wear.clubs += source.weight;
+    lay(&W::creases, asked.creases, all);
+    lay(&W::bumps, asked.bumps, all);
+    wear.bites = lay(&W::bites, asked.bites, all);
+    wear.splits = lay(&W::splits, asked.splits, margin);
+    wear.melts =
+        lay(&W::deliquescence, asked.deliquescence, [](const Source& s) { return s.melts(); });
+    wear.peels = lay(&W::peel, asked.peel, [](const Source& s) { return s.peels(); });
+    wear.dew = lay(&W::dew, asked.dew, all);
+    return wear;
+}
+
+AxisCurve axis_of(const std::vector<Source>& sources) {
+    AxisCurve axis;
+    for (const Source& source : sources)
+        for (std::size_t i = 0; i < source.stages.size(); ++i) {
+            const auto& controls = std::get<Swept>(source.stages[i]->shape).axis;
+            if (source.growth[i] > 0.0 && !controls.empty())
+                axis.add(AxisCurve(controls), source.weight * source.growth[i]);
+        }
+    return axis;
+}
+
+const Azimuth& azimuth_of(const Source& source) {
+    return std::get<Swept>(source.now.shape).azimuth;
+}
+
+/// The fan: how lateral by weight, its form by how much of it each species brings.
+Azimuth fan_of(const std::vector<Source>& sources) {
+    double lateral = 0.0;
+    for (const Source& source : sources) lateral += source.weight * azimuth_of(source).lateral;
+    Shares<Azimuth> shares;
+    for (const Source& source : sources) {
+        const Azimuth& one = azimuth_of(source);
+        shares.add(one, lateral > 0.0 ? source.weight * one.lateral / lateral : source.weight);
+    }
+    Azimuth fan = blend(shares);
+    fan.lateral = lateral;
+    return fan;
+}
+
+/// The lobes of each species that has any, as deep as it weighs: each keeps its own number.
+std::vector<Azimuth> lobes_of(const std::vector<Source>& sources) {
+    std::vector<Azimuth> lobes;
+    for (const Source& source : sources) {
+        Azimuth one = azimuth_of(source);
+        one.lobe_depth *= source.weight;
+        if (one.lobes > 0 && one.lobe_depth > 0.0) lobes.push_back(one);
+    }
+    return lobes;
+}
+
+/// The relief of each species that has any, as deep as it weighs; equal forms share one, so that a set grows no slower than it must.
+std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
+    std::vector<ReliefStyle> reliefs;
+    for (const Source& source : sources) {
+        ReliefStyle relief = std::get<Swept>(source.now.shape).relief;
+        if (!relief.any()) continue;
+        relief.folds *= source.weight;
+        relief.pits *= source.weight;
+        relief.tiers *= source.weight;
+        const auto alike =
+            std::find_if(reliefs.begin(), reliefs.end(), [&](const ReliefStyle& other) {
+                return other.fold_count == relief.fold_count &&
+                       other.pit_columns == relief.pit_columns &&
+                       other.pit_rows == relief.pit_rows && other.rib == relief.rib &&
+                       other.tier_count == relief.tier_count;
+            });
+        if (alike == reliefs.end()) {
+            reliefs.push_back(relief);
+            continue;
+        }
+        alike->folds += relief.folds;
+        alike->pits += relief.pits;
+        alike->tiers += relief.tiers;
+    }
+    return reliefs;
+}
+
+/// The outline in an individual's own proportions; in those nearest to them with which no level of detail touches itself, where they
+/// would: on the way from the template to them, up to the first touch. That place moves with age and weights, without jumps.
+Outline own_outline(const OutlineNodes& nodes, const std::function<Proportions(double)>& own,
+                    double open, double size) {
+    constexpr int looks = 8, halvings = 20;
+    const auto at = [&](double share) {
+        return Outline(scaled(proportioned(nodes, own(share), open), size));
+    };
+    const auto is_simple = [](const Outline& outline) {
+        for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
+            if (fault_of(outline, lod)) return false;
+        return true;
+    };
+    Outline whole = at(1.0);
+    if (is_simple(whole)) return whole;
+    double simple = 0.0, touching = 1.0;
+    for (int look = 1; look < looks; ++look) {
+        const double share = static_cast<double>(look) / looks;
+        if (!is_simple(at(share))) {
+            touching = share;
+            break;
+        }
+        simple = share;
+    }
+    for (int halving = 0; halving < halvings; ++halving) {
+        const double middle = 0.5 * (simple + touching);
+        (is_simple(at(middle)) ? simple : touching) = middle;
+    }
+    return at(simple);
+}
+
+/// Rows of a species' spines, or of pores so coarse that they are solids: by its template when it is mature, so that no age has
+/// others. They grow with the mushroom.
+CellRows cells_of(const Source& source) {
+    if (!source.has_cells() || !source.has_margin()) return {};
+    std::size_t mature = 0;
+    for (std::size_t i = 1; i < source.ages.size(); ++i)
+        if (std::abs(source.ages[i] - mature_age) < std::abs(source.ages[mature] - mature_age))
+            mature = i;
+    const Outline outline = Outline::unproven(silhouette_of(*source.stages[mature]));
+    const double inner = outline.hymenium.at(0.0).r, outer = outline.hymenium.at(1.0).r;
+    const double arc = std::max(outline.hymenium.length(), 1e-5), far = std::max(inner, outer);
+    const double per_metre = 1000.0 * source.now.hymenium.pores_per_mm;
+    if (source.pattern() == HymeniumPattern::teeth)
+        return cell_rows(arc, inner, far, per_metre, most_spines);
+    // Long pores are fewer along the meridian: as on a shorter one.
+    const double area = pi * (inner + far) * arc;
+    if (area * per_metre * per_metre / source.now.hymenium.elongation > 1.1 * most_pores) return {};
+    return cell_rows(arc / source.now.hymenium.elongation, inner, far, per_metre, most_pores);
+}
+
+/// What no weight and no age may change of the solids on the lower face.
+void stand_hymenium(Individual& individual, const MushroomParams& asked,
+                    const std::vector<Source>& sources) {
+    individual.blade_tiers = individual.comb.tiers;
+    for (const Source& source : sources) {
+        if (!source.has_blades()) continue;
+        individual.runs_down =
+            individual.runs_down || wished(asked.hymenium.decurrent) ||
+            std::any_of(source.stages.begin(), source.stages.end(),
+                        [](const Model* stage) { return stage->hymenium.decurrent > 0.0; });
+        // Each ridge may fork, and each of its forks.
+        if (source.pattern() == HymeniumPattern::ridges)
+            while (individual.comb.blades << individual.blade_tiers <
+                   4 * source.now.hymenium.blades)
+                ++individual.blade_tiers;
+    }
+}
+
+void overlay_all(const MushroomParams& asked, Model& model) {
+    overlay(asked.deformation, model.deformation);
+    overlay(asked.ornaments, model.ornaments);
+    overlay(asked.hymenium, model.hymenium);
+    overlay(asked.weathering, model.weathering);
+}
+
+/// The outline and the axis of a swept individual.
+void sweep_out(Individual& individual, const MushroomOrder& order,
+               const std::vector<Source>& sources, const std::vector<Arc>& arcs, const Draws& draws,
+               const Spread& spread, const Remember<MorphSet>& morphs) {
+    const MushroomParams& asked = order.params;
+    // Shapes are blended in unit size, sizes by their ratio.
+    const double variation = asked.variation;
+    double size = 0.0, open = 0.0;
+    for (const Source& source : sources) {
+        size += source.weight * logarithm(source.size);
+        if (source.has_margin()) open += source.weight;
+    }
+    size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
+           factor(draws.size, spread.size, variation);
+    individual.size = size;
+    individual.set = morph_set(sources, arcs, asked.age, morphs);
+    const auto own = [&](double share) {
+        return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
+                           factor(draws.stem_width, spread.stem_width, share * variation),
+                           factor(draws.cap_height, spread.cap_height, share * variation)};
+    };
+    individual.outline =
+        own_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
+    if (const auto fault = fault_of(individual.outline, asked.lod))
+        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
+                         "the outline crosses itself at this level of detail, near the " +
+                             std::string(name(*fault)));
+    const auto stem = individual.outline.rings(CurveName::stem, 0);
+    individual.stem_base = stem.front().y;
+    individual.stem_top = stem.back().y;
+
+    // The axis and its deformation. An individual bends as far as its own stem allows; what a person asks for, or draws, is
+    // checked by build instead.
+    const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
+                           greatest_radius(individual.outline.stem);
+    individual.axis = axis_of(sources);
+    individual.azimuth = fan_of(sources);
+    individual.lobes = lobes_of(sources);
+    individual.reliefs = reliefs_of(sources);
+    DeformationOf<Plain>& deformation = individual.model.deformation;
+    if (!order.model) {
+        const double fold = individual.axis.greatest_turn() / slender;
+        if (fold > most_natural_fold)
+            individual.axis = individual.axis.scaled(most_natural_fold / fold);
+        const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
+        const double room = std::min(0.6, (0.95 - std::min(fold, most_natural_fold)) / 1.5);
+        const double of_template = std::min(deformation.bend_deg, 1.5 * room * zone);
+        const double drawn = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
+        deformation.bend_deg = std::min({90.0, drawn, std::max(of_template, room * zone)});
+    }
+}
+
+/// The limbs of a branched individual.
+void branch_out(Individual& individual, const MushroomOrder& order,
+                const std::vector<Source>& sources, const Draws& draws, const Spread& spread) {
+    const MushroomParams& asked = order.params;
+    const double variation = asked.variation;
+    std::vector<BushShare> shares;
+    shares.reserve(sources.size());
+    for (const Source& source : sources)
+        shares.push_back({&std::get<Branched>(source.now.shape), source.weight});
+    const BushProportions own{asked.size * factor(draws.size, spread.size, variation),
+                              factor(draws.stem_length, spread.stem_length, variation),
+                              factor(draws.stem_width, spread.stem_width, variation),
+                              factor(draws.cap_height, spread.cap_height, variation)};
+    const double bites = asked.weathering.bites.value_or(individual.model.weathering.bites);
+    individual.bush = bush_of(shares, own, bites, asked.seed);
+    individual.stem_top = individual.bush.trunk;
+    if (order.model) return;
+    // An individual bends as far as its own limbs allow.
+    DeformationOf<Plain>& deformation = individual.model.deformation;
+    const double slender = individual.bush.height / std::max(individual.bush.reach, 1e-4);
+    const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
+    deformation.bend_deg = std::min(
+        {90.0, deformation.bend_deg + draws.bend * spread.bend_deg * variation, 0.5 * zone});
+}
+
+/// What stands on a swept individual.
+void stand_upon(Individual& individual, const MushroomParams& asked,
+                const std::vector<Source>& sources) {
+    if (individual.model.weathering.cracks > 0.0)
+        individual.radial_strain = strain_of(*individual.set, sources);
+    individual.wear = wear_of(sources, asked.weathering);
+    individual.layers = layers_of(sources, *individual.set);
+    individual.ring = ring_of(sources, individual.size);
+    individual.sac = sac_of(sources, individual.size);
+    for (const Source& source : sources) {
+        individual.has_ring = individual.has_ring || source.has_ring();
+        individual.has_sac = individual.has_sac || source.has_sac();
+        if (source.has_margin()) individual.waves += source.weight * source.now.weathering.waves;
+        const Comb comb{source.now.hymenium.blades, source.now.hymenium.tiers};
+        if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
+            individual.comb = comb;
+    }
+    stand_hymenium(individual, asked, sources);
+    if (individual.comb.blades > 0) {
+        individual.model.hymenium.blades = individual.comb.blades;
+        individual.model.hymenium.tiers = individual.comb.tiers;
+    }
+}
+
+}  // namespace
+
+Individual resolve(const MushroomOrder& order, const Atlas& atlas,
+                   const Remember<MorphSet>& morphs) {
+    const MushroomParams& asked = order.params;
+    std::vector<Problem> problems;
+    check(asked, Info{.name = ""}, "", problems);
+    if (order.model) check(*order.model, Info{.name = ""}, "/model", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    if (order.model && asked.animation == Animation::growth)
+        throw Impossible("/animation", "a model of your own has no stages to grow through");
+
+    std::vector<Source> sources = sources_of(order, atlas);
+    if (!order.arcs.empty() && sources.size() != 2)
+        throw InvalidInput("/arcs",
+                           "arcs link two species; this mix has " + std::to_string(sources.size()));
+    if (!order.arcs.empty() && sources.front().is_branched())
+        throw Impossible("/arcs", "limbs that branch have no outlines that arcs could link");
+    check_anatomy(asked, sources);
+    // Arcs name the species in the order of the mix; from here on species stand by id.
+    std::vector<Arc> arcs = order.arcs;
+    if (!arcs.empty() && order.mix[0].id != sources[0].id)
+        for (Arc& arc : arcs) std::swap(arc.a, arc.b);
+
+    Individual individual;
+    individual.effective = asked;
+    const auto everyone = [](const Source&) { return true; };
+    const Spread spread =
+        among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });
+    Model& model = individual.model;
+    model = among(sources, everyone, [](const Source& s) -> const Model& { return s.now; });
+    if (sources.front().is_branched())
+        model.shape = Branched{};
+    else
+        model.shape = Swept{};
+
+    const Draws draws = draws_of(asked.seed);
+    const double variation = asked.variation;
+    if (sources.front().is_branched())
+        branch_out(individual, order, sources, draws, spread);
+    else
+        sweep_out(individual, order, sources, arcs, draws, spread, morphs);
+    individual.lightness = factor(draws.lightness, spread.lightness, variation);
+    DeformationOf<Plain>& deformation = model.deformation;
+    deformation.lean_deg =
+        std::min(45.0, deformation.lean_deg + draws.lean * spread.lean_deg * variation);
+    deformation.imperfection = std::min(
+        1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
+
+    // What was asked holds for every species that can have it.
+    for (Source& source : sources) overlay_all(asked, source.now);
+    blend_amounts(model, sources);
+    overlay_all(asked, model);
+    model.deformation.check("/deformation", problems);
+    if (!problems.empty()) throw Impossible(std::move(problems));
+
+    if (!sources.front().is_branched()) stand_upon(individual, asked, sources);
+    report_effective(individual.effective, model, sources);
+    for (Source& source : sources) {
+        const CellRows cells = cells_of(source);
+        individual.parts.push_back({source.id, source.weight, std::move(source.now), cells});
+    }
+    return individual;
+}
+
+std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas) {
+    std::vector<Problem> problems;
+    check(order.params, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    const std::vector<Source> sources = sources_of(order, atlas);
+    std::vector<Bush> bushes;
+    bushes.reserve(sources.size());
+    for (const Source& alone : sources) {
+        std::vector<BushShare> shares;
+        shares.reserve(sources.size());
+        for (const Source& source : sources)
+            shares.push_back(
+                {&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0});
+        bushes.push_back(bush_of(shares, {}, 0.0, order.params.seed));
+    }
+    return bushes;
+}
+
+SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
+                             const Remember<MorphSet>& morphs) {
+    std::vector<Problem> problems;
+    check(order.params, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    const std::vector<Source> sources = sources_of(order, atlas);
+    SpeciesShapes shapes;
+    shapes.set = morph_set(sources, {}, order.params.age, morphs);
+    std::size_t first = 0;
+    for (const Source& source : sources) {
+        std::vector<double> weights(shapes.set->size(), 0.0);
+        std::copy(source.growth.begin(), source.growth.end(),
+                  weights.begin() + static_cast<std::ptrdiff_t>(first));
+        first += source.growth.size();
+        shapes.weights.push_back(std::move(weights));
+        shapes.sizes.push_back(source.size);
+    }
+    return shapes;
+}
+
+}  // namespace sporeprint

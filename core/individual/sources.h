@@ -1,0 +1,93 @@
+// The species of an order, each as it is at the age of the order: what an individual is resolved from.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <string>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "core/atlas/atlas.h"
+#include "core/individual/mushroom_spec.h"
+#include "core/model/model.h"
+#include "core/model/species.h"
+#include "core/params/blend.h"
+
+namespace sporeprint {
+
+/// Age of recorded sizes, for every species.
+inline constexpr double mature_age = 0.6;
+
+/// One species of the order, or the client's own Model as a species of a single stage.
+struct Source {
+    std::string id, who;
+    double weight = 1.0;
+    std::uint64_t hash = 0;
+    Spread spread{0, 0, 0, 0, 0, 0, 0, 0};
+    std::vector<const Model*> stages;
+    std::vector<double> ages;    ///< of the stages
+    std::vector<double> growth;  ///< of each stage at this age; at most two are not 0
+    std::vector<double> mature;  ///< of each stage at maturity
+    double size = 1.0;           ///< of its mature shape, metres
+    Model now;                   ///< at this age
+
+    [[nodiscard]] const Model& first() const { return *stages.front(); }
+    [[nodiscard]] bool is_branched() const {
+        return std::holds_alternative<Branched>(first().shape);
+    }
+    [[nodiscard]] HymeniumPattern pattern() const { return first().surface.hymenium.pattern; }
+    [[nodiscard]] bool has_blades() const {
+        return pattern() == HymeniumPattern::gills || pattern() == HymeniumPattern::ridges;
+    }
+    /// Pores or teeth.
+    [[nodiscard]] bool has_cells() const {
+        return pattern() == HymeniumPattern::pores || pattern() == HymeniumPattern::teeth;
+    }
+    [[nodiscard]] bool has_ring() const {
+        return std::any_of(stages.begin(), stages.end(),
+                           [](const Model* stage) { return stage->ring.width > 0.0; });
+    }
+    [[nodiscard]] bool has_sac() const {
+        return std::any_of(stages.begin(), stages.end(),
+                           [](const Model* stage) { return stage->sac.height > 0.0; });
+    }
+    [[nodiscard]] bool has_volva() const { return has_sac() || first().volva.count > 0; }
+    [[nodiscard]] bool melts() const {
+        return std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
+            return stage->weathering.deliquescence > 0.0;
+        });
+    }
+    [[nodiscard]] bool peels() const {
+        return has_margin() && std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
+                   return stage->surface.scars.peel_reach > 0.0;
+               });
+    }
+    [[nodiscard]] bool has_margin() const {
+        const auto* swept = std::get_if<Swept>(&first().shape);
+        return swept && !swept->silhouette.hymenium.empty();
+    }
+};
+
+/// The species of a mix by id, their weights eased; or the client's own Model alone.
+///
+/// throws  InvalidInput for an unknown species and a mix that is none, Impossible (path "mix") for species of several families
+[[nodiscard]] std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas);
+
+/// The outline of a swept model. pre: it is one
+[[nodiscard]] const Silhouette& silhouette_of(const Model& model);
+
+/// What the sources have together; `counts` says which of them count, the rest weigh nothing.
+template <class Counts, class Of>
+auto among(const std::vector<Source>& sources, Counts counts, Of of) {
+    Shares<std::remove_cvref_t<decltype(of(sources[0]))>> shares;
+    double sum = 0.0;
+    for (const Source& source : sources)
+        if (counts(source)) sum += source.weight;
+    for (const Source& source : sources)
+        if (counts(source) || sum == 0.0)
+            shares.add(of(source), sum > 0.0 ? source.weight / sum : source.weight);
+    return blend(shares);
+}
+
+}  // namespace sporeprint

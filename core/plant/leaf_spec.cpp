@@ -1,0 +1,28 @@
+#include "core/plant/leaf_spec.h"
+
+namespace sporeprint {
+
+LeafParams params_of(const LeafPreset& preset) {
+    LeafParams params;
+    params.shape = preset.shape;
+    params.palette = preset.palette;
+    return params;
+}
+
+LeafPaint paint_of(const LeafParams& params) {
+    LeafPaint paint;
+    paint.seed = params.seed;
+    paint.variation = params.variation;
+    paint.autumn = params.autumn;
+    paint.texture_size = {params.texture_size >> params.lod};
+    paint.relief = params.shape.relief;
+    paint.venation = params.shape.venation;
+    paint.palette = params.palette;
+    return paint;
+}
+
+LeafShape shape_of(const LeafParams& params) {
+    return individual_leaf(params.shape, params.seed, params.variation);
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,96 @@
+// What a person may ask of a leaf: a preset, and every parameter of its shape and colours.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/individual/mushroom_spec.h"
+#include "core/plant/leaf.h"
+
+namespace sporeprint {
+
+/// Parameters of a leaf. Those of shape and colours are a preset's unless they are given.
+struct LeafParams {
+    std::uint32_t seed = 1;
+    double size = 1.0;
+    double variation = 0.5;
+    double autumn = 0.0;
+    int lod = 0;
+    TextureSize texture_size{1024};
+    Textures textures = Textures::embedded;
+    LeafShape shape;
+    LeafPalette palette;
+
+    static constexpr void fields(auto visit) {
+        using P = LeafParams;
+        using M = MushroomParams;
+        visit(&P::seed, Info{.name = "seed",
+                             .min = 0,
+                             .max = 4294967295.0,
+                             .doc = "The individual: same seed and parameters, same leaf, bit for "
+                                    "bit."});
+        visit(&P::size, info_of<M>("size"));
+        visit(&P::variation, Info{.name = "variation",
+                                  .min = 0,
+                                  .max = 1,
+                                  .doc = "How far an individual departs from the shape that is "
+                                         "described."});
+        visit(&P::autumn, Info{.name = "autumn",
+                               .min = 0,
+                               .max = 1,
+                               .doc = "From summer (0) through full autumn colour (0.5) to what "
+                                      "lies on the ground (1)."});
+        visit(&P::lod, info_of<M>("lod"));
+        visit(&P::texture_size, info_of<M>("texture_size"));
+        visit(&P::textures, info_of<M>("textures"));
+        visit(&P::shape, Info{.name = ""});
+        visit(&P::palette, Info{.name = ""});
+    }
+    bool operator==(const LeafParams&) const = default;
+};
+static_assert(well_described<LeafParams>());
+
+/// Sides of an image at any level of detail.
+using ImageSide = Choice<16, 32, 64, 128, 256, 512, 1024, 2048>;
+
+/// Everything that the images of a leaf depend on.
+struct LeafPaint {
+    std::uint32_t seed = 1;
+    double variation = 0.5;
+    double autumn = 0.0;
+    ImageSide texture_size{1024};
+    double relief = 0.6;
+    Venation venation;
+    LeafPalette palette;
+
+    static constexpr void fields(auto visit) {
+        using P = LeafPaint;
+        using L = LeafParams;
+        visit(&P::seed, info_of<L>("seed"));
+        visit(&P::variation, info_of<L>("variation"));
+        visit(&P::autumn, info_of<L>("autumn"));
+        visit(&P::texture_size,
+              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+        visit(&P::relief, info_of<LeafShape>("relief"));
+        visit(&P::venation, info_of<LeafShape>("venation"));
+        visit(&P::palette, Info{.name = ""});
+    }
+    bool operator==(const LeafPaint&) const = default;
+};
+static_assert(well_described<LeafPaint>());
+
+struct LeafOrder {
+    std::string preset;  ///< names the file; what it brings is in the parameters
+    LeafParams params;
+};
+
+/// What a preset is where nothing else is asked for.
+[[nodiscard]] LeafParams params_of(const LeafPreset& preset);
+
+/// What of an order shows in its images.
+[[nodiscard]] LeafPaint paint_of(const LeafParams& params);
+
+/// The shape of the individual that is ordered.
+[[nodiscard]] LeafShape shape_of(const LeafParams& params);
+
+}  // namespace sporeprint

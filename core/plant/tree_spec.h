@@ -1,0 +1,130 @@
+// What a person may ask of a tree: a preset, and every parameter of how it branches, of its leaves and its bark.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "core/individual/mushroom_spec.h"
+#include "core/plant/leaf_spec.h"
+#include "core/plant/tree.h"
+
+namespace sporeprint {
+
+/// Kinds of leaves that a tree may bear: the presets of leaves.
+enum class LeafKind { maple, oak, birch, ivy, fern, shoot, needle };
+
+constexpr const char* name(LeafKind kind) {
+    switch (kind) {
+        case LeafKind::maple:
+            return "maple";
+        case LeafKind::oak:
+            return "oak";
+        case LeafKind::birch:
+            return "birch";
+        case LeafKind::ivy:
+            return "ivy";
+        case LeafKind::fern:
+            return "fern";
+        case LeafKind::shoot:
+            return "shoot";
+        case LeafKind::needle:
+            return "needle";
+    }
+    return nullptr;
+}
+
+/// What a preset brings.
+struct TreeLook {
+    TreeShape shape;
+    LeafKind leaf = LeafKind::oak;
+    LeafStyle leaves;
+    BarkStyle bark;
+
+    static constexpr void fields(auto visit) {
+        using L = TreeLook;
+        visit(&L::shape, Info{.name = ""});
+        visit(&L::leaf, Info{.name = "leaf", .doc = "Kind of leaf, as under /v1/leaves."});
+        visit(&L::leaves, Info{.name = "leaves", .doc = "How leaves stand on their twigs."});
+        visit(&L::bark, Info{.name = "bark", .doc = "What is painted on trunk and branches."});
+    }
+    bool operator==(const TreeLook&) const = default;
+};
+static_assert(well_described<TreeLook>());
+
+/// Parameters of a tree. Those of its look are a preset's unless they are given.
+struct TreeParams {
+    std::uint32_t seed = 1;
+    double size = 1.0;
+    double autumn = 0.0;
+    int lod = 0;
+    TextureSize texture_size{1024};
+    Textures textures = Textures::embedded;
+    TreeLook look;
+
+    static constexpr void fields(auto visit) {
+        using P = TreeParams;
+        using L = LeafParams;
+        visit(&P::seed, Info{.name = "seed",
+                             .min = 0,
+                             .max = 4294967295.0,
+                             .doc = "The individual: same seed and parameters, same tree, bit for "
+                                    "bit."});
+        visit(&P::size, info_of<L>("size"));
+        visit(&P::autumn, info_of<L>("autumn"));
+        visit(&P::lod, Info{.name = "lod",
+                            .min = 0,
+                            .max = 3,
+                            .doc = "Level of detail: the same individual with fewer branches and "
+                                   "fewer, larger leaves, and smaller images."});
+        visit(&P::texture_size, Info{.name = "texture_size",
+                                     .unit = "texels",
+                                     .doc = "Side of the images of bark and of those of leaves at "
+                                            "LOD 0; it halves with every level."});
+        visit(&P::textures, info_of<L>("textures"));
+        visit(&P::look, Info{.name = ""});
+    }
+    bool operator==(const TreeParams&) const = default;
+};
+static_assert(well_described<TreeParams>());
+
+/// Everything that the images of bark depend on: all individuals of a kind wear the same.
+struct TreePaint {
+    ImageSide texture_size{1024};
+    BarkStyle bark;
+
+    static constexpr void fields(auto visit) {
+        using P = TreePaint;
+        visit(&P::texture_size,
+              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+        visit(&P::bark, info_of<TreeLook>("bark"));
+    }
+    bool operator==(const TreePaint&) const = default;
+};
+static_assert(well_described<TreePaint>());
+
+struct TreeOrder {
+    std::string preset;  ///< names the file; what it brings is in the parameters
+    TreeParams params;
+};
+
+/// What a preset is where nothing else is asked for.
+[[nodiscard]] TreeParams params_of(const TreePreset& preset);
+
+/// Forgets rows that no matrix of the order asks for, so that one tree has one canonical text.
+void without_unused_rows(TreeParams& params);
+
+/// What of an order shows in the images of its bark.
+[[nodiscard]] TreePaint paint_of(const TreeParams& params);
+
+/// The leaf that a tree bears many times: its kind, as it grows where nothing else is asked for, at the tree's moment of the year
+/// and with images of the tree's size. So its images are those of that leaf alone.
+[[nodiscard]] LeafParams leaf_of(const TreeParams& params);
+
+/// Share of so many leaves that are left at a level of detail; they are larger by as much. Of few leaves more are left: large ones
+/// would be all that is seen of a herb.
+[[nodiscard]] double leaf_share(int lod, double leaves);
+
+/// Triangles of a leaf at a level of detail, by how many of them are left: 8, 12 or 16.
+[[nodiscard]] std::size_t leaf_triangles(int lod, std::size_t leaves);
+
+}  // namespace sporeprint

@@ -1,0 +1,135 @@
+// How something branches, described: which matrices its branches obey, up to what order, and how it is grown from them.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "core/params/describe.h"
+#include "core/ramification/ramification.h"
+
+namespace sporeprint {
+
+/// Named matrices (see ramification.h), or one's own rows.
+enum class MatrixKind { perfect, random_binary, random_increasing, fishbone, tokunaga, own };
+
+constexpr const char* name(MatrixKind kind) {
+    switch (kind) {
+        case MatrixKind::perfect:
+            return "perfect";
+        case MatrixKind::random_binary:
+            return "random_binary";
+        case MatrixKind::random_increasing:
+            return "random_increasing";
+        case MatrixKind::fishbone:
+            return "fishbone";
+        case MatrixKind::tokunaga:
+            return "tokunaga";
+        case MatrixKind::own:
+            return "own";
+    }
+    return nullptr;
+}
+
+/// dealt: exactly the matrix, a number of leaves known beforehand. drawn: node by node, of any size.
+enum class TreeGrowth { dealt, drawn };
+
+constexpr const char* name(TreeGrowth growth) {
+    switch (growth) {
+        case TreeGrowth::dealt:
+            return "dealt";
+        case TreeGrowth::drawn:
+            return "drawn";
+    }
+    return nullptr;
+}
+
+/// How a tree branches.
+struct TreeTopology {
+    MatrixKind matrix = MatrixKind::random_increasing;
+    MatrixKind toward = MatrixKind::random_binary;
+    double blend = 0.0;
+    double forks = 0.15;
+    double tokunaga_a = 1.0;
+    double tokunaga_c = 2.0;
+    std::vector<std::vector<double>> rows;
+    int order = 7;
+    TreeGrowth growth = TreeGrowth::dealt;
+    MatrixKind tips = MatrixKind::fishbone;
+    int tip_order = 1;
+
+    static constexpr void fields(auto visit) {
+        using T = TreeTopology;
+        visit(&T::matrix, Info{.name = "matrix", .doc = "How often branches bear which others."});
+        visit(&T::toward, Info{.name = "toward", .doc = "The matrix that `blend` goes towards."});
+        visit(&T::blend,
+              Info{.name = "blend", .min = 0, .max = 1, .doc = "From `matrix` to `toward`."});
+        visit(&T::forks, Info{.name = "forks",
+                              .min = 0.01,
+                              .max = 1,
+                              .doc = "Share of forks in a fishbone: long axes where it is low."});
+        visit(&T::tokunaga_a, Info{.name = "tokunaga_a",
+                                   .min = 0,
+                                   .max = 6,
+                                   .doc = "Side branches of the next lower order to a segment of "
+                                          "a Tokunaga tree."});
+        visit(&T::tokunaga_c, Info{.name = "tokunaga_c",
+                                   .min = 0.2,
+                                   .max = 5,
+                                   .doc = "How many times more there are of each order below."});
+        visit(&T::rows,
+              Info{.name = "rows",
+                   .min = 0,
+                   .max = 1,
+                   .most = most_order,
+                   .doc = "The matrix called `own`, rows of order 2, 3 and so on: shares of nodes "
+                          "with a side branch of order 1, 2 and so on, and at last of forks; each "
+                          "sums to one."});
+        visit(&T::order, Info{.name = "order",
+                              .min = 1,
+                              .max = most_order,
+                              .doc = "Order of Horton and Strahler; each more bears about four "
+                                     "times the leaves."});
+        visit(&T::growth, Info{.name = "growth", .doc = "Dealt to measure, or drawn freely."});
+        visit(&T::tips, Info{.name = "tips", .doc = "Matrix of the small trees at the tips."});
+        visit(&T::tip_order,
+              Info{.name = "tip_order",
+                   .min = 1,
+                   .max = 4,
+                   .doc = "Highest order of the small trees that take the place of twigs, as in "
+                          "herbs; 1 for none."});
+    }
+    bool operator==(const TreeTopology&) const = default;
+
+    /// Whether the rows are asked for at all.
+    [[nodiscard]] bool uses_rows() const {
+        return matrix == MatrixKind::own || (toward == MatrixKind::own && blend > 0.0) ||
+               (tips == MatrixKind::own && tip_order > 1);
+    }
+    /// The faults of the rows, rows that are asked for and not there, an order that they do not reach.
+    void check(const std::string& path, std::vector<Problem>& problems) const;
+};
+static_assert(well_described<TreeTopology>());
+
+/// Most leaves and twigs that a tree is grown with.
+inline constexpr std::size_t most_tips = 40'000;
+
+/// The matrix that a tree obeys, up to its order.
+///
+/// topology  with nothing that check() finds
+[[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
+
+/// Mean number of tips of such a tree (the number itself where it is dealt and has no small trees at its tips), before any work.
+[[nodiscard]] double expected_tips(const TreeTopology& topology);
+
+/// The matrix of the small trees at the tips.
+[[nodiscard]] RamificationMatrix tip_matrix(const TreeTopology& topology);
+
+/// Grows the ramification that a topology describes.
+///
+/// topology  with nothing that check() finds
+/// throws    Impossible (path "/order") naming the expected number of more than `most` leaves
+[[nodiscard]] Ramification ramified(const TreeTopology& topology, std::uint32_t seed,
+                                    std::size_t most);
+
+}  // namespace sporeprint

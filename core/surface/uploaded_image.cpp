@@ -1,0 +1,148 @@
+#include "core/surface/uploaded_image.h"
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <utility>
+
+#include "core/math/elementary.h"
+#include "core/surface/canvas.h"
+#include "core/surface/codecs.h"
+
+namespace sporeprint {
+namespace {
+
+// One given image of a painting, and where its turn goes.
+struct Place {
+    const Upload& (*upload)(const PaintParams&);
+    double GivenTurns::*turn;
+    std::size_t part;
+    const char* path;
+};
+
+constexpr std::array<Place, 3> places = {{
+    {[](const PaintParams& p) -> const Upload& { return p.surface.cap.image; }, &GivenTurns::cap, 0,
+     "/surface/cap/image"},
+    {[](const PaintParams& p) -> const Upload& { return p.surface.hymenium.image; },
+     &GivenTurns::hymenium, 1, "/surface/hymenium/image"},
+    {[](const PaintParams& p) -> const Upload& { return p.surface.stem.image; }, &GivenTurns::stem,
+     2, "/surface/stem/image"},
+}};
+
+constexpr int profile_rows = 24;
+
+}  // namespace
+
+GivenImage given_image(const Upload& upload, const Frame& frame, const std::string& path) {
+    GivenImage image;
+    if (upload.empty()) return image;
+    const Picture picture = decoded_picture(upload.bytes, path);
+    const std::array<float, 256>& table = linear_table();
+    image.width = picture.width;
+    image.height = picture.height;
+    image.light.resize(picture.rgb.size());
+    for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.light[i] = table[picture.rgb[i]];
+    while (image.width > 2 * frame.width || image.height > 2 * frame.height) {
+        const int across = image.width > 2 * frame.width ? 2 : 1;
+        const int down = image.height > 2 * frame.height ? 2 : 1;
+        GivenImage half;
+        half.width = image.width / across;
+        half.height = image.height / down;
+        half.light.resize(static_cast<std::size_t>(half.width) *
+                          static_cast<std::size_t>(half.height) * 3);
+        for (int y = 0; y < half.height; ++y)
+            for (int x = 0; x < half.width; ++x)
+                for (int c = 0; c < 3; ++c) {
+                    float sum = 0.0F;
+                    for (int j = 0; j < down; ++j)
+                        for (int i = 0; i < across; ++i)
+                            sum += image.light[static_cast<std::size_t>(
+                                ((y * down + j) * image.width + x * across + i) * 3 + c)];
+                    half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] =
+                        sum / static_cast<float>(across * down);
+                }
+        image = std::move(half);
+    }
+    return image;
+}
+
+void turn(GivenImage& image, double turns) {
+    const double shown = turns - std::floor(turns);
+    const SineCosine angle = sine_cosine(2.0 * pi * shown);
+    image.turn = static_cast<float>(shown);
+    image.cosine = static_cast<float>(angle.cosine);
+    image.sine = static_cast<float>(angle.sine);
+}
+
+std::vector<double> round_profile(const GivenImage& image, ChartMap map) {
+    std::vector<double> profile;
+    double mean = 0.0;
+    for (int i = 0; i < profile_places; ++i) {
+        const double share = (i + 0.5) / profile_places;
+        const SineCosine angle = sine_cosine(2.0 * pi * share);
+        double sum = 0.0;
+        for (int row = 0; row < profile_rows; ++row) {
+            const double along = (row + 0.5) / profile_rows;
+            const double radius = 0.5 * (0.15 + 0.80 * along);  // neither the pole nor the rim
+            const bool disc = map == ChartMap::disc;
+            const double u = disc ? 0.5 + radius * angle.cosine : along;
+            const double v = disc ? 0.5 + radius * angle.sine : share;
+            const auto x = static_cast<std::size_t>(u * image.width);
+            const auto y = static_cast<std::size_t>(v * image.height);
+            const float* const light =
+                image.light.data() + 3 * (y * static_cast<std::size_t>(image.width) + x);
+            for (int c = 0; c < 3; ++c) sum += static_cast<double>(light[c]);
+        }
+        profile.push_back(sum);
+        mean += sum / profile_places;
+    }
+    for (double& value : profile) value -= mean;
+    return profile;
+}
+
+int best_shift(std::span<const double> a, std::span<const double> b) {
+    const int n = static_cast<int>(a.size());
+    int best = 0;
+    double most = 0.0;
+    for (int i = 0; i < n; ++i) {
+        // 0, 1, -1, 2, -2, ...
+        const int shift = i % 2 == 1 ? (i + 1) / 2 : -(i / 2);
+        double sum = 0.0;
+        for (int k = 0; k < n; ++k)
+            sum +=
+                a[static_cast<std::size_t>(k)] * b[static_cast<std::size_t>((k + shift + n) % n)];
+        // More by more than rounding.
+        if (i == 0 || sum > most + 1e-9 * std::abs(most)) {
+            most = sum;
+            best = shift;
+        }
+    }
+    return best;
+}
+
+std::vector<GivenTurns> aligned_turns(std::span<const PaintParams* const> paintings,
+                                      std::span<const double> weights) {
+    std::vector<GivenTurns> turns(paintings.size());
+    for (const Place& place : places) {
+        std::vector<double> reference;
+        std::vector<std::pair<std::size_t, double>> ahead;  // painting, turns further on
+        double mean = 0.0, weight = 0.0;
+        for (std::size_t i = 0; i < paintings.size(); ++i) {
+            const Upload& upload = place.upload(*paintings[i]);
+            if (upload.empty()) continue;
+            const Frame frame = chart_frames(paintings[i]->side)[place.part];
+            const std::vector<double> profile =
+                round_profile(given_image(upload, frame, place.path), swept_charts[place.part].map);
+            if (reference.empty()) reference = profile;
+            ahead.emplace_back(
+                i, static_cast<double>(best_shift(reference, profile)) / profile_places);
+            mean += weights[i] * ahead.back().second;
+            weight += weights[i];
+        }
+        if (weight <= 0.0) continue;
+        for (const auto& [i, turn] : ahead) turns[i].*place.turn = turn - mean / weight;
+    }
+    return turns;
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,139 @@
+#include "core/geometry/branches.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "core/geometry/budget.h"
+#include "core/math/random.h"
+#include "tests/support/effort.h"
+#include "tests/support/meshes.h"
+#include "tests/support/mixes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+/// Mixes of two and of all branched species.
+std::vector<Mix> mixes() {
+    const auto ids = branched_ids();
+    std::vector<Mix> all;
+    for (std::size_t i = 0; i < ids.size(); ++i)
+        for (std::size_t j = i + 1; j < ids.size(); ++j)
+            all.push_back({{ids[i], 400}, {ids[j], 600}});
+    Mix every;
+    for (const std::string& id : ids) every.push_back({id, 300});
+    every.front().weight += 1000 - 300 * static_cast<int>(ids.size());
+    all.push_back(every);
+    return all;
+}
+
+TEST(Limbs, AreSoundInEveryMixAtEveryLevelAndAge) {
+    for (const Mix& mix : mixes())
+        for (int lod = 0; lod < 4; ++lod)
+            for (const double age : {0.0, 0.45, 0.6, 1.0}) {
+                MushroomOrder order = textured(mix_of(mix, age, 4, lod));
+                order.params.variation = 1.0;
+                SCOPED_TRACE(text_of(mix) + " lod " + std::to_string(lod) + " age " +
+                             std::to_string(age));
+                expect_valid(mesh_of(order));
+            }
+}
+
+TEST(Limbs, KeepTheTrianglesOfTheirLevelAndAreCountedBefore) {
+    Random random(1, 0x6c696d62);
+    std::vector<Mix> all = mixes();
+    for (const std::string& id : branched_ids()) all.push_back({{id, 1000}});
+    for (const Mix& mix : all)
+        for (int lod = 0; lod < 4; ++lod) {
+            const double age = random.uniform();
+            const std::uint32_t seed = random.bits();
+            const MushroomOrder order = textured(mix_of(mix, age, seed, lod));
+            const Individual individual = resolved(order);
+            const MeshCount count = limb_count(individual.bush, lod);
+            EXPECT_LE(count.triangles, most_triangles[static_cast<std::size_t>(lod)]);
+            EXPECT_GT(count.triangles, 0U);
+            const Mesh mesh = branched_mesh(individual, lod);
+            EXPECT_EQ(mesh.positions.size(), count.vertices) << text_of(mix);
+            EXPECT_EQ(mesh.triangles(), count.triangles) << text_of(mix);
+            const Mesh whole = branched_mesh(individual, lod, {.keep_absent = true});
+            const MeshCount most = limb_count(individual.bush, lod, true);
+            EXPECT_EQ(whole.positions.size(), most.vertices) << text_of(mix);
+            EXPECT_EQ(whole.triangles(), most.triangles) << text_of(mix);
+        }
+}
+
+TEST(Limbs, GrowInUnitsOfSize) {
+    for (const std::string& id : branched_ids()) {
+        MushroomOrder order = order_of(id, 0.6, 3, 1);
+        const Mesh one = mesh_of(order);
+        order.params.size = 2.0;
+        const Mesh two = mesh_of(order);
+        ASSERT_EQ(one.positions.size(), two.positions.size());
+        for (std::size_t i = 0; i < one.positions.size(); ++i)
+            EXPECT_LT(glm::distance(2.0F * one.positions[i], two.positions[i]), 1e-6F) << id;
+    }
+}
+
+TEST(Limbs, EveryDeformationIsSoundOrRefusedByName) {
+    int bent = 0;
+    for (const std::string& id : branched_ids())
+        for (std::uint32_t i = 0; i < effort(48); ++i) {
+            Random random(i, 0x6c696d62);
+            MushroomOrder order = order_of(id, random.uniform(), i, static_cast<int>(i % 4));
+            order.params.deformation.bend_deg = random.uniform(0.0, 90.0);
+            order.params.deformation.twist_deg = random.uniform(-180.0, 180.0);
+            order.params.deformation.lean_deg = random.uniform(0.0, 45.0);
+            order.params.deformation.taper = random.symmetric();
+            order.params.deformation.imperfection = random.uniform();
+            order.params.weathering.bites = random.uniform();
+            Mesh mesh;
+            const auto problems = refusal([&] { mesh = mesh_of(order); });
+            if (!problems.empty()) {
+                EXPECT_TRUE(names(problems, "/deformation/bend_deg", "bends this bush through"));
+                continue;
+            }
+            ++bent;
+            SCOPED_TRACE(id + ' ' + std::to_string(i));
+            expect_valid(mesh);
+        }
+    EXPECT_GT(bent, 0);
+}
+
+TEST(Limbs, WhatOtherFamiliesHaveIsRefusedInWords) {
+    const auto refused = [](auto ask) {
+        MushroomOrder order = order_of("ramaria_formosa");
+        ask(order.params);
+        return refusal([&] { (void)resolved(order); });
+    };
+    EXPECT_TRUE(names(refused([](auto& p) { p.hymenium.blades = 40; }), "/hymenium/blades",
+                      "Ramaria formosa is smooth all over"));
+    EXPECT_TRUE(names(refused([](auto& p) { p.weathering.waves = 0.5; }), "/weathering/waves",
+                      "no margin"));
+    EXPECT_TRUE(names(refused([](auto& p) { p.ornaments.ring = 1.0; }), "/ornaments/ring",
+                      "no partial veil"));
+    EXPECT_TRUE(refused([](auto& p) { p.weathering.bites = 0.5; }).empty());
+}
+
+TEST(Limbs, FamiliesDoNotMixAndTheRefusalNamesThem) {
+    const auto two = refusal([] {
+        (void)resolved(mix_of({{"ramaria_formosa", 500}, {"boletus_edulis", 500}}));
+    });
+    EXPECT_TRUE(names(two, "mix",
+                      "Ramaria formosa branches; Boletus edulis does not: a mix needs one family"));
+    const auto four = refusal([] {
+        (void)resolved(mix_of({{"ramaria_formosa", 250},
+                               {"xylaria_hypoxylon", 250},
+                               {"boletus_edulis", 250},
+                               {"russula_vinosa", 250}}));
+    });
+    EXPECT_TRUE(
+        names(four, "mix",
+              "Ramaria formosa, Xylaria hypoxylon branch; Boletus edulis, Russula vinosa do "
+              "not: a mix needs one family"));
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,296 @@
+#include "core/geometry/ornaments.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include "core/geometry/damage_cuts.h"
+#include "core/geometry/hymenium.h"
+#include "core/grow/mushroom.h"
+#include "core/surface/charts.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+Mesh amanita(double warts, double ring, int lod = 0, std::uint32_t seed = 4) {
+    MushroomOrder order = textured(order_of("amanita_muscaria", 0.5, seed, lod));
+    order.params.ornaments.warts = warts;
+    order.params.ornaments.ring = ring;
+    order.params.hymenium.depth = 0.0;  // no gills among the pieces
+    Mesh mesh = mesh_of(order);
+    expect_valid(mesh);
+    return mesh;
+}
+
+/// Volumes of all pieces but the body, in cubic millimetres.
+std::vector<double> ornament_volumes(const Mesh& mesh) {
+    std::vector<double> volumes;
+    for (const Mesh& piece : pieces(mesh)) volumes.push_back(1e9 * volume(piece));
+    volumes.erase(std::max_element(volumes.begin(), volumes.end()));
+    return volumes;
+}
+
+TEST(Ornaments, WartsAreClosedSolidsThatFaceOutwards) {
+    const auto none = ornament_volumes(amanita(0.0, 0.0)),
+               all = ornament_volumes(amanita(1.0, 0.0));
+    EXPECT_GT(all.size(), none.size() + 40)
+        << "95 pieces are asked for, those that overlap are left out";
+    EXPECT_LE(all.size(), none.size() + 95);
+    for (const double volume : all) EXPECT_GT(volume, 0.0);
+}
+
+TEST(Ornaments, WartsShrinkAndFallAsTheVeilGoes) {
+    double last = 0.0;
+    std::size_t pieces_before = 0;
+    for (const double amount : {0.0, 0.1, 0.3, 0.6, 0.9, 1.0}) {
+        double whole = 0.0;
+        const auto volumes = ornament_volumes(amanita(amount, 0.0));
+        for (const double volume : volumes) whole += volume;
+        EXPECT_GT(whole, last);
+        EXPECT_GE(volumes.size(), pieces_before);
+        last = whole;
+        pieces_before = volumes.size();
+    }
+}
+
+TEST(Ornaments, ASmallChangeOfAmountIsASmallChangeOfShape) {
+    const auto whole = [](double amount) {
+        double sum = 0.0;
+        for (const double volume : ornament_volumes(amanita(amount, 0.0, 1))) sum += volume;
+        return sum;
+    };
+    const double full = whole(1.0);
+    for (double amount = 0.05; amount < 1.0; amount += 0.05)
+        EXPECT_LT(std::abs(whole(amount + 1e-3) - whole(amount)), 0.02 * full) << amount;
+}
+
+TEST(Ornaments, TheRingIsOneClosedShellOnTheStem) {
+    const Mesh without = amanita(0.0, 0.0), with = amanita(0.0, 1.0);
+    const std::size_t body = pieces(without).size();
+    const auto found = pieces(with);
+    ASSERT_EQ(found.size(), body + 1);
+    const Mesh& ring = found.back();
+    EXPECT_GT(volume(ring), 0.0);
+    float low = 1.0f, high = -1.0f;
+    for (const std::uint32_t i : ring.indices) {
+        low = std::min(low, ring.positions[i].y);
+        high = std::max(high, ring.positions[i].y);
+    }
+    EXPECT_GT(low, 0.0f);
+    EXPECT_LT(high, bounds(without).max.y);
+    const auto size = [](double amount) { return area(pieces(amanita(0.0, amount)).back()); };
+    EXPECT_LT(size(0.3), size(0.6));
+    EXPECT_LT(size(0.6), size(1.0));
+}
+
+TEST(Ornaments, LevelsOfDetailDropThemFromFarAway) {
+    EXPECT_GT(pieces(amanita(1.0, 1.0, 1)).size(), 40u);
+    EXPECT_EQ(pieces(amanita(1.0, 1.0, 2)).size(), 2u) << "body and ring; warts are painted";
+    EXPECT_EQ(pieces(amanita(1.0, 1.0, 3)).size(), 1u);
+}
+
+TEST(Ornaments, ScalesOfAnInkCapAreClosed) {
+    for (const double age : {0.0, 0.3, 0.6, 0.8})
+        for (std::uint32_t seed = 1; seed <= 3; ++seed) {
+            MushroomOrder order = textured(order_of("coprinus_comatus", age, seed));
+            order.params.ornaments.scales = 1.0;
+            order.params.hymenium.depth = 0.0;  // no gills among the pieces
+            const Mesh mesh = mesh_of(order);
+            expect_valid(mesh);
+            EXPECT_GT(pieces(mesh).size(), 20u);
+        }
+}
+
+TEST(Ornaments, TheirTextureComesFromTheVeilsStrip) {
+    MushroomOrder order = textured(order_of("amanita_muscaria"));
+    const Mesh mesh = mesh_of(order);
+    const Chart& strip = swept_charts[static_cast<std::size_t>(Part::veil)];
+    const std::size_t columns = Cuts(resolve(order, atlas()), 0).turns().size() + 1;
+    const auto rings = static_cast<std::size_t>(details[0].stem_rings + details[0].hymenium_rings +
+                                                details[0].cap_rings) +
+                       static_cast<std::size_t>(flesh_rings(resolve(order, atlas()), 0));
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        const bool body = i < rings * columns;
+        EXPECT_EQ(static_cast<double>(mesh.texture_coordinates[i].y) < strip.v, body) << i;
+    }
+}
+
+TEST(Ornaments, RingsOfEveryKindAreValid) {
+    Individual individual = resolve(order_of("amanita_muscaria"), atlas());
+    individual.layers.clear();
+    for (const double flare : {0.0, 60.0, 120.0})
+        for (const double width : {0.001, 0.02, 0.1})
+            for (const double thickness : {0.0001, 0.01})
+                for (const double height : {0.0, 0.7, 1.0})
+                    for (const int lod : {0, 2}) {
+                        individual.ring = {height, width, flare, thickness, 1.0};
+                        expect_valid(swept_mesh(individual, lod));
+                    }
+    for (const double hang : {0.0, 1.0})
+        for (const double edge : {0.0, 1.0})
+            for (const double gap : {0.0, 1.0})
+                for (const double tear : {0.0, 1.0})
+                    for (const int lod : {0, 2}) {
+                        individual.ring = {.height = 0.6,
+                                           .width = 0.015,
+                                           .hang = hang,
+                                           .edge = edge,
+                                           .gap = gap,
+                                           .grooves = 1.0,
+                                           .tear = tear};
+                        expect_valid(swept_mesh(individual, lod));
+                    }
+}
+
+/// The last closed piece of a mesh: the ring, or a sac.
+Mesh last_piece(const Individual& individual, int lod = 0) {
+    return pieces(swept_mesh(individual, lod)).back();
+}
+
+/// Of the places that a piece's triangles use.
+template <class Of>
+double greatest(const Mesh& piece, Of of) {
+    double most = -1e9;
+    for (const std::uint32_t i : piece.indices) most = std::max(most, of(piece.positions[i]));
+    return most;
+}
+
+double radius_of(const glm::vec3& p) { return std::sqrt(double{p.x} * p.x + double{p.z} * p.z); }
+
+Individual straight_amanita() {
+    MushroomOrder order = order_of("amanita_muscaria", 0.6, 4);
+    order.params.variation = 0.0;
+    order.params.hymenium.depth = 0.0;  // no gills among the pieces
+    Individual individual = resolve(order, atlas());
+    individual.layers.clear();
+    individual.model.deformation = {};
+    individual.axis = {};
+    individual.ring = {.height = 0.6, .width = 0.02, .flare_deg = 80.0, .ruffle = 0.0};
+    return individual;
+}
+
+TEST(Ornaments, ARingHangsStandsOffSwellsAndTears) {
+    Individual individual = straight_amanita();
+    const auto with = [&](double RingStyle::*member, double value) {
+        Individual changed = individual;
+        changed.ring.*member = value;
+        return last_piece(changed);
+    };
+    const auto lowest = [](const Mesh& piece) {
+        return -greatest(piece, [](const glm::vec3& p) { return -double{p.y}; });
+    };
+    EXPECT_LT(lowest(with(&RingStyle::hang, 1.0)), lowest(with(&RingStyle::hang, 0.0)) - 0.005);
+    const auto nearest = [](const Mesh& piece) {
+        return -greatest(piece, [](const glm::vec3& p) { return -radius_of(p); });
+    };
+    EXPECT_GT(nearest(with(&RingStyle::gap, 0.5)), nearest(with(&RingStyle::gap, 0.0)) + 0.004);
+    EXPECT_GT(volume(with(&RingStyle::edge, 1.0)), 1.5 * volume(with(&RingStyle::edge, 0.0)));
+    EXPECT_LT(area(with(&RingStyle::tear, 1.0)), 0.85 * area(with(&RingStyle::tear, 0.0)));
+    EXPECT_GT(area(with(&RingStyle::grooves, 1.0)), 1.002 * area(with(&RingStyle::grooves, 0.0)));
+}
+
+TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
+    Individual individual = straight_amanita();
+    individual.has_ring = false;
+    individual.has_sac = true;
+    individual.sac = {.height = 0.04, .gap = 0.1, .hold = 0.7, .tear = 0.6};
+    for (const int lod : {0, 1, 2, 3}) {
+        const Mesh mesh = swept_mesh(individual, lod);
+        expect_valid(mesh);
+        EXPECT_EQ(pieces(mesh).size(), 2u);
+    }
+    const Mesh sac = last_piece(individual);
+    EXPECT_GT(volume(sac), 0.0);
+    const double high = greatest(sac, [](const glm::vec3& p) { return double{p.y}; });
+    EXPECT_LT(high, 0.0401);
+    EXPECT_GT(high, 0.03);
+    // Above its foot no place of it is inside the stem, and its edge stands off.
+    for (const std::uint32_t i : sac.indices) {
+        const glm::vec3& p = sac.positions[i];
+        if (p.y < 0.3 * 0.04) continue;
+        double share = 0.0, step = 0.5;
+        for (int k = 0; k < 30; ++k, step *= 0.5)
+            if (individual.outline.stem.at(share + step).y < double{p.y}) share += step;
+        EXPECT_GT(radius_of(p), individual.outline.stem.at(share).r - 1e-5);
+    }
+    // Rents are deep, and shallower where less is torn.
+    const auto areas = [&](double tear) {
+        individual.sac.tear = tear;
+        return area(last_piece(individual));
+    };
+    EXPECT_LT(areas(1.0), 0.85 * areas(0.3));
+    EXPECT_LT(areas(0.3), areas(0.0));
+}
+
+TEST(Ornaments, ASacHoldsTheWholeBulb) {
+    MushroomOrder order = order_of("amanita_phalloides");
+    order.params.variation = 0.0;
+    Individual individual = resolve(order, atlas());
+    individual.has_ring = false;
+    const Mesh sac = last_piece(individual, 1);  // gills come after it at the finest level
+    double lowest = 1.0, narrowest = 1.0, widest = 0.0, bulb = 0.0, ground = 1.0;
+    for (int i = 0; i <= 100; ++i) {
+        bulb = std::max(bulb, individual.outline.stem.at(i / 100.0).r);
+        ground = std::min(ground, individual.outline.stem.at(i / 100.0).y);
+    }
+    for (const std::uint32_t i : sac.indices) {
+        const glm::vec3& p = sac.positions[i];
+        lowest = std::min(lowest, double{p.y});
+        narrowest = std::min(narrowest, radius_of(p));
+        widest = std::max(widest, radius_of(p));
+    }
+    EXPECT_LT(lowest, ground + 1e-3) << "from under it";
+    EXPECT_LT(narrowest, 0.25 * bulb) << "all but closed there";
+    EXPECT_GT(widest, bulb);
+}
+
+TEST(Ornaments, ASacGrowsAndGoesWithoutAStepAndKeepsItsVertices) {
+    Individual individual = straight_amanita();
+    individual.has_sac = true;
+    std::size_t vertices = 0;
+    for (const double height : {0.04, 0.01, 0.001, 0.0}) {
+        individual.sac.height = height;
+        const Mesh mesh = swept_mesh(individual, 0);
+        expect_valid(mesh);
+        if (vertices == 0) vertices = mesh.positions.size();
+        EXPECT_EQ(mesh.positions.size(), vertices);
+        EXPECT_EQ(pieces(mesh).size(), height > 0.0 ? 3u : 2u);
+        MushroomOrder order = order_of("amanita_muscaria");
+        EXPECT_EQ(estimate(order, individual).vertices, vertices);
+        const Mesh kept = swept_mesh(individual, 0, {.keep_absent = true});
+        EXPECT_EQ(kept.positions.size(), vertices);
+    }
+}
+
+TEST(Ornaments, ScalesOfTheBulbStayOnItsSkinWhileTheStemGrows) {
+    // The veil's pieces on the stem lie low on the mature one, and all over the lower half of the egg.
+    const auto highest = [](double age) {
+        MushroomOrder order = textured(order_of("amanita_muscaria", age, 4));
+        order.params.variation = 0.0;
+        order.params.ornaments.warts = 0.0;
+        order.params.ornaments.ring = 0.0;
+        order.params.hymenium.depth = 0.0;
+        Individual individual = resolve(order, atlas());
+        individual.model.deformation = {};
+        individual.axis = {};
+        double high = 0.0;
+        std::vector<Mesh> all = pieces(swept_mesh(individual, 0));
+        all.erase(std::max_element(all.begin(), all.end(), [](const Mesh& a, const Mesh& b) {
+            return volume(a) < volume(b);
+        }));
+        EXPECT_GT(all.size(), 20u);
+        for (const Mesh& piece : all)
+            high = std::max(high, greatest(piece, [](const glm::vec3& p) { return double{p.y}; }));
+        return high / individual.stem_top;
+    };
+    EXPECT_GT(highest(0.0), 0.55);
+    EXPECT_LT(highest(0.6), 0.45);
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,201 @@
+#include "core/individual/branch_graph.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "tests/support/orders.h"
+#include "tests/support/refusals.h"
+
+namespace sporeprint {
+namespace {
+
+Branched forks(int order, MatrixKind matrix = MatrixKind::perfect) {
+    Branched shape;
+    shape.ramification.matrix = matrix;
+    shape.ramification.order = order;
+    return shape;
+}
+
+Bush grown(const Branched& shape, std::uint32_t seed = 1, const BushProportions& own = {},
+           double bites = 0.0) {
+    return bush_of({{&shape, 1.0}}, own, bites, seed);
+}
+
+std::size_t tips_of(const Bush& bush) {
+    std::size_t tips = 0;
+    for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) tips += bush.is_tip(i) ? 1 : 0;
+    return tips;
+}
+
+double highest(const Bush& bush) {
+    double high = 0.0;
+    for (const Bush::Node& node : bush.nodes) high = std::max(high, node.place.y);
+    return high;
+}
+
+double farthest(const Bush& a, const Bush& b) {
+    double far = 0.0;
+    for (std::size_t i = 0; i < a.nodes.size(); ++i)
+        far = std::max(far, glm::distance(a.nodes[i].place, b.nodes[i].place));
+    return far;
+}
+
+TEST(Bush, HasTheTipsOfItsMatrixForEveryTrunk) {
+    for (const int order : {2, 3, 5, 8}) {
+        Branched shape = forks(order);
+        shape.limbs.trunks = order == 8 ? 1 : 3;
+        const Bush bush = grown(shape);
+        const auto trunks = static_cast<std::size_t>(shape.limbs.trunks);
+        EXPECT_EQ(tips_of(bush), trunks << (order - 1));
+        EXPECT_EQ(bush.nodes.size(), 2 * tips_of(bush) - trunks);
+        int borne = 0;
+        for (const std::uint32_t root : bush.roots) borne += bush.nodes[root].tips;
+        EXPECT_EQ(static_cast<std::size_t>(borne), tips_of(bush));
+    }
+    const Branched random = forks(4, MatrixKind::random_binary);
+    EXPECT_EQ(static_cast<double>(tips_of(grown(random))), expected_tips(random.ramification));
+}
+
+TEST(Bush, IsAsHighAsItSaysWhateverItsAngles) {
+    for (const double fork : {0.0, 30.0, 75.0})
+        for (std::uint32_t seed = 1; seed < 20; ++seed) {
+            Branched shape = forks(6, MatrixKind::tokunaga);
+            shape.ramification.blend = 0.8;
+            shape.ramification.toward = MatrixKind::perfect;
+            shape.limbs.fork_deg = shape.limbs.tip_fork_deg = fork;
+            shape.limbs.height = 0.05;
+            EXPECT_NEAR(highest(grown(shape, seed)), 0.05, 1e-12) << fork << ' ' << seed;
+            EXPECT_NEAR(highest(grown(shape, seed, {.size = 3.0})), 0.15, 1e-12);
+        }
+}
+
+TEST(Bush, LimbsAreAsThickAsTheTipsThatTheyBearToOnePower) {
+    Branched shape = forks(7);
+    shape.limbs.trunk_radius = 0.008;
+    shape.limbs.tip_radius = 0.001;
+    const Bush bush = grown(shape);
+    // Of 64 tips: 8 times the radius, so the square root.
+    for (const Bush::Node& node : bush.nodes)
+        EXPECT_NEAR(node.radius, 0.001 * std::sqrt(node.tips), 1e-12);
+}
+
+TEST(Bush, UnfoldsFromTheLowestForkOn) {
+    Branched shape = forks(6);
+    const auto present = [&](double unfolding) {
+        shape.limbs.unfolding = unfolding;
+        double left = 0.0;
+        for (const Bush& bush = grown(shape); const std::uint32_t root : bush.roots)
+            left += bush.nodes[root].left;
+        return left;
+    };
+    EXPECT_EQ(present(0.0), 1.0);
+    EXPECT_EQ(present(1.0), 32.0);
+    double last = 1.0;
+    for (double unfolding = 0.02; unfolding <= 1.0; unfolding += 0.02) {
+        const double now = present(unfolding);
+        EXPECT_GE(now, last);
+        last = now;
+    }
+    // A fifth of the way the lowest fork is whole, and no other has begun.
+    EXPECT_NEAR(present(0.2), 2.0, 1e-9);
+    // What is not there has neither length nor radius.
+    shape.limbs.unfolding = 0.2;
+    const Bush bush = grown(shape);
+    for (const Bush::Node& node : bush.nodes) {
+        if (node.presence > 0.0) continue;
+        EXPECT_EQ(node.radius, 0.0);
+        EXPECT_LT(glm::distance(node.place - node.beside, bush.nodes[node.parent].place), 1e-12);
+    }
+}
+
+TEST(Bush, NoWeightChangesItsNodesAndEachCornerIsItsSpecies) {
+    const Branched coral = forks(6), antler = forks(3, MatrixKind::random_binary);
+    const Bush one = grown(coral, 5), other = grown(antler, 5);
+    const auto mixed = [&](double t) {
+        return bush_of({{&coral, 1.0 - t}, {&antler, t}}, {}, 0.0, 5);
+    };
+    const Bush first = mixed(0.0), last = mixed(1.0);
+    EXPECT_GE(first.nodes.size(), std::max(one.nodes.size(), other.nodes.size()));
+    EXPECT_LE(first.nodes.size(), one.nodes.size() + other.nodes.size());
+    EXPECT_NEAR(first.reach, one.reach, 1e-9);
+    EXPECT_NEAR(last.reach, other.reach, 1e-9);
+    const auto there = [](const Bush& bush) {
+        double left = 0.0;
+        for (const std::uint32_t root : bush.roots) left += bush.nodes[root].left;
+        return left;
+    };
+    EXPECT_NEAR(there(first), there(one), 1e-9);
+    EXPECT_NEAR(there(last), there(other), 1e-9);
+    Bush before = first;
+    for (int step = 1; step <= 64; ++step) {
+        const Bush now = mixed(step / 64.0);
+        ASSERT_EQ(now.nodes.size(), before.nodes.size());
+        EXPECT_LT(farthest(before, now), 0.08 * now.height) << step;
+        before = now;
+    }
+}
+
+TEST(Bush, TheOrderOfSpeciesDoesNotMatter) {
+    const Branched coral = forks(5), antler = forks(4, MatrixKind::random_increasing);
+    const Bush there = bush_of({{&coral, 0.3}, {&antler, 0.7}}, {}, 0.0, 3);
+    const Bush back = bush_of({{&antler, 0.7}, {&coral, 0.3}}, {}, 0.0, 3);
+    EXPECT_NEAR(there.height, back.height, 1e-12);
+    EXPECT_NEAR(there.reach, back.reach, 1e-12);
+    EXPECT_EQ(there.nodes.size(), back.nodes.size());
+}
+
+TEST(Bush, SlugsShortenTheSameTipsMoreAndMore) {
+    const Branched shape = forks(7);
+    const Bush whole = grown(shape);
+    std::vector<double> last(whole.nodes.size(), 0.0);
+    for (const double bites : {0.2, 0.5, 1.0}) {
+        const Bush bush = grown(shape, 1, {}, bites);
+        std::size_t eaten = 0;
+        for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) {
+            if (!bush.is_tip(i)) {
+                EXPECT_EQ(bush.nodes[i].place, whole.nodes[i].place);
+                continue;
+            }
+            EXPECT_GE(bush.nodes[i].eaten, last[i]);
+            last[i] = bush.nodes[i].eaten;
+            eaten += last[i] > 0.0 ? 1 : 0;
+        }
+        EXPECT_GT(eaten, 0U) << bites;
+    }
+}
+
+TEST(Bush, ColoursRunFromTheTopOfATrunkToEveryTip) {
+    const Bush bush = grown(forks(5, MatrixKind::tokunaga));
+    for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) {
+        const Bush::Node& node = bush.nodes[i];
+        if (node.parent == Bush::none) {
+            EXPECT_EQ(node.from_tip, 1.0);
+        } else {
+            EXPECT_LE(node.from_tip, bush.nodes[node.parent].from_tip);
+        }
+        if (bush.is_tip(i)) {
+            EXPECT_EQ(node.from_tip, 0.0);
+        }
+    }
+}
+
+TEST(Branched, TooManyTipsAndNoForkAreRefused) {
+    Branched shape = forks(11);
+    EXPECT_EQ(problems_in(shape).at(0).path, "/ramification/order");
+    EXPECT_NE(problems_in(shape).at(0).message.find("1024 tips"), std::string::npos);
+    shape = forks(1);
+    EXPECT_EQ(problems_in(shape).at(0).path, "/ramification/order");
+    shape = forks(8);
+    shape.limbs.trunks = 9;
+    EXPECT_FALSE(problems_in(shape).empty());
+    shape.limbs.trunks = 4;
+    EXPECT_TRUE(problems_in(shape).empty());
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,160 @@
+#include "core/individual/damage.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "core/math/elementary.h"
+#include "core/silhouette/morph_set.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+constexpr std::uint32_t many_seeds = 40;
+
+TEST(Marks, LieOnTheirPartAndComeOneByOne) {
+    for (const MarkKind kind : {MarkKind::pit, MarkKind::bruise, MarkKind::dew, MarkKind::lump})
+        for (const CurveName part : curve_names)
+            for (std::uint32_t seed = 0; seed < many_seeds; ++seed) {
+                double onset = 0.0;
+                for (const Mark& mark : marks(kind, part, seed)) {
+                    EXPECT_GE(mark.sigma, 0.0);
+                    EXPECT_LE(mark.sigma, 1.0);
+                    EXPECT_GE(mark.theta, 0.0);
+                    EXPECT_LT(mark.theta, 2.0 * pi);
+                    EXPECT_GT(mark.radius, 0.0);
+                    EXPECT_GE(mark.elongation, 1.0);
+                    EXPECT_GE(mark.onset, onset);
+                    EXPECT_LT(mark.onset, 1.0);
+                    onset = mark.onset;
+                }
+            }
+    EXPECT_TRUE(marks(MarkKind::pit, CurveName::hymenium, 1).empty()) << "slugs rasp skin";
+}
+
+TEST(Marks, AreTheIndividualsOwn) {
+    const auto first = marks(MarkKind::bruise, CurveName::cap, 7),
+               again = marks(MarkKind::bruise, CurveName::cap, 7),
+               other = marks(MarkKind::bruise, CurveName::cap, 8),
+               pits = marks(MarkKind::pit, CurveName::cap, 7);
+    ASSERT_EQ(first.size(), again.size());
+    for (std::size_t i = 0; i < first.size(); ++i) {
+        EXPECT_EQ(first[i].theta, again[i].theta);
+        EXPECT_EQ(first[i].sigma, again[i].sigma);
+        EXPECT_NE(first[i].theta, other[i].theta);
+    }
+    EXPECT_NE(first[0].theta, pits[0].theta) << "kinds do not share draws";
+}
+
+TEST(Marks, GrowFromNothingToTheirWholeSizeWithoutAStep) {
+    for (double onset = 0.0; onset < 0.9; onset += 0.07) {
+        EXPECT_EQ(grown(onset, 0.0), 0.0);
+        EXPECT_EQ(grown(onset, onset), 0.0);
+        EXPECT_NEAR(grown(onset, 1.0), 1.0, 1e-12);
+        for (int i = 0; i < 256; ++i) {
+            const double step = grown(onset, (i + 1) / 256.0) - grown(onset, i / 256.0);
+            EXPECT_GE(step, 0.0);
+            EXPECT_LT(step, 2.1 / 256.0 / (1.0 - onset));
+        }
+    }
+}
+
+TEST(Marks, NotchesAreRoundOrPointed) {
+    Notch notch{1.0, 0.3, 0.2, 0.0, true, 0};
+    EXPECT_EQ(notch_profile(notch, 1.0), 1.0);
+    EXPECT_NEAR(notch_profile(notch, 1.0 + 0.3 * 0.6), 0.8, 1e-12);
+    EXPECT_NEAR(notch_profile(notch, 1.0 - 0.3 * 0.6), 0.8, 1e-12);
+    EXPECT_EQ(notch_profile(notch, 1.31), 0.0);
+    EXPECT_EQ(notch_profile(notch, 1.0 + pi), 0.0);
+    notch.bitten = false;
+    EXPECT_NEAR(notch_profile(notch, 1.0 + 0.3 * 0.6), 0.4, 1e-12);
+    // Across the seam.
+    notch.theta = 0.05;
+    EXPECT_NEAR(notch_profile(notch, 2.0 * pi - 0.1), 0.5, 1e-12);
+}
+
+TEST(Marks, NotchesStayOutsideTheStem) {
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const auto& list : {bites(seed), splits(seed)})
+            for (const Notch& notch : list) {
+                EXPECT_GT(notch.depth, 0.0);
+                EXPECT_LT(notch.depth, 0.6);
+                EXPECT_GT(notch.half_width, 0.0);
+                EXPECT_LE(notch.half_width, most_notch_width);
+            }
+}
+
+TEST(Marks, ANetOfCracksMeetsInTJunctions) {
+    for (std::uint32_t seed = 1; seed <= 5; ++seed) {
+        const std::vector<Crack> net = crack_net(seed);
+        ASSERT_GT(net.size(), 25U);
+        ASSERT_LT(net.size(), 200U);
+        std::size_t ends = 0, met = 0;
+        for (std::size_t i = 0; i < net.size(); ++i) {
+            ASSERT_GE(net[i].points.size(), 2U);
+            for (const CrackPoint& end : {net[i].points.front(), net[i].points.back()}) {
+                if (end.x * end.x + end.y * end.y > 1.0) continue;  // ran out of the face
+                ++ends;
+                bool touches = false;
+                for (std::size_t j = 0; j < i && !touches; ++j)
+                    for (const CrackPoint& p : net[j].points)
+                        touches = touches || (p.x == end.x && p.y == end.y);
+                if (touches) ++met;
+            }
+        }
+        EXPECT_GT(static_cast<double>(met) / static_cast<double>(ends), 0.8)
+            << "a crack ends where it meets another";
+    }
+}
+
+TEST(Marks, RadialCracksStartAtTheMarginAndFewAreLong) {
+    std::size_t longer = 0, all = 0;
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const Crack& crack : radial_cracks(seed)) {
+            const CrackPoint &outer = crack.points.front(), &inner = crack.points.back();
+            EXPECT_NEAR(outer.x * outer.x + outer.y * outer.y, 1.0, 1e-12);
+            const double rho = std::sqrt(inner.x * inner.x + inner.y * inner.y);
+            EXPECT_GT(rho, 0.2);
+            EXPECT_LT(rho, 0.9);
+            ++all;
+            if (rho < 0.6) ++longer;
+        }
+    EXPECT_LT(longer * 3, all);
+    EXPECT_GT(longer * 20, all);
+}
+
+TEST(Marks, AnOpeningCapCracksRadiallyAndASwellingOneIntoIslands) {
+    const auto face = [](double radius, double bend) {
+        // A piece of a sphere whose meridian turns by `bend`, margin to apex.
+        std::vector<OutlineNode> nodes;
+        const double sphere = radius / std::sin(bend);
+        for (int i = 0; i <= 32; ++i) {
+            const double angle = bend * (1.0 - i / 32.0);
+            nodes.push_back({{sphere * std::sin(angle), sphere * std::cos(angle)},
+                             {-sphere * bend * std::cos(angle), sphere * bend * std::sin(angle)}});
+        }
+        return SubCurve(nodes, {-1.0, 0.0});
+    };
+    const SubCurve button = face(0.02, 0.5 * pi);
+    EXPECT_LT(radial_strain(button, button), 0.1);
+    EXPECT_LT(radial_strain(button, face(0.05, 0.5 * pi)), 0.1) << "grown alike in all directions";
+    EXPECT_GT(radial_strain(button, face(0.05, 0.15)), 0.9) << "opened flat";
+}
+
+TEST(Marks, FurrowsBeginAndEndOnTheStem) {
+    for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
+        for (const Furrow& furrow : furrows(seed)) {
+            EXPECT_LT(furrow.from, furrow.to);
+            EXPECT_LE(furrow.split_to, 1.0);
+            EXPECT_LT(furrow.split_from, furrow.split_to);
+            for (double sigma = 0.0; sigma <= 1.0; sigma += 0.05) {
+                EXPECT_GE(furrow_depth(furrow, sigma), 0.0);
+                EXPECT_LE(furrow_depth(furrow, sigma), 1.0);
+                EXPECT_NEAR(turn_between(furrow.theta, furrow_angle(furrow, sigma)), 0.0, 0.17);
+            }
+        }
+}
+
+}  // namespace
+}  // namespace sporeprint

@@ -1,0 +1,376 @@
+#include "core/individual/resolve.h"
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/individual/proportion.h"
+#include "core/params/canonical.h"
+#include "tests/support/effort.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+Model model_of(const MushroomOrder& order) { return resolve(order, atlas()).model; }
+
+/// Places of all rings of LOD 0, base to apex.
+std::vector<glm::dvec2> places_of(const Individual& individual) {
+    std::vector<glm::dvec2> places;
+    for (const CurveName curve : curve_names)
+        for (const OutlineSample& sample : individual.outline.rings(curve, 0))
+            places.emplace_back(sample.r, sample.y);
+    return places;
+}
+
+/// Largest distance of matched places.
+double largest_move(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b) {
+    EXPECT_EQ(a.size(), b.size());
+    double most = 0.0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        most = std::max(most, glm::distance(a[i], b[i]));
+    return most;
+}
+
+/// Counts are those of the whole set of stages.
+Model with_counts_of(Model model, const Model& set) {
+    model.hymenium.blades = set.hymenium.blades;
+    model.hymenium.tiers = set.hymenium.tiers;
+    model.surface.cap.fibril_count = set.surface.cap.fibril_count;
+    model.surface.cap.zone_count = set.surface.cap.zone_count;
+    return model;
+}
+
+TEST(Resolve, AtTheAgeOfAStageAnUnvariedIndividualIsTheTemplate) {
+    for (const AtlasEntry& entry : swept_atlas().entries())
+        for (const Stage& stage : entry.species.stages) {
+            MushroomOrder order = order_of(entry.species.id.string(), stage.age);
+            order.params.variation = 0.0;
+            const Individual found = resolve(order, atlas());
+            const Outline drawn(silhouette_of(stage.model));
+            const double size = drawn.stem.length() + drawn.cap.length();
+            for (const CurveName curve : curve_names) {
+                EXPECT_EQ(found.outline.of(curve).empty(), drawn.of(curve).empty());
+                if (drawn.of(curve).empty()) continue;
+                for (int i = 0; i <= 50; ++i) {
+                    const OutlineSample a = found.outline.of(curve).at(i / 50.0);
+                    const OutlineSample b = drawn.of(curve).at(i / 50.0);
+                    EXPECT_LT(std::hypot(a.r - b.r, a.y - b.y), 2e-3 * size)
+                        << entry.species.id.string() << ' ' << stage.age << ' ' << name(curve);
+                }
+            }
+            ASSERT_EQ(found.parts.size(), 1u);
+            EXPECT_EQ(found.parts[0].model, with_counts_of(stage.model, found.parts[0].model));
+            Model model = with_counts_of(stage.model, found.model);
+            model.shape = Swept{};
+            EXPECT_EQ(found.model, model) << entry.species.id.string() << ' ' << stage.age;
+        }
+}
+
+TEST(Resolve, BetweenStagesAgesBlendLinearly) {
+    const auto& stages = atlas().find("boletus_edulis")->species.stages;
+    ASSERT_GE(stages.size(), 3u);
+    // Rings follow the outline's bends; what moves along straight lines are places at equal values of the parameter.
+    const auto at = [](double age) {
+        MushroomOrder order = order_of("boletus_edulis", age);
+        order.params.variation = 0.0;
+        const Outline outline = resolve(order, atlas()).outline;
+        std::vector<double> even;
+        for (int i = 0; i <= 20; ++i) even.push_back(i / 20.0);
+        std::vector<glm::dvec2> places;
+        for (const CurveName curve : curve_names)
+            for (const OutlineSample& place : outline.of(curve).placed(even))
+                places.emplace_back(place.r, place.y);
+        return places;
+    };
+    const auto a = at(stages[0].age), b = at(stages[1].age);
+    const auto found = at(0.25 * stages[0].age + 0.75 * stages[1].age);
+    for (std::size_t i = 0; i < found.size(); ++i)
+        EXPECT_LT(glm::distance(found[i], 0.25 * a[i] + 0.75 * b[i]), 1e-12);
+}
+
+TEST(Resolve, GrowingNeverJumps) {
+    for (const std::string& id : swept_ids()) {
+        MushroomOrder order = order_of(id, 0.0, 5);
+        order.params.variation = 1.0;
+        const int steps = static_cast<int>(effort(400, 20, 400));
+        order.params.age = (400 - steps) / 400.0;
+        auto last = places_of(resolved(order));
+        for (int step = 400 - steps + 1; step <= 400; ++step) {
+            order.params.age = step / 400.0;
+            const auto next = places_of(resolved(order));
+            EXPECT_LT(largest_move(last, next), 0.05 * std::max(0.01, next.back().y))
+                << id << " at age " << order.params.age;
+            last = next;
+        }
+    }
+}
+
+TEST(Resolve, WithoutVariationAllSeedsHaveTheSameProportions) {
+    for (const std::string& id : species_ids()) {
+        MushroomOrder order = order_of(id, 0.45, 1);
+        order.params.variation = 0.0;
+        const Individual first = resolved(order);
+        for (std::uint32_t seed = 2; seed < 20; ++seed) {
+            order.params.seed = seed;
+            const Individual other = resolved(order);
+            EXPECT_EQ(other.model, first.model);
+            EXPECT_EQ(other.lightness, 1.0);
+        }
+    }
+}
+
+TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
+    for (const AtlasEntry& entry : swept_atlas().entries()) {
+        const Species& species = entry.species;
+        const Spread& spread = species.spread;
+        MushroomOrder order = order_of(species.id.string(), 0.6);
+        order.params.variation = 0.0;
+        const Individual plain = resolved(order);
+        const auto stem_length = [](const Individual& i) { return i.stem_top; };
+        const auto cap_height = [](const Individual& i) {
+            return i.outline.cap.at(1.0).y - i.outline.cap.at(0.0).y;
+        };
+        order.params.variation = 1.0;
+        double most_length = 0.0, least_length = 1e9;
+        const std::size_t seeds = effort(300);
+        for (std::uint32_t seed = 0; seed < seeds; ++seed) {
+            order.params.seed = seed;
+            const Individual individual = resolved(order);
+            const auto within = [&](double factor, double log_spread) {
+                return std::abs(std::log(factor)) <= log_spread + 1e-3;
+            };
+            const double width =
+                greatest_radius(individual.outline.stem) / greatest_radius(plain.outline.stem);
+            // The widest place of a bulb lies between the places where it is looked for.
+            EXPECT_TRUE(within(width, spread.size + spread.stem_width + 0.005))
+                << species.id.view() << ' ' << seed;
+            if (stem_length(plain) > 0.0) {
+                const double length = stem_length(individual) / stem_length(plain);
+                EXPECT_TRUE(within(length, spread.size + spread.stem_length)) << seed;
+                most_length = std::max(most_length, length);
+                least_length = std::min(least_length, length);
+            }
+            const double height = cap_height(individual) / cap_height(plain);
+            EXPECT_TRUE(within(height, spread.size + spread.cap_height)) << seed;
+            EXPECT_TRUE(within(individual.lightness, spread.lightness)) << seed;
+            const auto &d = individual.model.deformation, &t = plain.model.deformation;
+            EXPECT_LE(d.bend_deg, t.bend_deg + spread.bend_deg);
+            EXPECT_LE(d.lean_deg, t.lean_deg + spread.lean_deg);
+            EXPECT_LE(d.imperfection, t.imperfection + spread.imperfection);
+            EXPECT_GE(d.bend_deg, 0.0);
+            EXPECT_EQ(d.twist_deg, t.twist_deg);
+        }
+        if (stem_length(plain) > 0.0 && spread.size > 0.0 && seeds >= 300) {
+            const double reach = std::exp(0.6 * spread.size);
+            EXPECT_GT(most_length, reach) << "three hundred individuals use the spread";
+            EXPECT_LT(least_length, 1.0 / reach);
+        }
+    }
+}
+
+TEST(Resolve, SizeScalesTheWholeAndNothingElse) {
+    for (const std::string& id : swept_ids()) {
+        MushroomOrder order = order_of(id, 0.6, 8);
+        const Individual one = resolved(order);
+        order.params.size = 4.0;
+        const Individual four = resolved(order);
+        const auto a = places_of(one), b = places_of(four);
+        for (std::size_t i = 0; i < a.size(); ++i)
+            EXPECT_LT(glm::distance(b[i], 4.0 * a[i]), 1e-12);
+        EXPECT_EQ(one.ring.height, four.ring.height);
+        EXPECT_NEAR(four.ring.width, 4.0 * one.ring.width, 1e-12);
+        EXPECT_EQ(one.axis, four.axis);
+        EXPECT_EQ(one.model.deformation, four.model.deformation);
+        EXPECT_EQ(one.model.surface, four.model.surface);
+    }
+}
+
+TEST(Resolve, WhatASpeciesCannotHaveIsRefusedByName) {
+    const auto refused = [](const std::string& id, auto member, auto field, auto amount) {
+        MushroomOrder order = order_of(id);
+        (order.params.*member).*field = amount;
+        std::vector<Problem> problems;
+        try {
+            (void)resolve(order, atlas());
+        } catch (const Impossible& impossible) {
+            problems = impossible.problems();
+        }
+        return problems;
+    };
+    using P = MushroomParams;
+    using H = HymeniumOf<Maybe>;
+    using O = OrnamentsOf<Maybe>;
+    EXPECT_TRUE(names(refused("boletus_edulis", &P::hymenium, &H::blades, 60), "/hymenium/blades",
+                      "Boletus edulis carries pores, not gills"));
+    EXPECT_TRUE(
+        names(refused("boletus_edulis", &P::hymenium, &H::tiers, 1), "/hymenium/tiers", "pores"));
+    EXPECT_TRUE(names(refused("amanita_muscaria", &P::hymenium, &H::pores_per_mm, 1.0),
+                      "/hymenium/pores_per_mm", "carries gills, not pores"));
+    EXPECT_TRUE(names(refused("cantharellus_cibarius", &P::hymenium, &H::pores_per_mm, 1.0),
+                      "/hymenium/pores_per_mm", "carries ridges, not pores"));
+    EXPECT_TRUE(names(refused("clavariadelphus_pistillaris", &P::hymenium, &H::blades, 60),
+                      "/hymenium/blades", "smooth"));
+    EXPECT_TRUE(names(refused("russula_vinosa", &P::hymenium, &H::forking, 0.5),
+                      "/hymenium/forking", "do not fork"));
+    EXPECT_TRUE(names(refused("russula_vinosa", &P::ornaments, &O::warts, 0.5), "/ornaments/warts",
+                      "no universal veil"));
+    EXPECT_TRUE(names(refused("amanita_muscaria", &P::ornaments, &O::scales, 0.5),
+                      "/ornaments/scales", "does not tear"));
+    EXPECT_TRUE(names(refused("boletus_edulis", &P::ornaments, &O::ring, 1.0), "/ornaments/ring",
+                      "no partial veil"));
+    EXPECT_TRUE(names(refused("clavariadelphus_pistillaris", &P::ornaments, &O::warts, 0.5),
+                      "/ornaments/warts", "no cap skin that could carry warts"));
+    EXPECT_TRUE(names(refused("amanita_muscaria", &P::hymenium, &H::elongation, 2.0),
+                      "/hymenium/elongation", "carries gills, not pores"));
+    EXPECT_TRUE(names(refused("disciotis_venosa", &P::hymenium, &H::decurrent, 0.5),
+                      "/hymenium/decurrent", "has a smooth lower face"));
+    EXPECT_TRUE(names(refused("boletus_edulis", &P::hymenium, &H::thickness, 0.5),
+                      "/hymenium/thickness", "carries pores, not gills"));
+    EXPECT_TRUE(names(
+        refused("clavariadelphus_pistillaris", &P::weathering, &WeatheringOf<Maybe>::waves, 0.5),
+        "/weathering/waves", "has no margin that could wave"));
+    // None of what it has not is no fault.
+    EXPECT_TRUE(refused("russula_vinosa", &P::ornaments, &O::warts, 0.0).empty());
+    EXPECT_TRUE(refused("russula_vinosa", &P::hymenium, &H::forking, 0.0).empty());
+    EXPECT_TRUE(refused("cantharellus_cibarius", &P::hymenium, &H::forking, 0.7).empty());
+}
+
+TEST(Resolve, EveryImpossibleWishIsToldAtOnce) {
+    MushroomOrder order = order_of("boletus_edulis");
+    order.params.hymenium.blades = 60;
+    order.params.ornaments.warts = 1.0;
+    order.params.ornaments.ring = 1.0;
+    EXPECT_EQ(refusal([&] { (void)resolved(order); }).size(), 3u);
+}
+
+TEST(Resolve, BadOrdersAreRefusedByName) {
+    EXPECT_TRUE(names(refusal([] { (void)resolve(order_of("toadstool"), atlas()); }), "mix",
+                      "'toadstool'"));
+    MushroomOrder order = order_of("boletus_edulis");
+    order.mix.push_back({"boletus_edulis", 500});
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "mix", "named twice"));
+    order.mix.back() = {"amanita_muscaria", 0};
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "mix", "not positive"));
+    order.mix.clear();
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "mix", "1 to 8"));
+    order = order_of("boletus_edulis");
+    order.arcs.push_back({CurveName::cap, 0.3, 0.5});
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/arcs", "two species"));
+    order = order_of("boletus_edulis", 1.2);
+    order.params.size = std::nan("");
+    order.params.deformation.bend_deg = 91.0;
+    const auto problems = refusal([&] { (void)resolved(order); });
+    EXPECT_TRUE(names(problems, "/age", "1.2"));
+    EXPECT_TRUE(names(problems, "/size"));
+    EXPECT_TRUE(names(problems, "/deformation/bend_deg", "91"));
+    order = order_of("boletus_edulis");
+    order.params.deformation.zone_from = 0.5;
+    order.params.deformation.zone_to = 0.5;
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/deformation/zone_to"));
+    // The rule holds across what was asked and what the species has.
+    order.params.deformation.zone_to.reset();
+    order.params.deformation.zone_from = 0.9;
+    EXPECT_TRUE(refusal([&] { (void)resolved(order); }).empty()) << "0.9 to 1 is a zone";
+    order.params.deformation.zone_from.reset();
+    order.params.deformation.zone_to = 0.1;
+    EXPECT_TRUE(refusal([&] { (void)resolved(order); }).empty()) << "0 to 0.1 is a zone";
+}
+
+TEST(Resolve, AModelOfOnesOwnIsTakenAsItIs) {
+    MushroomOrder order = order_of("x", 0.2, 77);
+    order.mix.clear();
+    order.model = atlas().find("cantharellus_cibarius")->species.stages[1].model;
+    order.params.variation = 1.0;
+    Model bodiless = *order.model;
+    bodiless.shape = Swept{};
+    EXPECT_EQ(model_of(order), bodiless) << "age and variation do not touch it";
+    EXPECT_EQ(resolved(order).parts[0].model, *order.model);
+    order.params.weathering.fade = 0.3;
+    EXPECT_EQ(model_of(order).weathering.fade, 0.3);
+    std::get<Swept>(order.model->shape).silhouette.stem[0].r = 0.001;
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/model/silhouette/stem/0/r",
+                      "off the axis"));
+}
+
+/// Calls `use` with each optional of `asked`, its path, and the value of the same place in `effective`.
+template <class T, class Use>
+void each_wish(const T& asked, const T& effective, const std::string& path, const Use& use) {
+    T::fields([&](auto member, const Info& info) {
+        const auto &a = asked.*member, &e = effective.*member;
+        using Member = std::remove_cvref_t<decltype(a)>;
+        if constexpr (is_optional<Member>)
+            use(a, e, path + '/' + info.name);
+        else if constexpr (Described<Member>)
+            each_wish(a, e, path + '/' + info.name, use);
+    });
+}
+
+TEST(Resolve, WhatIsAskedIsExactlyWhatTheIndividualHas) {
+    int granted = 0;
+    EXPECT_TRUE(rc::check("random overrides", [&] {
+        MushroomOrder order = order_of(*rc::gen::elementOf(species_ids()));
+        order.params = arbitrary_params();
+        try {
+            const Individual individual = resolved(order);
+            ++granted;
+            each_wish(order.params, individual.effective, "",
+                      [](const auto& asked, const auto& effective, const std::string& path) {
+                          // Nothing asked of what the species lacks says as much as not asking.
+                          if (asked && effective && *asked != *effective) RC_FAIL(path);
+                          if (asked && !effective && *asked != 0) RC_FAIL(path + " is lost");
+                      });
+            RC_ASSERT(individual.effective.age == order.params.age);
+            RC_ASSERT(individual.effective.seed == order.params.seed);
+            RC_ASSERT(problems_in(individual.effective).empty());
+        } catch (const InvalidInput& refused) {
+            for (const Problem& problem : refused.problems())
+                RC_ASSERT(problem.path.starts_with("/hymenium/") ||
+                          problem.path.starts_with("/ornaments/") ||
+                          problem.path.starts_with("/weathering/") ||
+                          problem.path == "/deformation/zone_to");
+        }
+    }));
+    // Most random wishes ask something that a species cannot have.
+    EXPECT_GT(granted, 0);
+}
+
+TEST(Resolve, EffectiveParametersGiveTheSameIndividualBack) {
+    for (const std::string& id : swept_ids())
+        for (std::uint32_t seed = 1; seed <= 8; ++seed) {
+            MushroomOrder order = textured(order_of(id, seed / 8.0, seed, 1));
+            order.params.variation = 1.0;
+            order.params.deformation.twist_deg = 30.0;
+            const Individual first = resolved(order);
+            MushroomOrder again = order;
+            again.params = first.effective;
+            const Individual second = resolve(again, atlas());
+            EXPECT_EQ(second.model, first.model) << id << ' ' << seed;
+            EXPECT_EQ(places_of(second), places_of(first));
+            EXPECT_EQ(second.lightness, first.lightness);
+            EXPECT_EQ(canonical_text(second.effective), canonical_text(first.effective));
+            EXPECT_TRUE(same_bits(mushroom_mesh(order, first), mushroom_mesh(again, second)));
+        }
+}
+
+TEST(Resolve, NoIndividualBendsSoFarThatItsStemFolds) {
+    for (const std::string& id : species_ids())
+        for (int step = 0; step <= 8; ++step)
+            for (std::uint32_t seed = 0; seed < effort(12); ++seed) {
+                MushroomOrder order = order_of(id, step / 8.0, seed, 3);
+                order.params.variation = 1.0;
+                const auto problems = refusal([&] { (void)mesh_of(order); });
+                EXPECT_TRUE(problems.empty())
+                    << id << ' ' << order.params.age << ' ' << seed << ": " << problems[0].path
+                    << ' ' << problems[0].message;
+            }
+}
+
+}  // namespace
+}  // namespace sporeprint
