@@ -81,9 +81,9 @@ OutlineNodes scaled(OutlineNodes nodes, double by) {
 }
 
 std::optional<CurveName> fault_of(const Outline& outline, int lod) {
-    const auto contact = contact_at_rest(polyline(outline, lod));
-    if (!contact) return std::nullopt;
-    return curve_of(*contact, outline.rings(CurveName::stem, lod).size(),
+    const auto intersection = static_intersection(polyline(outline, lod));
+    if (!intersection) return std::nullopt;
+    return curve_of(*intersection, outline.rings(CurveName::stem, lod).size(),
                     outline.rings(CurveName::hymenium, lod).size());
 }
 

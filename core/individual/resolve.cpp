@@ -66,10 +66,10 @@ std::shared_ptr<const MorphSet> morph_set(const std::vector<Source>& sources,
     }
     return morphs(key, [&] {
         std::vector<ControlShape> shapes;
-        for (std::size_t kin = 0; kin < sources.size(); ++kin)
-            for (std::size_t i = 0; i < sources[kin].stages.size(); ++i)
-                shapes.push_back({silhouette_of(*sources[kin].stages[i]), sources[kin].size, kin,
-                                  sources[kin].ages[i]});
+        for (std::size_t species_index = 0; species_index < sources.size(); ++species_index)
+            for (std::size_t i = 0; i < sources[species_index].stages.size(); ++i)
+                shapes.push_back({silhouette_of(*sources[species_index].stages[i]), sources[species_index].size, species_index,
+                                  sources[species_index].ages[i]});
         return std::make_shared<const MorphSet>(std::move(shapes), arcs, age);
     });
 }

@@ -21,18 +21,19 @@ namespace {
 constexpr std::array<std::size_t, 3> node_counts = {45, 41, 49};
 constexpr int measure_steps = 128, need_smoothings = 4;
 constexpr double mature_age = 0.6;
-constexpr double least_foot = 1e-3;  // of the stem's length; less is no base to speak of
-// Stems bend with their axis, wherever their outline is straight.
+constexpr double least_base = 1e-3;  // of the stem's length; a shorter base is ignored
+// Stems bend with their axis even where their outline is straight.
 constexpr double stem_evenness = 3.0;
 
 using Curves = std::array<SubCurve, 3>;
 
 std::size_t index(CurveName curve) { return static_cast<std::size_t>(curve); }
 
-/// Arc lengths of the blend of several stages along the mature stage's own shares, to read shares off in both directions.
+/// The arc-length table of a blend of several stages over the mature stage's shares; it converts
+/// shares in both directions.
 class BlendedLength {
   public:
-    /// stages  curves with their maps from the mature stage's shares, weights and scales
+    /// A curve with its map from the mature stage's shares and its weight.
     struct Stage {
         const SubCurve* curve;
         const ShareMap* from_mature;
@@ -54,7 +55,7 @@ class BlendedLength {
         }
     }
 
-    /// The mature stage's share at a share of the blend's length.
+    /// Returns the mature stage's share at a share of the blend's length.
     [[nodiscard]] double mature_share(double share) const {
         const double wanted = share * lengths_.back();
         const auto above = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, wanted);
@@ -63,7 +64,7 @@ class BlendedLength {
         return (static_cast<double>(above - 1 - lengths_.begin()) + t) / measure_steps;
     }
 
-    /// The share of the blend's length at a mature share.
+    /// Returns the share of the blend's length at a mature share.
     [[nodiscard]] double share(double mature) const {
         const double place = std::clamp(mature, 0.0, 1.0) * measure_steps;
         const auto i = std::min(static_cast<std::size_t>(place), lengths_.size() - 2);
@@ -75,13 +76,14 @@ class BlendedLength {
     std::vector<double> lengths_;
 };
 
-/// Refuses arcs that leave their curve or cross one another.
-void check_arcs(std::span<const Arc> arcs, std::size_t kins, const std::array<bool, 3>& in_both) {
+/// Throws Impossible for arcs that leave their curve or cross one another.
+void check_arcs(std::span<const Arc> arcs, std::size_t species_count,
+                const std::array<bool, 3>& in_both) {
     std::vector<Problem> problems;
     const auto path = [](std::size_t i) { return "/arcs/" + std::to_string(i); };
     for (std::size_t i = 0; i < arcs.size(); ++i) {
         const Arc& arc = arcs[i];
-        if (kins != 2) {
+        if (species_count != 2) {
             report(problems, path(i), "arcs link exactly two species");
             continue;
         }
@@ -106,8 +108,9 @@ void check_arcs(std::span<const Arc> arcs, std::size_t kins, const std::array<bo
     if (!problems.empty()) throw Impossible(std::move(problems));
 }
 
-/// Share of a stem's length at which it has turned from its base half way up: where it comes out of the ground.
-std::optional<double> foot(const SubCurve& stem) {
+/// Returns the share of a stem's length at which its tangent first rises at 45 degrees: where it
+/// leaves the ground.
+std::optional<double> base_share(const SubCurve& stem) {
     const auto up = [&](double share) {
         const OutlineSample s = stem.at(share);
         return s.tangent_y >= s.tangent_r;
@@ -125,19 +128,21 @@ std::optional<double> foot(const SubCurve& stem) {
     return std::nullopt;
 }
 
-/// The feet of two stems belong together, however wide or thin these are, unless the designer's arcs say otherwise.
-std::vector<Landmark> with_feet(std::vector<Landmark> landmarks, const SubCurve& a,
-                                const SubCurve& b) {
-    const auto foot_a = foot(a), foot_b = foot(b);
-    if (!foot_a || !foot_b || *foot_a < least_foot || *foot_b < least_foot) return landmarks;
+/// Makes the bases of two stems correspond, however wide or thin they are, unless the designer's
+/// arcs contradict.
+std::vector<Landmark> with_base_landmarks(std::vector<Landmark> landmarks, const SubCurve& a,
+                                          const SubCurve& b) {
+    const auto base_a = base_share(a), base_b = base_share(b);
+    if (!base_a || !base_b || *base_a < least_base || *base_b < least_base) return landmarks;
     for (const Landmark& landmark : landmarks)
-        if (landmark.a <= *foot_a || landmark.b <= *foot_b) return landmarks;
-    landmarks.insert(landmarks.begin(), {*foot_a, *foot_b});
+        if (landmark.a <= *base_a || landmark.b <= *base_b) return landmarks;
+    landmarks.insert(landmarks.begin(), {*base_a, *base_b});
     return landmarks;
 }
 
-/// measure_steps + 1 shares of the hub, 0 to 1, at even steps of the mean of what they are mapped to: no curve is stepped over.
-std::vector<double> even_for_all(const std::vector<const ShareMap*>& from_hub) {
+/// Returns measure_steps + 1 shares of the hub, 0 to 1, at even steps of the mean of their images
+/// under all maps, so that no curve is undersampled.
+std::vector<double> evenly_mapped_shares(const std::vector<const ShareMap*>& from_hub) {
     std::vector<double> knots;
     for (const ShareMap* map : from_hub)
         knots.insert(knots.end(), map->from().begin(), map->from().end());
@@ -161,7 +166,7 @@ std::vector<double> even_for_all(const std::vector<const ShareMap*>& from_hub) {
     return places;
 }
 
-/// From the lowest control point to the highest.
+/// Returns the distance in y from the lowest control point to the highest.
 double height(const Silhouette& silhouette) {
     double low = silhouette.stem.front().y, high = low;
     for (const auto* part : {&silhouette.stem, &silhouette.hymenium, &silhouette.cap})
@@ -172,7 +177,8 @@ double height(const Silhouette& silhouette) {
     return std::max(high - low, 1e-9);
 }
 
-/// Makes both sides of every smooth join run in one direction in every mix: the ratio of their speeds becomes the same in all shapes.
+/// Keeps both sides of every smooth join collinear in every mix: the ratio of their speeds is made
+/// equal in all shapes.
 void align_joins(std::vector<OutlineNodes>& all, const std::vector<ControlShape>& shapes) {
     const auto align = [&](CurveName before, CurveName after, auto joined) {
         double sum = 0.0;
@@ -214,20 +220,21 @@ void align_joins(std::vector<OutlineNodes>& all, const std::vector<ControlShape>
     }
 }
 
-/// The sub-curves of one name of all shapes, on their way to the common parameter.
+/// Puts the sub-curves of one name of all shapes on the common parameter.
 class Aligner {
   public:
     Aligner(const std::vector<ControlShape>& shapes, const std::vector<Curves>& curves,
             const std::vector<double>& heights, CurveName name, AlignedShapes& out)
         : shapes_(shapes), curves_(curves), heights_(heights), name_(name), out_(out) {}
 
-    /// Appends the nodes of this sub-curve to all shapes; none if no shape has it.
+    /// Appends the nodes of this sub-curve to all shapes, or none if no shape has it.
     void align(std::span<const Arc> arcs, double arcs_age) {
         match_stages();
-        const auto hub = std::find_if(out_.kins.begin(), out_.kins.end(),
-                                      [&](const Kin& kin) { return !curve(kin.mature).empty(); });
-        if (hub == out_.kins.end()) return;
-        match_kins(*hub, landmarks(arcs, arcs_age));
+        const auto hub =
+            std::find_if(out_.species.begin(), out_.species.end(),
+                         [&](const SpeciesRange& range) { return !curve(range.mature).empty(); });
+        if (hub == out_.species.end()) return;
+        match_species(*hub, landmarks(arcs, arcs_age));
         place_nodes(common_parameter());
     }
 
@@ -236,69 +243,72 @@ class Aligner {
         return curves_[shape][index(name_)];
     }
 
-    /// Every stage against the mature one of its kin: control points are the author's own arcs.
+    /// Maps every stage to the mature one of its species by the control points of the author.
     void match_stages() {
         from_mature_.resize(shapes_.size());
-        for (const Kin& kin : out_.kins) {
-            const auto mature = curve(kin.mature).segment_shares();
-            for (std::size_t s = kin.first; s < kin.first + kin.count; ++s) {
-                if (curve(s).empty() != curve(kin.mature).empty() ||
+        for (const SpeciesRange& range : out_.species) {
+            const auto mature = curve(range.mature).segment_shares();
+            for (std::size_t s = range.first; s < range.first + range.count; ++s) {
+                if (curve(s).empty() != curve(range.mature).empty() ||
                     curve(s).segment_shares().size() != mature.size())
                     throw InvalidInput("/stages",
                                        "stages of one species differ in the number of "
                                        "control points of the " +
                                            std::string(sporeprint::name(name_)));
-                if (s != kin.mature && !mature.empty())
+                if (s != range.mature && !mature.empty())
                     from_mature_[s] = ShareMap(mature, curve(s).segment_shares());
             }
         }
     }
 
-    /// The designer's arcs on this sub-curve, in shares of the mature stages.
+    /// Returns the designer's arcs on this sub-curve in shares of the mature stages.
     [[nodiscard]] std::vector<Landmark> landmarks(std::span<const Arc> arcs, double age) const {
-        const auto own_length = [&](const Kin& kin) {
-            const auto weights = stage_weights({out_.ages.data() + kin.first, kin.count}, age);
+        const auto own_length = [&](const SpeciesRange& range) {
+            const auto weights = stage_weights({out_.ages.data() + range.first, range.count}, age);
             std::vector<BlendedLength::Stage> stages;
-            for (std::size_t k = 0; k < kin.count; ++k)
-                stages.push_back({&curve(kin.first + k), &from_mature_[kin.first + k], weights[k]});
+            for (std::size_t k = 0; k < range.count; ++k)
+                stages.push_back(
+                    {&curve(range.first + k), &from_mature_[range.first + k], weights[k]});
             return BlendedLength(stages);
         };
         std::vector<Landmark> landmarks;
         for (const Arc& arc : arcs)
             if (arc.curve == name_)
-                landmarks.push_back({own_length(out_.kins[0]).mature_share(arc.a),
-                                     own_length(out_.kins[1]).mature_share(arc.b)});
+                landmarks.push_back({own_length(out_.species[0]).mature_share(arc.a),
+                                     own_length(out_.species[1]).mature_share(arc.b)});
         std::sort(landmarks.begin(), landmarks.end(),
                   [](const Landmark& x, const Landmark& y) { return x.a < y.a; });
-        landmarks.erase(  // an arc given twice
+        landmarks.erase(  // the same arc twice
             std::unique(landmarks.begin(), landmarks.end(),
                         [](const Landmark& x, const Landmark& y) { return x.a == y.a; }),
             landmarks.end());
         return landmarks;
     }
 
-    /// Every kin against the hub.
-    void match_kins(const Kin& hub, const std::vector<Landmark>& landmarks) {
-        from_hub_.resize(out_.kins.size());
-        for (std::size_t k = 0; k < out_.kins.size(); ++k) {
-            const Kin& kin = out_.kins[k];
-            if (&kin == &hub || curve(kin.mature).empty()) continue;
-            from_hub_[k] =
-                correspondence(curve(hub.mature), curve(kin.mature),
-                               name_ == CurveName::stem
-                                   ? with_feet(landmarks, curve(hub.mature), curve(kin.mature))
-                                   : landmarks);
+    /// Maps every species to the hub.
+    void match_species(const SpeciesRange& hub, const std::vector<Landmark>& landmarks) {
+        from_hub_.resize(out_.species.size());
+        for (std::size_t k = 0; k < out_.species.size(); ++k) {
+            const SpeciesRange& range = out_.species[k];
+            if (&range == &hub || curve(range.mature).empty()) continue;
+            from_hub_[k] = correspondence(
+                curve(hub.mature), curve(range.mature),
+                name_ == CurveName::stem
+                    ? with_base_landmarks(landmarks, curve(hub.mature), curve(range.mature))
+                    : landmarks);
         }
     }
 
-    /// Shares of the hub at the nodes. The common parameter u runs evenly through what the shapes need: by length and turning, so that
-    /// thin margins stay round, and by the root of their product, which a chord's error goes with; that one measured by each shape's
-    /// own height, so that wide flat ones get more. Fourth powers let the neediest shape speak.
+    /// Returns the hub's shares at the nodes. The common parameter u is even in the need of the
+    /// shapes: in length and turning, so that thin margins stay round, and in the root of their
+    /// product, to which the error of a chord is proportional. That root is relative to the height
+    /// of each shape, so that wide flat shapes get more nodes. Fourth powers give the greatest need
+    /// the most weight.
     [[nodiscard]] std::vector<double> common_parameter() const {
         std::vector<const ShareMap*> present;
-        for (std::size_t k = 0; k < out_.kins.size(); ++k)
-            if (!curve(out_.kins[k].mature).empty()) present.push_back(&from_hub_[k]);
-        const std::vector<double> places = even_for_all(present);
+        for (std::size_t k = 0; k < out_.species.size(); ++k)
+            if (!curve(out_.species[k].mature).empty()) present.push_back(&from_hub_[k]);
+        const std::vector<double> places = evenly_mapped_shares(present);
         std::vector<double> measures{0.0};
         for (const double need : needs(places)) measures.push_back(measures.back() + need);
         for (double& measure : measures) measure /= measures.back();
@@ -317,7 +327,7 @@ class Aligner {
         return shares;
     }
 
-    /// How much of the common parameter each step between two places of the hub needs.
+    /// Returns how much of the common parameter each step between two samples of the hub needs.
     [[nodiscard]] std::vector<double> needs(const std::vector<double>& places) const {
         std::vector<std::vector<double>> roots(shapes_.size()), plain(shapes_.size());
         const double evenness = name_ == CurveName::stem ? stem_evenness : 1.0;
@@ -329,7 +339,8 @@ class Aligner {
             const double scale = std::sqrt(curve(s).length() / heights_[s]);
             for (int i = 1; i <= measure_steps; ++i) {
                 const double place = places[static_cast<std::size_t>(i)];
-                const double next = from_mature_[s](from_hub_[shapes_[s].kin](place).at).at;
+                const double next =
+                    from_mature_[s](from_hub_[shapes_[s].species_index](place).at).at;
                 const double next_turning = curve(s).turning(next);
                 const double length = next - share, turn = next_turning - turning;
                 plain[s].push_back(evenness * length + turn / whole);
@@ -347,7 +358,7 @@ class Aligner {
                 needs[i] += need * need * need * need;
             }
         for (double& need : needs) need = std::sqrt(std::sqrt(need));
-        // Smoothed, so that u runs evenly: between two nodes the speed hardly changes.
+        // Smoothing keeps the speed of u nearly constant between two nodes.
         for (int pass = 0; pass < need_smoothings; ++pass) {
             double before = needs.front();
             for (std::size_t i = 0; i + 1 < needs.size(); ++i) {
@@ -364,7 +375,7 @@ class Aligner {
         std::vector<double> u;
         for (std::size_t i = 0; i < count; ++i)
             u.push_back(static_cast<double>(i) / static_cast<double>(count - 1));
-        // As steep as it comes: a bound would give short steps a speed that they do not have.
+        // The slope is unbounded: a bound would give short steps a speed that they do not have.
         const ShareMap hub_from_u(u, hub_shares, std::numeric_limits<double>::infinity());
         for (std::size_t s = 0; s < shapes_.size(); ++s) {
             const ControlShape& shape = shapes_[s];
@@ -376,7 +387,7 @@ class Aligner {
             }
             for (const double place : u) {
                 const auto on_hub = hub_from_u(place);
-                const auto on_mature = from_hub_[shape.kin](on_hub.at);
+                const auto on_mature = from_hub_[shape.species_index](on_hub.at);
                 const auto on_shape = from_mature_[s](on_mature.at);
                 const OutlineSample sample = curve(s).at(on_shape.at);
                 const double speed =
@@ -402,7 +413,7 @@ class Aligner {
     const std::vector<double>& heights_;
     CurveName name_;
     AlignedShapes& out_;
-    std::vector<ShareMap> from_mature_, from_hub_;  // of shapes, of kins
+    std::vector<ShareMap> from_mature_, from_hub_;  // per shape, per species
 };
 
 }  // namespace
@@ -417,20 +428,21 @@ AlignedShapes aligned(const std::vector<ControlShape>& shapes, std::span<const A
         curves.push_back(
             {std::move(outline.stem), std::move(outline.hymenium), std::move(outline.cap)});
         heights.push_back(height(shape.silhouette));
-        if (shape.kin == out.kins.size()) out.kins.push_back({out.ages.size(), 0, out.ages.size()});
-        Kin& kin = out.kins.back();
-        assert(shape.kin + 1 == out.kins.size());
-        if (std::abs(shape.age - mature_age) < std::abs(shapes[kin.mature].age - mature_age))
-            kin.mature = out.ages.size();
-        ++kin.count;
+        if (shape.species_index == out.species.size())
+            out.species.push_back({out.ages.size(), 0, out.ages.size()});
+        SpeciesRange& range = out.species.back();
+        assert(shape.species_index + 1 == out.species.size());
+        if (std::abs(shape.age - mature_age) < std::abs(shapes[range.mature].age - mature_age))
+            range.mature = out.ages.size();
+        ++range.count;
         out.ages.push_back(shape.age);
     }
     if (!arcs.empty()) {
         std::array<bool, 3> in_both{};
         for (std::size_t c = 0; c < 3; ++c)
-            in_both[c] = out.kins.size() == 2 && !curves[out.kins[0].mature][c].empty() &&
-                         !curves[out.kins[1].mature][c].empty();
-        check_arcs(arcs, out.kins.size(), in_both);
+            in_both[c] = out.species.size() == 2 && !curves[out.species[0].mature][c].empty() &&
+                         !curves[out.species[1].mature][c].empty();
+        check_arcs(arcs, out.species.size(), in_both);
     }
     out.nodes.resize(shapes.size());
     for (const CurveName curve : curve_names)
@@ -439,7 +451,6 @@ AlignedShapes aligned(const std::vector<ControlShape>& shapes, std::span<const A
     return out;
 }
 
-/// Growth weights of the stages of one kin: linear between neighbours, the first and last stage beyond.
 std::vector<double> stage_weights(std::span<const double> ages, double age) {
     std::vector<double> weights(ages.size(), 0.0);
     std::size_t above = 0;

@@ -15,9 +15,9 @@ constexpr int edges_per_curve = 48, fewest_edges = 4;
 constexpr int smoothings = 3;
 constexpr std::size_t steepest_step = 4;
 
-double apart(const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a - b, a - b); }
+double squared_distance(const glm::dvec2& a, const glm::dvec2& b) { return glm::dot(a - b, a - b); }
 
-/// Whether `a` comes before `b` in an order that does not depend on which is called first.
+/// Returns true if `a` precedes `b` in an order that is independent of the order of arguments.
 bool comes_before(const Edges& a, const Edges& b) {
     if (a.length != b.length) return a.length < b.length;
     for (std::size_t i = 0; i < a.directions.size(); ++i) {
@@ -27,13 +27,14 @@ bool comes_before(const Edges& a, const Edges& b) {
     return true;
 }
 
-/// What part of a step bends an edge of one curve into an edge of the other, counted from where the step begins.
+/// The share of a step in which an edge of one curve corresponds to an edge of the other; indices
+/// count from the start of the step.
 struct Piece {
     std::size_t a = 0, b = 0;
     double share = 0.0;
 };
 
-/// The pieces of a step: both curves are cut where either has a vertex.
+/// The pieces of a step: both curves are split where either has a vertex.
 class Pieces {
   public:
     constexpr Pieces() = default;
@@ -56,7 +57,7 @@ class Pieces {
     std::size_t count_ = 0;
 };
 
-/// The work of a kind of step: how much for stretching, and for a bend of its whole length by 1.
+/// The work of a kind of step: for stretching, and for a bend of its whole length by 1.
 struct StepWork {
     double stretched = 0.0, bend = 0.0;
 
@@ -71,7 +72,7 @@ struct StepWork {
     }
 };
 
-/// The straight edges of a curve between two shares of its length.
+/// Returns the straight edges of a curve between two shares of its length.
 Edges edges_of(const SubCurve& curve, double from, double to, int count) {
     Edges edges;
     edges.length = to - from;
@@ -89,13 +90,14 @@ Edges edges_of(const SubCurve& curve, double from, double to, int count) {
     return edges;
 }
 
-/// The offset b - a along (a + b) / 2 of a chain of links, at n + 1 even places, smoothed and no steeper than the map may be.
+/// Returns the offsets b - a along (a + b) / 2 of a chain of links at n + 1 even positions,
+/// smoothed and bounded by the steepest slope of the map.
 std::vector<double> even_offsets(const std::vector<Link>& links, int n) {
     std::vector<double> offsets;
     std::size_t k = 0;
     for (int i = 0; i <= n; ++i) {
         while (links[k].a + links[k].b < 2 * i) ++k;
-        const int past = links[k].a + links[k].b - 2 * i;  // a step may jump over the place
+        const int past = links[k].a + links[k].b - 2 * i;  // a step may pass over the position
         const double here = links[k].b - links[k].a;
         if (past == 0) {
             offsets.push_back(here);
@@ -114,7 +116,7 @@ std::vector<double> even_offsets(const std::vector<Link>& links, int n) {
             before = here;
         }
     }
-    // db/da = (1 + d/2) / (1 - d/2) for an offset that grows by d from place to place.
+    // The slope is db/da = (1 + d/2) / (1 - d/2) for an offset that grows by d per position.
     constexpr double most = 2.0 * (steepest_map - 1.0) / (steepest_map + 1.0);
     offsets.front() = offsets.back() = 0.0;
     for (std::size_t i = 1; i < offsets.size(); ++i)
@@ -166,7 +168,8 @@ double BlendWork::step(const Edges& a, const Edges& b, std::size_t at_a, std::si
                        const Link& over) const {
     double bent = 0.0;
     for (const Piece& piece : Pieces(over))
-        bent += piece.share * apart(a.directions[at_a + piece.a], b.directions[at_b + piece.b]);
+        bent += piece.share *
+                squared_distance(a.directions[at_a + piece.a], b.directions[at_b + piece.b]);
     const StepWork work(*this, a, b, over);
     return work.stretched + work.bend * bent;
 }
@@ -179,10 +182,10 @@ std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWo
         return links;
     }
     const std::size_t n = a.directions.size(), row = n + 1;
-    std::vector<double> aparts(n * n);
+    std::vector<double> squared_distances(n * n);
     for (std::size_t i = 0; i < n; ++i)
         for (std::size_t j = 0; j < n; ++j)
-            aparts[i * n + j] = apart(a.directions[i], b.directions[j]);
+            squared_distances[i * n + j] = squared_distance(a.directions[i], b.directions[j]);
     static constexpr auto pieces = [] {
         std::array<Pieces, link_steps.size()> all;
         for (std::size_t s = 0; s < all.size(); ++s) all[s] = Pieces(link_steps[s]);
@@ -192,10 +195,11 @@ std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWo
     for (std::size_t s = 0; s < works.size(); ++s) works[s] = {work, a, b, link_steps[s]};
     constexpr double never = std::numeric_limits<double>::infinity();
     std::vector<double> least(row * row, never);
-    std::vector<std::uint8_t> came_by(row * row, 0);
+    std::vector<std::uint8_t> best_steps(row * row, 0);
     least[0] = 0.0;
     for (std::size_t i = 1; i <= n; ++i) {
-        // Only what can be reached from the first vertices, and the last from it.
+        // The loop covers only cells that are reachable from the first vertices and from which the
+        // last are reachable.
         const auto near = [&](std::size_t x) { return (x + steepest_step - 1) / steepest_step; };
         const std::size_t least_j = std::max(near(i), n - std::min(n, steepest_step * (n - i)));
         const std::size_t most_j = std::min(n - near(n - i), steepest_step * i);
@@ -208,7 +212,7 @@ std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWo
                 if (over_a > i || over_b > j) continue;
                 double total = least[(i - over_a) * row + j - over_b] + works[s].stretched;
                 if (total >= best) continue;
-                const double* corner = &aparts[(i - over_a) * n + j - over_b];
+                const double* corner = &squared_distances[(i - over_a) * n + j - over_b];
                 double bent = 0.0;
                 for (const Piece& piece : pieces[s])
                     bent += piece.share * corner[piece.a * n + piece.b];
@@ -219,14 +223,14 @@ std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWo
                 }
             }
             least[i * row + j] = best;
-            came_by[i * row + j] = static_cast<std::uint8_t>(best_step);
+            best_steps[i * row + j] = static_cast<std::uint8_t>(best_step);
         }
     }
     std::vector<Link> links{{static_cast<int>(n), static_cast<int>(n)}};
     while (links.back().a > 0) {
         const Link end = links.back();
         const auto cell = static_cast<std::size_t>(end.a) * row + static_cast<std::size_t>(end.b);
-        const Link step = link_steps[came_by[cell]];
+        const Link step = link_steps[best_steps[cell]];
         links.push_back({end.a - step.a, end.b - step.b});
     }
     std::reverse(links.begin(), links.end());

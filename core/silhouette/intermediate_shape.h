@@ -1,4 +1,5 @@
-// The bud: what shapes go by whose straight way folds even by their mature stages.
+// The intermediate shape of morphs whose linear interpolation self-intersects even through their
+// mature stages.
 #pragma once
 
 #include <vector>
@@ -7,10 +8,11 @@
 
 namespace sporeprint {
 
-/// A smooth bud, as high as the shapes are on average, that their sub-curves run along from pole to pole, the lower face as a narrow band.
-/// Nothing of it hides anything else, so nearly every shape opens out of it straight.
+/// Returns a smooth ellipse, as high as the shapes are on average, with their sub-curves laid out
+/// from pole to pole and the lower face as a narrow band. No part of it occludes another, so linear
+/// interpolation to nearly every shape is free of self-intersections.
 ///
 /// shapes  at least one, all with equally many nodes
-[[nodiscard]] OutlineNodes bud_of(const std::vector<OutlineNodes>& shapes);
+[[nodiscard]] OutlineNodes intermediate_shape(const std::vector<OutlineNodes>& shapes);
 
 }  // namespace sporeprint

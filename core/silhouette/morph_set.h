@@ -1,4 +1,5 @@
-// A set of outlines with one parameter in common, so that any weighted mean of them is an outline: the paper's morph for any number of shapes.
+// A set of outlines with a common parameter, so that any weighted mean of them is an outline: the
+// paper's morph for any number of shapes.
 #pragma once
 
 #include <array>
@@ -14,7 +15,7 @@
 
 namespace sporeprint {
 
-/// What is known about the outlines between shapes.
+/// The proven properties of the outlines between shapes.
 struct Certificate {
     bool simple = true;
     ProofMethod method = ProofMethod::exact;
@@ -40,96 +41,110 @@ struct Certificate {
     bool operator==(const Certificate&) const = default;
 };
 
-/// The polyline of an outline's rings, base to apex, joins once.
+/// Returns the polyline of an outline's rings, base to apex, with each join once.
 [[nodiscard]] Polyline polyline(const Outline& outline, int lod);
 
-/// The sub-curve of a contact on such a polyline: that of the vertex where the later of the two segments ends, or of the vertex
-/// itself that is on the wrong side of the axis. The counts of rings are 0 for a sub-curve that the outline lacks.
-[[nodiscard]] CurveName curve_of(const Contact& contact, std::size_t stem_rings,
+/// Returns the sub-curve of an intersection on such a polyline: that of the vertex where the later
+/// of the two segments ends, or of the vertex itself that is on the wrong side of the axis. The
+/// counts of rings are 0 for a sub-curve that the outline lacks.
+[[nodiscard]] CurveName curve_of(const Intersection& intersection, std::size_t stem_rings,
                                  std::size_t hymenium_rings);
 
 class MorphSet {
   public:
-    /// Finds what belongs together and how it is blended without folding.
+    /// Computes the correspondence of the shapes and the paths by which they blend without
+    /// self-intersection.
     ///
-    /// shapes    at least one; kin numbered from 0 without gaps, each kin's shapes one after another by age.
-    ///           The first kin that has a sub-curve is the hub of that sub-curve: all others are put in correspondence with it,
-    ///           so another order of three or more kin may move rings along the outlines a little. Callers sort by id.
-    /// arcs      only for two kin, a for kin 0 and b for kin 1; `arcs_age` is the age at which the shares are counted
-    /// throws    Impossible for a shape that crosses itself or its rings (path below "/model/silhouette"), for arcs that cross one another or
-    ///           leave their curve (path "/arcs/<i>")
-    /// cost      about 0.7 ms for two kin of five shapes; up to 2 ms more where many ways fold
+    /// shapes    at least one; species numbered from 0 without gaps, the shapes of each contiguous
+    ///           and ascending by age. The first species that has a sub-curve is the hub of that
+    ///           sub-curve: all others are put in correspondence with it, so another order of three
+    ///           or more species may move rings along the outlines a little. Callers sort by id.
+    /// arcs      only for two species, a for species 0 and b for species 1; `arcs_age` is the age
+    ///           at which the shares are counted
+    /// throws    Impossible for a shape that crosses itself or its rings (path below
+    ///           "/model/silhouette"), for arcs that cross one another or leave their curve (path
+    ///           "/arcs/<i>")
+    /// cost      about 0.7 ms for two species of five shapes; up to 2 ms more where many linear
+    ///           interpolations self-intersect
     /// source    [Desbenoit2004] sec. 4; [SederbergGreenwood1992]
     explicit MorphSet(const std::vector<ControlShape>& shapes, std::span<const Arc> arcs = {},
                       double arcs_age = 0.6);
 
-    /// The outline of a mix, of unit size: never one that touches itself at any level of detail.
+    /// Returns the outline of a mix, of unit size; it never self-intersects at any level of detail.
     ///
-    /// Blends are straight, unless the straight way between stages of two kin folds: then mixes of these two stages make a detour by
-    /// the mature ones or, where these fold too, by a round bud; decided once for the set, so that nothing jumps and every kin alone
-    /// is itself. A mix of more that touches itself all the same gives way towards the bud, as little as it must: six of a hundred
-    /// thousand random mixes of the atlas do.
+    /// Blends are linear, unless the linear interpolation between stages of two species
+    /// self-intersects: then mixes of these two stages pass through the mature ones or, where these
+    /// self-intersect too, through a round intermediate shape. This is decided once for the set, so
+    /// that morphs are continuous and weight 1 reproduces each single species. A mix of more shapes
+    /// that self-intersects all the same is moved towards the intermediate shape by the least step
+    /// that is simple: six of a hundred thousand random mixes of the atlas are.
     ///
     /// weights  one per control shape, >= 0, sum 1
-    /// cost     about 25 us, 10 us more where no certificate covers all mixes, a few milliseconds where a mix gives way
+    /// cost     about 25 us, 10 us more where no certificate covers all mixes, a few milliseconds
+    ///          where a mix is moved
     [[nodiscard]] OutlineNodes nodes(std::span<const double> weights) const;
 
-    /// What is known about all mixes of the set in which every kin has the same age.
+    /// Returns what is proven about all mixes of the set in which every species has the same age.
     ///
     /// cost  some ms where no certificate covers all weights
     [[nodiscard]] Certificate certificate() const;
 
-    /// What is known about the way from one mix to another, for every moment on it: exact where it is straight; where it makes a
-    /// detour it is a polynomial, and certified piece by piece.
+    /// Returns what is proven about the path from one mix to another at every moment: exact where
+    /// it is linear; an indirect path is a polynomial and is certified piece by piece.
     ///
-    /// cost  0.05 ms straight, 0.2 ms with a detour
+    /// cost  0.05 ms for a linear path, 0.2 ms for an indirect one
     [[nodiscard]] Certificate certificate(std::span<const double> from,
                                           std::span<const double> to) const;
 
-    /// What belongs together between kin 0 and kin 1 at an age: `count` arcs on each sub-curve that both have.
+    /// Returns the correspondence between species 0 and species 1 at an age: `count` arcs on each
+    /// sub-curve that both have.
     [[nodiscard]] std::vector<Arc> arcs(double age, int count) const;
 
-    /// Share of growth weight of each shape within its kin at an age: 1 on a stage, linear between two.
+    /// Returns the growth weight of each shape within its species at an age: 1 on a stage, linear
+    /// between two.
     [[nodiscard]] std::vector<double> growth_weights(double age) const;
 
     [[nodiscard]] std::size_t size() const { return nodes_.size(); }
     [[nodiscard]] std::size_t bytes() const;
 
   private:
-    /// The polylines of all shapes, the bud's last if there is one, [lod][shape].
+    /// The polylines of all shapes at [lod][shape], the intermediate shape's last if there is one.
     using Lines = std::array<std::vector<Polyline>, details.size()>;
-    /// From one shape to another.
-    using Way = std::array<std::size_t, 2>;
+    /// The two ends of a path, as indices of shapes.
+    using PathEnds = std::array<std::size_t, 2>;
 
     MorphSet(const std::vector<ControlShape>& shapes, AlignedShapes common);
 
     [[nodiscard]] const OutlineNodes& shape(std::size_t s) const {
-        return s < nodes_.size() ? nodes_[s] : bud_;
+        return s < nodes_.size() ? nodes_[s] : intermediate_;
     }
     [[nodiscard]] OutlineNodes unchecked(std::span<const double> weights) const;
-    /// As many points as the outline has rings, at even steps of u: linear in the weights, so that roots and certificates tell of
-    /// every moment. Rings follow the outline's own bends instead, and are looked at one by one.
+    /// Returns as many points as the outline has rings, at even steps of u: they are linear in the
+    /// weights, so that roots and certificates cover every moment. The swept rings follow the
+    /// outline's bends instead and are checked one by one.
     [[nodiscard]] Polyline polyline(const OutlineNodes& nodes, int lod) const;
-    [[nodiscard]] bool moves_simply(const OutlineNodes& nodes) const;
-    [[nodiscard]] bool is_swept_simply(const OutlineNodes& nodes) const;
-    [[nodiscard]] CurveName curve_of(const Contact& contact, int lod) const;
+    [[nodiscard]] bool uniform_polylines_are_simple(const OutlineNodes& nodes) const;
+    [[nodiscard]] bool swept_polylines_are_simple(const OutlineNodes& nodes) const;
+    [[nodiscard]] CurveName curve_of(const Intersection& intersection, int lod) const;
     [[nodiscard]] bool certified(std::span<const std::size_t> shapes) const;
     [[nodiscard]] Lines lines() const;
-    [[nodiscard]] std::vector<Way> folding(const Lines& lines, const Kin& i, const Kin& j) const;
-    [[nodiscard]] bool curved_ways_are_simple(const Lines& lines, std::span<const Way> ways) const;
-    [[nodiscard]] bool curved_way_touches_half_way(const std::vector<Polyline>& shapes,
-                                                   std::span<const double> from,
-                                                   std::span<const double> to) const;
-    [[nodiscard]] bool curved_way_is_simple(const std::vector<Polyline>& shapes,
-                                            std::span<const double> from,
-                                            std::span<const double> to) const;
+    [[nodiscard]] std::vector<PathEnds> crossing_paths(const Lines& lines, const SpeciesRange& i,
+                                                       const SpeciesRange& j) const;
+    [[nodiscard]] bool curved_paths_are_simple(const Lines& lines,
+                                               std::span<const PathEnds> paths) const;
+    [[nodiscard]] bool curved_path_intersects_at_midpoint(const std::vector<Polyline>& shapes,
+                                                          std::span<const double> from,
+                                                          std::span<const double> to) const;
+    [[nodiscard]] bool curved_path_is_simple(const std::vector<Polyline>& shapes,
+                                             std::span<const double> from,
+                                             std::span<const double> to) const;
     void certify(const Lines& lines);
-    void choose_detours(const Lines& lines, std::size_t i, std::size_t j);
+    void choose_indirect_paths(const Lines& lines, std::size_t i, std::size_t j);
 
-    std::vector<Kin> kins_;
-    Detours detours_;
-    OutlineNodes bud_;  ///< empty where no way leads by it
-    bool for_any_weights_ = false;
+    std::vector<SpeciesRange> species_;
+    IndirectPaths indirect_paths_;
+    OutlineNodes intermediate_;  ///< empty if no path passes through it
+    bool certified_for_all_weights_ = false;
     std::vector<double> ages_;
     std::vector<OutlineNodes> nodes_;
 };

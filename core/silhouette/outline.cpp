@@ -12,16 +12,19 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int knots_between_controls = 24;  // a few long cubics between an author's control points
+constexpr int knots_between_controls = 24;  // few long cubics between control points
 constexpr int knots_between_nodes =
-    8;  // many short ones between the nodes of a set; waves lean on their speed
+    8;  // many short cubics between the nodes of a set; waves depend on their speed
 
-// Radians that draw as many rings as a whole sub-curve's length does. By no share of the whole turning: on a stem that is all but
-// straight the rings would follow its least waver.
+// Turning in radians that attracts as many rings as the length of a whole sub-curve does. It is
+// absolute, not a share of the total turning: on a nearly straight stem the rings would follow its
+// slightest undulation.
 constexpr double turn_per_length = 7.0;
-// A bend draws so many times as many rings as its length alone, at most: one that shrinks to a point goes without leaving them there.
+// Upper bound of the ring density of a bend relative to its length, so that a bend that shrinks to
+// a point releases its rings smoothly.
 constexpr double most_per_length = 9.0;
-// So few rings draw nearer to the bends: a chord across one would hide what an image shows there.
+// Sub-curves with so few rings place them closer to the bends: a chord across a bend would hide
+// what an image shows there.
 constexpr int few_rings = 5;
 
 std::string number(double value) {
@@ -31,13 +34,14 @@ std::string number(double value) {
     return text;
 }
 
-/// Where a control point is told of: "/cap/" and its number.
+/// The path of a control point in problem reports: "/cap/" and its number.
 struct Place {
     const char* curve;
     std::size_t index;
 };
 
-/// Smallest r at the turning points strictly inside a segment; infinite if r runs one way.
+/// Returns the smallest r at the turning points strictly inside a segment, or infinity if r is
+/// monotone.
 double least_turning_r(const SplineSegment<glm::dvec2>& s) {
     const double a = s.leaving.x, b = 3.0 * (s.to.x - s.from.x) - 2.0 * s.leaving.x - s.arriving.x;
     const double c =
@@ -84,7 +88,7 @@ void Silhouette::check(const std::string& path, std::vector<Problem>& problems) 
     const auto distinct = [&](const std::string& curve, const std::vector<OutlinePoint>& points) {
         for (std::size_t i = 1; i < points.size(); ++i) {
             const double along = points[i].r - points[i - 1].r, up = points[i].y - points[i - 1].y;
-            if (along * along + up * up < 1e-18)  // a nanometre
+            if (along * along + up * up < 1e-18)  // a squared nanometre
                 bad(curve + std::to_string(i), "coincides with the point before it");
         }
     };
@@ -98,8 +102,8 @@ SubCurve::SubCurve(std::vector<SplineSegment<glm::dvec2>> segments)
     tabulate(knots_between_controls);
 }
 
-SubCurve::SubCurve(const std::vector<OutlineNode>& nodes, const glm::dvec2& resting)
-    : resting_(resting) {
+SubCurve::SubCurve(const std::vector<OutlineNode>& nodes, const glm::dvec2& fallback_tangent)
+    : fallback_tangent_(fallback_tangent) {
     if (nodes.empty()) return;
     const double step = 1.0 / static_cast<double>(nodes.size() - 1);
     segments_.reserve(nodes.size() - 1);
@@ -126,7 +130,8 @@ void SubCurve::tabulate(int knots_per_segment) {
             knot.arc += length;
             if (length > 1e-12) {
                 const glm::dvec2 direction = step / length;
-                // The chord between unit vectors stands for the angle: monotone in it, and needs no arc tangent.
+                // The chord between unit vectors replaces the angle: it is monotone in it and needs
+                // no arc tangent.
                 if (heading != glm::dvec2(0.0))
                     knot.turn += std::sqrt(glm::dot(direction - heading, direction - heading));
                 heading = direction;
@@ -155,7 +160,7 @@ OutlineSample SubCurve::sample(double parameter, double arc) const {
                   segments_[static_cast<std::size_t>(segment)].from;
         speed = std::sqrt(glm::dot(tangent, tangent));
         if (speed < 1e-12) {
-            tangent = resting_;
+            tangent = fallback_tangent_;
             speed = 1.0;
         }
     }
@@ -196,7 +201,7 @@ std::vector<OutlineSample> SubCurve::placed(std::span<const double> u) const {
     return samples;
 }
 
-// The ends are the nodes themselves, so that neighbouring sub-curves weld bit for bit.
+// The ends are copied from the nodes, so that neighbouring sub-curves weld bit for bit.
 void SubCurve::pin_ends(std::vector<OutlineSample>& samples) const {
     const auto pin = [](OutlineSample& sample, const glm::dvec2& position, double share) {
         sample.r = position.x;
@@ -282,7 +287,7 @@ Outline Outline::unproven(const Silhouette& silhouette, const std::string& path)
                (has_hymenium && i == starts[2] && silhouette.margin == Join::corner);
     };
     const auto velocity = [&](std::size_t i, bool leaving) -> glm::dvec2 {
-        // At the axis the neighbour is the mirrored one: the surface is smooth across its pole.
+        // At the axis the neighbour is the mirror image: the surface is smooth across its pole.
         if (i == 0)
             return centripetal_velocity(glm::dvec2(-points[1].x, points[1].y), points[0],
                                         points[1]);
@@ -317,7 +322,7 @@ Outline Outline::unproven(const Silhouette& silhouette, const std::string& path)
 
 Outline::Outline(const Silhouette& silhouette, const std::string& path)
     : Outline(unproven(silhouette, path)) {
-    // Proof on a polyline finer than any that is swept.
+    // The proof uses a polyline finer than any that is swept.
     std::vector<glm::dvec2> polyline;
     std::vector<Place> owners;
     const auto refine = [&](const SubCurve& part, const char* name, std::size_t controls) {

@@ -14,9 +14,9 @@ namespace sporeprint {
 
 namespace {
 
-constexpr double at_an_end = 1e-9;  // of the whole morph
-constexpr double still_on_line =
-    1e-6;  // sine of the angle that rounding may give to three points on a line
+constexpr double end_tolerance = 1e-9;  // as a share of the whole morph
+constexpr double collinearity_tolerance =
+    1e-6;  // sine of the angle that rounding may give to three collinear points
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -35,7 +35,7 @@ bool touch(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const 
            ((cda <= 0.0 && cdb >= 0.0) || (cda >= 0.0 && cdb <= 0.0));
 }
 
-/// The vertices left when edges of no length are taken out, and which they were.
+/// The vertices left when edges of zero length are removed, with their original indices.
 struct Distinct {
     Polyline points;
     std::vector<std::size_t> owner;
@@ -49,7 +49,7 @@ struct Distinct {
     }
 };
 
-/// A point that moves evenly.
+/// A point that moves at constant velocity.
 struct Moving {
     glm::dvec2 at_0, by;
 
@@ -57,13 +57,13 @@ struct Moving {
     Moving operator-(const Moving& other) const { return {at_0 - other.at_0, by - other.by}; }
 };
 
-/// c0 + c1 t + c2 t^2
+/// The quadratic c0 + c1 t + c2 t^2.
 struct Quadratic {
     double c0, c1, c2;
 
     [[nodiscard]] bool is_zero() const { return c0 == 0.0 && c1 == 0.0 && c2 == 0.0; }
 
-    /// Whether its Bernstein coefficients have one sign: no root in [0, 1].
+    /// Returns true if its Bernstein coefficients have one sign, so that it has no root in [0, 1].
     [[nodiscard]] bool keeps_sign() const {
         const double middle = c0 + 0.5 * c1, end = c0 + c1 + c2;
         return (c0 > 0.0 && middle > 0.0 && end > 0.0) || (c0 < 0.0 && middle < 0.0 && end < 0.0);
@@ -88,9 +88,9 @@ Quadratic dot(const Moving& a, const Moving& b) {
             glm::dot(a.by, b.by)};
 }
 
-bool inside(double t) { return t > at_an_end && t < 1.0 - at_an_end; }
+bool inside(double t) { return t > end_tolerance && t < 1.0 - end_tolerance; }
 
-/// Earliest t strictly inside (0, 1) at which X is on the segment YZ; 2 if never.
+/// Returns the earliest t strictly inside (0, 1) at which X is on the segment YZ, or 2 if never.
 double first_touch(const Moving& x, const Moving& y, const Moving& z) {
     const Moving a = y - x, b = z - x;
     const Quadratic side = cross(a, b);
@@ -101,12 +101,13 @@ double first_touch(const Moving& x, const Moving& y, const Moving& z) {
         if (!inside(t) || t >= first) return;
         const glm::dvec2 to_y = a.at(t), to_z = b.at(t);
         const double scale = glm::dot(to_y, to_y) + glm::dot(to_z, to_z);
-        // Where a sub-curve shrinks to a point at t = 0 or 1 that is a double root, and rounding moves it inwards.
-        const bool on_line = std::abs(cross(to_y, to_z)) <= still_on_line * scale;
+        // Where a sub-curve shrinks to a point at t = 0 or 1 there is a double root, and rounding
+        // moves it inwards.
+        const bool on_line = std::abs(cross(to_y, to_z)) <= collinearity_tolerance * scale;
         if (on_line && glm::dot(to_y, to_z) <= 1e-12 * scale) first = t;
     };
     if (side.is_zero())
-        between.roots(consider);  // all on one line for ever
+        between.roots(consider);  // always collinear
     else
         side.roots(consider);
     return first;
@@ -126,8 +127,9 @@ struct Box {
     }
 };
 
-/// Which segments of some shapes come near each other: all but those that lie apart in one direction along an axis in every shape, and
-/// so in all their means. Far rows of segments are passed over at once.
+/// The pairs of segments of some shapes that are near each other: all except those that an
+/// axis-aligned direction separates in every shape, and so in all their means. Distant rows of
+/// segments are skipped as a whole.
 class Neighbours {
   public:
     explicit Neighbours(std::span<const std::span<const glm::dvec2>> shapes)
@@ -149,7 +151,8 @@ class Neighbours {
                 far_[i * rows_ + j] = apart(&of_rows_[i * shapes_], &of_rows_[j * shapes_]);
     }
 
-    /// The first segment from `j` on that comes near segment `i`; how many segments there are if none does.
+    /// Returns the first segment from `j` on that is near segment `i`, or the number of segments if
+    /// there is none.
     [[nodiscard]] std::size_t next(std::size_t i, std::size_t j) const {
         const Box* own = &of_segments_[i * shapes_];
         const auto far_row = [&](std::size_t other) {
@@ -183,13 +186,14 @@ class Neighbours {
 
     std::size_t shapes_, segments_, rows_;
     std::vector<Box> of_segments_, of_rows_;  // of shape s at [segment or row * shapes + s]
-    std::vector<std::uint8_t> far_;           // of row i and a later j at [i * rows + j]
+    std::vector<std::uint8_t> far_;           // of row i and a later row j at [i * rows + j]
 };
 
-/// The open half plane that holds all vectors seen so far, kept as the two that are furthest apart; exact up to rounding.
+/// The open half plane that holds all added vectors, stored as the two that are furthest apart;
+/// exact up to rounding.
 class HalfPlane {
   public:
-    /// False once the vectors do not fit in an open half plane. Vectors of no length fit everywhere.
+    /// Returns false once the vectors do not fit in an open half plane. Zero vectors always fit.
     bool add(const glm::dvec2& v) {
         if (v.x == 0.0 && v.y == 0.0) return true;
         if (empty_) {
@@ -199,7 +203,8 @@ class HalfPlane {
         }
         const double past_right = cross(right_, v), past_left = cross(left_, v);
         if (past_right >= 0.0 && past_left <= 0.0) {
-            // Inside the wedge, or opposite to it: opposite only if the wedge is closed to a ray.
+            // The vector is inside the wedge or opposite to it; it can be opposite only if the
+            // wedge is a single ray.
             return glm::dot(v, right_) > 0.0 || glm::dot(v, left_) > 0.0 ||
                    (past_right > 0.0 && past_left < 0.0);
         }
@@ -214,7 +219,7 @@ class HalfPlane {
         return false;
     }
 
-    /// A direction with which all vectors seen so far make a sharp angle, unless they are all in one line.
+    /// Returns a direction at an acute angle to all added vectors, unless they are all collinear.
     [[nodiscard]] glm::dvec2 direction() const { return {left_.y - right_.y, right_.x - left_.x}; }
 
   private:
@@ -222,23 +227,24 @@ class HalfPlane {
     bool empty_ = true;
 };
 
-/// What can be said of all weighted means of some polylines.
-class Means {
+/// Separation tests that hold for all weighted means of some polylines.
+class WeightedMeans {
   public:
-    explicit Means(std::span<const Polyline> shapes)
+    explicit WeightedMeans(std::span<const Polyline> shapes)
         : shapes_(shapes.begin(), shapes.end()), vertices_(shapes.front().size()) {
-        // The first and the last are the least alike, of a way they are its ends: what fails mostly fails with them.
+        // The first and the last shape (the ends of a path) differ most, so they are tested first:
+        // what fails mostly fails with them.
         std::swap(shapes_[shapes_.size() > 1 ? 1 : 0], shapes_.back());
     }
 
     [[nodiscard]] std::size_t vertices() const { return vertices_; }
 
-    /// The segments that no simple direction keeps apart; the others are certified.
+    /// Returns the segments that no axis-aligned direction separates; the others are certified.
     [[nodiscard]] Neighbours neighbours() const { return Neighbours(shapes_); }
 
-    [[nodiscard]] bool certified(const Doubt& doubt) const {
-        if (doubt.i == doubt.j) return beside_axis(doubt.i);
-        return doubt.j == doubt.i + 1 ? forwards(doubt.i) : apart(doubt.i, doubt.j);
+    [[nodiscard]] bool certified(const UnprovenPair& pair) const {
+        if (pair.i == pair.j) return beside_axis(pair.i);
+        return pair.j == pair.i + 1 ? forwards(pair.i) : apart(pair.i, pair.j);
     }
 
   private:
@@ -249,7 +255,7 @@ class Means {
         });
     }
 
-    /// Whether segment i + 1 never folds back on segment i.
+    /// Returns true if segment i + 1 never folds back on segment i.
     [[nodiscard]] bool forwards(std::size_t i) const {
         return fit_in_a_half_plane([&](std::size_t s, const auto& fits) {
                    const auto p = shapes_[s];
@@ -263,7 +269,7 @@ class Means {
                    const auto p = shapes_[s];
                    const auto differs = [&](std::size_t x, std::size_t y) {
                        const glm::dvec2 v = p[y] - p[x];
-                       return (v != glm::dvec2(0.0) || are_one(p, x, y)) && fits(v);
+                       return (v != glm::dvec2(0.0) || coincide(p, x, y)) && fits(v);
                    };
                    return differs(i, j) && differs(i + 1, j) && differs(i, j + 1) &&
                           differs(i + 1, j + 1);
@@ -271,10 +277,10 @@ class Means {
                line_between(i, j);
     }
 
-    /// Whether an open half plane holds some vectors of every shape. The direction that suits the first two shapes mostly suits all, and
-    /// is quickly tried.
+    /// Returns true if an open half plane holds some vectors of every shape. The direction found
+    /// for the first two shapes mostly fits all and is cheap to test.
     ///
-    /// all_fit  whether a test holds for all vectors of a shape
+    /// all_fit  returns true if a test holds for all vectors of a shape
     template <class AllFit>
     [[nodiscard]] bool fit_in_a_half_plane(const AllFit& all_fit) const {
         HalfPlane plane;
@@ -298,12 +304,13 @@ class Means {
         return r != 0 && r == side(j + 1, i, i + 1);
     }
 
-    /// Twice the area of X, Y, Z, the bilinear form of two shapes: its sign over all pairs of shapes, 0 if it has none.
+    /// Returns the sign of twice the area of X, Y, Z (bilinear in two shapes) over all pairs of
+    /// shapes, or 0 if signs differ.
     [[nodiscard]] int side(std::size_t x, std::size_t y, std::size_t z) const {
         int sign = 0;
         for (std::size_t s = 0; s < shapes_.size(); ++s) {
             const auto p = shapes_[s];
-            const auto meets = [&](std::size_t v) { return p[v] == p[x] && !are_one(p, x, v); };
+            const auto meets = [&](std::size_t v) { return p[v] == p[x] && !coincide(p, x, v); };
             if (meets(y) || meets(z)) return 0;
             const glm::dvec2 a = p[y] - p[x], b = p[z] - p[x];
             for (std::size_t t = s; t < shapes_.size(); ++t) {
@@ -311,7 +318,8 @@ class Means {
                 const glm::dvec2 c = q[y] - q[x], d = q[z] - q[x];
                 const double area = cross(a, d) + cross(c, b);
                 if (area == 0.0) {
-                    // Nothing to say where the same two points are one in both shapes: a sub-curve that both lack.
+                    // The pair says nothing where the same two points coincide in both shapes: a
+                    // sub-curve that both lack.
                     constexpr glm::dvec2 none(0.0);
                     if ((a == b && c == d) || (a == none && (b == none || c == none)) ||
                         (d == none && (c == none || b == none)))
@@ -326,8 +334,10 @@ class Means {
         return sign;
     }
 
-    /// Whether two vertices are one because all edges between them have no length: a sub-curve that is a point. Others must not meet.
-    [[nodiscard]] static bool are_one(std::span<const glm::dvec2> p, std::size_t x, std::size_t y) {
+    /// Returns true if two vertices coincide because all edges between them have zero length (a
+    /// sub-curve that is a point). Other vertices must not coincide.
+    [[nodiscard]] static bool coincide(std::span<const glm::dvec2> p, std::size_t x,
+                                       std::size_t y) {
         const auto [from, to] = std::minmax(x, y);
         return std::all_of(p.begin() + static_cast<std::ptrdiff_t>(from),
                            p.begin() + static_cast<std::ptrdiff_t>(to) + 1,
@@ -338,18 +348,21 @@ class Means {
     std::size_t vertices_;
 };
 
-/// Visits what is not certified, in order: the axis, then each segment with those after it; until `visit` wants no more.
+/// Visits what is not certified, in order: the axis, then each segment with those after it; stops
+/// when `visit` returns false.
 template <class Visit>
-void each_doubt(const Means& means, const Visit& visit) {
+void visit_unproven_pairs(const WeightedMeans& means, const Visit& visit) {
     const std::size_t n = means.vertices();
-    const auto goes_on = [&](const Doubt& doubt) { return means.certified(doubt) || visit(doubt); };
+    const auto proceed = [&](const UnprovenPair& pair) {
+        return means.certified(pair) || visit(pair);
+    };
     for (std::size_t i = 0; i < n; ++i)
-        if (!goes_on({i, i})) return;
+        if (!proceed({i, i})) return;
     const Neighbours neighbours = means.neighbours();
     for (std::size_t i = 0; i + 1 < n; ++i) {
-        if (i + 2 < n && !goes_on({i, i + 1})) return;
+        if (i + 2 < n && !proceed({i, i + 1})) return;
         for (std::size_t j = neighbours.next(i, i + 2); j + 1 < n; j = neighbours.next(i, j + 1))
-            if (!goes_on({i, j})) return;
+            if (!proceed({i, j})) return;
     }
 }
 
@@ -364,46 +377,48 @@ std::optional<std::array<std::size_t, 2>> first_crossing(std::span<const glm::dv
     return std::nullopt;
 }
 
-std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline) {
+std::optional<Intersection> static_intersection(std::span<const glm::dvec2> polyline) {
     const Distinct distinct(polyline);
     const auto& p = distinct.points;
     for (std::size_t i = 0; i < p.size(); ++i) {
         const bool end = i == 0 || i + 1 == p.size();
         if (end ? p[i].x < 0.0 : p[i].x <= 0.0)
-            return Contact{0.0, distinct.owner[i], distinct.owner[i]};
+            return Intersection{0.0, distinct.owner[i], distinct.owner[i]};
     }
     for (std::size_t i = 0; i + 2 < p.size(); ++i) {
         const glm::dvec2 in = p[i + 1] - p[i], out = p[i + 2] - p[i + 1];
         if (cross(in, out) == 0.0 && glm::dot(in, out) < 0.0)
-            return Contact{0.0, distinct.owner[i + 1] - 1, distinct.owner[i + 1]};
+            return Intersection{0.0, distinct.owner[i + 1] - 1, distinct.owner[i + 1]};
     }
     if (const auto pair = first_crossing(p))
-        return Contact{0.0, distinct.owner[(*pair)[0]], distinct.owner[(*pair)[1]]};
+        return Intersection{0.0, distinct.owner[(*pair)[0]], distinct.owner[(*pair)[1]]};
     return std::nullopt;
 }
 
-std::optional<Contact> first_contact(std::span<const glm::dvec2> a, std::span<const glm::dvec2> b) {
+std::optional<Intersection> first_intersection(std::span<const glm::dvec2> a,
+                                               std::span<const glm::dvec2> b) {
     assert(a.size() == b.size() && a.size() >= 2);
-    if (auto at_0 = contact_at_rest(a)) return at_0;
-    if (auto moving = contact_on_the_way(a, b)) return moving;
-    if (auto at_1 = contact_at_rest(b)) {
+    if (auto at_0 = static_intersection(a)) return at_0;
+    if (auto moving = intersection_between(a, b)) return moving;
+    if (auto at_1 = static_intersection(b)) {
         at_1->t = 1.0;
         return at_1;
     }
     return std::nullopt;
 }
 
-std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
-                                          std::span<const glm::dvec2> b) {
+std::optional<Intersection> intersection_between(std::span<const glm::dvec2> a,
+                                                 std::span<const glm::dvec2> b) {
     const std::size_t n = a.size();
     std::vector<Moving> points(n);
     for (std::size_t i = 0; i < n; ++i) points[i] = {a[i], b[i] - a[i]};
     const std::array<std::span<const glm::dvec2>, 2> ends = {a, b};
     const Neighbours neighbours(ends);
-    // Between t = 0 and 1 r is positive as soon as it is at one of them, and not negative at the other.
-    std::optional<Contact> first;
+    // For t strictly between 0 and 1 r is positive if it is positive at one end and not negative at
+    // the other.
+    std::optional<Intersection> first;
     const auto consider = [&](double t, std::size_t i, std::size_t j) {
-        if (t <= 1.0 && (!first || t < first->t)) first = Contact{t, i, j};
+        if (t <= 1.0 && (!first || t < first->t)) first = Intersection{t, i, j};
     };
     for (std::size_t i = 0; i + 2 < n; ++i) {
         const Moving in = points[i + 1] - points[i], out = points[i + 2] - points[i + 1];
@@ -411,7 +426,8 @@ std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
         const auto folds = [&](double t) {
             if (!inside(t)) return;
             const glm::dvec2 u = in.at(t), v = out.at(t);
-            if (std::abs(cross(u, v)) <= -still_on_line * glm::dot(u, v)) consider(t, i, i + 1);
+            if (std::abs(cross(u, v)) <= -collinearity_tolerance * glm::dot(u, v))
+                consider(t, i, i + 1);
         };
         if (turn.is_zero())
             dot(in, out).roots(folds);
@@ -421,7 +437,7 @@ std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
     for (std::size_t i = 0; i + 1 < n; ++i)
         for (std::size_t j = neighbours.next(i, i + 2); j + 1 < n; j = neighbours.next(i, j + 1)) {
             HalfPlane
-                differences;  // a direction that keeps them apart at both ends does so all the way
+                differences;  // a direction that separates them at both ends does so for all t
             bool apart = true;
             for (const auto& line : {a, b})
                 apart = apart && differences.add(line[j] - line[i]) &&
@@ -438,31 +454,32 @@ std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
     return first;
 }
 
-std::optional<Doubt> first_doubt(std::span<const Polyline> shapes) {
+std::optional<UnprovenPair> first_unproven_pair(std::span<const Polyline> shapes) {
     assert(!shapes.empty());
-    std::optional<Doubt> first;
-    each_doubt(Means(shapes), [&](const Doubt& doubt) {
-        first = doubt;
+    std::optional<UnprovenPair> first;
+    visit_unproven_pairs(WeightedMeans(shapes), [&](const UnprovenPair& pair) {
+        first = pair;
         return false;
     });
     return first;
 }
 
-std::vector<Doubt> doubts(std::span<const Polyline> shapes) {
+std::vector<UnprovenPair> unproven_pairs(std::span<const Polyline> shapes) {
     assert(!shapes.empty());
-    std::vector<Doubt> all;
-    each_doubt(Means(shapes), [&](const Doubt& doubt) {
-        all.push_back(doubt);
+    std::vector<UnprovenPair> all;
+    visit_unproven_pairs(WeightedMeans(shapes), [&](const UnprovenPair& pair) {
+        all.push_back(pair);
         return true;
     });
     return all;
 }
 
-std::vector<Doubt> doubts(std::span<const Polyline> shapes, std::span<const Doubt> among) {
-    const Means means(shapes);
-    std::vector<Doubt> left;
+std::vector<UnprovenPair> unproven_pairs(std::span<const Polyline> shapes,
+                                         std::span<const UnprovenPair> among) {
+    const WeightedMeans means(shapes);
+    std::vector<UnprovenPair> left;
     std::copy_if(among.begin(), among.end(), std::back_inserter(left),
-                 [&](const Doubt& doubt) { return !means.certified(doubt); });
+                 [&](const UnprovenPair& pair) { return !means.certified(pair); });
     return left;
 }
 

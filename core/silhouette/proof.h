@@ -1,4 +1,5 @@
-// Proofs that a morphing polyline never touches itself: exactly between two shapes for every moment, and for all weighted means of many shapes.
+// Proofs that a morphing polyline never self-intersects: exact for all moments between two shapes,
+// and by certificates for all weighted means of many shapes.
 #pragma once
 
 #include <array>
@@ -16,7 +17,7 @@ namespace sporeprint {
 /// The polyline of an outline, base to apex, (r, y).
 using Polyline = std::vector<glm::dvec2>;
 
-/// How it is known that an outline is simple.
+/// The method by which an outline is known to be simple.
 enum class ProofMethod : std::uint8_t { exact, certificate, checked };
 
 constexpr const char* name(ProofMethod method) {
@@ -31,59 +32,68 @@ constexpr const char* name(ProofMethod method) {
     return nullptr;
 }
 
-/// A moment at which segments i and j (from vertex i to i + 1) of a moving polyline touch, t in [0, 1];
-/// j = i + 1 where the polyline folds back on itself, j = i where vertex i is on the wrong side of the axis.
-struct Contact {
+/// A moment t in [0, 1] at which segments i and j (from vertex i to i + 1) of a moving polyline
+/// touch; j = i + 1 where the polyline folds back on itself, j = i where vertex i is on the wrong
+/// side of the axis.
+struct Intersection {
     double t = 0.0;
     std::size_t i = 0, j = 0;
-    bool operator==(const Contact&) const = default;
+    bool operator==(const Intersection&) const = default;
 };
 
-/// Where a polyline at rest touches itself, folds back, or leaves r >= 0 (r > 0 between its ends); its t is 0. Edges of no length are
-/// skipped: a sub-curve may be a point.
-[[nodiscard]] std::optional<Contact> contact_at_rest(std::span<const glm::dvec2> polyline);
+/// Returns the place where a static polyline touches itself, folds back, or leaves r >= 0 (r > 0
+/// between its ends), with t = 0. Edges of zero length are skipped: a sub-curve may be a point.
+[[nodiscard]] std::optional<Intersection> static_intersection(std::span<const glm::dvec2> polyline);
 
-/// The first moment at which the polyline (1 - t) a + t b touches itself, folds back, or leaves r >= 0 (r > 0 between its ends).
-/// Edges of no length are skipped at the moments when they have none: a sub-curve may shrink to a point there, at t = 0 or 1.
+/// Returns the first moment at which the polyline (1 - t) a + t b touches itself, folds back, or
+/// leaves r >= 0 (r > 0 between its ends). Edges are skipped at the moments when their length is
+/// zero: a sub-curve may shrink to a point at t = 0 or 1.
 ///
 /// a, b     equally many vertices, at least 2
-/// returns  none: simple for every t in [0, 1]. Roots nearer than 1e-9 to t = 0 or 1 belong to a and b themselves, which are checked apart
+/// returns  none if simple for every t in [0, 1]. Roots nearer than 1e-9 to t = 0 or 1 belong to a
+///          and b themselves, which are checked separately
 /// cost     O(n^2), boxes first; 0.01 ms for 70 vertices
-/// source   orientation of three linearly moving points is a quadratic in t; the first touch of two segments is one of four roots
-[[nodiscard]] std::optional<Contact> first_contact(std::span<const glm::dvec2> a,
-                                                   std::span<const glm::dvec2> b);
+/// source   orientation of three linearly moving points is a quadratic in t; the first touch of two
+///          segments is one of four roots
+[[nodiscard]] std::optional<Intersection> first_intersection(std::span<const glm::dvec2> a,
+                                                             std::span<const glm::dvec2> b);
 
-/// The same where a and b are known to be simple: what happens strictly between them.
-[[nodiscard]] std::optional<Contact> contact_on_the_way(std::span<const glm::dvec2> a,
-                                                        std::span<const glm::dvec2> b);
+/// Returns the first such moment strictly between a and b, where both are known to be simple.
+[[nodiscard]] std::optional<Intersection> intersection_between(std::span<const glm::dvec2> a,
+                                                               std::span<const glm::dvec2> b);
 
-/// Why a set of polylines is not certified: segments i and j have no common line between them; j = i + 1 where they may fold back
-/// on each other, j = i where vertex i may leave the right side of the axis.
-struct Doubt {
+/// A pair of segments for which a set of polylines is not certified: i and j have no common
+/// separating line; j = i + 1 where they may fold back on each other, j = i where vertex i may
+/// leave the right side of the axis.
+struct UnprovenPair {
     std::size_t i = 0, j = 0;
-    bool operator==(const Doubt&) const = default;
+    bool operator==(const UnprovenPair&) const = default;
 };
 
-/// Whether every weighted mean of the polylines is known to be simple with r >= 0. What is proven holds; what is not may still be true.
-/// A pair of segments is kept apart by a direction d with d.(p - q) > 0 for all their points in all shapes (then also in all means),
-/// or by the line through one of them: its sides, bilinear in the weights, have one sign for every pair of shapes.
+/// Tries to prove that every weighted mean of the polylines is simple with r >= 0. The test is
+/// sufficient, not necessary. A pair of segments is separated by a direction d with d.(p - q) > 0
+/// for all their points in all shapes (hence also in all means), or by the line through one of
+/// them: its sides, bilinear in the weights, have one sign for every pair of shapes.
 ///
 /// shapes   at least one, equally many vertices
-/// returns  none if certified
+/// returns  the first pair that is not proven, none if certified
 /// cost     O(n^2 shapes), where lines are needed O(shapes^2) more for the pair
-/// source   both are linear certificates: convex combinations keep what holds for all corners
-[[nodiscard]] std::optional<Doubt> first_doubt(std::span<const Polyline> shapes);
+/// source   both are linear certificates: convex combinations preserve what holds for all corners
+[[nodiscard]] std::optional<UnprovenPair> first_unproven_pair(std::span<const Polyline> shapes);
 
-/// All that first_doubt() might tell, in its order: the axis first.
-[[nodiscard]] std::vector<Doubt> doubts(std::span<const Polyline> shapes);
+/// Returns all unproven pairs in the order of first_unproven_pair(): the axis first.
+[[nodiscard]] std::vector<UnprovenPair> unproven_pairs(std::span<const Polyline> shapes);
 
-/// Those of some doubts that these polylines do not dispel either: all that are left where each polyline is a weighted mean of others
-/// whose doubts they were, for what holds for all means of those holds for these.
-[[nodiscard]] std::vector<Doubt> doubts(std::span<const Polyline> shapes,
-                                        std::span<const Doubt> among);
+/// Returns those of the pairs `among` that stay unproven for these polylines. They are all that are
+/// unproven if each polyline is a weighted mean of others whose unproven pairs are `among`, because
+/// what holds for all means of those holds for these.
+[[nodiscard]] std::vector<UnprovenPair> unproven_pairs(std::span<const Polyline> shapes,
+                                                       std::span<const UnprovenPair> among);
 
-/// First pair of segments of a polyline that touch without being neighbours; none if it is simple.
-/// Exact for the given coordinates up to rounding of one orientation test. cost O(n^2), boxes first
+/// Returns the first pair of non-adjacent segments of a polyline that touch, or none if it is
+/// simple. The result is exact for the given coordinates up to rounding of one orientation test.
+///
+/// cost  O(n^2), boxes first
 [[nodiscard]] std::optional<std::array<std::size_t, 2>> first_crossing(
     std::span<const glm::dvec2> polyline);
 

@@ -4,19 +4,19 @@ namespace sporeprint {
 
 namespace {
 
-constexpr double corner_width = 0.003;  // a weight of so much counts half
+constexpr double corner_width = 0.003;  // this weight counts half
 
 }  // namespace
 
 std::vector<double> eased_weights(std::vector<double> weights) {
-    double given = 0.0, eased = 0.0;
-    for (const double weight : weights) given += weight;
+    double sum = 0.0, eased_sum = 0.0;
+    for (const double weight : weights) sum += weight;
     for (double& weight : weights) {
-        const double share = weight / given;
+        const double share = weight / sum;
         weight = share * share / (share + corner_width);
-        eased += weight;
+        eased_sum += weight;
     }
-    for (double& weight : weights) weight /= eased;
+    for (double& weight : weights) weight /= eased_sum;
     return weights;
 }
 

@@ -20,13 +20,14 @@ using namespace sporeprint;
 /// The control shapes of some species, each divided by the height of its mature stage.
 std::vector<ControlShape> shapes_of(const std::vector<std::string>& ids, const Atlas& atlas) {
     std::vector<ControlShape> shapes;
-    for (std::size_t kin = 0; kin < ids.size(); ++kin) {
-        const Species& species = atlas.find(ids[kin])->species;
+    for (std::size_t species_index = 0; species_index < ids.size(); ++species_index) {
+        const Species& species = atlas.find(ids[species_index])->species;
         double size = 0.0;
         for (const Stage& stage : species.stages)
             if (stage.age <= 0.6) size = std::get<Swept>(stage.model.shape).silhouette.cap.back().y;
         for (const Stage& stage : species.stages)
-            shapes.push_back({std::get<Swept>(stage.model.shape).silhouette, size, kin, stage.age});
+            shapes.push_back(
+                {std::get<Swept>(stage.model.shape).silhouette, size, species_index, stage.age});
     }
     return shapes;
 }

@@ -1,5 +1,5 @@
 // Control shapes of strangers: whatever silhouettes pass their check, a set of them is refused with a reason, or none of its mixes
-// crosses itself at any level of detail, and what a certificate says of a way is so.
+// crosses itself at any level of detail, and what a certificate says of a path is so.
 
 #include <algorithm>
 #include <array>
@@ -50,8 +50,8 @@ class Numbers {
 /// Up to four species of up to four stages; empty when a silhouette is refused.
 std::vector<ControlShape> shapes_from(Numbers& in) {
     std::vector<ControlShape> shapes;
-    const std::size_t kins = 1 + in.byte() % 4;
-    for (std::size_t kin = 0; kin < kins; ++kin) {
+    const std::size_t species_count = 1 + in.byte() % 4;
+    for (std::size_t species_index = 0; species_index < species_count; ++species_index) {
         const std::size_t joins = in.byte(), stages = 1 + in.byte() % 4;
         const std::array<std::size_t, 3> counts = {2 + in.byte() % 15, in.byte() % 16,
                                                    2 + in.byte() % 15};
@@ -76,7 +76,7 @@ std::vector<ControlShape> shapes_from(Numbers& in) {
             double size = 0.0;
             for (const auto* part : {&s.stem, &s.hymenium, &s.cap})
                 for (const OutlinePoint& p : *part) size = std::max({size, p.r, p.y});
-            shapes.push_back({std::move(s), std::max(size, 1e-3), kin, age});
+            shapes.push_back({std::move(s), std::max(size, 1e-3), species_index, age});
         }
     }
     return shapes;
@@ -100,7 +100,7 @@ void expect_simple(const MorphSet& set, const std::vector<double>& weights, cons
         for (const glm::dvec2& p : line)
             expect(std::isfinite(p.x) && std::isfinite(p.y) && p.x >= 0.0,
                    "points are finite and on their side of the axis");
-        expect(!contact_at_rest(line), promise);
+        expect(!static_intersection(line), promise);
     }
 }
 
@@ -111,7 +111,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<ControlShape> shapes = shapes_from(in);
     if (shapes.empty()) return 0;
     std::vector<Arc> arcs;
-    if (shapes.back().kin == 1)
+    if (shapes.back().species_index == 1)
         for (std::size_t left = in.byte() % 5; left > 0; --left)
             arcs.push_back({curve_names[in.byte() % 3], in.share(), in.share()});
     const double arcs_age = in.share();
@@ -119,19 +119,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const MorphSet set(shapes, arcs, arcs_age);
         const auto first = weights_from(in, set.size()), second = weights_from(in, set.size());
         expect_simple(set, first, "no mix that is served crosses itself");
-        const Certificate way = set.certificate(first, second);
+        const Certificate path = set.certificate(first, second);
         for (int i = 0; i <= 8; ++i) {
             std::vector<double> between(set.size());
             for (std::size_t k = 0; k < between.size(); ++k)
                 between[k] = first[k] + (second[k] - first[k]) * i / 8.0;
-            expect_simple(set, between, "no mix on the way crosses itself");
+            expect_simple(set, between, "no mix on the path crosses itself");
         }
-        expect(way.detour >= 0.0 && way.detour <= 1.0, "a detour is a share");
+        expect(path.detour >= 0.0 && path.detour <= 1.0, "a detour is a share");
         const Certificate whole = set.certificate();
         expect(whole.detour >= 0.0 && whole.detour <= 1.0, "a detour is a share");
         const std::vector<double> grown = set.growth_weights(arcs_age);
         expect(grown.size() == set.size(), "every shape has its growth");
-        if (shapes.back().kin == 1)
+        if (shapes.back().species_index == 1)
             for (const Arc& arc : set.arcs(arcs_age, 8))
                 expect(arc.a >= 0.0 && arc.a <= 1.0 && arc.b >= 0.0 && arc.b <= 1.0,
                        "arcs are shares");

@@ -28,11 +28,11 @@ std::shared_ptr<const MorphSet> set_of(const std::vector<std::string>& ids) {
 std::vector<double> weights_of(const MorphSet& set, const std::vector<std::string>& ids,
                                const std::vector<double>& shares, const std::vector<double>& ages) {
     std::vector<double> weights;
-    for (std::size_t kin = 0; kin < ids.size(); ++kin) {
-        const std::size_t count = atlas().find(ids[kin])->species.stages.size();
-        const std::vector<double> growth = set.growth_weights(ages[kin]);
+    for (std::size_t species_index = 0; species_index < ids.size(); ++species_index) {
+        const std::size_t count = atlas().find(ids[species_index])->species.stages.size();
+        const std::vector<double> growth = set.growth_weights(ages[species_index]);
         for (std::size_t i = weights.size(), end = i + count; i < end; ++i)
-            weights.push_back(shares[kin] * growth[i]);
+            weights.push_back(shares[species_index] * growth[i]);
     }
     return weights;
 }
@@ -44,7 +44,7 @@ std::string fault_of(const MorphSet& set, const std::vector<double>& weights) {
         const Polyline line = polyline(outline, lod);
         for (const glm::dvec2& p : line)
             if (!(p.x >= 0.0)) return "r < 0 at lod " + std::to_string(lod);
-        if (const auto contact = contact_at_rest(line))
+        if (const auto contact = static_intersection(line))
             return "segments " + std::to_string(contact->i) + " and " + std::to_string(contact->j) +
                    " touch at lod " + std::to_string(lod);
     }

@@ -41,7 +41,7 @@ bool is_a_step(const Link& step) {
     return std::find(link_steps.begin(), link_steps.end(), step) != link_steps.end();
 }
 
-/// The least work of all monotone chains, one after another.
+/// Returns the least work over all monotone chains by enumeration.
 double least_by_enumeration(const Edges& a, const Edges& b, const BlendWork& work) {
     const int n = static_cast<int>(a.directions.size());
     double least = std::numeric_limits<double>::infinity();
@@ -106,7 +106,7 @@ TEST(Correspondence, SwappingTheCurvesSwapsTheLinks) {
     }
 }
 
-TEST(Correspondence, ACurveCorrespondsToItselfPlaceByPlace) {
+TEST(Correspondence, ACurveCorrespondsToItselfPointByPoint) {
     Random random(8, 0);
     const Edges a = random_edges(random, 30);
     for (const Link& link : least_work_links(a, a)) EXPECT_EQ(link.a, link.b);
@@ -116,24 +116,24 @@ TEST(Correspondence, ACurveCorrespondsToItselfPlaceByPlace) {
     for (int i = 0; i <= 100; ++i) EXPECT_NEAR(map(i / 100.0).at, i / 100.0, 1e-12);
 }
 
-/// A curve of length 1 that turns by an angle, radians, at one place.
+/// Returns a curve of length 1 that turns by an angle, radians, at one place.
 SubCurve bent_at(double share, double angle) {
     const auto [s, c] = sine_cosine(angle);
     const glm::dvec2 before(share, 0.0), after = (1.0 - share) * glm::dvec2(c, s);
     return SubCurve({{{0.0, 0.0}, before, before, before}, {before, before + after, after, after}});
 }
 
-TEST(Correspondence, FeaturesMeetFeatures) {
+TEST(Correspondence, FeaturesAreMatchedToFeatures) {
     for (const double angle : {1.0, 1.4, -2.0}) {
         const SubCurve one = bent_at(0.4, angle), two = bent_at(0.55, angle);
         EXPECT_NEAR(correspondence(one, two)(0.4).at, 0.55, 0.03) << angle;
         EXPECT_NEAR(correspondence(two, one)(0.55).at, 0.4, 0.03) << angle;
     }
-    // Not at any price: what hardly turns stays where it is, nearly.
+    // The gain has to exceed the work: a slight turn nearly stays where it is.
     EXPECT_NEAR(correspondence(bent_at(0.3, 0.3), bent_at(0.7, 0.3))(0.3).at, 0.3, 0.06);
 }
 
-TEST(Correspondence, WhereNothingIsGainedTheMatchGoesByLength) {
+TEST(Correspondence, WithoutGainTheMatchIsByArcLength) {
     const auto arc = [](double radius, double from, double to) {
         std::vector<SplineSegment<glm::dvec2>> segments;
         for (int i = 0; i < 40; ++i) {
@@ -154,7 +154,7 @@ TEST(Correspondence, WhereNothingIsGainedTheMatchGoesByLength) {
     for (int i = 0; i <= 100; ++i) EXPECT_NEAR(same(i / 100.0).at, i / 100.0, 1e-12);
 }
 
-TEST(Correspondence, SizePlaysNoRole) {
+TEST(Correspondence, IsInvariantToScale) {
     Silhouette small = silhouette_of(swept_atlas().entries().front().species.stages.back().model);
     Silhouette large = small;
     for (auto* part : {&large.stem, &large.hymenium, &large.cap})
@@ -165,7 +165,7 @@ TEST(Correspondence, SizePlaysNoRole) {
     for (int i = 0; i <= 100; ++i) EXPECT_NEAR(a(i / 100.0).at, b(i / 100.0).at, 1e-9);
 }
 
-TEST(Correspondence, MapsRiseWithBoundedSlopes) {
+TEST(Correspondence, MapsAreMonotoneWithBoundedSlopes) {
     for (const AtlasEntry& one : swept_atlas().entries())
         for (const AtlasEntry& two : swept_atlas().entries()) {
             const Outline a(silhouette_of(one.species.stages.back().model));
@@ -192,7 +192,7 @@ TEST(Correspondence, MapsRiseWithBoundedSlopes) {
         }
 }
 
-TEST(Correspondence, LandmarksAreKept) {
+TEST(Correspondence, LandmarksAreInterpolated) {
     const Outline a(silhouette_of(swept_atlas().entries()[0].species.stages.back().model));
     const Outline b(silhouette_of(swept_atlas().entries()[1].species.stages.back().model));
     const std::vector<Landmark> landmarks{{0.2, 0.4}, {0.5, 0.45}, {0.51, 0.9}};
@@ -205,7 +205,7 @@ TEST(Correspondence, LandmarksAreKept) {
     }
 }
 
-TEST(ShareMap, DerivativeIsContinuousAndTrue) {
+TEST(ShareMap, DerivativeIsContinuousAndCorrect) {
     const ShareMap map({0.0, 0.2, 0.3, 0.8, 1.0}, {0.0, 0.05, 0.35, 0.5, 1.0});
     constexpr double h = 1e-6;
     for (int i = 1; i < 400; ++i) {

@@ -9,7 +9,7 @@
 namespace sporeprint {
 namespace {
 
-/// A stem and a cap from one height to another, straight.
+/// Returns a straight stem and cap from one height to another.
 OutlineNodes straight(double from, double to) {
     const double turn = 0.6 * from + 0.4 * to;
     OutlineNodes nodes;
@@ -18,18 +18,20 @@ OutlineNodes straight(double from, double to) {
     return nodes;
 }
 
-TEST(Bud, LiesOnOneSideOfTheAxisWhicheverWayItsShapesGo) {
+TEST(IntermediateShape, LiesOnOneSideOfTheAxisForShapesOfEitherDirection) {
     for (const double to : {1.0, 0.2, 1e-9, 0.0, -0.2, -1.0}) {
-        const OutlineNodes bud = bud_of({straight(0.0, to)});
+        const OutlineNodes intermediate = intermediate_shape({straight(0.0, to)});
         for (const CurveName curve : {CurveName::stem, CurveName::cap})
-            for (const OutlineNode& node : bud.of(curve)) {
-                const bool pole = &node == &bud.stem.front() || &node == &bud.cap.back();
+            for (const OutlineNode& node : intermediate.of(curve)) {
+                const bool pole =
+                    &node == &intermediate.stem.front() || &node == &intermediate.cap.back();
                 EXPECT_EQ(node.position.x > 0.0, !pole) << to;
             }
-        const double rise = bud.cap.back().position.y - bud.stem.front().position.y;
+        const double rise =
+            intermediate.cap.back().position.y - intermediate.stem.front().position.y;
         EXPECT_GE(std::abs(rise), 0.01 - 1e-12);
         if (to != 0.0) {
-            EXPECT_GT(rise * to, 0.0) << "a bud stands or hangs as its shapes do";
+            EXPECT_GT(rise * to, 0.0) << "a intermediate stands or hangs as its shapes do";
         }
     }
 }

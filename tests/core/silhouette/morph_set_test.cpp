@@ -25,18 +25,18 @@ double greatest(const Silhouette& s) {
     return most;
 }
 
-/// The control shapes of one species, of about unit size when mature.
-std::vector<ControlShape> shapes_of(const AtlasEntry& entry, std::size_t kin) {
+/// Returns the control shapes of one species, of about unit size when mature.
+std::vector<ControlShape> shapes_of(const AtlasEntry& entry, std::size_t species_index) {
     std::vector<ControlShape> shapes;
     double size = 1.0;
     for (const Stage& stage : entry.species.stages)
         if (stage.age == 0.6) size = greatest(silhouette_of(stage.model));
     for (const Stage& stage : entry.species.stages)
-        shapes.push_back({silhouette_of(stage.model), size, kin, stage.age});
+        shapes.push_back({silhouette_of(stage.model), size, species_index, stage.age});
     return shapes;
 }
 
-/// Where a species stands in the atlas.
+/// Returns the index of a species in the atlas.
 std::size_t place_of(std::string_view id) {
     std::size_t place = 0;
     while (swept_atlas().entries().at(place).species.id.view() != id) ++place;
@@ -50,7 +50,7 @@ const std::size_t fly_agaric = place_of("amanita_muscaria"), cep = place_of("bol
                   bonnet = place_of("mycena_sanguinolenta"),
                   brittlegill = place_of("russula_vinosa");
 
-/// Pairs of places in the atlas; all of them when `most` is as many.
+/// Returns pairs of indices in the atlas, at most `most`.
 std::vector<std::array<std::size_t, 2>> some_pairs(std::size_t most) {
     std::vector<std::array<std::size_t, 2>> pairs;
     for (const auto& [a, b] : some_species_pairs(most)) pairs.push_back({place_of(a), place_of(b)});
@@ -60,9 +60,9 @@ std::vector<std::array<std::size_t, 2>> some_pairs(std::size_t most) {
 MorphSet set_of(std::initializer_list<std::size_t> species, std::span<const Arc> arcs = {},
                 double arcs_age = 0.6) {
     std::vector<ControlShape> shapes;
-    std::size_t kin = 0;
+    std::size_t species_index = 0;
     for (const std::size_t s : species) {
-        const auto own = shapes_of(swept_atlas().entries()[s], kin++);
+        const auto own = shapes_of(swept_atlas().entries()[s], species_index++);
         shapes.insert(shapes.end(), own.begin(), own.end());
     }
     return MorphSet(std::move(shapes), arcs, arcs_age);
@@ -74,20 +74,21 @@ std::vector<double> only(const MorphSet& set, std::size_t shape) {
     return weights;
 }
 
-/// Growth weights at an age times a share of each species.
-std::vector<double> mix_of(const MorphSet& set, const std::vector<std::size_t>& kins,
+/// Returns the growth weights at an age times the weight of each species.
+std::vector<double> mix_of(const MorphSet& set, const std::vector<std::size_t>& indices,
                            const std::vector<double>& shares, double age) {
     std::vector<double> weights = set.growth_weights(age);
-    for (std::size_t s = 0; s < weights.size(); ++s) weights[s] *= shares[kins[s]];
+    for (std::size_t s = 0; s < weights.size(); ++s) weights[s] *= shares[indices[s]];
     return weights;
 }
 
-std::vector<std::size_t> kins_of(std::initializer_list<std::size_t> species) {
-    std::vector<std::size_t> kins;
-    std::size_t kin = 0;
+std::vector<std::size_t> indices_of(std::initializer_list<std::size_t> species) {
+    std::vector<std::size_t> indices;
+    std::size_t species_index = 0;
     for (const std::size_t s : species)
-        kins.insert(kins.end(), swept_atlas().entries()[s].species.stages.size(), kin++);
-    return kins;
+        indices.insert(indices.end(), swept_atlas().entries()[s].species.stages.size(),
+                       species_index++);
+    return indices;
 }
 
 double distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
@@ -97,7 +98,7 @@ double distance(const glm::dvec2& p, const glm::dvec2& a, const glm::dvec2& b) {
     return glm::distance(p, a + t * along);
 }
 
-/// Greatest distance of a point of one polyline from the other.
+/// Returns the greatest distance of a point of one polyline from the other.
 double deviation(const Polyline& from, const Polyline& to) {
     double worst = 0.0;
     for (std::size_t i = 0; i + 1 < from.size(); ++i)
@@ -132,7 +133,7 @@ double diagonal(const Polyline& line) {
                 return ::testing::AssertionFailure() << "r = " << line[i].x << ", LOD " << lod;
         if (line.front().x != 0.0 || line.back().x != 0.0)
             return ::testing::AssertionFailure() << "off the axis";
-        Polyline distinct = line;  // a missing hymenium is a point, and no crossing
+        Polyline distinct = line;  // a missing hymenium is a point, not a crossing
         distinct.erase(std::unique(distinct.begin(), distinct.end()), distinct.end());
         if (const auto pair = first_crossing(distinct))
             return ::testing::AssertionFailure()
@@ -221,7 +222,7 @@ TEST(MorphSet, AMissingHymeniumIsAPoint) {
 }
 
 TEST(MorphSet, SmoothJoinsStaySmoothInEveryMix) {
-    // Margins of these are smooth in every stage.
+    // The margins of these are smooth in every stage.
     const MorphSet set = set_of({fly_agaric, cep, ink_cap});
     for (std::size_t other = 1; other < set.size(); ++other)
         for (const double t : {0.0, 0.3, 0.7}) {
@@ -235,12 +236,12 @@ TEST(MorphSet, SmoothJoinsStaySmoothInEveryMix) {
         }
 }
 
-TEST(MorphSet, ArcsAreReadBackWhereTheyBind) {
+TEST(MorphSet, ArcsAreReproducedAtTheirAge) {
     const std::vector<Arc> arcs{{CurveName::cap, 0.3, 0.5}, {CurveName::stem, 0.7, 0.6}};
     for (const double age : {0.0, 0.45, 0.6, 1.0}) {
         const MorphSet set = set_of({fly_agaric, cep}, arcs, age);
         for (const Arc& arc : arcs) {
-            // A fine row of links between the two outlines at this age passes through the arc.
+            // A dense row of links between the two outlines at this age passes through the arc.
             double nearest = 1.0;
             for (const Arc& link : set.arcs(age, 2000))
                 if (link.curve == arc.curve)
@@ -268,7 +269,7 @@ TEST(MorphSet, CrossingArcsAreRefusedAndNamed) {
                       "exactly two"));
 }
 
-TEST(MorphSet, RingsSpendTheirChordsWell) {
+TEST(MorphSet, RingsApproximateTheOutlineWithSmallError) {
     for (const AtlasEntry& entry : swept_atlas().entries()) {
         const auto shapes = shapes_of(entry, 0);
         const MorphSet set(shapes);
@@ -280,14 +281,15 @@ TEST(MorphSet, RingsSpendTheirChordsWell) {
                     for (const OutlineSample& p : own.of(curve).sampled(1500))
                         truth.push_back(glm::dvec2(p.r, p.y) / shapes[s].size);
             const Polyline rings = polyline(Outline(set.nodes(only(set, s))), 0);
-            // One row of 72 rings serves all stages; 72 chords round a circle would be 0.05 % off.
+            // One row of 72 rings serves all stages; 72 chords round a circle would have an error
+            // of 0.05 %.
             EXPECT_LT(deviation(rings, truth), 1.2e-3 * diagonal(truth))
                 << entry.species.id.string() << " stage " << s;
         }
     }
 }
 
-// Growth at any two ages; pairs of species have a test of their own (PairOutlines).
+// This covers growth between any two ages; pairs of species have their own test (PairOutlines).
 TEST(MorphSet, EverySpeciesIsSimpleAtEveryMomentBetweenTwoAges) {
     constexpr std::array<double, 5> ages = {0.0, 0.25, 0.5, 0.75, 1.0};
     for (std::size_t a = 0; a < swept_atlas().entries().size(); ++a) {
@@ -302,16 +304,16 @@ TEST(MorphSet, EverySpeciesIsSimpleAtEveryMomentBetweenTwoAges) {
     }
 }
 
-TEST(MorphSet, HardlyAnyPairMakesADetourAndNoneIsOnlyChecked) {
+TEST(MorphSet, FewPairsNeedAnIndirectPathAndAllAreProven) {
     constexpr std::array<double, 3> ages = {0.0, 0.5, 1.0};
     std::size_t exact = 0, certified = 0;
     for (const auto& [a, b] : some_pairs(effort(105))) {
         const MorphSet set = set_of({a, b});
-        const auto kins = kins_of({a, b});
+        const auto indices = indices_of({a, b});
         for (const double age_a : ages)
             for (const double age_b : ages) {
-                const Certificate known = set.certificate(mix_of(set, kins, {1.0, 0.0}, age_a),
-                                                          mix_of(set, kins, {0.0, 1.0}, age_b));
+                const Certificate known = set.certificate(mix_of(set, indices, {1.0, 0.0}, age_a),
+                                                          mix_of(set, indices, {0.0, 1.0}, age_b));
                 EXPECT_NE(known.method, ProofMethod::checked) << a << " and " << b;
                 (known.method == ProofMethod::exact ? exact : certified)++;
                 EXPECT_EQ(known.method == ProofMethod::exact, known.detour == 0.0);
@@ -320,7 +322,8 @@ TEST(MorphSet, HardlyAnyPairMakesADetourAndNoneIsOnlyChecked) {
     EXPECT_GT(exact, 4 * certified) << "detours are for closed cups and the like";
 }
 
-/// The height of an outline; where it lies flat (a cup, a star, a dry jelly, a bracket), the diagonal of its half-plane.
+/// Returns the height of an outline or, where it lies flat (a cup, a star, a dry jelly, a bracket),
+/// the diagonal of its bounding box.
 double extent(const Polyline& line) {
     double low = line.front().y, high = low, wide = 0.0;
     for (const glm::dvec2& p : line) {
@@ -332,18 +335,18 @@ double extent(const Polyline& line) {
     return tall < 2.0 * wide ? std::sqrt(tall * tall + wide * wide) : tall;
 }
 
-// Beside a thousandth of any other, a species is within 0.3 % of its extent of itself.
-TEST(MorphSet, OutlinesConvergeTowardsACorner) {
+// Mixed with a thousandth of any other species, a species changes by less than 0.3 % of its extent.
+TEST(MorphSet, OutlinesConvergeToTheSingleSpeciesAtWeightOne) {
     for (const auto& [one, two] : sanitized ? some_pairs(8) : some_pairs(1000))
         for (const auto& [a, b] : {std::array{one, two}, {two, one}}) {
             const MorphSet alone = set_of({a});
             const bool first = a < b;
             const MorphSet set = first ? set_of({a, b}) : set_of({b, a});
-            const auto kins = first ? kins_of({a, b}) : kins_of({b, a});
+            const auto indices = first ? indices_of({a, b}) : indices_of({b, a});
             const auto at = [&](double t, double age) {
                 const auto shares = eased_weights(first ? std::vector<double>{1.0 - t, t}
                                                         : std::vector<double>{t, 1.0 - t});
-                return polyline(Outline(set.nodes(mix_of(set, kins, shares, age))), 0);
+                return polyline(Outline(set.nodes(mix_of(set, indices, shares, age))), 0);
             };
             for (const double age : {0.0, 0.3, 0.6, 1.0}) {
                 const Polyline corner =
@@ -354,7 +357,7 @@ TEST(MorphSet, OutlinesConvergeTowardsACorner) {
         }
 }
 
-TEST(MorphSet, WeightsAreFlatAtACornerAndStraightBeyond) {
+TEST(MorphSet, EasedWeightsHaveZeroSlopeAtZeroAndAreLinearBeyond) {
     const auto of_pair = [](double w) { return eased_weights({1.0 - w, w})[1]; };
     EXPECT_EQ(eased_weights({0.7}), std::vector<double>{1.0});
     EXPECT_EQ(of_pair(0.0), 0.0);
@@ -377,7 +380,7 @@ TEST(MorphSet, WeightsAreFlatAtACornerAndStraightBeyond) {
     EXPECT_DOUBLE_EQ(one[0] + one[1] + one[2], 1.0);
 }
 
-TEST(MorphSet, TheOrderOfTwoKinMovesNothingVisible) {
+TEST(MorphSet, TheOrderOfTwoSpeciesHasNoVisibleEffect) {
     for (const auto& [a, b] : {std::array{fly_agaric, cep},
                                {fly_agaric, ink_cap},
                                {chanterelle, club},
@@ -386,24 +389,25 @@ TEST(MorphSet, TheOrderOfTwoKinMovesNothingVisible) {
         for (const double age : {0.0, 0.6, 1.0})
             for (const double t : {0.25, 0.5, 0.75}) {
                 const Polyline p = polyline(
-                    Outline(one.nodes(mix_of(one, kins_of({a, b}), {1.0 - t, t}, age))), 0);
+                    Outline(one.nodes(mix_of(one, indices_of({a, b}), {1.0 - t, t}, age))), 0);
                 const Polyline q = polyline(
-                    Outline(two.nodes(mix_of(two, kins_of({b, a}), {t, 1.0 - t}, age))), 0);
+                    Outline(two.nodes(mix_of(two, indices_of({b, a}), {t, 1.0 - t}, age))), 0);
                 EXPECT_LT(hausdorff(p, q), 0.01 * diagonal(p)) << a << ' ' << b << " at " << age;
             }
     }
 }
 
-// In steps of 1/256 in t.
-TEST(MorphSet, NothingJumpsAlongAMorph) {
+// The steps are 1/256 in t.
+TEST(MorphSet, MorphsAreContinuous) {
     for (const auto& [a, b] : sanitized ? some_pairs(8) : some_pairs(1000)) {
         const MorphSet set = set_of({a, b});
-        const auto kins = kins_of({a, b});
+        const auto indices = indices_of({a, b});
         for (const double age : {0.0, 0.3, 0.6, 1.0}) {
             const auto at = [&](double t) {
-                return polyline(Outline(set.nodes(mix_of(set, kins, {1.0 - t, t}, age))), 1);
+                return polyline(Outline(set.nodes(mix_of(set, indices, {1.0 - t, t}, age))), 1);
             };
-            // Outlines of unit size: an egg of what shoots up is a third of another one, and they meet at the way's end.
+            // Outlines have unit size: the young egg of a tall species is a third as large as
+            // another outline, and both occur at the ends of the path.
             const double larger = std::max(diagonal(at(0.0)), diagonal(at(1.0)));
             Polyline last;
             for (int i = 0; i <= 256; ++i) {
@@ -420,26 +424,26 @@ TEST(MorphSet, NothingJumpsAlongAMorph) {
     }
 }
 
-TEST(MorphSet, ADetourLeavesEveryShapeItself) {
+TEST(MorphSet, IndirectPathsReproduceEveryShapeAtWeightOne) {
     const MorphSet set = set_of({fly_agaric, cup}), alone = set_of({fly_agaric});
     EXPECT_GT(set.certificate().detour, 0.0) << "a closed cup turns its margin over";
     EXPECT_EQ(set_of({fly_agaric, cep}).certificate(),
               (Certificate{true, ProofMethod::certificate, 0.0}));
     for (const double age : {0.0, 0.1, 0.6}) {
-        const auto weights = mix_of(set, kins_of({fly_agaric, cup}), {1.0, 0.0}, age);
+        const auto weights = mix_of(set, indices_of({fly_agaric, cup}), {1.0, 0.0}, age);
         const Polyline in_set = polyline(Outline(set.nodes(weights)), 0);
         const Polyline by_itself = polyline(Outline(alone.nodes(alone.growth_weights(age))), 0);
         EXPECT_LT(hausdorff(in_set, by_itself), 2e-3 * diagonal(in_set));
     }
 }
 
-TEST(MorphSet, FeetOfStemsBelongTogether) {
-    const MorphSet set = set_of({cup, bonnet});  // a broad low cup and a thread of a stem
+TEST(MorphSet, BasesOfStemsCorrespond) {
+    const MorphSet set = set_of({cup, bonnet});  // a broad low cup and a thread-like stem
     std::vector<int> flat;
-    for (std::size_t kin = 0; kin < 2; ++kin) {
+    for (std::size_t species_index = 0; species_index < 2; ++species_index) {
         std::vector<double> shares(2, 0.0);
-        shares[kin] = 1.0;
-        const Outline mature(set.nodes(mix_of(set, kins_of({cup, bonnet}), shares, 0.6)));
+        shares[species_index] = 1.0;
+        const Outline mature(set.nodes(mix_of(set, indices_of({cup, bonnet}), shares, 0.6)));
         flat.push_back(0);
         std::vector<double> even;
         for (int i = 0; i <= 25; ++i) even.push_back(i / 25.0);
@@ -450,8 +454,8 @@ TEST(MorphSet, FeetOfStemsBelongTogether) {
     EXPECT_GE(flat[0], 2);
 }
 
-/// Forms that have little in common, with random proportions: a ball with hardly a stem, a disc on the ground, a club, an egg, a
-/// morel's head, a bowl.
+/// Returns forms that have little in common, with random proportions: a ball with hardly a stem, a
+/// disc on the ground, a club, an egg, a morel's head, a bowl.
 Silhouette form(int kind, Random& random) {
     const auto vary = [&](double x) { return x * random.uniform(0.75, 1.3); };
     const double r = vary(0.5), y = vary(0.2), w = vary(0.12);
@@ -487,37 +491,37 @@ Silhouette form(int kind, Random& random) {
     }
 }
 
-TEST(MorphSet, FormsWithLittleInCommonMix) {
+TEST(MorphSet, DissimilarFormsMix) {
     Random random(53, 0);
     for (int trial = 0; trial < 120; ++trial) {
-        const std::size_t kins = 2 + random.bits() % 3;
+        const std::size_t species_count = 2 + random.bits() % 3;
         std::vector<ControlShape> shapes;
-        for (std::size_t kin = 0; kin < kins; ++kin) {
+        for (std::size_t species_index = 0; species_index < species_count; ++species_index) {
             const int kind = static_cast<int>(random.bits() % 6);
             for (const double age : {0.0, 0.6, 1.0})
-                shapes.push_back({form(kind, random), 1.0, kin, age});
+                shapes.push_back({form(kind, random), 1.0, species_index, age});
         }
         const MorphSet set(shapes);
         for (int draw = 0; draw < 25; ++draw) {
             std::vector<double> weights = set.growth_weights(random.uniform()), shares;
             double sum = 0.0;
-            for (std::size_t k = 0; k < kins; ++k) {
+            for (std::size_t k = 0; k < species_count; ++k) {
                 shares.push_back(random.uniform());
                 sum += shares.back();
             }
             for (std::size_t s = 0; s < weights.size(); ++s)
-                weights[s] *= shares[shapes[s].kin] / sum;
+                weights[s] *= shares[shapes[s].species_index] / sum;
             EXPECT_TRUE(is_simple(Outline(set.nodes(weights)))) << "trial " << trial;
         }
     }
 }
 
-TEST(MorphSet, ShapesOfStrangersAreRefusedOrNeverCross) {
+TEST(MorphSet, RandomShapesAreRefusedOrNeverCross) {
     Random random(47, 0);
     int made = 0, refused = 0;
     for (int trial = 0; trial < 150; ++trial) {
         std::vector<ControlShape> shapes;
-        for (std::size_t kin = 0; kin < 3; ++kin) {
+        for (std::size_t species_index = 0; species_index < 3; ++species_index) {
             const auto& entries = swept_atlas().entries();
             ControlShape shape =
                 shapes_of(entries[random.bits() % entries.size()], 0)[random.bits() % 4];
@@ -530,7 +534,7 @@ TEST(MorphSet, ShapesOfStrangersAreRefusedOrNeverCross) {
                     }
             if (!s.hymenium.empty()) s.hymenium.front() = s.stem.back();
             s.cap.front() = s.hymenium.empty() ? s.stem.back() : s.hymenium.back();
-            shape.kin = kin;
+            shape.species_index = species_index;
             shapes.push_back(shape);
         }
         try {

@@ -13,7 +13,7 @@
 namespace sporeprint {
 namespace {
 
-/// A plain agaric, 10 cm high.
+/// Returns a plain agaric, 10 cm high.
 Silhouette agaric() {
     Silhouette s;
     s.stem = {{0.0, 0.0}, {0.01, 0.002}, {0.009, 0.04}, {0.008, 0.08}};
@@ -89,7 +89,7 @@ TEST(Outline, SubCurvesMeetBitForBit) {
         }
 }
 
-TEST(Outline, SharesAreShareOfArcLength) {
+TEST(Outline, SharesAreFractionsOfArcLength) {
     const Outline outline(agaric());
     for (const SubCurve* curve : {&outline.stem, &outline.hymenium, &outline.cap}) {
         double arc = 0.0;
@@ -99,7 +99,7 @@ TEST(Outline, SharesAreShareOfArcLength) {
             const OutlineSample next = curve->at(static_cast<double>(i) / steps);
             arc += std::hypot(next.r - last.r, next.y - last.y);
             EXPECT_NEAR(next.share, static_cast<double>(i) / steps, 1e-12);
-            // 24 chords a segment stand for the arc: its speed is even to a few per cent.
+            // 24 chords per segment approximate the arc: its speed is even to a few per cent.
             EXPECT_NEAR(arc / curve->length(), static_cast<double>(i) / steps, 2e-3);
             last = next;
         }
@@ -120,7 +120,7 @@ TEST(Outline, TangentsAreUnitAndPointForward) {
         }
 }
 
-TEST(Outline, IsSquareToTheAxisAtItsPoles) {
+TEST(Outline, IsPerpendicularToTheAxisAtItsPoles) {
     const Outline outline(agaric());
     EXPECT_NEAR(outline.stem.at(0.0).tangent_y, 0.0, 1e-12);
     EXPECT_NEAR(outline.cap.at(1.0).tangent_y, 0.0, 1e-12);
@@ -128,7 +128,7 @@ TEST(Outline, IsSquareToTheAxisAtItsPoles) {
     EXPECT_NEAR(outline.cap.at(1.0).tangent_r, -1.0, 1e-12);
 }
 
-TEST(Outline, ASmoothMarginTurnsWithoutACornerAndACornerDoesNot) {
+TEST(Outline, SmoothMarginsHaveContinuousTangentsAndCornersDoNot) {
     Silhouette s = agaric();
     const auto turn = [&] {
         const Outline outline(s);
@@ -141,7 +141,7 @@ TEST(Outline, ASmoothMarginTurnsWithoutACornerAndACornerDoesNot) {
     EXPECT_LT(turn(), 0.5);
 }
 
-TEST(Outline, SpendsMorePointsWhereItTurns) {
+TEST(Outline, PlacesMorePointsAtBends) {
     Silhouette s = agaric();  // a straight stem that ends in a tight curl
     s.stem = {{0.0, 0.0},   {0.01, 0.001},   {0.01, 0.04},
               {0.01, 0.07}, {0.012, 0.0745}, {0.014, 0.07}};
@@ -165,12 +165,12 @@ TEST(Outline, CrossingOutlinesAreRefusedAndNamed) {
     EXPECT_THROW((void)Outline(crossing), Impossible);
 }
 
-TEST(Outline, TouchingTheAxisOnTheWayIsRefusedAndNamed) {
+TEST(Outline, TouchingTheAxisBetweenTheEndsIsRefusedAndNamed) {
     EXPECT_TRUE(names(problems_after([](Silhouette& s) { s.stem[2].r = 0.0; }), "/s/stem/2",
                       "reaches the axis"));
     EXPECT_TRUE(names(problems_after([](Silhouette& s) { s.cap[2].r = 0.0; }), "/s/cap/2",
                       "reaches the axis"));
-    // Between two points that are off the axis the curve may swing across it.
+    // Between two points off the axis the curve may swing across it.
     const auto swings = problems_after([](Silhouette& s) {
         s.stem = {{0.0, 0.0}, {0.03, 0.0}, {1e-5, 0.03}, {1e-5, 0.04}, {0.03, 0.07}, {0.008, 0.08}};
     });
@@ -208,11 +208,11 @@ TEST(Outline, CoincidentControlPointsDoNotBreakIt) {
         }
 }
 
-TEST(Outline, RandomOutlinesAreDrawnOrRefusedNeverBroken) {
+TEST(Outline, RandomOutlinesAreValidOrRefused) {
     EXPECT_TRUE(rc::check("random outlines", [] {
         Silhouette s;
         arbitrary(s, Info{.name = ""});
-        // Joined and on the axis more often than chance would have it.
+        // Points are joined and put on the axis more often than at random.
         if (s.stem.size() > 1 && s.cap.size() > 1 && *rc::gen::inRange(0, 4) > 0) {
             s.stem.front().r = 0.0;
             s.cap.back().r = 0.0;
@@ -238,7 +238,7 @@ TEST(Outline, RandomOutlinesAreDrawnOrRefusedNeverBroken) {
     }));
 }
 
-// The individual's own proportions and the blend between stages must not tie the outline into a knot.
+// The individual's proportions and the blend between stages must not make the outline cross itself.
 TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
     for (const std::string& id : swept_ids())
         for (int step = 0; step < 64; ++step)

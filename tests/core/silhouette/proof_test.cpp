@@ -14,7 +14,7 @@
 namespace sporeprint {
 namespace {
 
-/// Whether closed segments share a point, in whole numbers.
+/// Returns true if closed segments share a point, in integer arithmetic.
 bool meets(const std::array<std::int64_t, 8>& s) {
     const auto side = [](std::int64_t ax, std::int64_t ay, std::int64_t bx, std::int64_t by,
                          std::int64_t cx, std::int64_t cy) {
@@ -34,7 +34,8 @@ bool meets(const std::array<std::int64_t, 8>& s) {
            (cdb == 0 && within(cx, dx, bx) && within(cy, dy, by));
 }
 
-/// First pair of segments of a polyline of whole numbers that meet without being neighbours: every pair is looked at.
+/// Returns the first pair of non-adjacent segments that meet on a polyline of integer coordinates,
+/// by testing every pair.
 std::optional<std::array<std::size_t, 2>> first_meeting(const Polyline& line) {
     for (std::size_t i = 0; i + 1 < line.size(); ++i)
         for (std::size_t j = i + 2; j + 1 < line.size(); ++j) {
@@ -70,11 +71,12 @@ TEST(Proof, FirstCrossingAgreesWithExactArithmetic) {
     EXPECT_LT(crossed, 3600);
 }
 
-TEST(Proof, OfALongWalkTheFirstCrossingIsFoundAsWell) {
+TEST(Proof, FindsTheFirstCrossingOfALongRandomWalk) {
     Random random(29, 0);
     int crossed = 0;
     for (int trial = 0; trial < 600; ++trial) {
-        // Mostly upwards, so that it crosses itself here and there or not at all, and its far parts lie apart.
+        // The walk goes mostly upwards, so that it rarely crosses itself and its far parts are
+        // separated.
         Polyline line = {{0.0, 0.0}};
         for (std::size_t i = 0; i < 40 + random.bits() % 40; ++i)
             line.push_back(line.back() + glm::dvec2(static_cast<double>(random.bits() % 9) - 4.0,
@@ -94,7 +96,7 @@ TEST(Proof, FewPointsNeverCross) {
     EXPECT_FALSE(first_crossing(Polyline{{0.0, 0.0}, {1.0, 0.0}, {0.5, 0.0}}));
 }
 
-/// A staircase of a mushroom: simple, on the axis at both ends.
+/// Returns a stepped mushroom outline: simple, on the axis at both ends.
 Polyline plain() {
     return {{0.0, 0.0}, {1.0, 0.0}, {1.0, 4.0}, {3.0, 4.0}, {3.0, 5.0}, {0.0, 6.0}};
 }
@@ -111,7 +113,7 @@ Polyline between(const Polyline& a, const Polyline& b, double t) {
     return mixed(both, std::array<double, 2>{1.0 - t, t});
 }
 
-/// A random outline that is more often simple than not.
+/// Returns a random outline that is more often simple than not.
 Polyline random_outline(Random& random, std::size_t count, double wildness) {
     Polyline line;
     for (std::size_t i = 0; i < count; ++i) {
@@ -135,75 +137,76 @@ std::vector<double> random_weights(Random& random, std::size_t count) {
     return weights;
 }
 
-TEST(Proof, AShapeAtRestIsCheckedToo) {
+TEST(Proof, StaticShapesAreChecked) {
     const Polyline simple = plain();
-    EXPECT_FALSE(first_contact(simple, simple));
+    EXPECT_FALSE(first_intersection(simple, simple));
     Polyline crossing = simple;
     crossing[4] = {0.5, 3.0};  // the cap dips into the stem
-    const auto at_0 = first_contact(crossing, simple);
+    const auto at_0 = first_intersection(crossing, simple);
     ASSERT_TRUE(at_0);
     EXPECT_EQ(at_0->t, 0.0);
     Polyline inside_out = simple;
     inside_out[2].x = -0.1;
-    const auto beyond = first_contact(inside_out, simple);
+    const auto beyond = first_intersection(inside_out, simple);
     ASSERT_TRUE(beyond);
-    EXPECT_EQ(*beyond, (Contact{0.0, 2, 2}));
+    EXPECT_EQ(*beyond, (Intersection{0.0, 2, 2}));
 }
 
-TEST(Proof, ACrossingPlantedAtAKnownMomentIsFoundThere) {
-    // The margin moves evenly to the far side of the stem: it touches the stem's skin at x = 1, half way.
+TEST(Proof, FindsACrossingAtItsKnownMoment) {
+    // The margin moves at constant speed to the far side of the stem: it touches the stem's surface
+    // at x = 1, at the midpoint.
     Polyline a = {{0, 0}, {1, 0}, {1, 10}, {3, 10}, {2, 5}, {4, 11}, {0, 12}};
     Polyline b = a;
     b[4] = {0, 5};
-    const auto contact = first_contact(a, b);
-    ASSERT_TRUE(contact);
-    EXPECT_NEAR(contact->t, 0.5, 1e-12);
-    EXPECT_EQ(contact->i, 1u);
-    EXPECT_TRUE(contact->j == 3u || contact->j == 4u);
+    const auto intersection = first_intersection(a, b);
+    ASSERT_TRUE(intersection);
+    EXPECT_NEAR(intersection->t, 0.5, 1e-12);
+    EXPECT_EQ(intersection->i, 1u);
+    EXPECT_TRUE(intersection->j == 3u || intersection->j == 4u);
     EXPECT_FALSE(first_crossing(between(a, b, 0.4999)));
     EXPECT_TRUE(first_crossing(between(a, b, 0.5001)));
 }
 
-TEST(Proof, ACrossingThatIsOverBeforeTheEndIsFound) {
+TEST(Proof, FindsACrossingBetweenTwoSimpleEnds) {
     // A spike runs past the tip of another: simple at both ends, touching in between.
     const Polyline a = {{0, 0}, {4, 0}, {4, 1}, {1, 1.4}, {4, 2}, {4, 4}, {0, 5}};
     for (const double far : {0.0, 1.0, 2.0}) {
         Polyline from = a, to = a;
         from[3] = {1.0, 1.4};
         to[3] = {1.0 + far, 1.4};
-        EXPECT_FALSE(first_contact(from, to)) << "a spike that only grows shorter";
+        EXPECT_FALSE(first_intersection(from, to)) << "a spike that only grows shorter";
     }
-    // Two points that swap sides round each other: touch at t = 1/2 only if they are on one height.
+    // Two points swap sides: they touch at t = 1/2 only if they are at one height.
     const auto moves = [](double height) {
         Polyline from = {{0, 0}, {5, 0}, {2, 1}, {5, 2}, {5, 3}, {3, 3.5}, {5, 4}, {0, 5}};
         Polyline to = from;
         from[2].y = 1.0;
         to[2] = {2, 1.0 + height};
-        return first_contact(from, to);
+        return first_intersection(from, to);
     };
     EXPECT_FALSE(moves(0.2));
     EXPECT_TRUE(moves(5.0));
 }
 
-TEST(Proof, ANearMissIsNoContact) {
+TEST(Proof, ANearMissIsNoIntersection) {
     const double slack = 1e-6;
     Polyline a = {{0, 0}, {1, 0}, {1, 10}, {3, 10}, {2, 5}, {4, 11}, {0, 12}};
     Polyline b = a;
     b[4] = {1.0 + slack, 5};
-    EXPECT_FALSE(first_contact(a, b));
+    EXPECT_FALSE(first_intersection(a, b));
     b[4] = {1.0 - slack, 5};
-    EXPECT_TRUE(first_contact(a, b));
+    EXPECT_TRUE(first_intersection(a, b));
 }
 
 TEST(Proof, AFoldBackIsFound) {
-    // The middle vertex swings over the line of its neighbours through a spike of no width.
+    // The middle vertex swings over the line of its neighbours through a spike of zero width.
     const Polyline a = {{0, 0}, {2, 0}, {4, 0.5}, {3, 1}, {0, 2}};
     Polyline b = a;
     b[3] = {3, -1};
     b[4] = {0, -2};
-    const auto contact = first_contact(a, b);
-    ASSERT_TRUE(contact);
-    EXPECT_EQ(contact->j, contact->i + 1);
+    const auto intersection = first_intersection(a, b);
+    ASSERT_TRUE(intersection);
+    EXPECT_EQ(intersection->j, intersection->i + 1);
 }
 
 TEST(Proof, ASubCurveMayShrinkToAPoint) {
@@ -211,32 +214,32 @@ TEST(Proof, ASubCurveMayShrinkToAPoint) {
     Polyline b = a;
     for (std::size_t i = 2; i <= 5; ++i) b[i] = {1.0, 2.0};
     b[6] = {1.1, 3.0};
-    EXPECT_FALSE(first_contact(a, b));
-    EXPECT_FALSE(first_contact(b, a));
+    EXPECT_FALSE(first_intersection(a, b));
+    EXPECT_FALSE(first_intersection(b, a));
     const std::array<Polyline, 2> both = {a, b};
-    EXPECT_FALSE(first_doubt(both));
+    EXPECT_FALSE(first_unproven_pair(both));
 }
 
 TEST(Proof, AgreesWithFineSampling) {
     Random random(31, 0);
-    int contacts = 0, none = 0;
+    int intersections = 0, none = 0;
     for (int trial = 0; trial < 1500; ++trial) {
         const std::size_t count = 5 + static_cast<std::size_t>(trial) % 5;
         const Polyline a = random_outline(random, count, 0.8),
                        b = random_outline(random, count, 0.8);
         if (first_crossing(a) || first_crossing(b)) continue;
-        const auto contact = first_contact(a, b);
-        (contact ? contacts : none)++;
+        const auto intersection = first_intersection(a, b);
+        (intersection ? intersections : none)++;
         double first_seen = 2.0;
         for (int step = 0; step <= 2000 && first_seen > 1.0; ++step)
             if (first_crossing(between(a, b, step / 2000.0))) first_seen = step / 2000.0;
         if (first_seen <= 1.0) {
-            ASSERT_TRUE(contact) << "trial " << trial << " crosses at " << first_seen;
-            EXPECT_LE(contact->t, first_seen + 1e-9) << "trial " << trial;
+            ASSERT_TRUE(intersection) << "trial " << trial << " crosses at " << first_seen;
+            EXPECT_LE(intersection->t, first_seen + 1e-9) << "trial " << trial;
         }
-        if (contact && contact->j > contact->i + 1) {
-            // At the moment that is told the two segments are within rounding of each other.
-            const Polyline at = between(a, b, contact->t);
+        if (intersection && intersection->j > intersection->i + 1) {
+            // At the reported moment the two segments are within rounding of each other.
+            const Polyline at = between(a, b, intersection->t);
             const auto distance = [&](std::size_t p, std::size_t s) {
                 const glm::dvec2 along = at[s + 1] - at[s];
                 const double u =
@@ -244,18 +247,18 @@ TEST(Proof, AgreesWithFineSampling) {
                 const glm::dvec2 off = at[p] - at[s] - u * along;
                 return std::sqrt(glm::dot(off, off));
             };
-            const std::size_t i = contact->i, j = contact->j;
+            const std::size_t i = intersection->i, j = intersection->j;
             EXPECT_LT(
                 std::min({distance(i, j), distance(i + 1, j), distance(j, i), distance(j + 1, i)}),
                 1e-6);
         }
     }
-    EXPECT_GT(contacts, 50);
+    EXPECT_GT(intersections, 50);
     EXPECT_GT(none, 50);
 }
 
-/// Earliest moment at which one of the ends of two segments is on the other, every pair looked at; 2 if never. By the roots of the
-/// parabola through three moments.
+/// Returns the earliest moment at which an end of one segment is on another, or 2 if never, by
+/// testing every pair with the roots of the parabola through three moments.
 double first_touch_of_all(const Polyline& a, const Polyline& b) {
     double first = 2.0;
     const auto consider = [&](std::size_t x, std::size_t y, std::size_t z) {
@@ -288,7 +291,7 @@ double first_touch_of_all(const Polyline& a, const Polyline& b) {
     return first;
 }
 
-TEST(Proof, NoTouchOfLongOutlinesIsPassedOver) {
+TEST(Proof, FindsEveryTouchOfLongOutlines) {
     Random random(43, 0);
     int touched = 0, none = 0;
     for (int trial = 0; trial < 300; ++trial) {
@@ -302,27 +305,27 @@ TEST(Proof, NoTouchOfLongOutlinesIsPassedOver) {
             b[i] = {random.uniform(0.1, 2.0), random.uniform(0.0, 2.0)};
         }
         const double expected = first_touch_of_all(a, b);
-        const auto contact = contact_on_the_way(a, b);
-        ASSERT_EQ(contact.has_value() && contact->j > contact->i + 1,
-                  expected < 1.0 && !(contact && contact->j == contact->i + 1))
+        const auto intersection = intersection_between(a, b);
+        ASSERT_EQ(intersection.has_value() && intersection->j > intersection->i + 1,
+                  expected < 1.0 && !(intersection && intersection->j == intersection->i + 1))
             << "trial " << trial;
         (expected < 1.0 ? touched : none)++;
-        if (contact && contact->j > contact->i + 1) {
-            EXPECT_NEAR(contact->t, expected, 1e-7);
+        if (intersection && intersection->j > intersection->i + 1) {
+            EXPECT_NEAR(intersection->t, expected, 1e-7);
         }
     }
     EXPECT_GT(touched, 50);
     EXPECT_GT(none, 50);
 }
 
-TEST(Proof, WhatDoubtsNameHoldsEveryCrossingOfEveryMean) {
+TEST(Proof, UnprovenPairsIncludeEveryCrossingOfEveryMean) {
     Random random(47, 0);
     int crossings = 0;
     for (int trial = 0; trial < 200; ++trial) {
         std::vector<Polyline> shapes(2 + static_cast<std::size_t>(trial) % 4);
         for (Polyline& shape : shapes) shape = random_outline(random, 30, 0.03 * (1 + trial % 5));
-        const std::vector<Doubt> all = doubts(shapes);
-        const auto first = first_doubt(shapes);
+        const std::vector<UnprovenPair> all = unproven_pairs(shapes);
+        const auto first = first_unproven_pair(shapes);
         ASSERT_EQ(first.has_value(), !all.empty());
         if (first) {
             EXPECT_EQ(*first, all.front());
@@ -331,14 +334,15 @@ TEST(Proof, WhatDoubtsNameHoldsEveryCrossingOfEveryMean) {
             const auto pair = first_crossing(mixed(shapes, random_weights(random, shapes.size())));
             if (!pair) continue;
             ++crossings;
-            EXPECT_NE(std::find(all.begin(), all.end(), Doubt{(*pair)[0], (*pair)[1]}), all.end())
+            EXPECT_NE(std::find(all.begin(), all.end(), UnprovenPair{(*pair)[0], (*pair)[1]}),
+                      all.end())
                 << "trial " << trial;
         }
     }
     EXPECT_GT(crossings, 200);
 }
 
-TEST(Proof, DoubtsOfMeansAreAmongTheDoubtsOfWhatTheyAreMeansOf) {
+TEST(Proof, UnprovenPairsOfMeansAreAmongThoseOfTheirShapes) {
     Random random(53, 0);
     std::size_t dispelled = 0, left = 0;
     for (int trial = 0; trial < 200; ++trial) {
@@ -352,8 +356,8 @@ TEST(Proof, DoubtsOfMeansAreAmongTheDoubtsOfWhatTheyAreMeansOf) {
         std::vector<Polyline> means;
         for (std::size_t s = 0; s < shapes.size(); ++s)
             means.push_back(mixed(shapes, random_weights(random, shapes.size())));
-        const std::vector<Doubt> known = doubts(shapes), own = doubts(means);
-        EXPECT_EQ(doubts(means, known), own) << "trial " << trial;
+        const std::vector<UnprovenPair> known = unproven_pairs(shapes), own = unproven_pairs(means);
+        EXPECT_EQ(unproven_pairs(means, known), own) << "trial " << trial;
         dispelled += known.size() - own.size();
         left += own.size();
     }
@@ -369,7 +373,7 @@ TEST(Proof, CertificatesHoldOnRandomConvexCombinations) {
         std::vector<Polyline> shapes(2 + static_cast<std::size_t>(trial) % 4);
         for (Polyline& shape : shapes)
             shape = random_outline(random, count, 0.1 + 0.15 * (trial % 5));
-        if (first_doubt(shapes)) {
+        if (first_unproven_pair(shapes)) {
             ++doubted;
             continue;
         }
@@ -380,14 +384,15 @@ TEST(Proof, CertificatesHoldOnRandomConvexCombinations) {
             for (std::size_t i = 1; i + 1 < mix.size(); ++i) EXPECT_GT(mix[i].x, 0.0);
         }
         for (std::size_t s = 1; s < shapes.size(); ++s)
-            EXPECT_FALSE(first_contact(shapes[0], shapes[s])) << "trial " << trial;
+            EXPECT_FALSE(first_intersection(shapes[0], shapes[s])) << "trial " << trial;
     }
     EXPECT_GT(certified, 50);
     EXPECT_GT(doubted, 50);
 }
 
-TEST(Proof, ATurningPairIsCertifiedByTheLineThroughOneOfThem) {
-    // Two parallel strokes turn together by 80 degrees: no fixed direction keeps them apart, but each stays on its side of the other.
+TEST(Proof, ATurningPairIsCertifiedByASeparatingLine) {
+    // Two parallel strokes turn together by 80 degrees: no fixed direction separates them, but each
+    // stays on its side of the other.
     std::vector<Polyline> shapes;
     for (const double degrees : {-40.0, 0.0, 40.0}) {
         const double c = std::cos(degrees * 0.0174532925), s = std::sin(degrees * 0.0174532925);
@@ -402,14 +407,14 @@ TEST(Proof, ATurningPairIsCertifiedByTheLineThroughOneOfThem) {
                           turned(-1.0, 1.0),
                           {0, 30}});
     }
-    EXPECT_FALSE(first_doubt(shapes));
+    EXPECT_FALSE(first_unproven_pair(shapes));
     Random random(41, 0);
     for (int draw = 0; draw < 500; ++draw)
         EXPECT_FALSE(first_crossing(mixed(shapes, random_weights(random, 3))));
     // By a half turn they change places: nothing may certify that.
     for (glm::dvec2& p : shapes[2])
         if (p.x > 0.0) p = glm::dvec2(10.0, 10.0) - p;
-    EXPECT_TRUE(first_doubt(shapes));
+    EXPECT_TRUE(first_unproven_pair(shapes));
 }
 
 }  // namespace
