@@ -11,35 +11,36 @@ namespace sporeprint {
 
 namespace {
 
-/// What a lower face carries, in words.
+/// Returns the name of what a lower face carries, for messages.
 const char* carried(HymeniumPattern pattern) {
     return pattern == HymeniumPattern::smooth ? "a smooth face" : name(pattern);
 }
 
-/// One rule of anatomy: an override that asks for something, whether a source can have it, and why not if none can.
+/// One rule of anatomy: the override that it concerns, which sources can have it, and the message
+/// if none can.
 struct AnatomyRule {
     const char* path;
-    bool asked;
+    bool requested;
     bool (*can)(const Source&);
     const char* wants;  ///< "gills or ridges": what a mix lacks
     std::string (*why)(const Source&);
 };
 
-/// Why a lone species carries no `wanted`.
+/// Returns the message that says why a single species carries no `wanted`.
 std::string carries_instead(const Source& s, const std::string& wanted) {
     if (s.pattern() != HymeniumPattern::smooth)
-        return s.who + " carries " + carried(s.pattern()) + ", not " + wanted;
+        return s.label + " carries " + carried(s.pattern()) + ", not " + wanted;
     return s.has_margin()
-               ? s.who + " has a smooth lower face, without " + wanted
-               : s.who + " is smooth all over; it has no lower face that could carry " + wanted;
+               ? s.label + " has a smooth lower face, without " + wanted
+               : s.label + " is smooth all over; it has no lower face that could carry " + wanted;
 }
 
 }  // namespace
 
-void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sources) {
+void check_anatomy(const MushroomParams& requested, const std::vector<Source>& sources) {
     using S = const Source&;
     using Pattern = HymeniumPattern;
-    const HymeniumOf<Maybe>& h = asked.hymenium;
+    const HymeniumOf<Maybe>& h = requested.hymenium;
     const auto bladed = [](S s) { return s.has_blades(); };
     const auto no_gills = [](S s) { return carries_instead(s, "gills"); };
     const auto carrying = [](S s) { return s.pattern() != Pattern::smooth; };
@@ -47,15 +48,16 @@ void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sourc
     const AnatomyRule rules[] = {
         {"/hymenium/blades", h.blades.has_value(), bladed, "carries gills or ridges", no_gills},
         {"/hymenium/tiers", h.tiers.has_value(), bladed, "carries gills or ridges", no_gills},
-        {"/hymenium/edge_waves", wished(h.edge_waves), bladed, "carries gills or ridges", no_gills},
+        {"/hymenium/edge_waves", is_requested(h.edge_waves), bladed, "carries gills or ridges",
+         no_gills},
         {"/hymenium/thickness", h.thickness.has_value(),
          [](S s) { return s.has_blades() || s.pattern() == Pattern::teeth; },
          "carries gills, ridges or teeth", no_gills},
-        {"/hymenium/forking", wished(h.forking), [](S s) { return s.pattern() == Pattern::ridges; },
-         "carries ridges, which fork",
+        {"/hymenium/forking", is_requested(h.forking),
+         [](S s) { return s.pattern() == Pattern::ridges; }, "carries ridges, which fork",
          [](S s) {
              return s.pattern() == Pattern::gills
-                        ? s.who + " carries gills, which do not fork; ridges do"
+                        ? s.label + " carries gills, which do not fork; ridges do"
                         : carries_instead(s, "ridges");
          }},
         {"/hymenium/pores_per_mm", h.pores_per_mm.has_value(), [](S s) { return s.has_cells(); },
@@ -63,55 +65,55 @@ void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sourc
         {"/hymenium/elongation", h.elongation.has_value(),
          [](S s) { return s.pattern() == Pattern::pores; }, "carries pores",
          [](S s) { return carries_instead(s, "pores"); }},
-        {"/hymenium/depth", wished(h.depth), carrying, "carries gills, pores or teeth",
+        {"/hymenium/depth", is_requested(h.depth), carrying, "carries gills, pores or teeth",
          nothing_deep},
-        {"/hymenium/inner_gap", wished(h.inner_gap), carrying, "carries gills, pores or teeth",
-         nothing_deep},
+        {"/hymenium/inner_gap", is_requested(h.inner_gap), carrying,
+         "carries gills, pores or teeth", nothing_deep},
         {"/hymenium/inner_depth", h.inner_depth.has_value(), carrying,
          "carries gills, pores or teeth", nothing_deep},
-        {"/hymenium/notch", wished(h.notch), carrying, "carries gills, pores or teeth",
+        {"/hymenium/notch", is_requested(h.notch), carrying, "carries gills, pores or teeth",
          nothing_deep},
-        {"/hymenium/decurrent", wished(h.decurrent), carrying, "carries gills, pores or teeth",
-         nothing_deep},
-        {"/ornaments/warts", wished(asked.ornaments.warts),
+        {"/hymenium/decurrent", is_requested(h.decurrent), carrying,
+         "carries gills, pores or teeth", nothing_deep},
+        {"/ornaments/warts", is_requested(requested.ornaments.warts),
          [](S s) { return s.first().warts.count > 0; },
          "has a universal veil that could leave warts",
          [](S s) {
-             return s.who + (s.has_margin() ? " has no universal veil that could leave warts"
-                                            : " has no cap skin that could carry warts, and no "
-                                              "universal veil that could leave them");
+             return s.label + (s.has_margin() ? " has no universal veil that could leave warts"
+                                              : " has no cap skin that could carry warts, and no "
+                                                "universal veil that could leave them");
          }},
-        {"/ornaments/scales", wished(asked.ornaments.scales),
+        {"/ornaments/scales", is_requested(requested.ornaments.scales),
          [](S s) { return s.first().scales.count > 0; }, "has a skin that tears into scales",
          [](S s) {
-             return s.who + (s.has_margin() ? " has a skin that does not tear into scales"
-                                            : " has no cap skin that could tear into scales");
+             return s.label + (s.has_margin() ? " has a skin that does not tear into scales"
+                                              : " has no cap skin that could tear into scales");
          }},
-        {"/ornaments/ring", wished(asked.ornaments.ring), [](S s) { return s.has_ring(); },
-         "has a partial veil that could leave a ring",
-         [](S s) { return s.who + " has no partial veil that could leave a ring"; }},
-        {"/ornaments/volva", wished(asked.ornaments.volva), [](S s) { return s.has_volva(); },
-         "has a universal veil that could leave a volva",
-         [](S s) { return s.who + " has no universal veil that could leave a volva"; }},
-        {"/weathering/waves", wished(asked.weathering.waves), [](S s) { return s.has_margin(); },
-         "has a margin that could wave",
-         [](S s) { return s.who + " has no margin that could wave"; }},
-        {"/weathering/deliquescence", wished(asked.weathering.deliquescence),
+        {"/ornaments/ring", is_requested(requested.ornaments.ring),
+         [](S s) { return s.has_ring(); }, "has a partial veil that could leave a ring",
+         [](S s) { return s.label + " has no partial veil that could leave a ring"; }},
+        {"/ornaments/volva", is_requested(requested.ornaments.volva),
+         [](S s) { return s.has_volva(); }, "has a universal veil that could leave a volva",
+         [](S s) { return s.label + " has no universal veil that could leave a volva"; }},
+        {"/weathering/waves", is_requested(requested.weathering.waves),
+         [](S s) { return s.has_margin(); }, "has a margin that could wave",
+         [](S s) { return s.label + " has no margin that could wave"; }},
+        {"/weathering/deliquescence", is_requested(requested.weathering.deliquescence),
          [](S s) { return s.melts(); }, "is an inkcap, whose cap melts into ink",
-         [](S s) { return s.who + " is no inkcap; only their caps melt into ink"; }},
-        {"/weathering/splits", wished(asked.weathering.splits), [](S s) { return s.has_margin(); },
-         "has a margin that could split",
-         [](S s) { return s.who + " has no margin that could split"; }},
-        {"/weathering/peel", wished(asked.weathering.peel), [](S s) { return s.peels(); },
+         [](S s) { return s.label + " is no inkcap; only their caps melt into ink"; }},
+        {"/weathering/splits", is_requested(requested.weathering.splits),
+         [](S s) { return s.has_margin(); }, "has a margin that could split",
+         [](S s) { return s.label + " has no margin that could split"; }},
+        {"/weathering/peel", is_requested(requested.weathering.peel), [](S s) { return s.peels(); },
          "has a skin that peels off",
          [](S s) {
-             return s.who + (s.has_margin() ? " has a skin that does not peel off"
-                                            : " has no margin from which a skin could peel off");
+             return s.label + (s.has_margin() ? " has a skin that does not peel off"
+                                              : " has no margin from which a skin could peel off");
          }},
     };
     std::vector<Problem> problems;
     for (const AnatomyRule& rule : rules)
-        if (rule.asked && std::none_of(sources.begin(), sources.end(), rule.can))
+        if (rule.requested && std::none_of(sources.begin(), sources.end(), rule.can))
             report(problems, rule.path,
                    sources.size() > 1 ? std::string("no species of this mix ") + rule.wants
                                       : rule.why(sources.front()));
@@ -119,41 +121,40 @@ void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sourc
 }
 
 void blend_amounts(Model& model, const std::vector<Source>& sources) {
-    const auto blend_among = [&](auto counts, auto of, double& to) {
-        to = among(sources, counts, of);
+    const auto set = [&](auto counts, auto of, double& to) {
+        to = blend_among(sources, counts, of);
     };
     using S = const Source&;
     using D = const double&;
-    blend_among([](S s) { return s.first().warts.count > 0; },
-                [](S s) -> D { return s.now.ornaments.warts; }, model.ornaments.warts);
-    blend_among([](S s) { return s.first().scales.count > 0; },
-                [](S s) -> D { return s.now.ornaments.scales; }, model.ornaments.scales);
-    blend_among([](S s) { return s.has_ring(); }, [](S s) -> D { return s.now.ornaments.ring; },
-                model.ornaments.ring);
-    blend_among([](S s) { return s.has_volva(); }, [](S s) -> D { return s.now.ornaments.volva; },
-                model.ornaments.volva);
-    blend_among([](S s) { return s.pattern() == HymeniumPattern::ridges; },
-                [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
-    blend_among([](S s) { return s.has_cells(); },
-                [](S s) -> D { return s.now.hymenium.pores_per_mm; }, model.hymenium.pores_per_mm);
-    blend_among([](S s) { return s.melts(); },
-                [](S s) -> D { return s.now.weathering.deliquescence; },
-                model.weathering.deliquescence);
-    blend_among([](S s) { return s.has_margin(); },
-                [](S s) -> D { return s.now.weathering.splits; }, model.weathering.splits);
-    blend_among([](S s) { return s.peels(); }, [](S s) -> D { return s.now.weathering.peel; },
-                model.weathering.peel);
-    blend_among([](S s) { return s.pattern() == HymeniumPattern::pores; },
-                [](S s) -> D { return s.now.hymenium.elongation; }, model.hymenium.elongation);
-    blend_among([](S s) { return s.has_blades(); },
-                [](S s) -> D { return s.now.hymenium.edge_waves; }, model.hymenium.edge_waves);
-    blend_among([](S s) { return s.has_blades() || s.pattern() == HymeniumPattern::teeth; },
-                [](S s) -> D { return s.now.hymenium.thickness; }, model.hymenium.thickness);
+    set([](S s) { return s.first().warts.count > 0; },
+        [](S s) -> D { return s.now.ornaments.warts; }, model.ornaments.warts);
+    set([](S s) { return s.first().scales.count > 0; },
+        [](S s) -> D { return s.now.ornaments.scales; }, model.ornaments.scales);
+    set([](S s) { return s.has_ring(); }, [](S s) -> D { return s.now.ornaments.ring; },
+        model.ornaments.ring);
+    set([](S s) { return s.has_volva(); }, [](S s) -> D { return s.now.ornaments.volva; },
+        model.ornaments.volva);
+    set([](S s) { return s.pattern() == HymeniumPattern::ridges; },
+        [](S s) -> D { return s.now.hymenium.forking; }, model.hymenium.forking);
+    set([](S s) { return s.has_cells(); }, [](S s) -> D { return s.now.hymenium.pores_per_mm; },
+        model.hymenium.pores_per_mm);
+    set([](S s) { return s.melts(); }, [](S s) -> D { return s.now.weathering.deliquescence; },
+        model.weathering.deliquescence);
+    set([](S s) { return s.has_margin(); }, [](S s) -> D { return s.now.weathering.splits; },
+        model.weathering.splits);
+    set([](S s) { return s.peels(); }, [](S s) -> D { return s.now.weathering.peel; },
+        model.weathering.peel);
+    set([](S s) { return s.pattern() == HymeniumPattern::pores; },
+        [](S s) -> D { return s.now.hymenium.elongation; }, model.hymenium.elongation);
+    set([](S s) { return s.has_blades(); }, [](S s) -> D { return s.now.hymenium.edge_waves; },
+        model.hymenium.edge_waves);
+    set([](S s) { return s.has_blades() || s.pattern() == HymeniumPattern::teeth; },
+        [](S s) -> D { return s.now.hymenium.thickness; }, model.hymenium.thickness);
     using H = HymeniumOf<Plain>;
     for (double H::*const part :
          {&H::depth, &H::inner_gap, &H::inner_depth, &H::notch, &H::decurrent})
-        blend_among([](S s) { return s.pattern() != HymeniumPattern::smooth; },
-                    [part](S s) -> D { return s.now.hymenium.*part; }, model.hymenium.*part);
+        set([](S s) { return s.pattern() != HymeniumPattern::smooth; },
+            [part](S s) -> D { return s.now.hymenium.*part; }, model.hymenium.*part);
 }
 
 void report_effective(MushroomParams& effective, const Model& model,

@@ -1,4 +1,5 @@
-// Anatomy: what the species of an order can and cannot have, and the sentences that say why not.
+// Anatomy rules: which ornaments and amounts the species of a request can have, and the messages
+// that explain refusals.
 #pragma once
 
 #include <optional>
@@ -8,18 +9,22 @@
 
 namespace sporeprint {
 
-/// Whether an optional amount asks for more than nothing.
-[[nodiscard]] inline bool wished(const std::optional<double>& amount) {
+/// Returns true if an optional amount is set to more than zero.
+[[nodiscard]] inline bool is_requested(const std::optional<double>& amount) {
     return amount && *amount > 0.0;
 }
 
-/// throws  Impossible for each override that asks for what no species of the order can have, with the reason
-void check_anatomy(const MushroomParams& asked, const std::vector<Source>& sources);
+/// Checks all overrides of a request against the anatomy of its species.
+///
+/// throws  Impossible for each override that requests what no species of the mix can have, with the
+///         reason
+void check_anatomy(const MushroomParams& requested, const std::vector<Source>& sources);
 
-/// Amounts that only some species of a mix can have: those of these species alone.
+/// Blends the amounts that only some species of a mix can have from these species alone.
 void blend_amounts(Model& model, const std::vector<Source>& sources);
 
-/// The same amounts as overrides: what the individual really has. What no species can have stays unset.
+/// Writes the same amounts as overrides with the individual's actual values. Amounts that no
+/// species can have stay unset.
 void report_effective(MushroomParams& effective, const Model& model,
                       const std::vector<Source>& sources);
 

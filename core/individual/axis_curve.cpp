@@ -15,7 +15,7 @@ constexpr int samples_per_segment = 32;
 
 glm::dvec3 unit(const glm::dvec3& v) { return v / std::sqrt(glm::dot(v, v)); }
 
-/// Unit tangents at equal shares of the arc length.
+/// Returns the unit tangents at equal shares of the arc length.
 std::vector<glm::dvec3> spline_tangents(const std::vector<glm::dvec3>& points) {
     const auto segments = open_spline(points);
     std::vector<double> arc{0.0};
@@ -43,7 +43,7 @@ std::vector<glm::dvec3> spline_tangents(const std::vector<glm::dvec3>& points) {
     return tangents;
 }
 
-/// A frame that is carried along: `across` and `third` complete the tangent `along`.
+/// A frame under parallel transport: `across` and `third` complete the tangent `along`.
 struct Carried {
     glm::dvec3 across{1.0, 0.0, 0.0}, along{0.0, 1.0, 0.0}, third{0.0, 0.0, 1.0};
 
@@ -56,11 +56,11 @@ struct Carried {
         across = unit(across - glm::dot(across, along) * along);
         third = glm::cross(across, along);
     }
-    /// The turn that takes `along` to `direction` the shortest way.
+    /// Returns the smallest rotation that takes `along` to `direction`.
     [[nodiscard]] glm::dvec2 turn_to(const glm::dvec3& direction) const {
         const glm::dvec3 about = glm::cross(along, direction);
         const double sine = std::sqrt(glm::dot(about, about)), cosine = glm::dot(along, direction);
-        // Straight back has no shortest way: any will do.
+        // The smallest rotation to the opposite direction is not unique; any will do.
         if (sine < 1e-15) return {cosine < 0.0 ? pi : 0.0, 0.0};
         const double angle = arc_tangent(sine, cosine);
         return angle / sine * glm::dvec2(glm::dot(about, across), glm::dot(about, third));

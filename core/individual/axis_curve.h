@@ -1,4 +1,5 @@
-// The shape of an axis without its length, in the form in which axes mix: how its frame turns from station to station.
+// The shape of an axis independent of its length, as rotations between stations, in which axes
+// blend linearly.
 #pragma once
 
 #include <array>
@@ -10,39 +11,44 @@
 
 namespace sporeprint {
 
-/// An axis as rotations relative to one another: the first tips the vertical into the axis' own start, each other carries the frame
-/// from one station to the next without twist. Stations stand at equal steps of arc length, so blends keep the length
-/// whatever the curves do: opposite bends straighten.
+/// An axis as relative rotations: the first tips the vertical into the start of the axis, each
+/// other one transports the frame from one station to the next without twist. Stations lie at equal
+/// steps of arc length, so blends preserve the length whatever the curves are; opposite bends
+/// cancel.
 class AxisCurve {
   public:
     static constexpr int stations = 96;  ///< steps; there is one station more
 
-    /// A straight axis.
+    /// Builds a straight axis.
     AxisCurve() = default;
 
-    /// The spline through control points, ground to top; straight for fewer than two places.
+    /// Builds the spline through control points, ground to top; it is straight for fewer than two
+    /// distinct points.
     explicit AxisCurve(const std::vector<AxisPoint>& controls);
 
-    /// Adds `weight` times the turns of another axis; a blend is such a sum, begun with the straight axis.
+    /// Adds `weight` times the rotations of another axis. A blend is such a sum, starting with the
+    /// straight axis.
     void add(const AxisCurve& other, double weight);
 
-    /// Unit tangents at the stations.
+    /// Returns the unit tangents at the stations.
     [[nodiscard]] std::vector<glm::dvec3> tangents() const;
 
-    /// Largest turn between stations, radians over the whole length: curvature times length.
+    /// Returns the largest rotation between stations, radians over the whole length: curvature
+    /// times length.
     [[nodiscard]] double greatest_turn() const;
 
-    /// The same axis with each turn `by` times as far.
+    /// Returns the same axis with each rotation multiplied by `by`.
     [[nodiscard]] AxisCurve scaled(double by) const;
 
     bool operator==(const AxisCurve&) const = default;
 
   private:
-    // Rotation vectors in the frame they act on; square to its tangent, so two components say all.
+    // Rotation vectors in the frame that they act on; they are perpendicular to its tangent, so two
+    // components suffice.
     std::array<glm::dvec2, stations + 1> turns_{};
 };
 
-/// `v` turned about the unit vector `about`.
+/// Returns `v` rotated about the unit vector `about` by `angle` radians.
 [[nodiscard]] glm::dvec3 turned(const glm::dvec3& v, const glm::dvec3& about, double angle);
 
 }  // namespace sporeprint

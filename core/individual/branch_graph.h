@@ -1,4 +1,5 @@
-// The limbs of one branched individual: the branching that its species have in common, and where blended styles put it.
+// The branch graph of one branched individual: the merged branching of all its species, placed by
+// their blended styles.
 #pragma once
 
 #include <array>
@@ -10,13 +11,13 @@
 
 namespace sporeprint {
 
-/// One species of a bush.
+/// One species of a branch graph.
 struct BushShare {
     const Branched* shape = nullptr;
     double weight = 1.0;  ///< weights sum to 1
 };
 
-/// How an individual departs from its species: factors.
+/// Factors by which an individual deviates from its species.
 struct BushProportions {
     double size = 1.0;    ///< of the whole
     double trunk = 1.0;   ///< of the share of the height below the lowest fork
@@ -24,43 +25,47 @@ struct BushProportions {
     double spread = 1.0;  ///< of the angles of forks
 };
 
-/// Tips of a species of few limbs, at most: each of them is long.
-constexpr std::size_t few_tips = 12;
+/// A species with at most this many tips counts as sparse: each of its segments is long.
+constexpr std::size_t most_sparse_tips = 12;
 
-/// A graph of limbs at rest: straight up from the origin. Which nodes there are follows from the species and the seed alone; weights and
-/// ages move only lengths, angles and radii, and what a species lacks has length and radius 0.
+/// A graph of segments before deformation, upright from the origin. Its nodes depend on the species
+/// and the seed alone; weights and ages change only lengths, angles and radii, and segments that a
+/// species lacks have length and radius 0.
 struct Bush {
     static constexpr std::uint32_t none = 0xffffffffU;
 
-    /// The end of a limb, and that limb.
+    /// The end of a segment, and that segment.
     struct Node {
         std::uint32_t parent = none;
-        std::array<std::uint32_t, 2> children = {none, none};  ///< the first goes on as its bearer
-        int tips = 1;                       ///< that it bears, whatever is there of them
-        double presence = 0.0;              ///< 0..1: how much of it there is
-        double left = 0.0;                  ///< tips that it bears, each as far as it is there
-        glm::dvec3 place{0.0};              ///< metres
-        glm::dvec3 heading{0.0, 1.0, 0.0};  ///< unit, of the limb before it ends
-        glm::dvec3 across{1.0, 0.0, 0.0};   ///< unit, square to it: the plane in which it forks
-        glm::dvec3 beside{0.0};  ///< where its limb begins, from the end of its bearer, metres
+        std::array<std::uint32_t, 2> children = {none, none};  ///< the first continues the segment
+        int tips = 1;           ///< number of tips of its subtree, whatever their presence
+        double presence = 0.0;  ///< 0..1: how far the segment is grown
+        double left = 0.0;      ///< sum of the presence of the tips of its subtree
+        glm::dvec3 place{0.0};  ///< metres
+        glm::dvec3 heading{0.0, 1.0, 0.0};  ///< unit direction of the segment at its end
+        /// unit, perpendicular to `heading`, in the plane of the fork
+        glm::dvec3 across{1.0, 0.0, 0.0};
+        glm::dvec3 beside{0.0};  ///< start of its segment relative to the end of its parent, metres
         double radius = 0.0;     ///< metres
-        bool may_end = false;    ///< whether some species of the set has a tip there
-        double few = 0.0;        ///< 0..1: share of species of few limbs among those that have it
-        double from_tip = 0.0;   ///< 1 at the top of a trunk, 0 at a tip: where its colours are
+        bool may_end = false;    ///< some species of the set has a tip here
+        double few = 0.0;  ///< 0..1: weight of sparse species among those that have the node
+        double from_tip = 0.0;  ///< colour coordinate: 1 at the top of a trunk, 0 at a tip
         double eaten =
-            0.0;  ///< 0..1: how much of a last branch slugs have eaten, as far as it is one
+            /// 0..1: share of a terminal segment eaten by slugs, times how far it is terminal
+            0.0;
     };
-    std::vector<Node> nodes;           ///< bearers come before what they bear
-    std::vector<std::uint32_t> roots;  ///< trunks, from the ground to their lowest fork
+    std::vector<Node> nodes;           ///< parents precede their children
+    std::vector<std::uint32_t> roots;  ///< tops of the trunks: from the ground to the lowest fork
     double height = 0.0;               ///< metres, of the highest tip
     double trunk = 0.0;                ///< metres, length of a trunk
     double trunk_radius = 0.0;         ///< metres
-    double reach = 0.0;                ///< metres: how far from the axis its limbs reach
+    double reach = 0.0;                ///< metres: greatest distance of its segments from the axis
     double foot = 1.0, flatness = 0.0, web = 0.0, bluntness = 0.0;  ///< see LimbStyle
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
     [[nodiscard]] bool is_tip(std::uint32_t node) const { return nodes[node].children[0] == none; }
-    /// How far a limb ends there, 0..1: where one species has a tip and another a fork, the share of the first.
+    /// Returns how far a segment ends at a node, 0..1: the weight of the species with a tip there
+    /// among those that have the node.
     [[nodiscard]] double ends(std::uint32_t node) const {
         const Node& one = nodes[node];
         if (one.children[0] == none) return 1.0;
@@ -68,12 +73,15 @@ struct Bush {
     }
 };
 
-/// Lays the ramifications of all species over each other, fork on fork from the ground up, and grows the limbs of what they come to.
+/// Merges the branching of all species (forks are matched by their path from the root) and computes
+/// the blended segments.
 ///
 /// bites   0..1, of WeatheringOf
-/// throws  Impossible (path "/ramification/order") if a tree that is drawn freely comes to more than most_bush_tips
+/// throws  Impossible (path "/ramification/order") if a randomly sampled tree exceeds
+///         most_bush_tips
 /// cost    O(tips of all species)
-/// source  [Viennot1989] for the branching; angles, lengths and widths by order; widths as pipes
+/// source  [Viennot1989] for the branching; angles, lengths and widths by order; radii by the pipe
+///         model
 [[nodiscard]] Bush bush_of(const std::vector<BushShare>& shares, const BushProportions& own,
                            double bites, std::uint32_t seed);
 

@@ -20,15 +20,15 @@ double wrapped(double theta) {
     return theta;
 }
 
-// How the marks of a kind lie on a part.
-struct Habit {
+// The random distribution of a kind of damage on a part.
+struct Distribution {
     int count = 0;
     double from = 0.0, to = 1.0;      // of the meridian
     double small = 0.0, large = 0.0;  // radius
-    double slender = 1.0;             // greatest elongation
+    double elongation = 1.0;          // greatest elongation
 };
 
-Habit habit_of(MarkKind kind, CurveName part) {
+Distribution distribution_of(MarkKind kind, CurveName part) {
     const bool cap = part == CurveName::cap, stem = part == CurveName::stem;
     switch (kind) {
         case MarkKind::pit:
@@ -51,8 +51,8 @@ Habit habit_of(MarkKind kind, CurveName part) {
     return {};
 }
 
-// Points of cracks, found again by place.
-class Neighbourhood {
+// A grid for nearest-point queries on the points of cracks.
+class CrackGrid {
   public:
     struct Found {
         double square = 4.0;
@@ -63,7 +63,7 @@ class Neighbourhood {
     void add(double x, double y, std::uint32_t crack) {
         cells_[cell(x, y)].push_back({x, y, crack});
     }
-    // The nearest point of a crack other than `own`, within one cell's side.
+    // Returns the nearest point of a crack other than `own` within the side of one cell.
     [[nodiscard]] Found nearest(double x, double y, std::uint32_t own) const {
         Found found;
         const int i = index(x), j = index(y);
@@ -107,7 +107,7 @@ constexpr double crack_step = 0.03, net_spacing = 0.082, longest_crack = 0.9;
 
 // Grows one end of a crack until it meets another or leaves the face.
 std::vector<CrackPoint> grow_end(CrackPoint at, Heading heading, std::uint32_t own,
-                                 const Neighbourhood& grown_before, Random& random) {
+                                 const CrackGrid& grown_before, Random& random) {
     std::vector<CrackPoint> out;
     double left = longest_crack;
     while (left > 0.0) {
@@ -118,12 +118,13 @@ std::vector<CrackPoint> grow_end(CrackPoint at, Heading heading, std::uint32_t o
             out.push_back({near.x, near.y, 0.0});
             return out;
         }
-        // The skin is free along an open crack: the next one turns towards it and meets it squarely.
+        // Stress is released along an open crack: a new one turns towards it and meets it at a
+        // right angle.
         if (near.any) {
-            const double far = std::sqrt(near.square);
-            const double dx = (near.x - at.x) / far, dy = (near.y - at.y) / far;
+            const double distance = std::sqrt(near.square);
+            const double dx = (near.x - at.x) / distance, dy = (near.y - at.y) / distance;
             if (dx * heading.x + dy * heading.y > 0.2) {
-                const double pull = 0.5 * smooth_step(0.0, 1.0, 1.0 - far / 0.1);
+                const double pull = 0.5 * smooth_step(0.0, 1.0, 1.0 - distance / 0.1);
                 heading = unit(heading.x + pull * dx, heading.y + pull * dy, heading);
             }
         }
@@ -156,33 +157,33 @@ double begun(double onset, double amount) {
 }
 
 std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed) {
-    const Habit habit = habit_of(kind, part);
+    const Distribution distribution = distribution_of(kind, part);
     const auto purpose =
         purposes::marks + 4 * static_cast<std::uint32_t>(kind) + static_cast<std::uint32_t>(part);
     std::vector<Mark> out;
-    out.reserve(static_cast<std::size_t>(habit.count));
+    out.reserve(static_cast<std::size_t>(distribution.count));
     Random start(seed, purpose, 0x80000000U);
     double theta = start.uniform(0.0, whole_turn);
     const double first = start.uniform();
-    for (int i = 0; i < habit.count; ++i) {
+    for (int i = 0; i < distribution.count; ++i) {
         const auto id = static_cast<std::uint32_t>(i);
         Random random(seed, purpose, id);
         const double along = random.uniform();
-        const double round = random.symmetric();
+        const double jitter = random.symmetric();
         const double size = random.uniform();
-        const double slender = random.uniform();
-        // By the golden angle: no side of the mushroom is left out, and none has two of a size.
-        theta = wrapped(theta + 2.39996322972865332 + 0.35 * round);
+        const double elongation = random.uniform();
+        // The golden angle covers all sides of the mushroom and keeps equal sizes apart.
+        theta = wrapped(theta + 2.39996322972865332 + 0.35 * jitter);
         Mark mark;
-        // Even along a stem, even over the area of a disc.
+        // The distribution is uniform along a stem, and uniform over the area of a disc.
         const double place = first + 0.61803398874989485 * i + 0.12 * along;
         const double share = place - std::floor(place);
         const double mixed = part == CurveName::stem ? share : std::sqrt(share);
-        mark.sigma = habit.from + (habit.to - habit.from) * mixed;
+        mark.sigma = distribution.from + (distribution.to - distribution.from) * mixed;
         mark.theta = theta;
-        mark.radius = habit.small + (habit.large - habit.small) * size * size;
-        mark.elongation = 1.0 + (habit.slender - 1.0) * slender;
-        mark.onset = 0.75 * i / std::max(habit.count, 1);
+        mark.radius = distribution.small + (distribution.large - distribution.small) * size * size;
+        mark.elongation = 1.0 + (distribution.elongation - 1.0) * elongation;
+        mark.onset = 0.75 * i / std::max(distribution.count, 1);
         mark.id = id;
         out.push_back(mark);
     }
@@ -195,11 +196,11 @@ std::vector<Notch> bites(std::uint32_t seed) {
     const double phase = Random(seed, purposes::bites, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::bites, static_cast<std::uint32_t>(i));
-        const double round = random.symmetric();
+        const double jitter = random.symmetric();
         const double width = random.uniform(0.17, 0.36);
         const double depth = random.uniform(0.85, 1.35);
         Notch notch;
-        notch.theta = wrapped(phase + 2.39996322972865332 * i + 0.3 * round);
+        notch.theta = wrapped(phase + 2.39996322972865332 * i + 0.3 * jitter);
         notch.half_width = width;
         notch.depth = std::min(depth * width, 0.42);
         notch.onset = 0.6 * i / count;
@@ -215,15 +216,15 @@ std::vector<Notch> splits(std::uint32_t seed) {
     const double phase = Random(seed, purposes::splits, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::splits, static_cast<std::uint32_t>(i));
-        const double round = random.symmetric();
+        const double jitter = random.symmetric();
         const double width = random.uniform(0.028, 0.07);
-        const double luck = random.uniform();
+        const double draw = random.uniform();
         Notch notch;
         notch.bitten = false;
-        notch.theta = wrapped(phase + whole_turn * ((5 * i % count) + 0.4 * round) / count);
+        notch.theta = wrapped(phase + whole_turn * ((5 * i % count) + 0.4 * jitter) / count);
         notch.half_width = width;
-        // Few are long.
-        notch.depth = 0.12 + 0.42 * luck * luck;
+        // The square makes long ones rare.
+        notch.depth = 0.12 + 0.42 * draw * draw;
         notch.onset = 0.7 * i / count;
         notch.id = 100 + static_cast<std::uint32_t>(i);
         out.push_back(notch);
@@ -234,7 +235,7 @@ std::vector<Notch> splits(std::uint32_t seed) {
 double notch_profile(const Notch& notch, double theta) {
     const double turn = turn_between(notch.theta, theta);
     const double x = turn / notch.half_width;
-    // A column that stands on the edge is outside, however its angle was rounded.
+    // A column at the edge counts as outside, however its angle was rounded.
     constexpr double edge = 1.0 - 1e-6;
     if (x <= -edge || x >= edge) return 0.0;
     if (notch.bitten) return std::sqrt(1.0 - x * x);
@@ -242,7 +243,7 @@ double notch_profile(const Notch& notch, double theta) {
 }
 
 double tongue_ragged(const Tongue& tongue, double turn) {
-    // Like a cosine of period 1, as paint has it.
+    // The paint kernels use the same cubic approximation of a cosine of period 1.
     const auto wave = [](double t) {
         const double u = std::abs(t - std::floor(t) - 0.5) * 2.0;
         return u * u * (6.0 - 4.0 * u) - 1.0;
@@ -257,12 +258,12 @@ std::vector<Tongue> tongues(std::uint32_t seed) {
     const double phase = Random(seed, purposes::tongues, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::tongues, static_cast<std::uint32_t>(i));
-        const double round = random.symmetric();
+        const double jitter = random.symmetric();
         const double width = random.uniform(0.22, 0.55);
         const double reach = random.uniform(0.55, 1.0);
         Tongue tongue;
         for (double& one : tongue.phases) one = random.uniform();
-        tongue.theta = wrapped(phase + whole_turn * ((2 * i % count) + 0.3 * round) / count);
+        tongue.theta = wrapped(phase + whole_turn * ((2 * i % count) + 0.3 * jitter) / count);
         tongue.half_width = width;
         tongue.reach = reach;
         tongue.onset = 0.6 * i / count;
@@ -293,7 +294,7 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
     std::sort(seeds.begin(), seeds.end(), [](const Seed& a, const Seed& b) {
         return a.strength != b.strength ? a.strength > b.strength : a.id < b.id;
     });
-    Neighbourhood points;
+    CrackGrid points;
     std::vector<Crack> out;
     for (const Seed& from : seeds) {
         const auto own = static_cast<std::uint32_t>(out.size());
@@ -301,11 +302,12 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
         if (near.any && near.square < net_spacing * net_spacing) continue;
         Random random(seed, purposes::crack_net, 0x10000U + from.id);
         const SineCosine turn = sine_cosine(random.uniform(0.0, whole_turn));
-        // Away from the nearest crack, or anywhere.
-        const double away = near.any ? 0.8 : 0.0;
-        const double far = near.any ? std::sqrt(near.square) : 1.0;
-        const Heading heading = unit(turn.cosine + away * (from.x - near.x) / far,
-                                     turn.sine + away * (from.y - near.y) / far, {1.0, 0.0});
+        // The heading points repulsion from the nearest crack, or is uniform if there is none.
+        const double repulsion = near.any ? 0.8 : 0.0;
+        const double distance = near.any ? std::sqrt(near.square) : 1.0;
+        const Heading heading =
+            unit(turn.cosine + repulsion * (from.x - near.x) / distance,
+                 turn.sine + repulsion * (from.y - near.y) / distance, {1.0, 0.0});
         const CrackPoint start{from.x, from.y, 0.0};
         const auto ahead = grow_end(start, heading, own, points, random);
         const auto behind = grow_end(start, {-heading.x, -heading.y}, own, points, random);
@@ -314,7 +316,7 @@ std::vector<Crack> crack_net(std::uint32_t seed) {
         crack.points.push_back(start);
         crack.points.insert(crack.points.end(), ahead.begin(), ahead.end());
         const double last = static_cast<double>(crack.points.size() - 1);
-        // It tears open at its seed first.
+        // A crack opens at its seed first.
         const double middle = static_cast<double>(behind.size());
         for (std::size_t i = 0; i < crack.points.size(); ++i) {
             const double off = static_cast<double>(i) - middle;
@@ -337,11 +339,11 @@ std::vector<Crack> radial_cracks(std::uint32_t seed) {
         Random(seed, purposes::radial_cracks, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::radial_cracks, static_cast<std::uint32_t>(i));
-        const double round = random.symmetric();
-        const double luck = random.uniform();
+        const double jitter = random.symmetric();
+        const double draw = random.uniform();
         const double rank = random.uniform();
-        double theta = phase + whole_turn * (i + 0.36 * round) / count;
-        const double length = 0.12 + 0.62 * luck * luck * luck;
+        double theta = phase + whole_turn * (i + 0.36 * jitter) / count;
+        const double length = 0.12 + 0.62 * draw * draw * draw;
         const int steps = 4 + static_cast<int>(length / 0.05);
         double drift = 0.0;
         Crack crack;
@@ -354,7 +356,7 @@ std::vector<Crack> radial_cracks(std::uint32_t seed) {
             const SineCosine turn = sine_cosine(theta);
             crack.points.push_back({rho * turn.cosine, rho * turn.sine, along});
         }
-        crack.onset = 0.65 * rank * (1.0 - 0.5 * luck * luck);
+        crack.onset = 0.65 * rank * (1.0 - 0.5 * draw * draw);
         crack.width = 0.55 + 0.6 * length;
         out.push_back(std::move(crack));
     }
@@ -367,7 +369,7 @@ std::vector<Furrow> furrows(std::uint32_t seed) {
     const double phase = Random(seed, purposes::furrows, 0x80000000U).uniform(0.0, whole_turn);
     for (int i = 0; i < count; ++i) {
         Random random(seed, purposes::furrows, static_cast<std::uint32_t>(i));
-        const double round = random.symmetric();
+        const double jitter = random.symmetric();
         const double wander = random.uniform(0.05, 0.16);
         const double start = random.uniform(0.0, whole_turn);
         const double low = random.uniform();
@@ -375,7 +377,7 @@ std::vector<Furrow> furrows(std::uint32_t seed) {
         const double depth = random.uniform(0.45, 1.0);
         const double where = random.uniform();
         Furrow furrow;
-        furrow.theta = wrapped(phase + whole_turn * ((4 * i % count) + 0.33 * round) / count);
+        furrow.theta = wrapped(phase + whole_turn * ((4 * i % count) + 0.33 * jitter) / count);
         furrow.wander = wander;
         furrow.phase = start;
         furrow.from = 0.30 * low * low;
@@ -400,7 +402,7 @@ double furrow_depth(const Furrow& furrow, double sigma) {
 
 double radial_strain(const SubCurve& young, const SubCurve& now) {
     if (young.empty() || now.empty() || young.length() <= 0.0 || now.length() <= 0.0) return 0.0;
-    // The cap runs from the margin (0) to the apex (1): its outer part is where a margin tears.
+    // The cap runs from the margin (0) to the apex (1): the margin tears in its outer part.
     double hoop_young = 0.0, hoop_now = 0.0;
     for (const double share : {0.05, 0.12, 0.2}) {
         hoop_young += young.at(share).r;

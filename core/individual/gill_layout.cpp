@@ -12,9 +12,10 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int most_between = 16;  // blades from one that reaches the stem to the next, at most
+// greatest number of blades per gap between those that reach the stem
+constexpr int most_between = 16;
 
-// The hash of core/math/noise.inl, one lane of it.
+// One lane of the hash of core/math/noise.inl.
 constexpr std::uint32_t prime_x = 0x9E3779B1U, prime_y = 0x85EBCA77U;
 
 std::uint32_t hashed(std::uint32_t h) {
@@ -94,7 +95,7 @@ std::array<std::uint32_t, 8> hymenium_words(std::uint32_t seed) {
     return words;
 }
 
-float lot_of(int whole, std::uint32_t word) {
+float hashed_symmetric(int whole, std::uint32_t word) {
     return upper_part(hashed(hashed(whole_bits(whole) * prime_x) ^ word));
 }
 
@@ -114,10 +115,10 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
         for (int level = 0; level < 2; ++level)
             for (int k = 0; k < n << level; ++k) {
                 const auto i = static_cast<std::size_t>(level);
-                const double chance =
-                    static_cast<double>(lot_of(k, words[2] + static_cast<std::uint32_t>(level)));
-                const double side =
-                    static_cast<double>(lot_of(k, words[3] + static_cast<std::uint32_t>(level)));
+                const double chance = static_cast<double>(
+                    hashed_symmetric(k, words[2] + static_cast<std::uint32_t>(level)));
+                const double side = static_cast<double>(
+                    hashed_symmetric(k, words[3] + static_cast<std::uint32_t>(level)));
                 const double begin =
                     fork_begins[i] + (1.0 - forking) * fork_missing + chance * fork_strays[i];
                 const double gap = 1.0 / (1 << level), left = k * gap;
@@ -136,8 +137,8 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
                 if (!(rank - std::floor(rank) < static_cast<float>(stand.last_tier))) continue;
             }
             const double at = (k + 0.5) / (1 << tier);
-            const double chance =
-                static_cast<double>(lot_of(k, words[2] + static_cast<std::uint32_t>(tier)));
+            const double chance = static_cast<double>(
+                hashed_symmetric(k, words[2] + static_cast<std::uint32_t>(tier)));
             put(at, {.presence = 1.0,
                      .begin = tier_begin(tier) + chance * tier_strays,
                      .rise = 1.0 / tier_rise,
@@ -146,7 +147,7 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
         }
 }
 
-// Blades on slots stand where the slot nearest to their even place is.
+// Blades on slots take the slot nearest to their even spacing.
 double BladeRow::turn_of(double gaps) const {
     if (stand_.slots == 0) return gaps / stand_.blades;
     const double stands = gaps * stand_.stride;
@@ -181,7 +182,7 @@ std::vector<CrossVein> cross_veins(int ridges, double forking, std::uint32_t see
         for (int ridge = 0; ridge < ridges; ++ridge) {
             const int whole = ridge + vein_rows_apart * row;
             const auto lot = [&](std::uint32_t which) {
-                return static_cast<double>(lot_of(whole, word + which));
+                return static_cast<double>(hashed_symmetric(whole, word + which));
             };
             veins.push_back(
                 {ridge, (row + 0.5 + vein_stray * lot(0)) / rows, vein_tilt * lot(1) / rows,

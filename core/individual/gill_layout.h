@@ -1,4 +1,5 @@
-// Where gills, ridges and spines stand: one source of places for the solids that are built and for the images that are painted.
+// The layout of gills, ridges and spines: one source of positions for the solids of the mesh and
+// for the painted images.
 #pragma once
 
 #include <array>
@@ -9,8 +10,9 @@
 
 namespace sporeprint {
 
-/// The gills or ridges of a whole set, so that no weight and no age changes their number: those of the species and stage with the
-/// most at the margin. A species with fewer shows its own, the last tiers dropped first. 0 blades: none carries any.
+/// The gill layout of a whole set: the gills or ridges of the species and stage with the most at
+/// the margin, so that no weight and no age changes their number. A species with fewer uses a part
+/// of the slots, the last tiers dropped first. 0 blades: no species carries any.
 struct Comb {
     int blades = 0;
     int tiers = 0;
@@ -23,22 +25,26 @@ struct Comb {
     return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
 }
 
-/// How a species stands its blades on the comb of its set. Tiers fill up one after another; a species with so few blades that all
-/// would reach the stem keeps its own tiers instead, each blade on a slot.
+/// The assignment of a species' blades to the slots of its set's layout. Tiers are filled one after
+/// another; a species with so few blades that all would reach the stem keeps its own tiers instead,
+/// each blade on a slot.
 struct Stand {
     int blades = 0;          ///< that reach the stem
-    int tiers = 0;           ///< of shorter ones; each halves the gaps
-    double last_tier = 1.0;  ///< share of the last tier's blades that is there
-    int slots = 0;   ///< round the comb, on which blades stand; 0: they stand evenly by themselves
-    int stands = 0;  ///< blades on slots
-    int stride = 1;  ///< each so-manieth of which reaches the stem
+    int tiers = 0;           ///< of shorter blades; each halves the gaps
+    double last_tier = 1.0;  ///< share of the last tier's blades that is present
+    int slots = 0;   ///< number of slots round the axis; 0: blades are evenly spaced without slots
+    int stands = 0;  ///< number of blades on slots
+    int stride = 1;  ///< every `stride`-th blade reaches the stem
 };
 
-/// comb  blades that reach the stem in the comb of the set; 0: the species stands alone
+/// Returns the slot assignment of a species.
+///
+/// comb  blades that reach the stem in the layout of the set; 0 for a species without a set
 [[nodiscard]] Stand stand_on(int comb, HymeniumPattern pattern, int blades, int tiers);
 
-/// Where a tier of shorter gills begins on the meridian (0 stem, 1 margin). On the comb of a set a species may fill more tiers than
-/// any has of its own: those begin ever nearer to the margin.
+/// Returns the share of the meridian (0 stem, 1 margin) at which a tier of shorter gills begins. In
+/// the layout of a set a species may fill more tiers than any species has alone: those begin ever
+/// closer to the margin.
 [[nodiscard]] constexpr double tier_begin(int tier) {
     constexpr std::array<double, 3> begins = {0.30, 0.58, 0.78};
     if (tier < 3) return begins[static_cast<std::size_t>(tier)];
@@ -46,17 +52,20 @@ struct Stand {
     for (int i = 3; i <= tier; ++i) left *= 0.5;
     return 1.0 - left;
 }
-/// How far that strays, and how fast they rise.
+/// Random variation of that share, and the steepness with which shorter gills rise.
 inline constexpr double tier_strays = 0.11, tier_rise = 9.0;
-/// The same of the two levels of forks of a ridge, when it forks as much as can be; and how fast they swing to the middle.
+/// The same for the two levels of forks of a ridge at maximal forking; and how fast forks move to
+/// the middle of the gap.
 inline constexpr std::array<double, 2> fork_begins = {0.24, 0.66}, fork_strays = {0.17, 0.10};
 inline constexpr double fork_swing = 3.2, fork_missing = 1.1;
-/// How far gills and ridges wander from their meridian, in turns, for a wander of 1.
+/// Amplitude of the deviation of gills and ridges from their meridian, in turns, per unit of
+/// Wander.
 inline constexpr double gill_wander = 0.0016, ridge_wander = 0.011;
-/// Steps of the golden section spread what is there of a tier as evenly as can be, whatever its share.
+/// Steps of the golden section distribute any share of a tier's blades as evenly as possible.
 inline constexpr double golden_step = 0.61803399;
 
-/// Smooth straying of blades from their meridians: a few waves round the axis that lean with the meridian.
+/// A smooth deviation of blades from their meridians: a few waves round the axis with a phase that
+/// depends on the meridian.
 struct Wander {
     struct Wave {
         int count = 1;
@@ -64,40 +73,49 @@ struct Wander {
     };
     std::array<Wave, 4> waves;
 
-    /// -1..1; turn round the axis 0..1, share of the meridian 0..1
+    /// Returns the deviation, -1..1, at a turn round the axis, 0..1, and a share of the meridian,
+    /// 0..1.
     [[nodiscard]] double at(double turn, double share) const;
 };
 [[nodiscard]] Wander wander_of(std::uint32_t seed);
 
-/// Like a cosine of period 1: 1 at whole numbers, -1 half-way between; a cubic.
+/// Returns a cubic approximation of a cosine of period 1: 1 at integers, -1 half-way between.
 [[nodiscard]] double cubic_wave(double t);
 
-/// Words that the places of an individual's hymenium are drawn from; 2 and 3 belong to blades, 4 to cross veins, 5 to cells.
+/// Returns the hash keys of an individual's hymenium: 2 and 3 are for blades, 4 for cross veins, 5
+/// for cells.
 [[nodiscard]] std::array<std::uint32_t, 8> hymenium_words(std::uint32_t seed);
 
-/// Number in -1..1 that belongs to a whole number; equal to what paint draws, to the bit.
-[[nodiscard]] float lot_of(int whole, std::uint32_t word);
+/// Returns the hash of an integer as a number in -1..1, equal bit for bit to the hash in the paint
+/// kernels.
+[[nodiscard]] float hashed_symmetric(int whole, std::uint32_t word);
 
-/// One blade as a species wears it.
+/// One blade of a species.
 struct Blade {
-    double presence = 0.0;  ///< 0: the species has none here
+    double presence = 0.0;  ///< 0: the species has no blade on this slot
     double begin = 0.0;     ///< on the meridian, 0 at the stem
-    double rise = 0.0;  ///< share of the meridian over which it rises; 0: it begins at full height
+    /// share of the meridian over which its height rises; 0: full height at its beginning
+    double rise = 0.0;
     double from =
-        0.0;  ///< where it stands where it begins, in gaps of the blades that reach the stem
-    double to = 0.0;  ///< where it ends up at the margin
-    int number = 0;   ///< round the axis, among all that the species can have: what it draws by
+        0.0;  ///< angular position at its beginning, in gaps between blades that reach the stem
+    double to = 0.0;  ///< the same at the margin
+    /// index round the axis among all that the species can have: the key of its random draws
+    int number = 0;
 };
 
-/// The blades of a species on the slots of a set: one for each slot of a grid of `slots` round the axis.
+/// The blades of a species on the slots of a set: one entry for each of `slots` positions round the
+/// axis.
 class BladeRow {
   public:
-    /// slots  at least as many as the species has blades and forks; slot k stands at k / slots
+    /// Places the blades of a species.
+    ///
+    /// slots  at least as many as the species has blades and forks; slot k is at k / slots turns
     BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, std::uint32_t seed,
              int slots);
 
     [[nodiscard]] const std::vector<Blade>& blades() const { return blades_; }
-    /// Where a blade crosses a share of the meridian, in turns; its own, not folded into 0..1.
+    /// Returns the angular position of a blade at a share of the meridian, in turns, not wrapped to
+    /// 0..1.
     [[nodiscard]] double turn(const Blade& blade, double share) const;
 
   private:
@@ -110,32 +128,36 @@ class BladeRow {
     std::vector<Blade> blades_;
 };
 
-/// A low fold that joins a ridge to the next one round the axis.
+/// A low fold that connects a ridge to the next one round the axis.
 struct CrossVein {
-    int ridge = 0;        ///< it begins at; the next one is where it ends
+    int ridge = 0;        ///< index of the ridge where it begins; it ends at the next one
     double share = 0.0;   ///< of the meridian, half-way between both
-    double tilt = 0.0;    ///< share at the next ridge less that at its own
-    double height = 0.0;  ///< 0..1: 0 where ridges are not joined
+    double tilt = 0.0;    ///< share at the next ridge minus that at its own
+    double height = 0.0;  ///< 0..1: 0 where ridges are not connected
 };
-/// Rows of cross veins from the stem to the margin: one in each gap, as far as a species may have so many.
+/// Returns the number of rows of cross veins from the stem to the margin: one vein per gap and row,
+/// as far as the limit on veins permits.
 [[nodiscard]] constexpr int cross_vein_rows(int ridges) {
     const int rows = 320 / (ridges > 0 ? ridges : 1);
     return rows < 7 ? rows : 7;
 }
-/// How far they stray in their rows, how much they tilt, and how wide they are, in rows.
+/// Random offset within the row, tilt and width of cross veins, in rows.
 inline constexpr double vein_stray = 0.36, vein_tilt = 0.4, vein_width = 0.11;
-/// Of each whole number there is one vein: that of gap k in row j has k + vein_rows_apart * j.
+/// The vein of gap k in row j has the hash index k + vein_rows_apart * j.
 inline constexpr int vein_rows_apart = 512;
-/// How many there are: this less what a vein draws, times the steepness, is its height.
+/// Returns the threshold of presence: this minus the hash of a vein, times the steepness, is its
+/// height.
 [[nodiscard]] constexpr double veins_there(double forking) { return 1.4 * forking - 0.5; }
 inline constexpr double vein_steepness = 4.0;
 
-/// The cross veins of a species with so many ridges: those without height too, so that no age changes their number.
+/// Returns the cross veins of a species with so many ridges, including those of height 0, so that
+/// no age changes their number.
 [[nodiscard]] std::vector<CrossVein> cross_veins(int ridges, double forking, std::uint32_t seed);
 
-/// Rows of cells (pores, spines) from the stem to the margin; row j has max(floor(from + grow * (j + 0.5)), 3) of them.
+/// Rows of cells (pores, spines) from the stem to the margin; row j has max(floor(from + grow * (j
+/// + 0.5)), 3) of them.
 struct CellRows {
-    int rows = 0;  ///< 0: as many as the lengths of the individual ask for
+    int rows = 0;  ///< 0: computed from the lengths of the individual
     double from = 6.0;
     double grow = 0.0;
 
@@ -151,23 +173,24 @@ struct CellRows {
     bool operator==(const CellRows&) const = default;
 };
 
-/// Most pores or spines that are solids; of more spines there are fewer and thicker ones, more pores live in the images alone.
+/// The greatest number of solid spines; denser ones are made fewer and thicker, denser pores exist
+/// in the images alone.
 inline constexpr int most_spines = 1500;
 
-/// How many cells the rows have.
+/// Returns the total number of cells.
 [[nodiscard]] int cell_count(const CellRows& cells);
 
-/// Rows of square cells on a face.
+/// Returns rows of square cells on a face.
 ///
 /// arc, inner, outer  length of its meridian and radii where it begins and ends, metres
-/// most               cells at most: of more the spacing is widened
+/// most               greatest number of cells; the spacing is widened to meet it
 [[nodiscard]] CellRows cell_rows(double arc, double inner, double outer, double per_metre,
                                  int most);
 
-/// Where a cell's point lies; equal to what paint draws but for rounding.
+/// The position of a cell's point; equal to that of the paint kernels up to rounding.
 struct CellPlace {
     double turn = 0.0, share = 0.0;
-    double lot = 0.0;  ///< -1..1, its own
+    double lot = 0.0;  ///< -1..1, random per cell
 };
 [[nodiscard]] std::vector<CellPlace> cell_places(const CellRows& cells, std::uint32_t seed);
 inline constexpr float cell_jitter = 0.30F;

@@ -1,4 +1,4 @@
-// One individual: an order with everything decided. What is swept, deformed, ornamented and painted reads from here.
+// A resolved individual: a request with everything decided. Geometry and painting read from it.
 #pragma once
 
 #include <memory>
@@ -14,28 +14,28 @@
 
 namespace sporeprint {
 
-/// One species of an individual, or its own Model (`id` empty).
+/// One species of an individual, or a custom Model (`id` empty).
 struct SpeciesShare {
     std::string id;
     double weight = 1.0;  ///< weights of an individual sum to 1
-    Model model;          ///< the species' own at this age, overrides applied: what is painted
-    CellRows cells;       ///< of its spines, whatever the age
+    Model model;          ///< of the species at this age, overrides applied; it is what is painted
+    CellRows cells;       ///< rows of its spines, independent of the age
 };
 
-/// The torn pieces that one species brings to an individual. Species whose pieces have equal places share a layer.
+/// The veil and skin patches of one species. Species whose patches have equal places share a layer.
 struct PatchLayer {
-    std::uint32_t purpose = 0;  ///< purposes::warts or another kind of piece
-    PatchStyle style;           ///< places are drawn from it, whatever the weight
+    std::uint32_t purpose = 0;  ///< purposes::warts or another kind of patch
+    PatchStyle style;           ///< determines the places, independent of the weight
     double amount = 0.0;        ///< of the veil or skin: 0..1
-    double weight = 1.0;        ///< of the species in the mix: factor on the size of every piece
-    /// Of pieces on the stem: shares of arc length at which the segments of the mature stem begin, and 1. A piece stays on its
-    /// segment, at its share of it.
+    double weight = 1.0;        ///< of the species in the mix: factor on the size of every patch
+    /// For patches on the stem: shares of arc length at which the segments of the mature stem
+    /// begin, and 1. A patch stays on its segment, at a constant share of it.
     std::vector<double> segments{};
     bool operator==(const PatchLayer&) const = default;
 };
 
-/// Weathering as geometry knows it: amounts times the weight of the species that can have them, and what can occur at some age,
-/// so that no age changes the number of vertices.
+/// Damage by weathering for geometry: amounts times the weight of the species that can have them,
+/// and which kinds can occur at any age, so that no age changes the number of vertices.
 struct Wear {
     WeatheringOf<Plain> amounts;
     double clubs = 0.0;  ///< weight of the species without a margin
@@ -44,40 +44,39 @@ struct Wear {
     [[nodiscard]] bool any() const { return !(amounts == WeatheringOf<Plain>{}); }
 };
 
-/// An order with everything decided: what `resolve` answers.
+/// The result of `resolve`: a request with everything decided.
 struct Individual {
-    Model
-        model;  ///< all amounts and sizes, blended; its shape is empty: `outline` and `axis` are the individual's own
+    Model model;  ///< all amounts and sizes, blended; its shape is empty: see `outline` and `axis`
     MushroomParams
-        effective;  ///< every optional that a species of the mix can have, set to what the individual really has
-    double size = 0.0;       ///< of a swept one: what shapes of unit size are multiplied by, metres
-    double lightness = 1.0;  ///< factor on the linear colour of the cap
-    std::vector<SpeciesShare> parts;  ///< by id
+        /// every optional that a species of the mix can have, set to the individual's value
+        effective;
+    /// scale of a swept individual: unit-size shapes are multiplied by it, metres
+    double size = 0.0;
+    double lightness = 1.0;           ///< factor on the linear colour of the cap
+    std::vector<SpeciesShare> parts;  ///< sorted by id
     std::shared_ptr<const MorphSet>
-        set;                 ///< of all control shapes of its swept species; knows what is proven
-    Bush bush;               ///< of the branched family; what follows is then empty
-    Outline outline;         ///< metres; proportions and size of the individual
+        set;          ///< all control shapes of its swept species, with what is proven about them
+    Bush bush;        ///< of the branched family; the members after it are then empty
+    Outline outline;  ///< metres; with the proportions and size of the individual
     double stem_base = 0.0;  ///< height of the first point of the stem, metres
-    double stem_top = 0.0;   ///< of its last
+    double stem_top = 0.0;   ///< height of the last point of the stem, metres
     double radial_strain =
-        0.0;  ///< how much more the cap has grown round the axis than along its meridian, 0..1
+        0.0;  ///< 0..1: by how much the cap has grown more in circumference than along its meridian
     AxisCurve axis;
-    Azimuth azimuth;             ///< its fan; what it says of lobes does not count
-    std::vector<Azimuth> lobes;  ///< those of each species, as deep as it weighs
-    std::vector<ReliefStyle>
-        reliefs;  ///< of the upper face, that of each species as deep as it weighs
+    Azimuth azimuth;                   ///< the lateral (fan) part; its lobes are not used
+    std::vector<Azimuth> lobes;        ///< one per species with lobes, depth times weight
+    std::vector<ReliefStyle> reliefs;  ///< of the upper face, one per form, depth times weight
     std::vector<PatchLayer>
-        layers;    ///< warts, scales and volvas of all species, also those of which nothing is left
-    SacStyle sac;  ///< its height holds amounts and weights; metres
-    bool has_sac = false;   ///< whether a species of the mix can have one at some age
-    RingStyle ring;         ///< its width holds amounts and weights; metres
-    bool has_ring = false;  ///< whether a species of the mix can have one at some age
-    double waves = 0.0;     ///< of the margin: what no species with a margin has, none can show
+        layers;            ///< warts, scales and volvas of all species, including those of amount 0
+    SacStyle sac;          ///< its height includes amounts and weights; metres
+    bool has_sac = false;  ///< some species of the mix can have one at some age
+    RingStyle ring;        ///< its width includes amounts and weights; metres
+    bool has_ring = false;  ///< some species of the mix can have one at some age
+    double waves = 0.0;     ///< of the margin, from the species with a margin only
     Wear wear;
     Comb comb;
-    int blade_tiers = 0;  ///< solids of blades stand on comb.blades << blade_tiers places
-    bool runs_down =
-        false;  ///< whether blades of a species of the mix run down the stem at some age
+    int blade_tiers = 0;     ///< solid blades are placed on comb.blades << blade_tiers slots
+    bool runs_down = false;  ///< gills of some species of the mix run down the stem at some age
 
     [[nodiscard]] bool is_branched() const { return !bush.empty(); }
 };

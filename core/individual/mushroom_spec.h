@@ -1,4 +1,4 @@
-// What a person may ask of a mushroom: the query parameters and the mix of species.
+// The request for a mushroom: query parameters and the mix of species.
 #pragma once
 
 #include "core/model/model.h"
@@ -6,7 +6,7 @@
 
 namespace sporeprint {
 
-/// How the images reach the client.
+/// How the images are delivered.
 enum class Textures { embedded, linked, none };
 
 constexpr const char* name(Textures textures) {
@@ -21,7 +21,7 @@ constexpr const char* name(Textures textures) {
     return nullptr;
 }
 
-/// What moves in the file.
+/// The animation clip in the file.
 enum class Animation { none, growth };
 
 constexpr const char* name(Animation animation) {
@@ -34,10 +34,10 @@ constexpr const char* name(Animation animation) {
     return nullptr;
 }
 
-/// Side of the LOD 0 atlas in texels.
+/// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
-/// Query parameters of /v1/mushrooms. Unset optionals are the species' own.
+/// The query parameters of /v1/mushrooms. Unset optionals take the value of the species.
 struct MushroomParams {
     std::uint32_t seed = 1;
     double age = 0.6;
@@ -97,7 +97,7 @@ struct MushroomParams {
                                .doc = "Growth stages in the clip, evenly spaced in age; only with "
                                       "animation=growth."});
     }
-    /// Without a clip the number of its frames would make a second address of the same bytes.
+    /// Refuses `frames` without a clip: it would make a second URL of the same bytes.
     void check(const std::string& path, std::vector<Problem>& problems) const {
         if (animation == Animation::none && frames != MushroomParams{}.frames)
             report(problems, path + "/frames",
@@ -115,13 +115,13 @@ struct MixPart {
 
 using Mix = std::vector<MixPart>;
 
-/// A whole order: a mix of the atlas or a model of the client's own, and the parameters.
+/// A whole request: a mix of the atlas or a custom model, and the parameters.
 struct MushroomOrder {
     Mix mix;
     std::optional<Model> model;
     MushroomParams params;
-    /// The designer's own links between the two species of a pair: `a` on the outline of mix[0], `b` on that of mix[1], both as
-    /// they are at params.age. Empty for any other number of species.
+    /// The designer's correspondences between the two species of a pair: `a` on the outline of
+    /// mix[0], `b` on that of mix[1], both at params.age. Empty for any other number of species.
     std::vector<Arc> arcs{};
 };
 

@@ -9,28 +9,30 @@ namespace sporeprint {
 
 namespace {
 
-// A ring or sac this wide, as a share of its species' size, has half a say in the shape of that of a mix.
-constexpr double half_a_say = 0.01;
+// A ring or sac of this width, relative to its species' size, has half of its weight in the shape
+// of the mix.
+constexpr double half_influence = 0.01;
 
-// By extent alone a thousandth of a wide ring would pull a narrow one up the stem.
+// Weights by extent alone would let a thousandth of a wide ring pull a narrow one up the stem.
 template <class Style>
-Style shell_of(const std::vector<Source>& sources, Style Model::*shell, double Style::*extent,
-               double OrnamentsOf<Plain>::*amount, double size) {
+Style blended_shell(const std::vector<Source>& sources, Style Model::*shell, double Style::*extent,
+                    double OrnamentsOf<Plain>::*amount, double size) {
     std::vector<Style> styles;
-    std::vector<double> says;
-    double whole = 0.0, said = 0.0;
+    std::vector<double> influences;
+    double whole = 0.0, influence_sum = 0.0;
     for (const Source& source : sources) {
         Style style = source.now.*shell;
         style.thickness /= source.size;
-        const double wide = source.now.ornaments.*amount * style.*extent / source.size;
-        whole += source.weight * wide;
-        says.push_back(source.weight * wide / (wide + half_a_say));
-        said += says.back();
+        const double extent_share = source.now.ornaments.*amount * style.*extent / source.size;
+        whole += source.weight * extent_share;
+        influences.push_back(source.weight * extent_share / (extent_share + half_influence));
+        influence_sum += influences.back();
         styles.push_back(style);
     }
     Shares<Style> shares;
     for (std::size_t i = 0; i < styles.size(); ++i)
-        shares.add(styles[i], said > 0.0 ? says[i] / said : sources[i].weight);
+        shares.add(styles[i],
+                   influence_sum > 0.0 ? influences[i] / influence_sum : sources[i].weight);
     Style one = blend(shares);
     one.*extent = whole * size;
     one.thickness *= size;
@@ -66,9 +68,9 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const Morp
                 }
             layers.push_back(
                 {purpose,
-                 among(sources, alike,
-                       [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
-                 among(sources, alike, amount), weight,
+                 blend_among(sources, alike,
+                             [&](const Source& s) -> const PatchStyle& { return s.now.*style; }),
+                 blend_among(sources, alike, amount), weight,
                  purpose == purposes::bulb_scales ? segments_of(i) : std::vector<double>{}});
         }
     };
@@ -82,11 +84,11 @@ std::vector<PatchLayer> layers_of(const std::vector<Source>& sources, const Morp
 }
 
 RingStyle ring_of(const std::vector<Source>& sources, double size) {
-    return shell_of(sources, &Model::ring, &RingStyle::width, &OrnamentsOf<Plain>::ring, size);
+    return blended_shell(sources, &Model::ring, &RingStyle::width, &OrnamentsOf<Plain>::ring, size);
 }
 
 SacStyle sac_of(const std::vector<Source>& sources, double size) {
-    return shell_of(sources, &Model::sac, &SacStyle::height, &OrnamentsOf<Plain>::volva, size);
+    return blended_shell(sources, &Model::sac, &SacStyle::height, &OrnamentsOf<Plain>::volva, size);
 }
 
 }  // namespace sporeprint

@@ -1,4 +1,5 @@
-// The ornaments of one individual from those of its species: layers of torn pieces, the ring and the sac.
+// The ornaments of one individual from those of its species: layers of patches, the ring and the
+// sac.
 #pragma once
 
 #include <vector>
@@ -8,12 +9,14 @@
 
 namespace sporeprint {
 
-/// One layer for each kind of piece of each species; species whose pieces have equal places share theirs.
+/// Returns one layer for each kind of patch of each species; species whose patches have equal
+/// places share theirs.
 [[nodiscard]] std::vector<PatchLayer> layers_of(const std::vector<Source>& sources,
                                                 const MorphSet& set);
 
-/// One ring or sac from those of all species: its extent is the sum of theirs, as shares of each one's size; the rest goes by weight,
-/// and what is hardly there has hardly a say. In metres for an individual of this size.
+/// Returns one ring or sac from those of all species, in metres for an individual of this size. Its
+/// extent is the weighted sum of theirs relative to the size of each species; the other values are
+/// means by weight, in which almost absent ones have almost no influence.
 [[nodiscard]] RingStyle ring_of(const std::vector<Source>& sources, double size);
 [[nodiscard]] SacStyle sac_of(const std::vector<Source>& sources, double size);
 

@@ -12,14 +12,15 @@ namespace {
 
 constexpr double quarter_turn = 0.5 * pi;
 
-// The young cap is a hemisphere: a share of the meridian is an angle from the pole.
+// The young cap is a hemisphere, so that a share of the meridian is an angle from the pole.
 struct Rings {
     std::vector<int> pieces;  // on each ring, pole first
     double first = 0.0;       // angle of the first ring from the pole
     double spacing = 0.0;     // angle between rings
 };
 
-// Rings one piece apart, each with pieces in proportion to its circumference; their sum is `count`.
+// Returns rings spaced by one patch, each with patches in proportion to its circumference; their
+// sum is `count`.
 Rings rings_between(double from, double to, int count) {
     const double area = 2.0 * pi * (cosine(from) - cosine(to));
     const double piece = std::sqrt(area / count);
@@ -40,9 +41,9 @@ Rings rings_between(double from, double to, int count) {
     return out;
 }
 
-// What the distance between two pieces needs, worked out once for each.
+// Values for the distance between two patches, computed once for each.
 struct Place {
-    double sigma, radius;  // radius of its circle round the axis; both in shares of the meridian
+    double sigma, radius;  // radius of its parallel circle; both in shares of the meridian
     SineCosine turn;
 };
 
@@ -50,11 +51,11 @@ Place place_of(const Patch& patch) {
     return {patch.sigma, sine(quarter_turn * patch.sigma) / quarter_turn, sine_cosine(patch.theta)};
 }
 
-// Distance on the hemisphere in shares of its meridian, lengths along the meridian shrunk by the
-// elongation.
+// Returns the distance on the hemisphere in shares of its meridian, with lengths along the meridian
+// divided by the elongation.
 double distance(const Place& a, const Place& b, double elongation) {
     const double along = (a.sigma - b.sigma) / elongation;
-    // The chord on the circle half-way between: never longer than the way over the pole.
+    // The chord on the circle half-way between is never longer than the path over the pole.
     const double radius = 0.5 * (a.radius + b.radius);
     const double x = radius * (a.turn.cosine - b.turn.cosine);
     const double y = radius * (a.turn.sine - b.turn.sine);
@@ -81,33 +82,33 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
         for (int i = 0; i < pieces; ++i, ++id) {
             Random stream(seed, purpose, id);
             const double along = stream.symmetric();
-            const double round = stream.symmetric();
+            const double jitter = stream.symmetric();
             const double small = stream.uniform();
             const double large = stream.uniform();
             const double spin = stream.uniform(0.0, 2.0 * pi);
             const double height = stream.uniform(0.75, 1.25);
-            const double luck = stream.uniform();
+            const double draw = stream.uniform();
             Patch patch;
             const double tilt = std::clamp(angle + 0.32 * rings.spacing * along, from, to);
             patch.sigma = tilt / quarter_turn;
-            double theta = phase + 2.0 * pi * ((i + 0.5 + 0.3 * round) / pieces);
+            double theta = phase + 2.0 * pi * ((i + 0.5 + 0.3 * jitter) / pieces);
             while (theta >= 2.0 * pi) theta -= 2.0 * pi;
             while (theta < 0.0) theta += 2.0 * pi;
             patch.theta = theta;
-            // The veil tears finer towards the margin, where the cap grows most.
+            // Patches are smaller towards the margin, where the cap grows most.
             const double reach = (tilt - from) / (to - from);
             patch.drawn = 0.62 + 0.5 * small + 0.35 * large * large;
             patch.radius = style.size * patch.drawn * (1.15 - 0.4 * reach);
             patch.spin = spin;
             patch.height = style.height * height;
-            // Rain takes the margin first.
-            patch.survival = 0.02 + 0.86 * (0.8 * luck + 0.2 * reach);
+            // Rain removes the patches of the margin first.
+            patch.survival = 0.02 + 0.86 * (0.8 * draw + 0.2 * reach);
             patch.id = id;
-            // A crowded piece is smaller, a badly crowded one never formed: it stays in the row, without size.
+            // A crowded patch is smaller; without space its radius is 0 and it keeps its index.
             double room = patch.radius;
             const Place place = place_of(patch);
             for (std::size_t other = 0; other < out.size(); ++other) {
-                // Too far along the meridian to matter, whatever the rest of the way.
+                // The distance along the meridian alone rules out an overlap.
                 const double along_only = patch.sigma > out[other].sigma
                                               ? patch.sigma - out[other].sigma
                                               : out[other].sigma - patch.sigma;
@@ -116,7 +117,8 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
                 room = std::min(room, distance(place, places[other], style.elongation) / 0.8 -
                                           out[other].radius);
             }
-            // Continuous in the style's size, so that nothing pops while the cap grows.
+            // The result is continuous in the style's size, so that no patch appears suddenly while
+            // the cap grows.
             patch.radius = std::max(0.0, room) * smooth_step(0.2, 0.5, room / patch.radius);
             out.push_back(patch);
             places.push_back(place);

@@ -12,8 +12,9 @@ struct Reach {
     double at, slope;
 };
 
-/// How far a place at `x` stem radii from the axis moves outwards when the stem's surface moves by one: with the stem up to 1,
-/// falling off to nothing at 4, with a continuous slope that is never below -0.8.
+/// Returns how far a point at `x` stem radii from the axis moves outwards when the stem's surface
+/// moves by one: with the stem up to 1, fading to 0 at 4, with a continuous slope that is never
+/// below -0.8.
 Reach reach_of_stem(double x) {
     if (x <= 1.0) return {x, 1.0};
     if (x >= 4.0) return {0.0, 0.0};
@@ -36,8 +37,9 @@ OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open
         node.position.x += widening * ((1.0 - fall) * r + fall * stem * near.at);
         node.velocity.x *= 1.0 + widening * ((1.0 - fall) + fall * near.slope);
     };
-    // Where sub-curves meet both sides are stretched alike, half as each would be, so that a smooth join stays one;
-    // the less of a lower face there is, the more its two joins become one.
+    // Where sub-curves meet, both sides are stretched by the mean of their factors, so that a
+    // smooth join stays smooth; the two joins of the lower face approach a single one as its weight
+    // vanishes.
     const double without = 0.5 * (by.longer + by.higher);
     const double at_junction = open * 0.5 * (by.longer + 1.0) + (1.0 - open) * without;
     const double at_margin = open * 0.5 * (1.0 + by.higher) + (1.0 - open) * without;
@@ -80,7 +82,7 @@ OutlineNodes scaled(OutlineNodes nodes, double by) {
     return nodes;
 }
 
-std::optional<CurveName> fault_of(const Outline& outline, int lod) {
+std::optional<CurveName> self_intersecting_curve(const Outline& outline, int lod) {
     const auto intersection = static_intersection(polyline(outline, lod));
     if (!intersection) return std::nullopt;
     return curve_of(*intersection, outline.rings(CurveName::stem, lod).size(),

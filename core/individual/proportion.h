@@ -1,4 +1,5 @@
-// An individual's own proportions, applied to the outline of its species: stem longer and wider, cap higher.
+// Individual proportions applied to the outline of a species: a longer and wider stem, a higher
+// cap.
 #pragma once
 
 #include <optional>
@@ -7,29 +8,32 @@
 
 namespace sporeprint {
 
-/// Factors on the template's outline; 1 leaves it as it is.
+/// Factors on the template's outline; 1 leaves it unchanged.
 struct Proportions {
     double longer = 1.0;  ///< length of the stem
-    double wider = 1.0;   ///< width of the stem, and of what hugs it
-    double higher = 1.0;  ///< height of the cap over its margin
+    double wider = 1.0;   ///< width of the stem, and of the surfaces next to it
+    double higher = 1.0;  ///< height of the cap above its margin
 };
 
-/// The outline in other proportions. What hugs the stem widens with it; further out the change dies away within three stem
-/// radii, so that an open cap keeps its diameter; a form without a lower face (a club) widens as a whole.
+/// Returns the outline in other proportions. Surfaces next to the stem widen with it; further out
+/// the change fades within three stem radii, so that an open cap keeps its diameter; a form without
+/// a lower face (a club) widens as a whole.
 ///
 /// nodes   of a set; wider < 2.25, so that radii keep their order
-/// open    0..1: how much of the mix has a lower face
-/// returns nodes whose velocities are moved by the map's Jacobian, sub-curves that were one smooth curve still are
+/// open    0..1: weight of the species with a lower face
+/// returns nodes whose velocities are transformed by the map's Jacobian, so that smooth joins of
+/// sub-curves stay smooth
 [[nodiscard]] OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open);
 
-/// The outline in another size.
+/// Returns the outline scaled by a factor.
 [[nodiscard]] OutlineNodes scaled(OutlineNodes nodes, double by);
 
-/// The sub-curve in which the swept polyline of one level of detail touches itself, folds back or reaches the axis between its ends;
-/// none if it is simple. Places that coincide count once: a sub-curve that has shrunk to a point crosses nothing.
-[[nodiscard]] std::optional<CurveName> fault_of(const Outline& outline, int lod);
+/// Returns the sub-curve in which the swept polyline of one level of detail touches itself, folds
+/// back or reaches the axis between its ends; none if it is simple. Coincident vertices count once:
+/// a sub-curve that has shrunk to a point crosses nothing.
+[[nodiscard]] std::optional<CurveName> self_intersecting_curve(const Outline& outline, int lod);
 
-/// Largest distance from the axis on a sub-curve, of 33 places.
+/// Returns the largest distance from the axis on a sub-curve, at 33 samples.
 [[nodiscard]] double greatest_radius(const SubCurve& curve);
 
 }  // namespace sporeprint

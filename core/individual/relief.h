@@ -1,4 +1,5 @@
-// What geometry and painting must agree on about the relief of the upper face: seeds, rows of pits, windows.
+// Parameters of the relief of the upper face that geometry and painting share: seeds, rows of pits,
+// fade intervals.
 #pragma once
 
 #include <array>
@@ -8,24 +9,26 @@
 
 namespace sporeprint {
 
-/// Seeds of the lattices that relief is drawn from: creases, finer creases, pits.
+/// Returns the seeds of the lattices that relief is drawn from: creases, finer creases, pits.
 [[nodiscard]] std::array<std::uint32_t, 3> relief_seeds(std::uint32_t seed);
 
-/// Relief has faded to nothing at the apex and at the margin, where the face meets others: shares of the meridian.
+/// Shares of the meridian at which relief fades out towards the apex and the margin, where the face
+/// meets others.
 inline constexpr double relief_apex = 0.02, relief_apex_end = 0.14;
 inline constexpr double relief_margin = 0.93;
 
-/// Pits of a row are as many as `pit_columns` times min(1, first + rise * share of its middle), at least 3.
+/// A row has max(3, `pit_columns` * min(1, first + rise * share of its middle)) pits.
 inline constexpr double pit_first = 0.25, pit_rise = 1.5;
 
-/// Points of pits stray this far from the middle of their cells; beyond this distance from a border the floor of a pit is reached,
-/// in cells, with sharp ribs.
+/// Random offset of pit points from the middle of their cells; the distance from a border at which
+/// the floor of a pit is reached, in cells, for sharp ribs.
 inline constexpr double pit_jitter = 0.38, pit_slope = 0.36, pit_rib = 0.2;
 
-/// Half width of a crease, as a value of the noise whose zeros the creases follow; weight of the finer creases.
+/// Half width of a crease as a value of the noise whose zeros are the creases; weight of the finer
+/// creases.
 inline constexpr double crease = 0.2, fine_creases = 0.3;
 
-/// Of the relief, what a mesh carries, 0..1: painting shows the rest.
+/// The share of the relief that a mesh carries, 0..1; painting shows the rest.
 struct CarriedRelief {
     double folds = 0.0, pits = 0.0, tiers = 0.0;
 
@@ -41,7 +44,8 @@ struct CarriedRelief {
     bool operator==(const CarriedRelief&) const = default;
 };
 
-/// By how many columns and rings of the cap a fold, a pit or a tier has.
+/// Returns what the mesh carries, from the number of columns and rings of the cap per fold, pit or
+/// tier.
 [[nodiscard]] CarriedRelief carried_relief(const ReliefStyle& style, int columns, int rings);
 
 }  // namespace sporeprint

@@ -20,11 +20,11 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int most_pores = 3000;  // as solids; of more, all live in the images alone
+constexpr int most_pores = 3000;  // as solids; denser ones exist in the images alone
 constexpr double most_natural_fold =
     0.6;  // curvature of the axis times the radius of the stem; it folds at 1
 
-/// The individual's own draws, -1..1 or 0..1. Drawn in a fixed order; a new one goes last.
+/// The random draws of an individual, -1..1 or 0..1, in a fixed order; new ones are appended.
 struct Draws {
     double size, stem_length, stem_width, cap_height, bend, lean, imperfection, lightness;
 };
@@ -47,7 +47,7 @@ double factor(double draw, double spread, double variation) {
     return exponential(draw * spread * variation);
 }
 
-/// The correspondence of all control shapes of the sources: kept under what they are.
+/// Returns the correspondence of all control shapes of the sources, cached by their content.
 std::shared_ptr<const MorphSet> morph_set(const std::vector<Source>& sources,
                                           const std::vector<Arc>& arcs, double age,
                                           const Remember<MorphSet>& morphs) {
@@ -68,13 +68,14 @@ std::shared_ptr<const MorphSet> morph_set(const std::vector<Source>& sources,
         std::vector<ControlShape> shapes;
         for (std::size_t species_index = 0; species_index < sources.size(); ++species_index)
             for (std::size_t i = 0; i < sources[species_index].stages.size(); ++i)
-                shapes.push_back({silhouette_of(*sources[species_index].stages[i]), sources[species_index].size, species_index,
+                shapes.push_back({silhouette_of(*sources[species_index].stages[i]),
+                                  sources[species_index].size, species_index,
                                   sources[species_index].ages[i]});
         return std::make_shared<const MorphSet>(std::move(shapes), arcs, age);
     });
 }
 
-/// Weights of all control shapes, in the order of morph_set().
+/// Returns the weights of all control shapes, in the order of morph_set().
 std::vector<double> shape_weights(const std::vector<Source>& sources) {
     std::vector<double> weights;
     for (const Source& source : sources)
@@ -82,7 +83,7 @@ std::vector<double> shape_weights(const std::vector<Source>& sources) {
     return weights;
 }
 
-/// The same at the beginning of life.
+/// Returns the same weights at the youngest stage.
 std::vector<double> young_weights(const std::vector<Source>& sources) {
     std::vector<double> weights;
     for (const Source& source : sources)
@@ -91,7 +92,7 @@ std::vector<double> young_weights(const std::vector<Source>& sources) {
     return weights;
 }
 
-/// How the cap's skin has been strained since it was young.
+/// Returns the strain of the cap's skin since its youngest stage.
 double strain_of(const MorphSet& set, const std::vector<Source>& sources) {
     const auto cap = [&](const std::vector<double>& weights) {
         return SubCurve(set.nodes(weights).cap, {-1.0, 0.0});
@@ -99,8 +100,8 @@ double strain_of(const MorphSet& set, const std::vector<Source>& sources) {
     return radial_strain(cap(young_weights(sources)), cap(shape_weights(sources)));
 }
 
-/// Weathering for geometry.
-Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& asked) {
+/// Returns the damage by weathering for geometry.
+Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& requested) {
     using Amount = double WeatheringOf<Plain>::*;
     Wear wear;
     const auto lay = [&](Amount amount, const std::optional<double>& wanted, auto able) {
@@ -120,14 +121,14 @@ Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& aske
     const auto margin = [](const Source& s) { return s.has_margin(); };
     for (const Source& source : sources)
         if (!source.has_margin()) wear.clubs += source.weight;
-    lay(&W::creases, asked.creases, all);
-    lay(&W::bumps, asked.bumps, all);
-    wear.bites = lay(&W::bites, asked.bites, all);
-    wear.splits = lay(&W::splits, asked.splits, margin);
+    lay(&W::creases, requested.creases, all);
+    lay(&W::bumps, requested.bumps, all);
+    wear.bites = lay(&W::bites, requested.bites, all);
+    wear.splits = lay(&W::splits, requested.splits, margin);
     wear.melts =
-        lay(&W::deliquescence, asked.deliquescence, [](const Source& s) { return s.melts(); });
-    wear.peels = lay(&W::peel, asked.peel, [](const Source& s) { return s.peels(); });
-    wear.dew = lay(&W::dew, asked.dew, all);
+        lay(&W::deliquescence, requested.deliquescence, [](const Source& s) { return s.melts(); });
+    wear.peels = lay(&W::peel, requested.peel, [](const Source& s) { return s.peels(); });
+    wear.dew = lay(&W::dew, requested.dew, all);
     return wear;
 }
 
@@ -146,7 +147,8 @@ const Azimuth& azimuth_of(const Source& source) {
     return std::get<Swept>(source.now.shape).azimuth;
 }
 
-/// The fan: how lateral by weight, its form by how much of it each species brings.
+/// Returns the fan: its amount is the weighted mean, its form the mean by the share of each species
+/// in that amount.
 Azimuth fan_of(const std::vector<Source>& sources) {
     double lateral = 0.0;
     for (const Source& source : sources) lateral += source.weight * azimuth_of(source).lateral;
@@ -160,7 +162,8 @@ Azimuth fan_of(const std::vector<Source>& sources) {
     return fan;
 }
 
-/// The lobes of each species that has any, as deep as it weighs: each keeps its own number.
+/// Returns the lobes of each species that has any, depth times weight: each species keeps its own
+/// number.
 std::vector<Azimuth> lobes_of(const std::vector<Source>& sources) {
     std::vector<Azimuth> lobes;
     for (const Source& source : sources) {
@@ -171,7 +174,8 @@ std::vector<Azimuth> lobes_of(const std::vector<Source>& sources) {
     return lobes;
 }
 
-/// The relief of each species that has any, as deep as it weighs; equal forms share one, so that a set grows no slower than it must.
+/// Returns the relief of each species that has any, depth times weight; equal forms are merged to
+/// keep the list short.
 std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
     std::vector<ReliefStyle> reliefs;
     for (const Source& source : sources) {
@@ -180,42 +184,43 @@ std::vector<ReliefStyle> reliefs_of(const std::vector<Source>& sources) {
         relief.folds *= source.weight;
         relief.pits *= source.weight;
         relief.tiers *= source.weight;
-        const auto alike =
+        const auto match =
             std::find_if(reliefs.begin(), reliefs.end(), [&](const ReliefStyle& other) {
                 return other.fold_count == relief.fold_count &&
                        other.pit_columns == relief.pit_columns &&
                        other.pit_rows == relief.pit_rows && other.rib == relief.rib &&
                        other.tier_count == relief.tier_count;
             });
-        if (alike == reliefs.end()) {
+        if (match == reliefs.end()) {
             reliefs.push_back(relief);
             continue;
         }
-        alike->folds += relief.folds;
-        alike->pits += relief.pits;
-        alike->tiers += relief.tiers;
+        match->folds += relief.folds;
+        match->pits += relief.pits;
+        match->tiers += relief.tiers;
     }
     return reliefs;
 }
 
-/// The outline in an individual's own proportions; in those nearest to them with which no level of detail touches itself, where they
-/// would: on the way from the template to them, up to the first touch. That place moves with age and weights, without jumps.
-Outline own_outline(const OutlineNodes& nodes, const std::function<Proportions(double)>& own,
-                    double open, double size) {
-    constexpr int looks = 8, halvings = 20;
+/// Returns the outline in an individual's own proportions or, where some level of detail would
+/// touch itself, in the nearest proportions on the path from the template that do not: up to the
+/// first touch, which is continuous in age and weights.
+Outline varied_outline(const OutlineNodes& nodes, const std::function<Proportions(double)>& own,
+                       double open, double size) {
+    constexpr int samples = 8, halvings = 20;
     const auto at = [&](double share) {
         return Outline(scaled(proportioned(nodes, own(share), open), size));
     };
     const auto is_simple = [](const Outline& outline) {
         for (int lod = 0; lod < static_cast<int>(details.size()); ++lod)
-            if (fault_of(outline, lod)) return false;
+            if (self_intersecting_curve(outline, lod)) return false;
         return true;
     };
     Outline whole = at(1.0);
     if (is_simple(whole)) return whole;
     double simple = 0.0, touching = 1.0;
-    for (int look = 1; look < looks; ++look) {
-        const double share = static_cast<double>(look) / looks;
+    for (int sample = 1; sample < samples; ++sample) {
+        const double share = static_cast<double>(sample) / samples;
         if (!is_simple(at(share))) {
             touching = share;
             break;
@@ -229,8 +234,8 @@ Outline own_outline(const OutlineNodes& nodes, const std::function<Proportions(d
     return at(simple);
 }
 
-/// Rows of a species' spines, or of pores so coarse that they are solids: by its template when it is mature, so that no age has
-/// others. They grow with the mushroom.
+/// Returns the rows of a species' spines, or of pores coarse enough to be solids. They are those of
+/// its mature template at every age and grow with the mushroom.
 CellRows cells_of(const Source& source) {
     if (!source.has_cells() || !source.has_margin()) return {};
     std::size_t mature = 0;
@@ -243,20 +248,20 @@ CellRows cells_of(const Source& source) {
     const double per_metre = 1000.0 * source.now.hymenium.pores_per_mm;
     if (source.pattern() == HymeniumPattern::teeth)
         return cell_rows(arc, inner, far, per_metre, most_spines);
-    // Long pores are fewer along the meridian: as on a shorter one.
+    // Elongated pores are fewer along the meridian, as on a shorter one.
     const double area = pi * (inner + far) * arc;
     if (area * per_metre * per_metre / source.now.hymenium.elongation > 1.1 * most_pores) return {};
     return cell_rows(arc / source.now.hymenium.elongation, inner, far, per_metre, most_pores);
 }
 
-/// What no weight and no age may change of the solids on the lower face.
-void stand_hymenium(Individual& individual, const MushroomParams& asked,
-                    const std::vector<Source>& sources) {
+/// Sets the layout of the solids on the lower face, which no weight and no age may change.
+void resolve_hymenium(Individual& individual, const MushroomParams& requested,
+                      const std::vector<Source>& sources) {
     individual.blade_tiers = individual.comb.tiers;
     for (const Source& source : sources) {
         if (!source.has_blades()) continue;
         individual.runs_down =
-            individual.runs_down || wished(asked.hymenium.decurrent) ||
+            individual.runs_down || is_requested(requested.hymenium.decurrent) ||
             std::any_of(source.stages.begin(), source.stages.end(),
                         [](const Model* stage) { return stage->hymenium.decurrent > 0.0; });
         // Each ridge may fork, and each of its forks.
@@ -267,46 +272,46 @@ void stand_hymenium(Individual& individual, const MushroomParams& asked,
     }
 }
 
-void overlay_all(const MushroomParams& asked, Model& model) {
-    overlay(asked.deformation, model.deformation);
-    overlay(asked.ornaments, model.ornaments);
-    overlay(asked.hymenium, model.hymenium);
-    overlay(asked.weathering, model.weathering);
+void overlay_all(const MushroomParams& requested, Model& model) {
+    overlay(requested.deformation, model.deformation);
+    overlay(requested.ornaments, model.ornaments);
+    overlay(requested.hymenium, model.hymenium);
+    overlay(requested.weathering, model.weathering);
 }
 
-/// The outline and the axis of a swept individual.
-void sweep_out(Individual& individual, const MushroomOrder& order,
-               const std::vector<Source>& sources, const std::vector<Arc>& arcs, const Draws& draws,
-               const Spread& spread, const Remember<MorphSet>& morphs) {
-    const MushroomParams& asked = order.params;
+/// Resolves the outline and the axis of a swept individual.
+void resolve_swept(Individual& individual, const MushroomOrder& order,
+                   const std::vector<Source>& sources, const std::vector<Arc>& arcs,
+                   const Draws& draws, const Spread& spread, const Remember<MorphSet>& morphs) {
+    const MushroomParams& requested = order.params;
     // Shapes are blended in unit size, sizes by their ratio.
-    const double variation = asked.variation;
+    const double variation = requested.variation;
     double size = 0.0, open = 0.0;
     for (const Source& source : sources) {
         size += source.weight * logarithm(source.size);
         if (source.has_margin()) open += source.weight;
     }
-    size = (sources.size() == 1 ? sources.front().size : exponential(size)) * asked.size *
+    size = (sources.size() == 1 ? sources.front().size : exponential(size)) * requested.size *
            factor(draws.size, spread.size, variation);
     individual.size = size;
-    individual.set = morph_set(sources, arcs, asked.age, morphs);
+    individual.set = morph_set(sources, arcs, requested.age, morphs);
     const auto own = [&](double share) {
         return Proportions{factor(draws.stem_length, spread.stem_length, share * variation),
                            factor(draws.stem_width, spread.stem_width, share * variation),
                            factor(draws.cap_height, spread.cap_height, share * variation)};
     };
     individual.outline =
-        own_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
-    if (const auto fault = fault_of(individual.outline, asked.lod))
-        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*fault) : "mix",
+        varied_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
+    if (const auto curve = self_intersecting_curve(individual.outline, requested.lod))
+        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*curve) : "mix",
                          "the outline crosses itself at this level of detail, near the " +
-                             std::string(name(*fault)));
+                             std::string(name(*curve)));
     const auto stem = individual.outline.rings(CurveName::stem, 0);
     individual.stem_base = stem.front().y;
     individual.stem_top = stem.back().y;
 
-    // The axis and its deformation. An individual bends as far as its own stem allows; what a person asks for, or draws, is
-    // checked by build instead.
+    // Variation bends an individual only as far as its own stem permits; a requested bend, or that
+    // of a custom model, is checked by core/geometry instead.
     const double slender = std::max(individual.stem_top - individual.stem_base, 1e-4) /
                            greatest_radius(individual.outline.stem);
     individual.axis = axis_of(sources);
@@ -326,24 +331,25 @@ void sweep_out(Individual& individual, const MushroomOrder& order,
     }
 }
 
-/// The limbs of a branched individual.
-void branch_out(Individual& individual, const MushroomOrder& order,
-                const std::vector<Source>& sources, const Draws& draws, const Spread& spread) {
-    const MushroomParams& asked = order.params;
-    const double variation = asked.variation;
+/// Resolves the branch graph of a branched individual.
+void resolve_branched(Individual& individual, const MushroomOrder& order,
+                      const std::vector<Source>& sources, const Draws& draws,
+                      const Spread& spread) {
+    const MushroomParams& requested = order.params;
+    const double variation = requested.variation;
     std::vector<BushShare> shares;
     shares.reserve(sources.size());
     for (const Source& source : sources)
         shares.push_back({&std::get<Branched>(source.now.shape), source.weight});
-    const BushProportions own{asked.size * factor(draws.size, spread.size, variation),
+    const BushProportions own{requested.size * factor(draws.size, spread.size, variation),
                               factor(draws.stem_length, spread.stem_length, variation),
                               factor(draws.stem_width, spread.stem_width, variation),
                               factor(draws.cap_height, spread.cap_height, variation)};
-    const double bites = asked.weathering.bites.value_or(individual.model.weathering.bites);
-    individual.bush = bush_of(shares, own, bites, asked.seed);
+    const double bites = requested.weathering.bites.value_or(individual.model.weathering.bites);
+    individual.bush = bush_of(shares, own, bites, requested.seed);
     individual.stem_top = individual.bush.trunk;
     if (order.model) return;
-    // An individual bends as far as its own limbs allow.
+    // Variation bends an individual only as far as its own segments permit.
     DeformationOf<Plain>& deformation = individual.model.deformation;
     const double slender = individual.bush.height / std::max(individual.bush.reach, 1e-4);
     const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
@@ -351,12 +357,12 @@ void branch_out(Individual& individual, const MushroomOrder& order,
         {90.0, deformation.bend_deg + draws.bend * spread.bend_deg * variation, 0.5 * zone});
 }
 
-/// What stands on a swept individual.
-void stand_upon(Individual& individual, const MushroomParams& asked,
-                const std::vector<Source>& sources) {
+/// Resolves the ornaments and the damage of a swept individual.
+void resolve_ornaments(Individual& individual, const MushroomParams& requested,
+                       const std::vector<Source>& sources) {
     if (individual.model.weathering.cracks > 0.0)
         individual.radial_strain = strain_of(*individual.set, sources);
-    individual.wear = wear_of(sources, asked.weathering);
+    individual.wear = wear_of(sources, requested.weathering);
     individual.layers = layers_of(sources, *individual.set);
     individual.ring = ring_of(sources, individual.size);
     individual.sac = sac_of(sources, individual.size);
@@ -368,7 +374,7 @@ void stand_upon(Individual& individual, const MushroomParams& asked,
         if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
             individual.comb = comb;
     }
-    stand_hymenium(individual, asked, sources);
+    resolve_hymenium(individual, requested, sources);
     if (individual.comb.blades > 0) {
         individual.model.hymenium.blades = individual.comb.blades;
         individual.model.hymenium.tiers = individual.comb.tiers;
@@ -379,12 +385,12 @@ void stand_upon(Individual& individual, const MushroomParams& asked,
 
 Individual resolve(const MushroomOrder& order, const Atlas& atlas,
                    const Remember<MorphSet>& morphs) {
-    const MushroomParams& asked = order.params;
+    const MushroomParams& requested = order.params;
     std::vector<Problem> problems;
-    check(asked, Info{.name = ""}, "", problems);
+    check(requested, Info{.name = ""}, "", problems);
     if (order.model) check(*order.model, Info{.name = ""}, "/model", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    if (order.model && asked.animation == Animation::growth)
+    if (order.model && requested.animation == Animation::growth)
         throw Impossible("/animation", "a model of your own has no stages to grow through");
 
     std::vector<Source> sources = sources_of(order, atlas);
@@ -393,30 +399,30 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
                            "arcs link two species; this mix has " + std::to_string(sources.size()));
     if (!order.arcs.empty() && sources.front().is_branched())
         throw Impossible("/arcs", "limbs that branch have no outlines that arcs could link");
-    check_anatomy(asked, sources);
-    // Arcs name the species in the order of the mix; from here on species stand by id.
+    check_anatomy(requested, sources);
+    // Arcs name the species in the order of the mix; from here on species are sorted by id.
     std::vector<Arc> arcs = order.arcs;
     if (!arcs.empty() && order.mix[0].id != sources[0].id)
         for (Arc& arc : arcs) std::swap(arc.a, arc.b);
 
     Individual individual;
-    individual.effective = asked;
+    individual.effective = requested;
     const auto everyone = [](const Source&) { return true; };
     const Spread spread =
-        among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });
+        blend_among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });
     Model& model = individual.model;
-    model = among(sources, everyone, [](const Source& s) -> const Model& { return s.now; });
+    model = blend_among(sources, everyone, [](const Source& s) -> const Model& { return s.now; });
     if (sources.front().is_branched())
         model.shape = Branched{};
     else
         model.shape = Swept{};
 
-    const Draws draws = draws_of(asked.seed);
-    const double variation = asked.variation;
+    const Draws draws = draws_of(requested.seed);
+    const double variation = requested.variation;
     if (sources.front().is_branched())
-        branch_out(individual, order, sources, draws, spread);
+        resolve_branched(individual, order, sources, draws, spread);
     else
-        sweep_out(individual, order, sources, arcs, draws, spread, morphs);
+        resolve_swept(individual, order, sources, arcs, draws, spread, morphs);
     individual.lightness = factor(draws.lightness, spread.lightness, variation);
     DeformationOf<Plain>& deformation = model.deformation;
     deformation.lean_deg =
@@ -424,14 +430,14 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     deformation.imperfection = std::min(
         1.0, deformation.imperfection + draws.imperfection * spread.imperfection * variation);
 
-    // What was asked holds for every species that can have it.
-    for (Source& source : sources) overlay_all(asked, source.now);
+    // Overrides apply to every species that can have them.
+    for (Source& source : sources) overlay_all(requested, source.now);
     blend_amounts(model, sources);
-    overlay_all(asked, model);
+    overlay_all(requested, model);
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw Impossible(std::move(problems));
 
-    if (!sources.front().is_branched()) stand_upon(individual, asked, sources);
+    if (!sources.front().is_branched()) resolve_ornaments(individual, requested, sources);
     report_effective(individual.effective, model, sources);
     for (Source& source : sources) {
         const CellRows cells = cells_of(source);

@@ -1,4 +1,4 @@
-// From an order to one individual: growth stages, mix, variation and overrides, everything decided.
+// Resolution of a request into one individual: growth stages, mix, variation and overrides.
 #pragma once
 
 #include "core/atlas/atlas.h"
@@ -7,34 +7,41 @@
 
 namespace sporeprint {
 
-/// Decides everything about one individual. Growing is morphing: age moves weights between a species' own stages, a mix between
-/// species, and one morph of all control shapes serves both. Sizes mix by ratio, bends of the axis as rotations.
-/// A Model of the client's own has no species: age and variation do not touch it.
+/// Decides everything about one individual. Growth is a morph: age moves weights between a species'
+/// own stages, a mix between species, and one morph of all control shapes serves both. Sizes mix by
+/// ratio, bends of the axis as rotations. A custom Model has no species: age and variation do not
+/// change it.
 ///
-/// morphs   keeps the correspondence of a set of species, the dear part
-/// returns  the same whatever the order of the species
-/// throws   InvalidInput for a range or an unknown species, Impossible for what no species of the mix can have and for an outline
-///          that crosses itself; paths like "/hymenium/blades", "mix"
+/// morphs   cache of the correspondence of a set of species, which is the expensive part
+/// returns  an individual that does not depend on the order of the species
+/// throws   InvalidInput for a range or an unknown species, Impossible for what no species of the
+///          mix can have and for an outline that crosses itself; paths like "/hymenium/blades",
+///          "mix"
 /// source   [Desbenoit2004] sec. 4
 [[nodiscard]] Individual resolve(const MushroomOrder& order, const Atlas& atlas,
                                  const Remember<MorphSet>& morphs = make_anew<MorphSet>);
 
-/// The bushes of the species of an order, by id, as their templates are: no individual's own. All have the same nodes, those of every
-/// species laid over each other; of what a species lacks the presence is 0.
+/// Returns the branch graphs of the species of a request, by id, as their templates are, without
+/// individual variation. All have the same nodes, merged from all species; those that a species
+/// lacks have presence 0.
 ///
-/// pre     they branch
+/// pre     all species branch
 /// throws  InvalidInput for a range or an unknown species
 [[nodiscard]] std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas);
 
-/// The control shapes of the species of an order, as their templates are: no individual's own.
+/// The control shapes of the species of a request, as their templates are, without individual
+/// variation.
 struct SpeciesShapes {
     std::shared_ptr<const MorphSet> set;
-    /// One for each species by id: weights of all shapes of the set when it counts alone, at the age of the order.
+    /// One entry for each species by id: the weights of all shapes of the set for this species
+    /// alone, at the requested age.
     std::vector<std::vector<double>> weights;
-    std::vector<double> sizes;  ///< metres, by id: what the shapes of the set are divided by
+    std::vector<double> sizes;  ///< metres, by id: the divisors of the shapes of the set
 };
 
-/// pre     they do not branch; the order has no arcs
+/// Returns the control shapes of a request.
+///
+/// pre     no species branches; the request has no arcs
 /// throws  InvalidInput for a range or an unknown species
 [[nodiscard]] SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
                                            const Remember<MorphSet>& morphs = make_anew<MorphSet>);

@@ -28,7 +28,8 @@ std::vector<double> growth_weights(const std::vector<Stage>& stages, double age)
     return weights;
 }
 
-/// Overall size of a shape: the half diagonal of the box round its control points turned about the axis; of limbs their height.
+/// Returns the overall size of a shape: the half diagonal of the bounding box of its control points
+/// rotated about the axis, or the height of a branched shape.
 double size_of(const Model& model) {
     if (const auto* branched = std::get_if<Branched>(&model.shape)) return branched->limbs.height;
     const Silhouette& s = silhouette_of(model);
@@ -46,7 +47,7 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     const Species& species = entry.species;
     Source source;
     source.id = species.id.string();
-    source.who = species.facts.scientific_name.string();
+    source.label = species.facts.scientific_name.string();
     source.weight = weight;
     source.hash = entry.hash;
     source.spread = species.spread;
@@ -63,7 +64,7 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     }
     source.size = size;
     source.now = blend(stages);
-    // A comb is one thing: the tiers of one stage do not go with the blades of another.
+    // Blades and tiers are taken together from one stage: they form one layout.
     Comb most;
     for (const Model* stage : source.stages) {
         const Comb comb{stage->hymenium.blades, stage->hymenium.tiers};
@@ -74,14 +75,14 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     return source;
 }
 
-/// A shape that is turned round an axis has nothing in common with one that branches.
+/// Refuses mixes of swept and branched shapes, which have no correspondence.
 void refuse_two_families(const std::vector<Source>& sources) {
     std::string branching, others;
     int one = 0, other = 0;
     for (const Source& source : sources) {
         std::string& names = source.is_branched() ? branching : others;
         if (!names.empty()) names += ", ";
-        names += source.who;
+        names += source.label;
         ++(source.is_branched() ? one : other);
     }
     if (one > 0 && other > 0)
@@ -100,7 +101,7 @@ std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
     std::vector<Source> sources;
     if (order.model) {
         Source own;
-        own.who = "this model";
+        own.label = "this model";
         own.stages = {&*order.model};
         own.ages = {mature_age};
         own.growth = {1.0};

@@ -1,4 +1,4 @@
-// The species of an order, each as it is at the age of the order: what an individual is resolved from.
+// The species of a request at the requested age: the input of resolve().
 #pragma once
 
 #include <algorithm>
@@ -16,21 +16,21 @@
 
 namespace sporeprint {
 
-/// Age of recorded sizes, for every species.
+/// The age of recorded sizes, for every species.
 inline constexpr double mature_age = 0.6;
 
-/// One species of the order, or the client's own Model as a species of a single stage.
+/// One species of the request, or the custom Model as a species of a single stage.
 struct Source {
-    std::string id, who;
+    std::string id, label;
     double weight = 1.0;
     std::uint64_t hash = 0;
     Spread spread{0, 0, 0, 0, 0, 0, 0, 0};
     std::vector<const Model*> stages;
-    std::vector<double> ages;    ///< of the stages
-    std::vector<double> growth;  ///< of each stage at this age; at most two are not 0
-    std::vector<double> mature;  ///< of each stage at maturity
-    double size = 1.0;           ///< of its mature shape, metres
-    Model now;                   ///< at this age
+    std::vector<double> ages;    ///< one per stage
+    std::vector<double> growth;  ///< growth weight of each stage at this age; at most two are not 0
+    std::vector<double> mature;  ///< growth weight of each stage at maturity
+    double size = 1.0;           ///< size of its mature shape, metres
+    Model now;                   ///< blend of the stages at this age
 
     [[nodiscard]] const Model& first() const { return *stages.front(); }
     [[nodiscard]] bool is_branched() const {
@@ -40,7 +40,7 @@ struct Source {
     [[nodiscard]] bool has_blades() const {
         return pattern() == HymeniumPattern::gills || pattern() == HymeniumPattern::ridges;
     }
-    /// Pores or teeth.
+    /// Returns true for pores and teeth.
     [[nodiscard]] bool has_cells() const {
         return pattern() == HymeniumPattern::pores || pattern() == HymeniumPattern::teeth;
     }
@@ -69,17 +69,21 @@ struct Source {
     }
 };
 
-/// The species of a mix by id, their weights eased; or the client's own Model alone.
+/// Returns the species of a mix by id with eased weights, or the custom Model alone.
 ///
-/// throws  InvalidInput for an unknown species and a mix that is none, Impossible (path "mix") for species of several families
+/// throws  InvalidInput for an unknown species and an invalid mix, Impossible (path "mix") for
+///         species of several families
 [[nodiscard]] std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas);
 
-/// The outline of a swept model. pre: it is one
+/// Returns the outline of a model.
+///
+/// pre  the model is swept
 [[nodiscard]] const Silhouette& silhouette_of(const Model& model);
 
-/// What the sources have together; `counts` says which of them count, the rest weigh nothing.
+/// Returns the blend of a property over the sources for which `counts` is true, or over all if
+/// there is none.
 template <class Counts, class Of>
-auto among(const std::vector<Source>& sources, Counts counts, Of of) {
+auto blend_among(const std::vector<Source>& sources, Counts counts, Of of) {
     Shares<std::remove_cvref_t<decltype(of(sources[0]))>> shares;
     double sum = 0.0;
     for (const Source& source : sources)

@@ -12,7 +12,7 @@
 namespace sporeprint {
 namespace {
 
-/// An arc of a circle that turns by `angle` towards azimuth `towards`.
+/// Returns an arc of a circle that turns by `angle` towards azimuth `towards`.
 AxisCurve arc(double angle, double towards = 0.0) {
     std::vector<AxisPoint> controls;
     for (int i = 0; i <= 64; ++i) {
@@ -35,7 +35,7 @@ double farthest(const AxisCurve& a, const AxisCurve& b) {
     return most;
 }
 
-TEST(AxisCurve, StraightUnlessControlPointsSayOtherwise) {
+TEST(AxisCurve, IsStraightWithoutControlPoints) {
     for (const AxisCurve& straight :
          {AxisCurve(), AxisCurve({{0.0, 0.0, 0.0}, {0.0, 0.5, 0.0}, {0.0, 1.0, 0.0}}),
           AxisCurve({{0.3, 0.0, 0.1}})}) {
@@ -59,14 +59,15 @@ TEST(AxisCurve, FollowsItsControlPoints) {
     EXPECT_LE(arc(0.5 * pi).greatest_turn(), pi);
 }
 
-TEST(AxisCurve, OppositeBendsStraightenWithoutShrinking) {
+TEST(AxisCurve, OppositeBendsCancelAndKeepTheLength) {
     for (const double angle : {0.4, 1.0, 1.5})
         for (const double towards : {0.0, 2.2}) {
             const AxisCurve one = arc(angle, towards), other = arc(angle, towards + pi);
             EXPECT_GT(farthest(one, AxisCurve()), 0.3);
             const AxisCurve half = blend_of({{one, 0.5}, {other, 0.5}});
             EXPECT_LT(farthest(half, AxisCurve()), 1e-12);
-            // Whatever the weights, the axis is as long as its stem and nowhere tighter than the ends.
+            // For all weights the axis is as long as its stem and nowhere more curved than the
+            // ends.
             for (const double t : {0.1, 0.3, 0.5, 0.8}) {
                 const AxisCurve between = blend_of({{one, 1.0 - t}, {other, t}});
                 EXPECT_LE(between.greatest_turn(), one.greatest_turn() + 1e-12);
@@ -80,7 +81,7 @@ TEST(AxisCurve, OppositeBendsStraightenWithoutShrinking) {
         }
 }
 
-TEST(AxisCurve, HalfABendIsABendHalfAsFar) {
+TEST(AxisCurve, HalfABendHasHalfTheAngle) {
     const AxisCurve half = blend_of({{arc(1.2), 0.5}, {AxisCurve(), 0.5}});
     EXPECT_EQ(half, arc(1.2).scaled(0.5));
     const glm::dvec3 end = half.tangents().back(), whole = arc(1.2).tangents().back();
@@ -88,7 +89,7 @@ TEST(AxisCurve, HalfABendIsABendHalfAsFar) {
     EXPECT_NEAR(end.z, 0.0, 1e-14);
 }
 
-TEST(AxisCurve, ABlendWithItselfIsItself) {
+TEST(AxisCurve, ABlendWithItselfIsUnchanged) {
     const AxisCurve bent({{0.0, 0.0, 0.0}, {0.1, 0.4, 0.05}, {-0.05, 0.8, 0.1}, {0.2, 1.0, 0.3}});
     EXPECT_LT(farthest(blend_of({{bent, 0.2}, {bent, 0.3}, {bent, 0.5}}), bent), 1e-12);
 }
@@ -100,8 +101,8 @@ TEST(AxisCurve, BlendsOfManyDoNotDependOnTheirOrder) {
               1e-14);
 }
 
-TEST(AxisCurve, ReversalsAreFollowedToo) {
-    // Straight up, then straight down: no shortest way, but a way.
+TEST(AxisCurve, FollowsReversals) {
+    // The axis goes straight up, then straight down: the smallest rotation is not unique.
     const AxisCurve back({{0.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, 0.0, 0.0}});
     for (const glm::dvec3& tangent : back.tangents()) EXPECT_NEAR(glm::length(tangent), 1.0, 1e-12);
     EXPECT_LT(glm::distance(back.tangents().back(), glm::dvec3(0.0, -1.0, 0.0)), 1e-9);

@@ -45,7 +45,7 @@ double farthest(const Bush& a, const Bush& b) {
     return far;
 }
 
-TEST(Bush, HasTheTipsOfItsMatrixForEveryTrunk) {
+TEST(BranchGraph, HasTheTipsOfItsMatrixPerTrunk) {
     for (const int order : {2, 3, 5, 8}) {
         Branched shape = forks(order);
         shape.limbs.trunks = order == 8 ? 1 : 3;
@@ -61,7 +61,7 @@ TEST(Bush, HasTheTipsOfItsMatrixForEveryTrunk) {
     EXPECT_EQ(static_cast<double>(tips_of(grown(random))), expected_tips(random.ramification));
 }
 
-TEST(Bush, IsAsHighAsItSaysWhateverItsAngles) {
+TEST(BranchGraph, HasTheStatedHeightForAllAngles) {
     for (const double fork : {0.0, 30.0, 75.0})
         for (std::uint32_t seed = 1; seed < 20; ++seed) {
             Branched shape = forks(6, MatrixKind::tokunaga);
@@ -74,17 +74,17 @@ TEST(Bush, IsAsHighAsItSaysWhateverItsAngles) {
         }
 }
 
-TEST(Bush, LimbsAreAsThickAsTheTipsThatTheyBearToOnePower) {
+TEST(BranchGraph, RadiiArePowersOfTheNumberOfTips) {
     Branched shape = forks(7);
     shape.limbs.trunk_radius = 0.008;
     shape.limbs.tip_radius = 0.001;
     const Bush bush = grown(shape);
-    // Of 64 tips: 8 times the radius, so the square root.
+    // 64 tips make the radius 8 times as large: the square root.
     for (const Bush::Node& node : bush.nodes)
         EXPECT_NEAR(node.radius, 0.001 * std::sqrt(node.tips), 1e-12);
 }
 
-TEST(Bush, UnfoldsFromTheLowestForkOn) {
+TEST(BranchGraph, UnfoldsFromTheLowestForkUpwards) {
     Branched shape = forks(6);
     const auto present = [&](double unfolding) {
         shape.limbs.unfolding = unfolding;
@@ -101,9 +101,9 @@ TEST(Bush, UnfoldsFromTheLowestForkOn) {
         EXPECT_GE(now, last);
         last = now;
     }
-    // A fifth of the way the lowest fork is whole, and no other has begun.
+    // At a fifth the lowest fork is complete, and no other has begun.
     EXPECT_NEAR(present(0.2), 2.0, 1e-9);
-    // What is not there has neither length nor radius.
+    // Absent segments have neither length nor radius.
     shape.limbs.unfolding = 0.2;
     const Bush bush = grown(shape);
     for (const Bush::Node& node : bush.nodes) {
@@ -113,7 +113,7 @@ TEST(Bush, UnfoldsFromTheLowestForkOn) {
     }
 }
 
-TEST(Bush, NoWeightChangesItsNodesAndEachCornerIsItsSpecies) {
+TEST(BranchGraph, WeightsKeepTheNodesAndWeightOneReproducesTheSpecies) {
     const Branched coral = forks(6), antler = forks(3, MatrixKind::random_binary);
     const Bush one = grown(coral, 5), other = grown(antler, 5);
     const auto mixed = [&](double t) {
@@ -140,7 +140,7 @@ TEST(Bush, NoWeightChangesItsNodesAndEachCornerIsItsSpecies) {
     }
 }
 
-TEST(Bush, TheOrderOfSpeciesDoesNotMatter) {
+TEST(BranchGraph, TheOrderOfSpeciesDoesNotMatter) {
     const Branched coral = forks(5), antler = forks(4, MatrixKind::random_increasing);
     const Bush there = bush_of({{&coral, 0.3}, {&antler, 0.7}}, {}, 0.0, 3);
     const Bush back = bush_of({{&antler, 0.7}, {&coral, 0.3}}, {}, 0.0, 3);
@@ -149,7 +149,7 @@ TEST(Bush, TheOrderOfSpeciesDoesNotMatter) {
     EXPECT_EQ(there.nodes.size(), back.nodes.size());
 }
 
-TEST(Bush, SlugsShortenTheSameTipsMoreAndMore) {
+TEST(BranchGraph, BitesShortenTheSameTipsProgressively) {
     const Branched shape = forks(7);
     const Bush whole = grown(shape);
     std::vector<double> last(whole.nodes.size(), 0.0);
@@ -169,7 +169,7 @@ TEST(Bush, SlugsShortenTheSameTipsMoreAndMore) {
     }
 }
 
-TEST(Bush, ColoursRunFromTheTopOfATrunkToEveryTip) {
+TEST(BranchGraph, ColourCoordinatesRunFromTheTrunkTopToEveryTip) {
     const Bush bush = grown(forks(5, MatrixKind::tokunaga));
     for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) {
         const Bush::Node& node = bush.nodes[i];

@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::uint32_t many_seeds = 40;
 
-TEST(Marks, LieOnTheirPartAndComeOneByOne) {
+TEST(Damage, LieOnTheirPartWithAscendingOnset) {
     for (const MarkKind kind : {MarkKind::pit, MarkKind::bruise, MarkKind::dew, MarkKind::lump})
         for (const CurveName part : curve_names)
             for (std::uint32_t seed = 0; seed < many_seeds; ++seed) {
@@ -33,7 +33,7 @@ TEST(Marks, LieOnTheirPartAndComeOneByOne) {
     EXPECT_TRUE(marks(MarkKind::pit, CurveName::hymenium, 1).empty()) << "slugs rasp skin";
 }
 
-TEST(Marks, AreTheIndividualsOwn) {
+TEST(Damage, DependOnTheSeed) {
     const auto first = marks(MarkKind::bruise, CurveName::cap, 7),
                again = marks(MarkKind::bruise, CurveName::cap, 7),
                other = marks(MarkKind::bruise, CurveName::cap, 8),
@@ -47,7 +47,7 @@ TEST(Marks, AreTheIndividualsOwn) {
     EXPECT_NE(first[0].theta, pits[0].theta) << "kinds do not share draws";
 }
 
-TEST(Marks, GrowFromNothingToTheirWholeSizeWithoutAStep) {
+TEST(Damage, GrowContinuouslyFromZeroToFullSize) {
     for (double onset = 0.0; onset < 0.9; onset += 0.07) {
         EXPECT_EQ(grown(onset, 0.0), 0.0);
         EXPECT_EQ(grown(onset, onset), 0.0);
@@ -60,7 +60,7 @@ TEST(Marks, GrowFromNothingToTheirWholeSizeWithoutAStep) {
     }
 }
 
-TEST(Marks, NotchesAreRoundOrPointed) {
+TEST(Damage, NotchesAreRoundOrPointed) {
     Notch notch{1.0, 0.3, 0.2, 0.0, true, 0};
     EXPECT_EQ(notch_profile(notch, 1.0), 1.0);
     EXPECT_NEAR(notch_profile(notch, 1.0 + 0.3 * 0.6), 0.8, 1e-12);
@@ -69,12 +69,12 @@ TEST(Marks, NotchesAreRoundOrPointed) {
     EXPECT_EQ(notch_profile(notch, 1.0 + pi), 0.0);
     notch.bitten = false;
     EXPECT_NEAR(notch_profile(notch, 1.0 + 0.3 * 0.6), 0.4, 1e-12);
-    // Across the seam.
+    // This is across the seam.
     notch.theta = 0.05;
     EXPECT_NEAR(notch_profile(notch, 2.0 * pi - 0.1), 0.5, 1e-12);
 }
 
-TEST(Marks, NotchesStayOutsideTheStem) {
+TEST(Damage, NotchesStayOutsideTheStem) {
     for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
         for (const auto& list : {bites(seed), splits(seed)})
             for (const Notch& notch : list) {
@@ -85,7 +85,7 @@ TEST(Marks, NotchesStayOutsideTheStem) {
             }
 }
 
-TEST(Marks, ANetOfCracksMeetsInTJunctions) {
+TEST(Damage, CracksOfANetMeetInTJunctions) {
     for (std::uint32_t seed = 1; seed <= 5; ++seed) {
         const std::vector<Crack> net = crack_net(seed);
         ASSERT_GT(net.size(), 25U);
@@ -94,7 +94,7 @@ TEST(Marks, ANetOfCracksMeetsInTJunctions) {
         for (std::size_t i = 0; i < net.size(); ++i) {
             ASSERT_GE(net[i].points.size(), 2U);
             for (const CrackPoint& end : {net[i].points.front(), net[i].points.back()}) {
-                if (end.x * end.x + end.y * end.y > 1.0) continue;  // ran out of the face
+                if (end.x * end.x + end.y * end.y > 1.0) continue;  // left the face
                 ++ends;
                 bool touches = false;
                 for (std::size_t j = 0; j < i && !touches; ++j)
@@ -108,7 +108,7 @@ TEST(Marks, ANetOfCracksMeetsInTJunctions) {
     }
 }
 
-TEST(Marks, RadialCracksStartAtTheMarginAndFewAreLong) {
+TEST(Damage, RadialCracksStartAtTheMarginAndFewAreLong) {
     std::size_t longer = 0, all = 0;
     for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
         for (const Crack& crack : radial_cracks(seed)) {
@@ -124,9 +124,9 @@ TEST(Marks, RadialCracksStartAtTheMarginAndFewAreLong) {
     EXPECT_GT(longer * 20, all);
 }
 
-TEST(Marks, AnOpeningCapCracksRadiallyAndASwellingOneIntoIslands) {
+TEST(Damage, OpeningCapsCrackRadiallyAndSwellingOnesIntoIslands) {
     const auto face = [](double radius, double bend) {
-        // A piece of a sphere whose meridian turns by `bend`, margin to apex.
+        // The face is a piece of a sphere whose meridian turns by `bend`, margin to apex.
         std::vector<OutlineNode> nodes;
         const double sphere = radius / std::sin(bend);
         for (int i = 0; i <= 32; ++i) {
@@ -142,7 +142,7 @@ TEST(Marks, AnOpeningCapCracksRadiallyAndASwellingOneIntoIslands) {
     EXPECT_GT(radial_strain(button, face(0.05, 0.15)), 0.9) << "opened flat";
 }
 
-TEST(Marks, FurrowsBeginAndEndOnTheStem) {
+TEST(Damage, FurrowsBeginAndEndOnTheStem) {
     for (std::uint32_t seed = 0; seed < many_seeds; ++seed)
         for (const Furrow& furrow : furrows(seed)) {
             EXPECT_LT(furrow.from, furrow.to);

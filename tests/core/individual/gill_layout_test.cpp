@@ -15,7 +15,7 @@ int there(const BladeRow& row) {
                                           [](const Blade& b) { return b.presence > 0.0; }));
 }
 
-TEST(Comb, ASpeciesAloneStandsEvenlyOnAllItsTiers) {
+TEST(GillLayout, ASingleSpeciesIsEvenlySpacedOnAllTiers) {
     const BladeRow row(stand_on(0, HymeniumPattern::gills, 40, 2), HymeniumPattern::gills, 0.0, 7,
                        160);
     EXPECT_EQ(there(row), 160);
@@ -31,7 +31,7 @@ TEST(Comb, ASpeciesAloneStandsEvenlyOnAllItsTiers) {
     }
 }
 
-TEST(Comb, OnARicherCombEveryBladeOfASpeciesHasASlotOfItsOwn) {
+TEST(GillLayout, InADenserLayoutEveryBladeHasItsOwnSlot) {
     for (const int comb : {60, 84, 100})
         for (const int own : {12, 23, 40, 59})
             for (const int tiers : {0, 1, 2}) {
@@ -44,7 +44,7 @@ TEST(Comb, OnARicherCombEveryBladeOfASpeciesHasASlotOfItsOwn) {
             }
 }
 
-TEST(Comb, ForksGrowFromTheirRidgeAndEndBetweenTwo) {
+TEST(GillLayout, ForksStartAtTheirRidgeAndEndBetweenTwo) {
     const BladeRow row(stand_on(0, HymeniumPattern::ridges, 30, 1), HymeniumPattern::ridges, 1.0, 5,
                        120);
     int forks = 0;
@@ -64,7 +64,7 @@ TEST(Comb, ForksGrowFromTheirRidgeAndEndBetweenTwo) {
     EXPECT_EQ(there(plain), 30) << "nothing forks";
 }
 
-TEST(Comb, PresenceOfForksIsContinuousInForking) {
+TEST(GillLayout, PresenceOfForksIsContinuousInForking) {
     std::vector<double> before;
     for (double forking = 0.0; forking <= 1.0; forking += 0.004) {
         const BladeRow row(stand_on(0, HymeniumPattern::ridges, 34, 1), HymeniumPattern::ridges,
@@ -77,7 +77,7 @@ TEST(Comb, PresenceOfForksIsContinuousInForking) {
     }
 }
 
-TEST(Comb, BladesKeepTheirOrderWhateverTheyWander) {
+TEST(GillLayout, BladesKeepTheirOrderUnderWander) {
     for (const std::uint32_t seed : {1U, 2U, 77U}) {
         const BladeRow row(stand_on(0, HymeniumPattern::gills, 96, 1), HymeniumPattern::gills, 0.0,
                            seed, 192);
@@ -87,7 +87,7 @@ TEST(Comb, BladesKeepTheirOrderWhateverTheyWander) {
     }
 }
 
-TEST(Comb, CrossVeinsStayInTheirRowsAndComeWithForking) {
+TEST(GillLayout, CrossVeinsStayInTheirRowsAndGrowWithForking) {
     EXPECT_EQ(cross_veins(34, 0.7, 3).size(), 34u * 7u);
     EXPECT_EQ(cross_veins(100, 0.7, 3).size(), 300u) << "many ridges have fewer rows";
     EXPECT_TRUE(cross_veins(400, 0.7, 3).empty()) << "gaps too narrow to be joined";
@@ -106,7 +106,7 @@ TEST(Comb, CrossVeinsStayInTheirRowsAndComeWithForking) {
     }
 }
 
-TEST(Comb, SpinesAreAsManyAsTheirSpacingAsksForAndNeverTooMany) {
+TEST(GillLayout, SpineCountsFollowTheirSpacingUpToTheLimit) {
     const CellRows few = cell_rows(0.02, 0.005, 0.025, 500.0, most_spines);
     EXPECT_EQ(few.rows, 10);
     const double area = 3.14159265 * (0.025 * 0.025 - 0.005 * 0.005);

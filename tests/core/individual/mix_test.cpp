@@ -1,4 +1,4 @@
-// Mixes of species: what an individual is made of when it is made of several.
+// Mixes of species: the resolved individual of several species.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ double largest_move(const Individual& one, const Individual& other, double scale
 
 using Change = std::function<void(Model&)>;
 
-/// An atlas of a species of the built-in one and its twin "twin", each stage of which is changed.
+/// Returns an atlas of a built-in species and its twin "twin", each stage of which is changed.
 Atlas with_twin(const std::string& id, const Change& change = {}) {
     const Species& species = atlas().find(id)->species;
     Species twin = species;
@@ -48,7 +48,7 @@ Atlas with_twin(const std::string& id, const Change& change = {}) {
 
 Silhouette& drawn(Model& model) { return std::get<Swept>(model.shape).silhouette; }
 
-TEST(Mix, OfTwinsIsTheSpeciesItself) {
+TEST(Mix, OfTwinsIsTheSpecies) {
     for (const std::string& id : swept_ids()) {
         const Atlas twins = with_twin(id);
         for (const double age : {0.0, 0.45, 1.0}) {
@@ -69,7 +69,7 @@ TEST(Mix, OfTwinsIsTheSpeciesItself) {
     }
 }
 
-TEST(Mix, OfALoneSpeciesIsItsWeightWhatever) {
+TEST(Mix, OfASingleSpeciesDoesNotDependOnItsWeight) {
     for (const int weight : {1, 7, 1000}) {
         MushroomOrder order = order_of("boletus_edulis", 0.5, 4);
         const Individual thousand = resolve(order, atlas());
@@ -80,7 +80,7 @@ TEST(Mix, OfALoneSpeciesIsItsWeightWhatever) {
     }
 }
 
-TEST(Mix, SizesGoByTheirRatio) {
+TEST(Mix, SizesBlendGeometrically) {
     const Atlas twins = with_twin("russula_vinosa", [](Model& model) {
         for (auto* part : {&drawn(model).stem, &drawn(model).hymenium, &drawn(model).cap})
             for (OutlinePoint& p : *part) p = {4.0 * p.r, 4.0 * p.y};
@@ -96,7 +96,7 @@ TEST(Mix, SizesGoByTheirRatio) {
     }
 }
 
-TEST(Mix, OppositeAxesStraightenAndTheStemKeepsItsLength) {
+TEST(Mix, OppositeAxesCancelAndTheStemKeepsItsLength) {
     const auto bend = [](double by) {
         return [by](Model& model) {
             std::get<Swept>(model.shape).axis = {{0.0, 0.0, 0.0}, {by, 0.5, 0.0}, {0.0, 1.0, 0.0}};
@@ -117,7 +117,7 @@ TEST(Mix, OppositeAxesStraightenAndTheStemKeepsItsLength) {
                 1e-3 * bent.stem_top);
 }
 
-TEST(Mix, EachSpeciesBringsItsOwnPiecesAtItsWeight) {
+TEST(Mix, EachSpeciesAddsItsPatchesAtItsWeight) {
     const Atlas twins = with_twin("amanita_muscaria", [](Model& model) {
         model.warts.count = 30;
         model.warts.height = 1.5;
@@ -132,12 +132,12 @@ TEST(Mix, EachSpeciesBringsItsOwnPiecesAtItsWeight) {
     EXPECT_NEAR(warts[0].weight, weights[0], 1e-15);
     EXPECT_NEAR(warts[1].weight, weights[1], 1e-15);
     EXPECT_EQ(warts[1].style.count, 30);
-    // Who is not in the mix brings nothing.
+    // Species outside the mix contribute nothing.
     EXPECT_EQ(resolve(order_of("amanita_muscaria"), twins).layers.size(), mixed.layers.size() - 1);
     EXPECT_TRUE(resolve(order_of("boletus_edulis"), atlas()).layers.empty());
 }
 
-TEST(Mix, ARingIsAsWideAsItsSharesTogether) {
+TEST(Mix, TheWidthOfARingIsTheWeightedSum) {
     const Atlas twins = with_twin("amanita_muscaria", [](Model& model) {
         model.ring = {0.2, 0.0, 0.0, 0.01, 1.0};
     });
@@ -157,7 +157,7 @@ TEST(Mix, ARingIsAsWideAsItsSharesTogether) {
     EXPECT_FALSE(resolve(order, twins).has_ring);
 }
 
-TEST(Mix, TheCombIsTheRichestOfTheSetWhateverTheWeights) {
+TEST(Mix, TheGillLayoutIsTheDensestOfTheSetForAllWeights) {
     const Atlas twins = with_twin("russula_vinosa", [](Model& model) {
         model.hymenium.blades = 40;
         model.hymenium.tiers = 3;
@@ -173,7 +173,7 @@ TEST(Mix, TheCombIsTheRichestOfTheSetWhateverTheWeights) {
             EXPECT_EQ(mixed.parts[0].model.hymenium.blades, own.hymenium.blades)
                 << "each is painted with its own";
         }
-    // What a person asks for is asked of all.
+    // An override applies to all species.
     MushroomOrder order = mix_of({{"russula_vinosa", 500}, {"twin", 500}});
     order.params.hymenium.blades = 100;
     order.params.hymenium.tiers = 0;
@@ -181,7 +181,7 @@ TEST(Mix, TheCombIsTheRichestOfTheSetWhateverTheWeights) {
     EXPECT_EQ(resolve(order_of("boletus_edulis"), atlas()).comb, Comb{}) << "pores have none";
 }
 
-TEST(Mix, WhatNoSpeciesOfItCanHaveIsRefused) {
+TEST(Mix, OverridesThatNoSpeciesCanHaveAreRefused) {
     MushroomOrder order = mix_of({{"amanita_muscaria", 500}, {"russula_vinosa", 500}});
     order.params.hymenium.pores_per_mm = 2.0;
     order.params.ornaments.scales = 0.5;
@@ -189,7 +189,7 @@ TEST(Mix, WhatNoSpeciesOfItCanHaveIsRefused) {
     EXPECT_EQ(problems.size(), 2u);
     EXPECT_TRUE(names(problems, "/hymenium/pores_per_mm", "no species of this mix carries pores"));
     EXPECT_TRUE(names(problems, "/ornaments/scales", "no species of this mix"));
-    // What one of them can have is granted, and only it has it.
+    // What one of them can have is granted to that one only.
     order.mix[1].id = "boletus_edulis";
     order.params.ornaments = {};
     order.params.ornaments.warts = 0.25;
@@ -201,13 +201,13 @@ TEST(Mix, WhatNoSpeciesOfItCanHaveIsRefused) {
         EXPECT_TRUE(layer.purpose != purposes::warts || layer.amount == 0.25);
 }
 
-TEST(Mix, OnlyAMarginWaves) {
+TEST(Mix, OnlyMarginsHaveWaves) {
     MushroomOrder order = mix_of({{"clavariadelphus_pistillaris", 750}, {"russula_vinosa", 250}});
     order.params.weathering.waves = 0.8;
     EXPECT_NEAR(resolve(order, atlas()).waves, 0.8 * eased_weights({0.75, 0.25})[1], 1e-12);
 }
 
-TEST(Mix, ItsOrderChangesNoBitAndArcsFollowTheirSpecies) {
+TEST(Mix, TheOrderHasNoEffectAndArcsFollowTheirSpecies) {
     MushroomOrder order = mix_of({{"amanita_muscaria", 400}, {"russula_vinosa", 600}}, 0.6, 9);
     order.arcs = {{CurveName::cap, 0.3, 0.45}, {CurveName::stem, 0.5, 0.4}};
     const Individual first = resolve(order, atlas());
@@ -221,7 +221,7 @@ TEST(Mix, ItsOrderChangesNoBitAndArcsFollowTheirSpecies) {
     EXPECT_GT(largest_move(resolve(order, atlas()), first), 1e-4) << "arcs change the way";
 }
 
-TEST(Mix, OfEightSpeciesIsAllOfThemAtOnce) {
+TEST(Mix, EightSpeciesAreBlendedAtOnce) {
     Mix mix;
     const auto ids = swept_ids();
     for (std::size_t i = 0; i < 8; ++i) mix.push_back({ids[i * ids.size() / 8], 125});
@@ -234,7 +234,7 @@ TEST(Mix, OfEightSpeciesIsAllOfThemAtOnce) {
     EXPECT_TRUE(names(refusal([&] { (void)resolve(mix_of(mix), atlas()); }), "mix", "1 to 8"));
 }
 
-TEST(Mix, CorrespondenceIsAskedForByWhatItDependsOn) {
+TEST(Mix, CacheKeysOfTheCorrespondenceCoverItsInputs) {
     std::vector<std::string> keys;
     const Remember<MorphSet> listening = [&](const std::string& key, const auto& make) {
         keys.push_back(key);

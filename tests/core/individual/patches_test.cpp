@@ -22,7 +22,7 @@ bool same(const Patch& a, const Patch& b) {
            a.height == b.height && a.survival == b.survival && a.id == b.id;
 }
 
-TEST(Patches, LieWhereTheirStyleSays) {
+TEST(Patches, LieInTheWindowOfTheirStyle) {
     PatchStyle style = warts();
     style.from = 0.2;
     style.to = 0.9;
@@ -43,7 +43,7 @@ TEST(Patches, LieWhereTheirStyleSays) {
 }
 
 TEST(Patches, AreEvenlySpreadOverTheHemisphere) {
-    // Equal areas of a hemisphere between pole and rim: the middle lies at sixty degrees.
+    // The median of the area of a hemisphere between pole and rim lies at sixty degrees.
     std::size_t upper = 0, all = 0, right = 0;
     for (std::uint32_t seed = 1; seed <= 20; ++seed) {
         PatchStyle style = warts();
@@ -79,7 +79,7 @@ TEST(Patches, OverlapByAFifthAtMost) {
         }
 }
 
-TEST(Patches, AreTheIndividualsOwn) {
+TEST(Patches, DependOnTheSeed) {
     const std::vector<Patch> once = patches(warts(), 5, purposes::warts);
     const std::vector<Patch> again = patches(warts(), 5, purposes::warts);
     ASSERT_EQ(once.size(), again.size());
@@ -88,7 +88,7 @@ TEST(Patches, AreTheIndividualsOwn) {
     EXPECT_FALSE(same(once[0], patches(warts(), 5, purposes::scales)[0]));
 }
 
-TEST(Patches, NoneWhereThereIsNoneToPlace) {
+TEST(Patches, AreNoneForAnEmptyStyle) {
     PatchStyle style = warts();
     style.count = 0;
     EXPECT_TRUE(patches(style, 1, purposes::warts).empty());
@@ -110,7 +110,7 @@ TEST(Patches, ASmallChangeOfStyleMovesThemLittle) {
     }
 }
 
-TEST(Patches, ShrinkToNothingAsTheVeilIsWashedOff) {
+TEST(Patches, ShrinkToZeroWithTheAmount) {
     for (const Patch& patch : patches(warts(), 5, purposes::warts)) {
         EXPECT_EQ(patch_scale(patch, 0.0), 0.0);
         EXPECT_EQ(patch_scale(patch, 1.0), 1.0);

@@ -31,7 +31,7 @@ double greatest_radius_of(const std::vector<OutlineNode>& nodes) {
     return radius;
 }
 
-TEST(Proportion, OfOneChangesNoBit) {
+TEST(Proportion, FactorsOfOneChangeNoBit) {
     for (const std::string& id : swept_ids()) {
         const Drawn d = drawn(id);
         const OutlineNodes same = proportioned(d.nodes, {}, d.open);
@@ -44,7 +44,7 @@ TEST(Proportion, OfOneChangesNoBit) {
     }
 }
 
-TEST(Proportion, StretchesWhatItSays) {
+TEST(Proportion, StretchesTheStatedParts) {
     for (const std::string& id : swept_ids()) {
         const Drawn d = drawn(id);
         const OutlineNodes s = proportioned(d.nodes, {1.2, 1.3, 1.4}, d.open);
@@ -65,7 +65,7 @@ TEST(Proportion, AnOpenCapKeepsItsDiameterAndAClubWidensAsAWhole) {
                 1.3 * greatest_radius_of(club.nodes.cap), 1e-15);
 }
 
-TEST(Proportion, VelocitiesAreMovedByTheJacobianOfTheMap) {
+TEST(Proportion, VelocitiesAreTransformedByTheJacobian) {
     const Proportions by{1.15, 1.25, 0.85};
     for (const std::string& id : swept_ids())
         for (const double open : {0.0, 0.4, 1.0}) {
@@ -73,7 +73,7 @@ TEST(Proportion, VelocitiesAreMovedByTheJacobianOfTheMap) {
             const OutlineNodes moved = proportioned(d.nodes, by, open);
             for (const CurveName curve : curve_names) {
                 const auto& nodes = d.nodes.of(curve);
-                // The ends share a stretch with their neighbours, and carry the landmarks of the map.
+                // The ends share a stretch with their neighbours, and are landmarks of the map.
                 for (std::size_t i = 1; i + 1 < nodes.size(); ++i) {
                     constexpr double h = 1e-7;
                     const auto nudged = [&](double step) {
@@ -117,7 +117,7 @@ TEST(Proportion, SmoothJoinsStaySmooth) {
 
 TEST(Proportion, EveryWidthOfASpreadKeepsRadiiInOrder) {
     for (const double wider : {std::exp(-0.8), 0.7, 1.0, 1.6, std::exp(0.8)}) {
-        // A lower face that runs straight out: its radii must keep rising.
+        // The radii of a straight horizontal lower face must stay ascending.
         OutlineNodes nodes;
         nodes.stem = {{{0.0, 0.0}, {0.01, 0.0}}, {{0.01, 0.1}, {0.0, 0.1}}};
         for (int i = 0; i <= 200; ++i)
@@ -131,17 +131,17 @@ TEST(Proportion, EveryWidthOfASpreadKeepsRadiiInOrder) {
     }
 }
 
-TEST(Proportion, FaultsOfThePolylineAreFoundAndNamed) {
+TEST(Proportion, FindsTheSelfIntersectingCurve) {
     const Drawn d = drawn("russula_vinosa");
     const Outline sound(d.nodes);
-    for (int lod = 0; lod < 4; ++lod) EXPECT_FALSE(fault_of(sound, lod)) << lod;
+    for (int lod = 0; lod < 4; ++lod) EXPECT_FALSE(self_intersecting_curve(sound, lod)) << lod;
     OutlineNodes crossed = d.nodes;
     for (OutlineNode& node : crossed.cap) node.position.y -= 2.0 * (node.position.y - 0.03);
     crossed.cap.front().position = crossed.hymenium.back().position;
-    EXPECT_TRUE(fault_of(Outline(crossed), 0));
+    EXPECT_TRUE(self_intersecting_curve(Outline(crossed), 0));
     OutlineNodes pierced = d.nodes;
     for (std::size_t i = 0; i < 3; ++i) pierced.cap[pierced.cap.size() / 2 + i].position.x = -0.001;
-    EXPECT_EQ(fault_of(Outline(pierced), 0), CurveName::cap);
+    EXPECT_EQ(self_intersecting_curve(Outline(pierced), 0), CurveName::cap);
     // A lower face that has shrunk to a point crosses nothing.
     OutlineNodes closed = d.nodes;
     for (OutlineNode& node : closed.hymenium) node = {closed.stem.back().position, {0.0, 0.0}};
@@ -150,7 +150,7 @@ TEST(Proportion, FaultsOfThePolylineAreFoundAndNamed) {
         node.position.x *= closed.stem.back().position.x / d.nodes.cap.front().position.x;
     for (OutlineNode& node : closed.cap) node.position.y += gap.y;
     closed.cap.front().position = closed.stem.back().position;
-    EXPECT_FALSE(fault_of(Outline(closed), 1));
+    EXPECT_FALSE(self_intersecting_curve(Outline(closed), 1));
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ namespace {
 
 Model model_of(const MushroomOrder& order) { return resolve(order, atlas()).model; }
 
-/// Places of all rings of LOD 0, base to apex.
+/// Returns the positions of all rings of LOD 0, base to apex.
 std::vector<glm::dvec2> places_of(const Individual& individual) {
     std::vector<glm::dvec2> places;
     for (const CurveName curve : curve_names)
@@ -29,7 +29,7 @@ std::vector<glm::dvec2> places_of(const Individual& individual) {
     return places;
 }
 
-/// Largest distance of matched places.
+/// Returns the largest distance between corresponding points.
 double largest_move(const std::vector<glm::dvec2>& a, const std::vector<glm::dvec2>& b) {
     EXPECT_EQ(a.size(), b.size());
     double most = 0.0;
@@ -38,7 +38,7 @@ double largest_move(const std::vector<glm::dvec2>& a, const std::vector<glm::dve
     return most;
 }
 
-/// Counts are those of the whole set of stages.
+/// Returns the model with the counts of the whole set of stages.
 Model with_counts_of(Model model, const Model& set) {
     model.hymenium.blades = set.hymenium.blades;
     model.hymenium.tiers = set.hymenium.tiers;
@@ -47,7 +47,7 @@ Model with_counts_of(Model model, const Model& set) {
     return model;
 }
 
-TEST(Resolve, AtTheAgeOfAStageAnUnvariedIndividualIsTheTemplate) {
+TEST(Resolve, WithoutVariationStagesEqualTheirTemplates) {
     for (const AtlasEntry& entry : swept_atlas().entries())
         for (const Stage& stage : entry.species.stages) {
             MushroomOrder order = order_of(entry.species.id.string(), stage.age);
@@ -76,7 +76,8 @@ TEST(Resolve, AtTheAgeOfAStageAnUnvariedIndividualIsTheTemplate) {
 TEST(Resolve, BetweenStagesAgesBlendLinearly) {
     const auto& stages = atlas().find("boletus_edulis")->species.stages;
     ASSERT_GE(stages.size(), 3u);
-    // Rings follow the outline's bends; what moves along straight lines are places at equal values of the parameter.
+    // Rings follow the outline's bends; points at equal values of the parameter move along straight
+    // lines.
     const auto at = [](double age) {
         MushroomOrder order = order_of("boletus_edulis", age);
         order.params.variation = 0.0;
@@ -95,7 +96,7 @@ TEST(Resolve, BetweenStagesAgesBlendLinearly) {
         EXPECT_LT(glm::distance(found[i], 0.25 * a[i] + 0.75 * b[i]), 1e-12);
 }
 
-TEST(Resolve, GrowingNeverJumps) {
+TEST(Resolve, GrowthIsContinuous) {
     for (const std::string& id : swept_ids()) {
         MushroomOrder order = order_of(id, 0.0, 5);
         order.params.variation = 1.0;
@@ -148,7 +149,7 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
             };
             const double width =
                 greatest_radius(individual.outline.stem) / greatest_radius(plain.outline.stem);
-            // The widest place of a bulb lies between the places where it is looked for.
+            // The widest point of a bulb lies between the sampled ones.
             EXPECT_TRUE(within(width, spread.size + spread.stem_width + 0.005))
                 << species.id.view() << ' ' << seed;
             if (stem_length(plain) > 0.0) {
@@ -175,7 +176,7 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
     }
 }
 
-TEST(Resolve, SizeScalesTheWholeAndNothingElse) {
+TEST(Resolve, SizeScalesUniformly) {
     for (const std::string& id : swept_ids()) {
         MushroomOrder order = order_of(id, 0.6, 8);
         const Individual one = resolved(order);
@@ -192,7 +193,7 @@ TEST(Resolve, SizeScalesTheWholeAndNothingElse) {
     }
 }
 
-TEST(Resolve, WhatASpeciesCannotHaveIsRefusedByName) {
+TEST(Resolve, ImpossibleOverridesAreRefusedAndNamed) {
     const auto refused = [](const std::string& id, auto member, auto field, auto amount) {
         MushroomOrder order = order_of(id);
         (order.params.*member).*field = amount;
@@ -236,13 +237,13 @@ TEST(Resolve, WhatASpeciesCannotHaveIsRefusedByName) {
     EXPECT_TRUE(names(
         refused("clavariadelphus_pistillaris", &P::weathering, &WeatheringOf<Maybe>::waves, 0.5),
         "/weathering/waves", "has no margin that could wave"));
-    // None of what it has not is no fault.
+    // A zero amount of something that the species lacks is valid.
     EXPECT_TRUE(refused("russula_vinosa", &P::ornaments, &O::warts, 0.0).empty());
     EXPECT_TRUE(refused("russula_vinosa", &P::hymenium, &H::forking, 0.0).empty());
     EXPECT_TRUE(refused("cantharellus_cibarius", &P::hymenium, &H::forking, 0.7).empty());
 }
 
-TEST(Resolve, EveryImpossibleWishIsToldAtOnce) {
+TEST(Resolve, AllImpossibleOverridesAreReportedAtOnce) {
     MushroomOrder order = order_of("boletus_edulis");
     order.params.hymenium.blades = 60;
     order.params.ornaments.warts = 1.0;
@@ -250,7 +251,7 @@ TEST(Resolve, EveryImpossibleWishIsToldAtOnce) {
     EXPECT_EQ(refusal([&] { (void)resolved(order); }).size(), 3u);
 }
 
-TEST(Resolve, BadOrdersAreRefusedByName) {
+TEST(Resolve, InvalidRequestsAreRefusedAndNamed) {
     EXPECT_TRUE(names(refusal([] { (void)resolve(order_of("toadstool"), atlas()); }), "mix",
                       "'toadstool'"));
     MushroomOrder order = order_of("boletus_edulis");
@@ -274,7 +275,7 @@ TEST(Resolve, BadOrdersAreRefusedByName) {
     order.params.deformation.zone_from = 0.5;
     order.params.deformation.zone_to = 0.5;
     EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/deformation/zone_to"));
-    // The rule holds across what was asked and what the species has.
+    // The rule holds across the overrides and the values of the species.
     order.params.deformation.zone_to.reset();
     order.params.deformation.zone_from = 0.9;
     EXPECT_TRUE(refusal([&] { (void)resolved(order); }).empty()) << "0.9 to 1 is a zone";
@@ -283,7 +284,7 @@ TEST(Resolve, BadOrdersAreRefusedByName) {
     EXPECT_TRUE(refusal([&] { (void)resolved(order); }).empty()) << "0 to 0.1 is a zone";
 }
 
-TEST(Resolve, AModelOfOnesOwnIsTakenAsItIs) {
+TEST(Resolve, ACustomModelIsNotVaried) {
     MushroomOrder order = order_of("x", 0.2, 77);
     order.mix.clear();
     order.model = atlas().find("cantharellus_cibarius")->species.stages[1].model;
@@ -299,7 +300,8 @@ TEST(Resolve, AModelOfOnesOwnIsTakenAsItIs) {
                       "off the axis"));
 }
 
-/// Calls `use` with each optional of `asked`, its path, and the value of the same place in `effective`.
+/// Calls `use` with each optional of the request, its path, and the value of the same place in
+/// `effective`.
 template <class T, class Use>
 void each_wish(const T& asked, const T& effective, const std::string& path, const Use& use) {
     T::fields([&](auto member, const Info& info) {
@@ -312,7 +314,7 @@ void each_wish(const T& asked, const T& effective, const std::string& path, cons
     });
 }
 
-TEST(Resolve, WhatIsAskedIsExactlyWhatTheIndividualHas) {
+TEST(Resolve, GrantedOverridesAreExact) {
     int granted = 0;
     EXPECT_TRUE(rc::check("random overrides", [&] {
         MushroomOrder order = order_of(*rc::gen::elementOf(species_ids()));
@@ -322,7 +324,8 @@ TEST(Resolve, WhatIsAskedIsExactlyWhatTheIndividualHas) {
             ++granted;
             each_wish(order.params, individual.effective, "",
                       [](const auto& asked, const auto& effective, const std::string& path) {
-                          // Nothing asked of what the species lacks says as much as not asking.
+                          // A zero override of something that the species lacks is the same as
+                          // none.
                           if (asked && effective && *asked != *effective) RC_FAIL(path);
                           if (asked && !effective && *asked != 0) RC_FAIL(path + " is lost");
                       });
@@ -337,11 +340,11 @@ TEST(Resolve, WhatIsAskedIsExactlyWhatTheIndividualHas) {
                           problem.path == "/deformation/zone_to");
         }
     }));
-    // Most random wishes ask something that a species cannot have.
+    // Most random requests ask for something that a species cannot have.
     EXPECT_GT(granted, 0);
 }
 
-TEST(Resolve, EffectiveParametersGiveTheSameIndividualBack) {
+TEST(Resolve, EffectiveParametersReproduceTheIndividual) {
     for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 8; ++seed) {
             MushroomOrder order = textured(order_of(id, seed / 8.0, seed, 1));
@@ -359,7 +362,7 @@ TEST(Resolve, EffectiveParametersGiveTheSameIndividualBack) {
         }
 }
 
-TEST(Resolve, NoIndividualBendsSoFarThatItsStemFolds) {
+TEST(Resolve, NaturalBendsNeverFoldTheStem) {
     for (const std::string& id : species_ids())
         for (int step = 0; step <= 8; ++step)
             for (std::uint32_t seed = 0; seed < effort(12); ++seed) {
