@@ -1,4 +1,5 @@
-// Shape family "branched": corals and antlers, limbs that fork by the same matrices as trees do.
+// Shape family "branched": corals and antlers, whose segments fork by the same ramification
+// matrices as trees.
 #pragma once
 
 #include <cstddef>
@@ -10,10 +11,11 @@
 
 namespace sporeprint {
 
-/// Most tips of one species' bush.
+/// The greatest number of tips of one species' branch graph.
 inline constexpr std::size_t most_bush_tips = 600;
 
-/// How limbs stand, how long and how wide they are. Orders are those of Horton and Strahler: 1 for the last branches.
+/// Directions, lengths and widths of segments. Orders are those of Horton and Strahler: 1 for the
+/// terminal segments.
 struct LimbStyle {
     int trunks = 1;
     double height = 0.08;
@@ -154,7 +156,7 @@ struct LimbStyle {
     bool operator==(const LimbStyle&) const = default;
 };
 
-/// Only forks, three deep: what a model begins with.
+/// Returns a topology of plain forks, three levels deep: the default of a model.
 inline TreeTopology plain_forks() {
     TreeTopology forks;
     forks.matrix = MatrixKind::perfect;
@@ -162,7 +164,8 @@ inline TreeTopology plain_forks() {
     return forks;
 }
 
-/// Shape family "branched": a graph of limbs with radii. Its branching is drawn once per individual; everything else only moves it.
+/// Shape family "branched": a graph of segments with radii. Its branching is drawn once per
+/// individual; all other parameters only move it.
 struct Branched {
     static constexpr const char* form = "branched";
     TreeTopology ramification = plain_forks();
@@ -173,7 +176,7 @@ struct Branched {
               Info{.name = "ramification", .doc = "How often limbs bear which others."});
         visit(&Branched::limbs, Info{.name = "limbs", .doc = "How limbs stand, and their size."});
     }
-    /// More tips than most_bush_tips.
+    /// Reports more tips than most_bush_tips.
     void check(const std::string& path, std::vector<Problem>& problems) const;
     bool operator==(const Branched&) const = default;
 };

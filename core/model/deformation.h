@@ -1,4 +1,4 @@
-// How a shape is bent, twisted and squeezed: axial and free-form deformation.
+// Axial and free-form deformation of a shape: bend, twist, lean, taper and imperfection.
 #pragma once
 
 #include <optional>
@@ -10,7 +10,7 @@
 
 namespace sporeprint {
 
-/// The paper's deformation D. `Maybe` is Plain in a Model and std::optional in a request.
+/// The paper's deformation D. `M` is Plain in a Model and std::optional in a request.
 template <template <class> class M>
 struct DeformationOf {
     M<double> bend_deg{};
@@ -60,7 +60,7 @@ struct DeformationOf {
     }
     void check(const std::string& path, std::vector<Problem>& problems) const {
         const std::optional<double> from = zone_from, to = zone_to;
-        // 1 - 0.9 is a little less than 0.1 in binary.
+        // In binary, 1 - 0.9 is slightly less than 0.1.
         if (from && to && *to - *from < 0.1 - 1e-9)
             problems.push_back({path + "/zone_to", "must exceed zone_from by at least 0.1"});
     }

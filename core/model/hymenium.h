@@ -1,4 +1,4 @@
-// The layer that bears the spores: its pattern, and how its gills, ridges, pores or teeth stand.
+// The spore-bearing layer: its pattern and the dimensions of its gills, ridges, pores or teeth.
 #pragma once
 
 #include "core/params/describe.h"
@@ -6,7 +6,7 @@
 
 namespace sporeprint {
 
-/// What carries the spores.
+/// The structure of the spore-bearing layer.
 enum class HymeniumPattern { smooth, gills, ridges, pores, teeth };
 
 constexpr const char* name(HymeniumPattern pattern) {

@@ -1,4 +1,5 @@
-// The mushroom as plain data: the paper's tuple (skeleton, silhouette, deformation, images), plus ornaments and weathering.
+// The mushroom as plain data: the paper's tuple (skeleton, silhouette, deformation, images), plus
+// ornaments and weathering.
 #pragma once
 
 #include <variant>
@@ -15,7 +16,7 @@
 
 namespace sporeprint {
 
-/// Everything that makes one mushroom. Plain data, no behaviour.
+/// All parameters of one mushroom as plain data without behaviour.
 struct Model {
     std::variant<Swept, Branched> shape;
     DeformationOf<Plain> deformation;

@@ -52,7 +52,7 @@ void Species::check(const std::string& path, std::vector<Problem>& problems) con
         if (first.surface.hymenium.pattern != model.surface.hymenium.pattern)
             report(problems, at(i, "/model/surface/hymenium/pattern"),
                    "every stage has the pattern of the first");
-        // Places are drawn once per individual, so what decides them stays the same for life.
+        // Places are drawn once per individual, so their parameters must be equal in all stages.
         const auto placed = [&](const PatchStyle& one, const PatchStyle& other, const char* what) {
             if (one.count != other.count || one.from != other.from || one.to != other.to ||
                 one.elongation != other.elongation)

@@ -1,11 +1,12 @@
-// A species: facts, growth stages and how far individuals vary. One JSON file each in core/atlas.
+// A species: facts, growth stages and the spread of individuals. Each is one JSON file in
+// core/atlas.
 #pragma once
 
 #include "core/model/model.h"
 
 namespace sporeprint {
 
-/// Growth form, as field guides name it.
+/// The growth form in the terms of field guides.
 enum class GrowthForm {
     agaric,
     bolete,
@@ -60,7 +61,7 @@ constexpr const char* name(GrowthForm form) {
     return nullptr;
 }
 
-/// What is recorded of a species. Sizes are those of maturity (age 0.6).
+/// Recorded facts of a species. Sizes are those of maturity (age 0.6).
 struct Facts {
     Text<64> scientific_name;
     Text<64> common_name;
@@ -114,7 +115,8 @@ struct Facts {
     bool operator==(const Facts&) const = default;
 };
 
-/// How far individuals depart from the template at variation 1; natural logarithms of factors unless stated.
+/// The spread of individuals about the template at variation 1, as natural logarithms of factors
+/// unless stated otherwise.
 struct Spread {
     double size = 0.3;
     double stem_length = 0.15;

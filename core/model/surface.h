@@ -1,4 +1,5 @@
-// The paper's images as what to paint: colours and patterns of each part, and what light does beyond them.
+// The paper's images as painting parameters: colours and patterns of each part, and optional
+// material effects.
 #pragma once
 
 #include <vector>
@@ -9,7 +10,7 @@
 
 namespace sporeprint {
 
-/// Upper face: colours run from the apex (first) to the margin (last).
+/// The upper face: colours run from the apex (first) to the margin (last).
 struct CapSurface {
     std::vector<Colour> ramp = {{200, 160, 120}, {180, 140, 100}};
     double ramp_noise = 0.3;
@@ -93,7 +94,7 @@ struct CapSurface {
     bool operator==(const CapSurface&) const = default;
 };
 
-/// Lower face.
+/// The lower face.
 struct HymeniumSurface {
     HymeniumPattern pattern = HymeniumPattern::gills;
     Colour colour = {240, 230, 210};
@@ -126,7 +127,7 @@ struct HymeniumSurface {
     bool operator==(const HymeniumSurface&) const = default;
 };
 
-/// Stem: `base` is the ground end.
+/// The stem: `base` is the ground end.
 struct StemSurface {
     Colour top = {240, 230, 210};
     Colour base = {220, 200, 170};
@@ -176,7 +177,7 @@ struct StemSurface {
     bool operator==(const StemSurface&) const = default;
 };
 
-/// Veil: ring, warts, scales.
+/// The veil: ring, warts, scales.
 struct VeilSurface {
     Colour colour = {248, 244, 230};
     Colour tip = {240, 226, 190};
@@ -194,7 +195,7 @@ struct VeilSurface {
     bool operator==(const VeilSurface&) const = default;
 };
 
-/// What a tear, a bite or a crack lays open.
+/// The flesh that a tear, a bite or a crack exposes.
 struct FleshSurface {
     Colour colour = {244, 238, 222};
     double roughness = 0.9;
@@ -208,7 +209,7 @@ struct FleshSurface {
     bool operator==(const FleshSurface&) const = default;
 };
 
-/// What weathering shows of a species: its colours, and how its skin gives way.
+/// The species' parameters of painted damage: colours, and how its skin fails.
 struct ScarSurface {
     Colour faded = {226, 204, 160};
     Colour bruise = {132, 92, 58};
@@ -238,7 +239,7 @@ struct ScarSurface {
     bool operator==(const ScarSurface&) const = default;
 };
 
-/// The paper's images I, as what to paint.
+/// The paper's images I as painting parameters.
 struct Surface {
     CapSurface cap;
     HymeniumSurface hymenium;
@@ -258,7 +259,7 @@ struct Surface {
     bool operator==(const Surface&) const = default;
 };
 
-/// What light does beyond colour and roughness: optional material extensions of the file.
+/// Material effects beyond colour and roughness: optional material extensions of the file.
 struct Material {
     double slime = 0.0;
     double velvet = 0.0;

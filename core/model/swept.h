@@ -1,4 +1,4 @@
-// Shape family "swept": an outline of three sub-curves, turned round an axis.
+// Shape family "swept": an outline of three sub-curves, rotated about an axis.
 #pragma once
 
 #include <string>
@@ -29,7 +29,7 @@ struct OutlinePoint {
     bool operator==(const OutlinePoint&) const = default;
 };
 
-/// How two sub-curves meet.
+/// The kind of join between two sub-curves.
 enum class Join { corner, smooth };
 
 constexpr const char* name(Join join) {
@@ -42,8 +42,9 @@ constexpr const char* name(Join join) {
     return nullptr;
 }
 
-/// The paper's curve C: three sub-curves of spline control points, from the base of the stem to the apex of the cap.
-/// Each sub-curve begins where the one before it ends. A form that has no lower face (a club) leaves `hymenium` empty.
+/// The paper's curve C: three sub-curves of spline control points, from the base of the stem to the
+/// apex of the cap. Each sub-curve begins where the one before it ends. `hymenium` is empty for a
+/// form without a lower face (a club).
 struct Silhouette {
     std::vector<OutlinePoint> stem;
     std::vector<OutlinePoint> hymenium;
@@ -96,7 +97,8 @@ struct AxisPoint {
     bool operator==(const AxisPoint&) const = default;
 };
 
-/// How the radius depends on the angle; all amounts 0 is a figure of revolution. The front is +z. "Widest radius" is that of the outline.
+/// The dependence of the radius on the angle; with all amounts 0 the shape is a surface of
+/// revolution. The front is +z. "Widest radius" is that of the outline.
 struct Azimuth {
     double lateral = 0.0;
     double fan_deg = 90.0;
@@ -167,8 +169,9 @@ struct Azimuth {
     bool operator==(const Azimuth&) const = default;
 };
 
-/// Relief of the upper face, added to the outline along its normal: crests lie on the outline, the rest below. Depths are shares of
-/// the face's meridian. Places are drawn once per individual; depths only scale them.
+/// Relief of the upper face, displaced from the outline along its normal: crests lie on the
+/// outline, the rest below. Depths are shares of the face's meridian. Places are drawn once per
+/// individual; depths only scale them.
 struct ReliefStyle {
     double folds = 0.0;
     int fold_count = 5;
@@ -218,12 +221,12 @@ struct ReliefStyle {
                                    .max = 20,
                                    .doc = "Tiers from the apex to the margin."});
     }
-    /// Whether any of it is there.
+    /// Returns true if any depth is positive.
     [[nodiscard]] constexpr bool any() const { return folds > 0.0 || pits > 0.0 || tiers > 0.0; }
     bool operator==(const ReliefStyle&) const = default;
 };
 
-/// Shape family "swept": an outline turned round an axis.
+/// Shape family "swept": an outline rotated about an axis.
 struct Swept {
     static constexpr const char* form = "swept";
     Silhouette silhouette;

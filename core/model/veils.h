@@ -1,4 +1,5 @@
-// Veils and skin that tear with growth: warts and scales, volva and sac, ring; and how much is left of them.
+// Veils and skin that tear with growth: warts and scales, volva and sac, ring, and the amounts that
+// remain of them.
 #pragma once
 
 #include "core/params/describe.h"
@@ -6,7 +7,8 @@
 
 namespace sporeprint {
 
-/// Pieces of torn veil or skin: warts (pyramids) and scales (flaps). Sizes in shares of the young cap's meridian.
+/// Patches of torn veil or skin: warts (pyramids) and scales (flaps). Sizes are in shares of the
+/// young cap's meridian.
 struct PatchStyle {
     int count = 0;
     double size = 0.05;
@@ -51,7 +53,7 @@ struct PatchStyle {
     bool operator==(const PatchStyle&) const = default;
 };
 
-/// A ring on the stem: what is left of the partial veil.
+/// A ring on the stem: the remnant of the partial veil.
 struct RingStyle {
     double height = 0.7;
     double width = 0.0;
@@ -148,7 +150,8 @@ struct SacStyle {
     bool operator==(const SacStyle&) const = default;
 };
 
-/// Amounts of what stands on the surface. Where it stands is drawn once per individual; amounts only scale it.
+/// Amounts of the ornaments on the surface. Their places are drawn once per individual; amounts
+/// only scale them.
 template <template <class> class M>
 struct OrnamentsOf {
     M<double> warts{};

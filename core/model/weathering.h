@@ -1,4 +1,4 @@
-// What time and weather do, as amounts from 0 to 1.
+// Weathering amounts from 0 to 1.
 #pragma once
 
 #include "core/params/describe.h"
@@ -6,7 +6,8 @@
 
 namespace sporeprint {
 
-/// What time, weather and others did. Where it happened is drawn once per individual; amounts only open, deepen and spread it.
+/// Damage by age, weather, animals and handling. Its places are drawn once per individual; amounts
+/// only open, deepen and spread it.
 template <template <class> class M>
 struct WeatheringOf {
     M<double> cracks{};
@@ -82,7 +83,7 @@ struct WeatheringOf {
     bool operator==(const WeatheringOf&) const = default;
 };
 
-/// What of the weathering is painted: all but the waves of the margin.
+/// The painted part of the weathering: all but the waves of the margin.
 template <template <class> class M>
 struct PaintedWeathering {
     M<double> cracks{}, creases{}, peel{}, splits{}, bites{}, bumps{}, deliquescence{}, fade{},
@@ -113,7 +114,7 @@ template <template <class> class M>
             w.deliquescence, w.fade,    w.bruise, w.dust,   w.dew,   w.wetness};
 }
 
-/// The same amounts, with nothing said of waves.
+/// Returns the same amounts without the waves.
 template <template <class> class M>
 [[nodiscard]] WeatheringOf<M> as_weathering(const PaintedWeathering<M>& p) {
     WeatheringOf<M> w;

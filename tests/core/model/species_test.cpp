@@ -21,7 +21,7 @@ std::vector<Problem> problems_after(const std::function<void(Species&)>& harm) {
 
 Silhouette& silhouette_of(Stage& stage) { return std::get<Swept>(stage.model.shape).silhouette; }
 
-TEST(Species, TheOnesOfTheAtlasAreFaultless) {
+TEST(Species, AtlasSpeciesAreValid) {
     for (const AtlasEntry& entry : atlas().entries())
         EXPECT_EQ(problems_in(entry.species), std::vector<Problem>{}) << entry.species.id.string();
 }
@@ -30,7 +30,7 @@ OutlinePoint half_way(const OutlinePoint& a, const OutlinePoint& b) {
     return {0.5 * (a.r + b.r), 0.5 * (a.y + b.y)};
 }
 
-TEST(Species, EachKindOfBadTemplateIsRefusedWithItsPath) {
+TEST(Species, InvalidTemplatesAreRefusedWithTheirPath) {
     const auto expect = [](const std::string& path, const std::string& words,
                            const std::function<void(Species&)>& harm) {
         EXPECT_TRUE(names(problems_after(harm), path, words));
@@ -78,7 +78,7 @@ TEST(Species, EachKindOfBadTemplateIsRefusedWithItsPath) {
     expect("/facts/height_m", "", [](Species& s) { s.facts.height_m = {0.3, 0.1}; });
 }
 
-TEST(Species, EveryFaultIsToldAtOnce) {
+TEST(Species, AllProblemsAreReportedAtOnce) {
     const auto problems = problems_after([](Species& s) {
         s.stages[1].age = 0.0;
         s.stages[1].model.warts.count = 7;
