@@ -10,36 +10,38 @@ namespace sporeprint {
 
 namespace {
 
-// Where control tubes of limbs that stand `half` to each side meet; on the tube itself where there is nothing to meet.
+// Returns the distance at which control tubes of segments at an angle of `half` to each side meet,
+// or the tube's radius where they do not.
 double crotch_distance(double half, double factor) {
     return factor / sine(std::clamp(half, radians(15.0), 0.5 * pi));
 }
 
 }  // namespace
 
-Fork fork_of(const std::array<glm::dvec3, 3>& limbs, double factor) {
+Fork fork_of(const std::array<glm::dvec3, 3>& directions, double factor) {
     Fork fork;
-    const glm::dvec3 across = glm::cross(limbs[1] - limbs[0], limbs[2] - limbs[0]);
+    const glm::dvec3 across =
+        glm::cross(directions[1] - directions[0], directions[2] - directions[0]);
     const double size = glm::length(across);
     if (size > 1e-9) {
         fork.pole = across / size;
     } else {
-        // Limbs on a line: anything across it.
-        const glm::dvec3& d = limbs[0];
+        // For collinear segments any perpendicular direction serves.
+        const glm::dvec3& d = directions[0];
         const glm::dvec3 axis = std::abs(d.y) < 0.8 ? glm::dvec3(0, 1, 0) : glm::dvec3(1, 0, 0);
         fork.pole = glm::normalize(glm::cross(d, axis));
     }
-    fork.cone = glm::dot(fork.pole, limbs[0]);
+    fork.cone = glm::dot(fork.pole, directions[0]);
     if (fork.cone < 0.0) {
         fork.pole = -fork.pole;
         fork.cone = -fork.cone;
     }
-    glm::dvec3 first = limbs[0] - fork.pole * glm::dot(fork.pole, limbs[0]);
+    glm::dvec3 first = directions[0] - fork.pole * glm::dot(fork.pole, directions[0]);
     first = glm::normalize(first);
     const glm::dvec3 second = glm::cross(fork.pole, first);
     std::array<double, 3> azimuth{};
     for (std::size_t i = 1; i < 3; ++i) {
-        azimuth[i] = arc_tangent(glm::dot(limbs[i], second), glm::dot(limbs[i], first));
+        azimuth[i] = arc_tangent(glm::dot(directions[i], second), glm::dot(directions[i], first));
         if (azimuth[i] < 0.0) azimuth[i] += 2.0 * pi;
     }
     fork.order = {0, 1, 2};
@@ -50,7 +52,7 @@ Fork fork_of(const std::array<glm::dvec3, 3>& limbs, double factor) {
         const double half = 0.5 * (to - from);
         const SineCosine middle = sine_cosine(from + half);
         const double distance = crotch_distance(half, factor);
-        // As high as the limbs are there.
+        // The crotch is as high above the plane as the segments are there.
         const double rise =
             half < 0.5 * pi
                 ? cosine(half) * fork.cone / std::sqrt(std::max(1e-9, 1.0 - fork.cone * fork.cone))
@@ -61,15 +63,15 @@ Fork fork_of(const std::array<glm::dvec3, 3>& limbs, double factor) {
     return fork;
 }
 
-double reach_of(const Fork& fork, const glm::dvec3& limb, std::size_t place, double factor) {
-    const double before = glm::dot(fork.crotch[(place + 2) % 3], limb);
-    const double after = glm::dot(fork.crotch[place], limb);
-    const double pole = factor * std::abs(glm::dot(fork.pole, limb));
+double reach_of(const Fork& fork, const glm::dvec3& direction, std::size_t place, double factor) {
+    const double before = glm::dot(fork.crotch[(place + 2) % 3], direction);
+    const double after = glm::dot(fork.crotch[place], direction);
+    const double pole = factor * std::abs(glm::dot(fork.pole, direction));
     return std::max({0.0, before, after, pole});
 }
 
 double bend_reach(const glm::dvec3& first, const glm::dvec3& second, double factor) {
-    // tan(bend / 2), from the cosine of the bend.
+    // This is tan(bend / 2), from the cosine of the bend.
     const double cosine_of_bend = std::clamp(-glm::dot(first, second), -1.0, 1.0);
     return factor * std::sqrt((1.0 - cosine_of_bend) / std::max(1e-9, 1.0 + cosine_of_bend));
 }

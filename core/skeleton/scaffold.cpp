@@ -14,24 +14,24 @@ namespace {
 
 constexpr std::uint32_t none = 0xffffffffU;
 
-// Distances from where a fork or a bend ends to the rings beyond, in radii: the second ring of a fork, so that what
-// the skin makes of its crotches has faded there.
+// Distances in radii from the end of a fork or bend to the next rings. At the second ring of a fork
+// the influence of its crotches on the surface has faded.
 constexpr double first_ring = 0.7, second_ring = 1.45;
-// Rings nearer to each other than this are one, in radii.
+// Rings nearer to each other than this are merged, in radii.
 constexpr double ring_gap = 0.7;
-// Bends and kinks of the radius below these need no rings of their own.
+// Bends and changes of slope of the radius below these need no rings of their own.
 constexpr double gentle_bend_cosine = 0.8192;  // 35 degrees
 constexpr double gentle_kink = 0.1;
 // An end is closed by a smaller ring beyond it: height and size in radii.
 constexpr double cap_height = 0.7, cap_size = 0.62;
 
-// Half the side of the cube whose subdivided surface holds as much as a ball of radius 1.
+// Returns half the side of the cube whose subdivided surface has the volume of a ball of radius 1.
 constexpr double ball_half(int levels) {
     constexpr std::array<double, 4> halves = {0.806, 1.0702, 1.1437, 1.1625};
     return halves[static_cast<std::size_t>(levels)];
 }
 
-// Corners of a fork as points of the scaffold.
+// The control points of a fork as indices of points of the scaffold.
 struct ForkPoints {
     Fork fork;
     std::uint32_t up = 0, down = 0;
@@ -39,10 +39,10 @@ struct ForkPoints {
 };
 
 struct Step {
-    std::uint32_t limb = 0, from = 0, to = 0;
+    std::uint32_t segment = 0, from = 0, to = 0;
 };
 
-// A ring to be built: where, across which direction, how wide.
+// A ring to be built: its centre, its axis and its radius.
 struct Station {
     glm::dvec3 place{0.0}, along{0.0};
     double radius = 0.0, at = 0.0;  // of the skin; metres along the strip
@@ -54,34 +54,34 @@ class Builder {
         : skeleton_(skeleton),
           factor_(tube_factor(levels)),
           ball_half_(ball_half(levels)),
-          at_(skeleton.nodes.size()),
+          segments_at_(skeleton.nodes.size()),
           forks_(skeleton.nodes.size(), none),
-          walked_(skeleton.limbs.size(), false) {
+          visited_(skeleton.limbs.size(), false) {
         for (std::uint32_t i = 0; i < skeleton.limbs.size(); ++i) {
-            at_[skeleton.limbs[i].from].push_back(i);
-            at_[skeleton.limbs[i].to].push_back(i);
+            segments_at_[skeleton.limbs[i].from].push_back(i);
+            segments_at_[skeleton.limbs[i].to].push_back(i);
         }
     }
 
     Scaffold build() {
-        for (std::uint32_t node = 0; node < at_.size(); ++node)
-            if (at_[node].size() == 3) add_fork(node);
-        for (std::uint32_t node = 0; node < at_.size(); ++node) {
-            if (at_[node].empty()) add_ball(node);
-            if (at_[node].size() == 2) continue;
-            for (const std::uint32_t limb : at_[node])
-                if (!walked_[limb]) add_strip(walk(node, limb));
+        for (std::uint32_t node = 0; node < segments_at_.size(); ++node)
+            if (segments_at_[node].size() == 3) add_fork(node);
+        for (std::uint32_t node = 0; node < segments_at_.size(); ++node) {
+            if (segments_at_[node].empty()) add_ball(node);
+            if (segments_at_[node].size() == 2) continue;
+            for (const std::uint32_t segment : segments_at_[node])
+                if (!visited_[segment]) add_strip(trace_strip(node, segment));
         }
-        // What is left are rings of limbs without fork or end.
-        for (std::uint32_t limb = 0; limb < walked_.size(); ++limb)
-            if (!walked_[limb]) add_strip(walk(skeleton_.limbs[limb].from, limb));
-        return std::move(made_);
+        // The remaining segments form closed loops without fork or end.
+        for (std::uint32_t segment = 0; segment < visited_.size(); ++segment)
+            if (!visited_[segment]) add_strip(trace_strip(skeleton_.limbs[segment].from, segment));
+        return std::move(result_);
     }
 
   private:
     [[nodiscard]] const Skeleton::Node& node(std::uint32_t i) const { return skeleton_.nodes[i]; }
-    [[nodiscard]] std::uint32_t other(std::uint32_t limb, std::uint32_t from) const {
-        const Skeleton::Limb& one = skeleton_.limbs[limb];
+    [[nodiscard]] std::uint32_t other(std::uint32_t segment, std::uint32_t from) const {
+        const Skeleton::Limb& one = skeleton_.limbs[segment];
         return one.from == from ? one.to : one.from;
     }
     [[nodiscard]] glm::dvec3 direction(std::uint32_t from, std::uint32_t to) const {
@@ -89,13 +89,14 @@ class Builder {
     }
 
     std::uint32_t add(const glm::dvec3& point) {
-        made_.points.push_back(point);
-        return static_cast<std::uint32_t>(made_.points.size() - 1);
+        result_.points.push_back(point);
+        return static_cast<std::uint32_t>(result_.points.size() - 1);
     }
 
     void add_fork(std::uint32_t at) {
         std::array<glm::dvec3, 3> directions;
-        for (std::size_t i = 0; i < 3; ++i) directions[i] = direction(at, other(at_[at][i], at));
+        for (std::size_t i = 0; i < 3; ++i)
+            directions[i] = direction(at, other(segments_at_[at][i], at));
         ForkPoints points{fork_of(directions, factor_), 0, 0, {}};
         const auto [place, radius] = node(at);
         points.up = add(place + radius * factor_ * points.fork.pole);
@@ -109,7 +110,7 @@ class Builder {
     void add_ball(std::uint32_t at) {
         const double half = node(at).radius * ball_half_;
         Scaffold::Strip strip;
-        strip.first = static_cast<std::uint32_t>(made_.quads.size());
+        strip.first = static_cast<std::uint32_t>(result_.quads.size());
         strip.radius = node(at).radius;
         std::array<std::uint32_t, 8> corner{};
         for (std::uint32_t i = 0; i < 8; ++i)
@@ -123,43 +124,44 @@ class Builder {
         finish(strip, 0);
     }
 
-    std::vector<Step> walk(std::uint32_t start, std::uint32_t limb) {
+    std::vector<Step> trace_strip(std::uint32_t start, std::uint32_t segment) {
         std::vector<Step> steps;
         std::uint32_t here = start;
         for (;;) {
-            walked_[limb] = true;
-            const std::uint32_t next = other(limb, here);
-            steps.push_back({limb, here, next});
+            visited_[segment] = true;
+            const std::uint32_t next = other(segment, here);
+            steps.push_back({segment, here, next});
             here = next;
-            if (at_[here].size() != 2 || here == start) break;
-            limb = at_[here][0] == limb ? at_[here][1] : at_[here][0];
-            if (walked_[limb]) break;
+            if (segments_at_[here].size() != 2 || here == start) break;
+            segment =
+                segments_at_[here][0] == segment ? segments_at_[here][1] : segments_at_[here][0];
+            if (visited_[segment]) break;
         }
         return steps;
     }
 
-    // How far the limb from `at` towards `to` is taken up by the fork or bend at `at`, in metres; 0 at an end and where nothing
-    // disturbs the skin.
-    double taken(std::uint32_t at, std::uint32_t limb) {
-        const std::vector<std::uint32_t>& limbs = at_[at];
-        const glm::dvec3 here = direction(at, other(limb, at));
-        if (limbs.size() == 3) {
+    // Returns how much of a segment from `at` the fork or bend at `at` occupies, in metres; 0 at an
+    // end and where the skin is undisturbed.
+    double occupied_length(std::uint32_t at, std::uint32_t segment) {
+        const std::vector<std::uint32_t>& segments = segments_at_[at];
+        const glm::dvec3 here = direction(at, other(segment, at));
+        if (segments.size() == 3) {
             const Fork& fork = fork_points_[forks_[at]].fork;
             for (std::size_t k = 0; k < 3; ++k)
-                if (limbs[fork.order[k]] == limb)
+                if (segments[fork.order[k]] == segment)
                     return node(at).radius * reach_of(fork, here, k, factor_);
         }
-        if (limbs.size() == 2) {
-            const std::uint32_t second = limbs[0] == limb ? limbs[1] : limbs[0];
+        if (segments.size() == 2) {
+            const std::uint32_t second = segments[0] == segment ? segments[1] : segments[0];
             return node(at).radius * bend_reach(here, direction(at, other(second, at)), factor_);
         }
         return 0.0;
     }
 
-    // Whether the skin needs rings beside the node's own to keep the radii on both sides.
-    bool gentle(std::uint32_t at) const {
-        if (at_[at].size() != 2) return false;
-        const std::uint32_t a = other(at_[at][0], at), b = other(at_[at][1], at);
+    // Returns true if the node's own ring suffices to keep the radii on both sides.
+    bool is_smooth_node(std::uint32_t at) const {
+        if (segments_at_[at].size() != 2) return false;
+        const std::uint32_t a = other(segments_at_[at][0], at), b = other(segments_at_[at][1], at);
         const double length_a = glm::distance(node(a).place, node(at).place);
         const double length_b = glm::distance(node(b).place, node(at).place);
         const double straight =
@@ -168,19 +170,19 @@ class Builder {
                std::abs(straight - node(at).radius) < gentle_kink * node(at).radius;
     }
 
-    // Rings of one limb between those of its nodes, in order.
+    // Adds the rings of one segment between those of its nodes, in order.
     void add_between(std::vector<Station>& stations, const Step& step, double start) {
         const Skeleton::Node &a = node(step.from), &b = node(step.to);
         const double length = glm::distance(a.place, b.place);
         const glm::dvec3 along = direction(step.from, step.to);
-        const double low = taken(step.from, step.limb);
-        const double high = length - taken(step.to, step.limb);
+        const double low = occupied_length(step.from, step.segment);
+        const double high = length - occupied_length(step.to, step.segment);
         std::vector<double> places;
-        if (!gentle(step.from)) {
+        if (!is_smooth_node(step.from)) {
             places.push_back(low + first_ring * a.radius);
             if (forks_[step.from] != none) places.push_back(low + second_ring * a.radius);
         }
-        if (!gentle(step.to)) {
+        if (!is_smooth_node(step.to)) {
             if (forks_[step.to] != none) places.push_back(high - second_ring * b.radius);
             places.push_back(high - first_ring * b.radius);
         }
@@ -201,11 +203,11 @@ class Builder {
 
     void add_strip(const std::vector<Step>& steps) {
         Scaffold::Strip strip;
-        strip.first = static_cast<std::uint32_t>(made_.quads.size());
+        strip.first = static_cast<std::uint32_t>(result_.quads.size());
         const std::uint32_t start = steps.front().from, end = steps.back().to;
-        const bool closed = start == end && at_[start].size() == 2;
+        const bool closed = start == end && segments_at_[start].size() == 2;
         std::vector<Station> stations;
-        double at = 0.0, weighed = 0.0;
+        double at = 0.0, weighted_radius = 0.0;
         for (std::size_t i = 0; i < steps.size(); ++i) {
             const Step& step = steps[i];
             const double length = glm::distance(node(step.from).place, node(step.to).place);
@@ -219,10 +221,10 @@ class Builder {
             }
             add_between(stations, step, at);
             at += length;
-            weighed += length * 0.5 * (node(step.from).radius + node(step.to).radius);
+            weighted_radius += length * 0.5 * (node(step.from).radius + node(step.to).radius);
         }
         strip.length = at;
-        strip.radius = weighed / at;
+        strip.radius = weighted_radius / at;
         if (forks_[end] == none && !closed)
             stations.push_back(
                 {node(end).place, direction(steps.back().from, end), node(end).radius, at});
@@ -238,49 +240,50 @@ class Builder {
         double at = 0.0;
         const bool from_fork = forks_[start] != none;
         if (from_fork) {
-            ring = fork_ring(start, steps.front().limb, false, side);
+            ring = fork_ring(start, steps.front().segment, false, side);
         } else {
             along = stations.front().along;
             side = any_side(along);
         }
-        // Carried along once to see by how much the frame misses the last ring.
-        glm::dvec3 carried = side, before = along;
+        // The frame is transported once to find the angle by which it misses the last ring.
+        glm::dvec3 transported = side, before = along;
         for (const Station& station : stations) {
-            carried = carry(carried, before, station.along);
+            transported = transport(transported, before, station.along);
             before = station.along;
         }
-        glm::dvec3 wanted;
+        glm::dvec3 target_side;
         std::array<std::uint32_t, 4> last{};
         const bool to_fork = forks_[end] != none;
-        double miss = 0.0;
+        double twist = 0.0;
         std::size_t quarter = 0;
         if (to_fork) {
-            last = fork_ring(end, steps.back().limb, true, wanted);
+            last = fork_ring(end, steps.back().segment, true, target_side);
             const glm::dvec3 arriving = direction(steps.back().from, end);
-            carried = carry(carried, before, arriving);
+            transported = transport(transported, before, arriving);
             before = arriving;
         } else if (closed) {
-            carried = carry(carried, before, stations.front().along);
+            transported = transport(transported, before, stations.front().along);
             before = stations.front().along;
-            wanted = side;
+            target_side = side;
         }
         if (to_fork || closed) {
-            const glm::dvec3 third = glm::cross(before, carried);
-            const double angle = arc_tangent(glm::dot(wanted, third), glm::dot(wanted, carried));
+            const glm::dvec3 third = glm::cross(before, transported);
+            const double angle =
+                arc_tangent(glm::dot(target_side, third), glm::dot(target_side, transported));
             const double turns = std::floor(angle / (0.5 * pi) + 0.5);
-            miss = angle - turns * 0.5 * pi;
+            twist = angle - turns * 0.5 * pi;
             quarter = static_cast<std::size_t>(static_cast<int>(turns) + 4) % 4;
         }
 
         std::array<std::uint32_t, 4> first_of_all{};
         before = along;
-        carried = side;
+        transported = side;
         for (std::size_t i = 0; i < stations.size(); ++i) {
             const Station& station = stations[i];
-            carried = carry(carried, before, station.along);
+            transported = transport(transported, before, station.along);
             before = station.along;
             const std::array<std::uint32_t, 4> next =
-                ring_at(station, carried, miss * station.at / strip.length);
+                ring_at(station, transported, twist * station.at / strip.length);
             if (i > 0 || from_fork)
                 join(ring, next, at, station.at);
             else
@@ -294,20 +297,21 @@ class Builder {
             for (std::size_t k = 0; k < 4; ++k) turned[k] = target[(k + 4 - quarter) % 4];
             join(ring, turned, at, strip.length);
         }
-        const auto tube = static_cast<std::uint32_t>(made_.quads.size()) - strip.first;
+        const auto tube = static_cast<std::uint32_t>(result_.quads.size()) - strip.first;
         if (!from_fork && !closed) close(stations.front(), first_of_all, -1.0);
         if (!to_fork && !closed) close(stations.back(), ring, 1.0);
         finish(strip, tube);
     }
 
-    // The corners that a fork lends to one of its limbs, counter-clockwise about the way that the strip goes; `side` points to the
-    // first of them, across the limb.
-    std::array<std::uint32_t, 4> fork_ring(std::uint32_t at, std::uint32_t limb, bool arriving,
+    // Returns the corners of a fork that belong to one of its segments, counter-clockwise about the
+    // direction of the strip; `side` is set to the direction of the first of them, perpendicular to
+    // the segment.
+    std::array<std::uint32_t, 4> fork_ring(std::uint32_t at, std::uint32_t segment, bool arriving,
                                            glm::dvec3& side) {
         const ForkPoints& points = fork_points_[forks_[at]];
         std::size_t k = 0;
-        while (at_[at][points.fork.order[k]] != limb) ++k;
-        const glm::dvec3 outwards = direction(at, other(limb, at));
+        while (segments_at_[at][points.fork.order[k]] != segment) ++k;
+        const glm::dvec3 outwards = direction(at, other(segment, at));
         side = glm::normalize(glm::cross(points.fork.pole, outwards));
         const std::uint32_t left = points.crotch[k], right = points.crotch[(k + 2) % 3];
         if (arriving) return {left, points.down, right, points.up};
@@ -319,14 +323,16 @@ class Builder {
         return glm::normalize(axis - along * glm::dot(axis, along));
     }
 
-    // The least turn that takes `from` to `to`, applied to a unit vector across `from`.
-    static glm::dvec3 carry(const glm::dvec3& side, const glm::dvec3& from, const glm::dvec3& to) {
+    // Applies the smallest rotation that takes `from` to `to` to a unit vector perpendicular to
+    // `from`.
+    static glm::dvec3 transport(const glm::dvec3& side, const glm::dvec3& from,
+                                const glm::dvec3& to) {
         const glm::dvec3 sum = from + to;
         const double size = 1.0 + glm::dot(from, to);
-        glm::dvec3 carried = side;
-        if (size > 1e-9) carried -= sum * (glm::dot(side, to) / size);
-        carried -= to * glm::dot(to, carried);
-        return glm::normalize(carried);
+        glm::dvec3 transported = side;
+        if (size > 1e-9) transported -= sum * (glm::dot(side, to) / size);
+        transported -= to * glm::dot(to, transported);
+        return glm::normalize(transported);
     }
 
     std::array<std::uint32_t, 4> ring_at(const Station& station, const glm::dvec3& side,
@@ -349,19 +355,19 @@ class Builder {
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t n = (k + 1) % 4;
             const double u = 0.25 * static_cast<double>(k);
-            made_.quads.push_back({a[k], a[n], b[n], b[k]});
-            made_.places.push_back({{{u, from}, {u + 0.25, from}, {u + 0.25, to}, {u, to}}});
+            result_.quads.push_back({a[k], a[n], b[n], b[k]});
+            result_.places.push_back({{{u, from}, {u + 0.25, from}, {u + 0.25, to}, {u, to}}});
         }
     }
 
-    // A smaller ring beyond the end, and a quad over it.
-    void close(const Station& station, const std::array<std::uint32_t, 4>& ring, double way) {
+    // Closes an end with a smaller ring beyond it and a quad over that.
+    void close(const Station& station, const std::array<std::uint32_t, 4>& ring, double sign) {
         std::array<std::uint32_t, 4> tip{};
         for (std::size_t k = 0; k < 4; ++k)
-            tip[k] = add(station.place + cap_size * (made_.points[ring[k]] - station.place) +
-                         way * cap_height * station.radius * station.along);
-        const double beyond = station.at + way * station.radius;
-        if (way > 0.0) {
+            tip[k] = add(station.place + cap_size * (result_.points[ring[k]] - station.place) +
+                         sign * cap_height * station.radius * station.along);
+        const double beyond = station.at + sign * station.radius;
+        if (sign > 0.0) {
             join(ring, tip, station.at, beyond);
             cap(tip, beyond);
         } else {
@@ -371,23 +377,23 @@ class Builder {
     }
 
     void cap(const std::array<std::uint32_t, 4>& ring, double at) {
-        made_.quads.push_back(ring);
-        made_.places.push_back({{{0.0, at}, {0.25, at}, {0.25, at}, {0.0, at}}});
+        result_.quads.push_back(ring);
+        result_.places.push_back({{{0.0, at}, {0.25, at}, {0.25, at}, {0.0, at}}});
     }
 
     void finish(Scaffold::Strip& strip, std::uint32_t tube) {
-        strip.quads = static_cast<std::uint32_t>(made_.quads.size()) - strip.first;
+        strip.quads = static_cast<std::uint32_t>(result_.quads.size()) - strip.first;
         strip.tube_quads = tube;
-        made_.strips.push_back(strip);
+        result_.strips.push_back(strip);
     }
 
     const Skeleton& skeleton_;
     double factor_, ball_half_;
-    std::vector<std::vector<std::uint32_t>> at_;
+    std::vector<std::vector<std::uint32_t>> segments_at_;
     std::vector<std::uint32_t> forks_;
     std::vector<ForkPoints> fork_points_;
-    std::vector<bool> walked_;
-    Scaffold made_;
+    std::vector<bool> visited_;
+    Scaffold result_;
 };
 
 }  // namespace

@@ -1,4 +1,4 @@
-// The coarse mesh of quads round a skeleton, watertight by construction.
+// The coarse control mesh of quads around a skeleton, watertight by construction.
 #pragma once
 
 #include <array>
@@ -11,11 +11,14 @@
 
 namespace sporeprint {
 
-/// All faces are quads, counter-clockwise from outside; each belongs to a strip: a run of limbs between two forks or ends.
+/// A mesh of quads, counter-clockwise from outside; each quad belongs to a strip: a run of segments
+/// between two forks or ends.
 struct Scaffold {
-    /// Where on its strip a corner lies: u once round (0..1), v metres along it from its first node.
+    /// The position of a corner on its strip: u around it (0..1), v in metres along it from its
+    /// first node.
     using Place = glm::dvec2;
-    /// Quads of one strip follow each other: `tube_quads` along it, in rings of four, then the caps of its ends.
+    /// The quads of one strip are contiguous: `tube_quads` along it, in rings of four, then the
+    /// caps of its ends.
     struct Strip {
         std::uint32_t first = 0, quads = 0, tube_quads = 0;
         double length = 0.0;  ///< metres
@@ -27,13 +30,16 @@ struct Scaffold {
     std::vector<Strip> strips;
 };
 
-/// The control mesh whose `levels` times subdivided surface has the radii of a clean skeleton.
+/// Returns the control mesh whose surface after `levels` subdivisions has the radii of a clean
+/// skeleton.
 ///
-/// At a fork no face is needed: the rings of its three limbs share its two poles and three crotches. Elsewhere rings of four stand
-/// across the limbs, in frames that are carried along without turning and then turned evenly to meet the next fork.
+/// A fork needs no face of its own: the rings of its three segments share its two poles and three
+/// crotches. Elsewhere rings of four lie across the segments, in frames that are
+/// parallel-transported and then rotated evenly to meet the next fork.
 ///
 /// levels   0..3
-/// returns  a closed two-manifold: each component of the graph with E limbs and V nodes has Euler characteristic 2 (V - E)
+/// returns  a closed two-manifold: each component of the graph with E segments and V nodes has
+///          Euler characteristic 2 (V - E)
 /// throws   Impossible with broken_limits()
 /// cost     O(nodes)
 [[nodiscard]] Scaffold scaffold(const Skeleton& clean, int levels);

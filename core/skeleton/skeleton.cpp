@@ -18,18 +18,18 @@ namespace {
 
 constexpr double largest_place = 1e4, smallest_radius = 1e-6, largest_radius = 1e3;
 
-// Nodes that lie on each other become one, in the middle by their number.
+// Merges coincident nodes at their mean position.
 class Merger {
   public:
     Merger(const Skeleton& skeleton, double share) : nodes_(skeleton.nodes) {
         parent_.resize(nodes_.size());
         std::iota(parent_.begin(), parent_.end(), 0U);
         weight_.assign(nodes_.size(), 1.0);
-        // A merged node lies elsewhere than its parts, so limbs that were long may have become short.
+        // A merged node is not where its parts were, so other segments may have become too short.
         for (bool merged = true; merged;) {
             merged = false;
-            for (const Skeleton::Limb& limb : skeleton.limbs) {
-                const std::uint32_t a = root(limb.from), b = root(limb.to);
+            for (const Skeleton::Limb& segment : skeleton.limbs) {
+                const std::uint32_t a = root(segment.from), b = root(segment.to);
                 if (a == b) continue;
                 const double length = glm::distance(nodes_[a].place, nodes_[b].place);
                 if (length >= share * (nodes_[a].radius + nodes_[b].radius)) continue;
@@ -59,16 +59,16 @@ class Merger {
     std::vector<double> weight_;
 };
 
-// One end of a limb at its node.
+// One end of a segment at its node.
 struct End {
-    std::uint32_t limb = 0;
+    std::uint32_t segment = 0;
     bool at_to = false;
 };
 
-// Decides which ends of limbs are cut off from their nodes.
-class Cutter {
+// Finds the ends of segments that have to be detached from their nodes.
+class Detacher {
   public:
-    Cutter(const Skeleton& skeleton, const SkinLimits& limits)
+    Detacher(const Skeleton& skeleton, const SkinLimits& limits)
         : skeleton_(skeleton), limits_(limits), at_(skeleton.nodes.size()) {
         for (std::uint32_t i = 0; i < skeleton.limbs.size(); ++i) {
             at_[skeleton.limbs[i].from].push_back({i, false});
@@ -79,26 +79,26 @@ class Cutter {
         reach_.assign(skeleton.limbs.size(), {0.0, 0.0});
     }
 
-    // Calls give_way(node, end, why) for every end that breaks a limit, after which it is cut.
-    void run(const auto& give_way) {
-        std::deque<std::uint32_t> limbs;
-        for (std::uint32_t node = 0; node < at_.size(); ++node) settle(node, give_way);
-        for (std::uint32_t i = 0; i < skeleton_.limbs.size(); ++i) limbs.push_back(i);
-        while (!limbs.empty()) {
-            const std::uint32_t i = limbs.front();
-            limbs.pop_front();
-            const Skeleton::Limb& limb = skeleton_.limbs[i];
-            const double from = radius(limb.from), to = radius(limb.to);
+    // Calls on_detach(node, end, why) for every end that breaks a limit, then detaches it.
+    void run(const auto& on_detach) {
+        std::deque<std::uint32_t> segments;
+        for (std::uint32_t node = 0; node < at_.size(); ++node) resolve_node(node, on_detach);
+        for (std::uint32_t i = 0; i < skeleton_.limbs.size(); ++i) segments.push_back(i);
+        while (!segments.empty()) {
+            const std::uint32_t i = segments.front();
+            segments.pop_front();
+            const Skeleton::Limb& segment = skeleton_.limbs[i];
+            const double from = radius(segment.from), to = radius(segment.to);
             const double before = reach_[i][0] * from, after = reach_[i][1] * to;
             if (length(i) >= before + after + limits_.clear * (from + to)) continue;
             if (before == 0.0 && after == 0.0) continue;
             const End end{i, after > before};
             const std::uint32_t node = node_of(end);
-            give_way(node, end, "is too short to leave its forks");
-            drop(node, end);
-            settle(node, give_way);
-            limbs.push_back(i);
-            for (const End& other : at_[node]) limbs.push_back(other.limb);
+            on_detach(node, end, "is too short to leave its forks");
+            detach(node, end);
+            resolve_node(node, on_detach);
+            segments.push_back(i);
+            for (const End& other : at_[node]) segments.push_back(other.segment);
         }
     }
 
@@ -107,56 +107,57 @@ class Cutter {
   private:
     [[nodiscard]] double radius(std::uint32_t node) const { return skeleton_.nodes[node].radius; }
     [[nodiscard]] std::uint32_t node_of(const End& end) const {
-        const Skeleton::Limb& limb = skeleton_.limbs[end.limb];
-        return end.at_to ? limb.to : limb.from;
+        const Skeleton::Limb& segment = skeleton_.limbs[end.segment];
+        return end.at_to ? segment.to : segment.from;
     }
-    [[nodiscard]] std::uint32_t far_of(const End& end) const {
-        return node_of({end.limb, !end.at_to});
+    [[nodiscard]] std::uint32_t other_node(const End& end) const {
+        return node_of({end.segment, !end.at_to});
     }
-    [[nodiscard]] double length(std::uint32_t limb) const {
-        return glm::distance(skeleton_.nodes[skeleton_.limbs[limb].from].place,
-                             skeleton_.nodes[skeleton_.limbs[limb].to].place);
+    [[nodiscard]] double length(std::uint32_t segment) const {
+        return glm::distance(skeleton_.nodes[skeleton_.limbs[segment].from].place,
+                             skeleton_.nodes[skeleton_.limbs[segment].to].place);
     }
     [[nodiscard]] glm::dvec3 direction(const End& end) const {
-        return glm::normalize(skeleton_.nodes[far_of(end)].place -
+        return glm::normalize(skeleton_.nodes[other_node(end)].place -
                               skeleton_.nodes[node_of(end)].place);
     }
 
-    void drop(std::uint32_t node, const End& end) {
+    void detach(std::uint32_t node, const End& end) {
         std::erase_if(at_[node], [&](const End& other) {
-            return other.limb == end.limb && other.at_to == end.at_to;
+            return other.segment == end.segment && other.at_to == end.at_to;
         });
-        reach_[end.limb][end.at_to ? 1 : 0] = 0.0;
+        reach_[end.segment][end.at_to ? 1 : 0] = 0.0;
     }
 
-    // Cuts ends at a node until those that are left make a smooth one, and notes how far they reach.
-    void settle(std::uint32_t node, const auto& give_way) {
+    // Detaches ends at a node until the others make a smooth one, and records their reach.
+    void resolve_node(std::uint32_t node, const auto& on_detach) {
         std::vector<End>& ends = at_[node];
-        // The thickest first; of equals the first, so that what grew first goes on.
+        // Thicker ends come first and equal ones keep their order, so that older segments stay
+        // attached.
         std::stable_sort(ends.begin(), ends.end(), [&](const End& a, const End& b) {
-            return radius(far_of(a)) > radius(far_of(b));
+            return radius(other_node(a)) > radius(other_node(b));
         });
-        const auto cut = [&](std::size_t i, const char* why) {
+        const auto detach_end = [&](std::size_t i, const char* why) {
             const End end = ends[i];
-            give_way(node, end, why);
-            drop(node, end);
+            on_detach(node, end, why);
+            detach(node, end);
         };
-        while (ends.size() > 3) cut(3, "is the fourth of its node");
+        while (ends.size() > 3) detach_end(3, "is the fourth of its node");
         if (ends.size() == 3 &&
-            radius(far_of(ends[2])) <
-                limits_.slender * std::min(radius(node), radius(far_of(ends[1]))))
-            cut(2, "is much thinner than the others of its node");
-        // A neck that widens at once would run into its neighbours.
+            radius(other_node(ends[2])) <
+                limits_.slender * std::min(radius(node), radius(other_node(ends[1]))))
+            detach_end(2, "is much thinner than the others of its node");
+        // A neck that widens at once would intersect its neighbours.
         for (std::size_t i = ends.size(); i > 0 && ends.size() == 3; --i)
-            if (limits_.slender * radius(far_of(ends[i - 1])) > radius(node))
-                cut(i - 1, "is much thicker than its fork");
+            if (limits_.slender * radius(other_node(ends[i - 1])) > radius(node))
+                detach_end(i - 1, "is much thicker than its fork");
         for (bool again = true; again;) {
             again = false;
             const double sharpest = ends.size() == 3 ? cosine_of_fork_ : cosine_of_bend_;
             for (std::size_t j = ends.size(); j > 1 && !again; --j)
                 for (std::size_t i = 0; i + 1 < j && !again; ++i)
                     if (glm::dot(direction(ends[i]), direction(ends[j - 1])) > sharpest) {
-                        cut(j - 1, "stands at too sharp an angle to another");
+                        detach_end(j - 1, "stands at too sharp an angle to another");
                         again = true;
                     }
         }
@@ -167,28 +168,29 @@ class Cutter {
         if (ends.size() == 3) {
             const Fork fork = fork_of({directions[0], directions[1], directions[2]}, factor);
             if (fork.cone > limits_.cone) {
-                cut(2, "leans too far to the side of the others");
-                settle(node, give_way);
+                detach_end(2, "leans too far to the side of the others");
+                resolve_node(node, on_detach);
                 return;
             }
             for (std::size_t k = 0; k < 3; ++k) {
                 const End& end = ends[fork.order[k]];
-                note(end, reach_of(fork, directions[fork.order[k]], k, factor));
+                set_reach(end, reach_of(fork, directions[fork.order[k]], k, factor));
             }
         } else if (ends.size() == 2) {
             const double reach = bend_reach(directions[0], directions[1], factor);
-            for (const End& end : ends) note(end, reach);
+            for (const End& end : ends) set_reach(end, reach);
         } else {
-            for (const End& end : ends) note(end, 0.0);
+            for (const End& end : ends) set_reach(end, 0.0);
         }
     }
-    void note(const End& end, double reach) { reach_[end.limb][end.at_to ? 1 : 0] = reach; }
+    void set_reach(const End& end, double reach) { reach_[end.segment][end.at_to ? 1 : 0] = reach; }
 
     const Skeleton& skeleton_;
     SkinLimits limits_;
     double cosine_of_fork_, cosine_of_bend_;
     std::vector<std::vector<End>> at_;
-    std::vector<std::array<double, 2>> reach_;  // of each limb at from and to, in radii of the node
+    // of each segment at from and to, in radii of the node
+    std::vector<std::array<double, 2>> reach_;
 };
 
 }  // namespace
@@ -230,48 +232,48 @@ CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     Merger merger(skeleton, limits.merge);
     CleanSkeleton result;
-    Skeleton& made = result.skeleton;
+    Skeleton& clean = result.skeleton;
     std::vector<std::uint32_t> number(skeleton.nodes.size());
     for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i) {
         if (merger.root(i) != i) continue;
-        number[i] = static_cast<std::uint32_t>(made.nodes.size());
-        made.nodes.push_back(merger.node(i));
+        number[i] = static_cast<std::uint32_t>(clean.nodes.size());
+        clean.nodes.push_back(merger.node(i));
     }
     for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
         result.node_of.push_back(number[merger.root(i)]);
-    std::vector<std::pair<Skeleton::Limb, std::uint32_t>> limbs;
+    std::vector<std::pair<Skeleton::Limb, std::uint32_t>> segments;
     for (std::uint32_t i = 0; i < skeleton.limbs.size(); ++i) {
         const std::uint32_t a = result.node_of[skeleton.limbs[i].from];
         const std::uint32_t b = result.node_of[skeleton.limbs[i].to];
-        if (a != b) limbs.push_back({{std::min(a, b), std::max(a, b)}, i});
+        if (a != b) segments.push_back({{std::min(a, b), std::max(a, b)}, i});
     }
-    // Of limbs between the same nodes the first stays.
-    std::sort(limbs.begin(), limbs.end(), [](const auto& a, const auto& b) {
+    // Of several segments between the same nodes the first is kept.
+    std::sort(segments.begin(), segments.end(), [](const auto& a, const auto& b) {
         return std::pair(a.first.from, a.first.to) < std::pair(b.first.from, b.first.to) ||
                (a.first == b.first && a.second < b.second);
     });
-    limbs.erase(std::unique(limbs.begin(), limbs.end(),
-                            [](const auto& a, const auto& b) { return a.first == b.first; }),
-                limbs.end());
-    std::sort(limbs.begin(), limbs.end(),
+    segments.erase(std::unique(segments.begin(), segments.end(),
+                               [](const auto& a, const auto& b) { return a.first == b.first; }),
+                   segments.end());
+    std::sort(segments.begin(), segments.end(),
               [](const auto& a, const auto& b) { return a.second < b.second; });
-    for (const auto& [limb, original] : limbs) {
+    for (const auto& [segment, original] : segments) {
         const std::uint32_t from = result.node_of[skeleton.limbs[original].from];
-        made.limbs.push_back({from, limb.from == from ? limb.to : limb.from});
+        clean.limbs.push_back({from, segment.from == from ? segment.to : segment.from});
     }
 
-    std::vector<End> cuts;
-    Cutter cutter(made, limits);
-    cutter.run([&](std::uint32_t, const End& end, const char*) { cuts.push_back(end); });
-    for (const End& end : cuts) {
-        Skeleton::Limb& limb = made.limbs[end.limb];
-        std::uint32_t& here = end.at_to ? limb.to : limb.from;
-        const std::uint32_t there = end.at_to ? limb.from : limb.to;
-        // A twig leaves a trunk as thick as it goes on.
-        Skeleton::Node root = made.nodes[here];
-        root.radius = std::min(root.radius, made.nodes[there].radius);
-        here = static_cast<std::uint32_t>(made.nodes.size());
-        made.nodes.push_back(root);
+    std::vector<End> detached;
+    Detacher detacher(clean, limits);
+    detacher.run([&](std::uint32_t, const End& end, const char*) { detached.push_back(end); });
+    for (const End& end : detached) {
+        Skeleton::Limb& segment = clean.limbs[end.segment];
+        std::uint32_t& here = end.at_to ? segment.to : segment.from;
+        const std::uint32_t there = end.at_to ? segment.from : segment.to;
+        // A detached twig starts with its own thickness, not the trunk's.
+        Skeleton::Node root = clean.nodes[here];
+        root.radius = std::min(root.radius, clean.nodes[there].radius);
+        here = static_cast<std::uint32_t>(clean.nodes.size());
+        clean.nodes.push_back(root);
     }
     return result;
 }
@@ -286,9 +288,9 @@ std::vector<Problem> broken_limits(const Skeleton& skeleton, const SkinLimits& l
             report(problems, "/limbs/" + std::to_string(i), "joins nodes that lie on each other");
     }
     if (!problems.empty()) return problems;
-    Cutter cutter(skeleton, limits);
-    cutter.run([&](std::uint32_t node, const End& end, const char* why) {
-        report(problems, "/limbs/" + std::to_string(end.limb),
+    Detacher detacher(skeleton, limits);
+    detacher.run([&](std::uint32_t node, const End& end, const char* why) {
+        report(problems, "/limbs/" + std::to_string(end.segment),
                std::string(why) + ", at node " + std::to_string(node));
     });
     return problems;

@@ -1,4 +1,4 @@
-// A graph with radii, and what makes it fit to be skinned.
+// A graph of segments with radii, and its cleaning for skinning.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace sporeprint {
 
-/// Nodes in space, metres, joined by limbs. Along a limb the radius goes linearly from that of one node to that of the other.
+/// Nodes in space, metres, connected by segments. Along a segment the radius is linear between
+/// those of its nodes.
 struct Skeleton {
     struct Node {
         glm::dvec3 place{0.0};
@@ -25,43 +26,46 @@ struct Skeleton {
 
 inline constexpr std::size_t most_skeleton_nodes = 200'000;
 
-/// What cannot be cleaned: too many nodes, a place or radius that is no number or out of all bounds, a limb to a node that there is
-/// not. Paths are /nodes/i and /limbs/i.
+/// Returns the errors of a skeleton that cannot be cleaned: too many nodes, a position or radius
+/// that is not finite or out of bounds, a segment to a missing node. Paths are /nodes/i and
+/// /limbs/i.
 [[nodiscard]] std::vector<Problem> faults_of(const Skeleton& skeleton);
 
-/// What a skeleton must keep to be skinned without a fold.
+/// The limits that a skeleton must meet to be skinned without folds.
 struct SkinLimits {
-    /// Two limbs at a node stand at least this far apart, degrees.
+    /// Least angle between two segments at a node, degrees.
     double fork_deg = 50.0;
-    /// Two limbs that are all there is at a node bend by no more than this, degrees.
+    /// Greatest bend at a node of two segments, degrees.
     double bend_deg = 100.0;
-    /// Three limbs at a node stand off the plane that they turn about by no more than this share (the sine of that angle).
+    /// Greatest sine of the angle between three segments at a node and their common plane.
     double cone = 0.58;
-    /// Where a limb leaves its forks on both sides, this much is left of it at least, in sums of its radii.
+    /// Least free length of a segment between its forks on both sides, in sums of its radii.
     double clear = 1.0;
-    /// Nodes nearer than this become one, in sums of their radii.
+    /// Nodes nearer than this are merged, in sums of their radii.
     double merge = 0.5;
-    /// At a fork a third limb thinner than this share of the others begins inside of them, and so does a limb that is thicker than
-    /// its node by more.
+    /// At a fork, a third segment thinner than this share of the others starts at a node of its own
+    /// inside them, and so does a segment of which the node's radius is less than this share.
     double slender = 0.55;
 };
 
-/// A skeleton that meets its limits: at most three limbs to a node. What would not go into a smooth fork (a fourth limb, a twig on
-/// a trunk, limbs at a sharp angle, a limb too short to leave its forks) begins at a node of its own inside the others, closed by
-/// itself.
+/// A skeleton that meets its limits, with at most three segments per node. Segments that make no
+/// smooth fork (a fourth segment, a twig on a trunk, segments at a sharp angle, a segment too short
+/// to leave its forks) start at a node of their own inside the others and are closed separately.
 struct CleanSkeleton {
     Skeleton skeleton;
-    /// Which node each of the original ones became.
+    /// The new index of each original node.
     std::vector<std::uint32_t> node_of;
 };
 
-/// Makes a skeleton fit for skinned(). The thinner limb gives way; of equals the later.
+/// Prepares a skeleton for skinned(). Of two conflicting segments the thinner is detached, of equal
+/// ones the later.
 ///
 /// throws  InvalidInput with faults_of()
-/// cost    O(nodes + limbs), times the length of the longest run of nodes that lie on each other
+/// cost    O(nodes + limbs), times the length of the longest run of coincident nodes
 [[nodiscard]] CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits = {});
 
-/// Which of the limits a skeleton breaks, by node and limb; empty for what cleaned() returns.
+/// Returns the limits that a skeleton breaks, by node and segment; empty for the result of
+/// cleaned().
 [[nodiscard]] std::vector<Problem> broken_limits(const Skeleton& skeleton,
                                                  const SkinLimits& limits = {});
 

@@ -1,4 +1,4 @@
-// A skeleton's smooth skin.
+// The smooth surface of a skeleton.
 #pragma once
 
 #include "core/mesh/mesh.h"
@@ -6,23 +6,24 @@
 
 namespace sporeprint {
 
-/// A skin, its vertices welded but for the seam along each strip and the borders between strips.
+/// A skin whose vertices are welded except at the seam along each strip and the borders between
+/// strips.
 struct SkinnedSkeleton {
-    /// Positions, unit normals (by area, the same on both sides of a seam) and indices.
+    /// Positions, unit normals (weighted by area, equal on both sides of a seam) and indices.
     Mesh mesh;
-    std::vector<Scaffold::Place> places;  ///< of each vertex; empty if they were not asked for
+    std::vector<Scaffold::Place> places;  ///< one per vertex; empty if not requested
     std::vector<Scaffold::Strip> strips;
-    /// Vertices of strip s are begins[s]..begins[s + 1].
+    /// The vertices of strip s are begins[s]..begins[s + 1].
     std::vector<std::uint32_t> begins;
 };
 
-/// Whether a skin tells the places of its vertices, as texture coordinates need them.
+/// States whether a skin includes the places of its vertices, which texture coordinates need.
 enum class SkinPlaces { told, left_out };
 
-/// Subdivides the scaffold of a clean skeleton after Catmull and Clark.
+/// Returns the Catmull-Clark subdivision of the scaffold of a clean skeleton.
 ///
 /// levels   0..3: tubes of 4, 8, 16 or 32 sides
-/// returns  closed once equal positions are welded
+/// returns  a mesh that is closed once equal positions are welded
 /// throws   Impossible with broken_limits()
 /// cost     O(nodes 4^levels)
 [[nodiscard]] SkinnedSkeleton skinned(const Skeleton& clean, int levels,

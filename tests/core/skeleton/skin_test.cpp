@@ -48,7 +48,8 @@ Skeleton ring_of(int nodes, double size, double radius) {
     return skeleton;
 }
 
-// Any graph: near nodes, coinciding ones, loops, many limbs to a node, radii from hair to trunk. `flat` in 0..1.
+// Returns a random graph: near nodes, coincident ones, loops, many segments per node, radii from
+// hair to trunk.
 Skeleton random_graph(std::uint32_t seed) {
     Random random(seed, 9000);
     const auto draw = [&](double from, double to) { return random.uniform(from, to); };
@@ -71,7 +72,7 @@ Skeleton random_graph(std::uint32_t seed) {
     return skeleton;
 }
 
-// Every half-edge has its twin, and Euler's characteristic is that of the graph.
+// Expects that every half-edge has its twin, and that Euler's characteristic is that of the graph.
 void expect_manifold(const Skeleton& skeleton, const Scaffold& coarse) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, int> half_edges;
     for (const auto& quad : coarse.quads)
@@ -92,7 +93,7 @@ void expect_manifold(const Skeleton& skeleton, const Scaffold& coarse) {
                                    static_cast<long>(skeleton.limbs.size())));
 }
 
-// Quads of a scaffold two of whose corners face opposite ways.
+// Returns the number of quads of a scaffold two of whose corners face opposite directions.
 int folded(const Scaffold& coarse) {
     int count = 0;
     for (const auto& quad : coarse.quads) {
@@ -121,7 +122,8 @@ double volume_of(const Scaffold& coarse) {
     return sixfold / 6.0;
 }
 
-// Radius of the circle as large as the mesh's section with the plane through `at` across `along`, near `at`.
+// Returns the radius of the circle with the area of the mesh's section with the plane through `at`
+// across `along`, near `at`.
 double section_radius(const Mesh& mesh, const glm::dvec3& at, const glm::dvec3& along,
                       double near) {
     double doubled = 0.0;
@@ -146,7 +148,7 @@ double section_radius(const Mesh& mesh, const glm::dvec3& at, const glm::dvec3& 
     return std::sqrt(std::abs(0.5 * doubled) / 3.14159265358979);
 }
 
-TEST(SkinnedSkeleton, OfAStraightLimbIsATube) {
+TEST(SkinnedSkeleton, OfAStraightSegmentIsATube) {
     for (int levels = 1; levels <= 3; ++levels) {
         const SkinnedSkeleton made = skinned(straight(1.0, 0.05, 0.05), levels);
         expect_valid(made.mesh);
@@ -157,7 +159,7 @@ TEST(SkinnedSkeleton, OfAStraightLimbIsATube) {
     }
 }
 
-TEST(SkinnedSkeleton, OfALoneNodeIsABall) {
+TEST(SkinnedSkeleton, OfASingleNodeIsABall) {
     for (int levels = 1; levels <= 3; ++levels) {
         const SkinnedSkeleton made = skinned({{{{0.5, 0.1, -0.2}, 0.1}}, {}}, levels);
         expect_valid(made.mesh);
@@ -165,7 +167,7 @@ TEST(SkinnedSkeleton, OfALoneNodeIsABall) {
     }
 }
 
-TEST(SkinnedSkeleton, OfARingOfLimbsIsATorus) {
+TEST(SkinnedSkeleton, OfARingOfSegmentsIsATorus) {
     const Skeleton skeleton = ring_of(16, 1.0, 0.05);
     const CleanSkeleton clean = cleaned(skeleton);
     EXPECT_EQ(clean.skeleton.nodes.size(), 16U);
@@ -174,7 +176,7 @@ TEST(SkinnedSkeleton, OfARingOfLimbsIsATorus) {
     expect_valid(made.mesh);
 }
 
-TEST(SkinnedSkeleton, AForkKeepsItsRadiusInTheMiddleToo) {
+TEST(SkinnedSkeleton, AForkKeepsItsRadiusAtItsCentre) {
     const Skeleton y = star({{0, -1, 0}, {0.7, 0.7, 0}, {-0.7, 0.7, 0}}, 0.05);
     const SkinnedSkeleton made = skinned(cleaned(y).skeleton, 2);
     expect_valid(made.mesh);
@@ -185,7 +187,7 @@ TEST(SkinnedSkeleton, AForkKeepsItsRadiusInTheMiddleToo) {
     EXPECT_NEAR(front, 0.05, 0.012);
 }
 
-TEST(SkinnedSkeleton, RadiiAlongLimbsFollowTheLaw) {
+TEST(SkinnedSkeleton, RadiiAreLinearAlongSegments) {
     std::vector<Skeleton> skeletons = {
         straight(1.0, 0.05, 0.02),
         star({{0, -1, 0}, {0.7, 0.7, 0}, {-0.7, 0.7, 0}}, 0.04),
@@ -214,7 +216,7 @@ TEST(SkinnedSkeleton, RadiiAlongLimbsFollowTheLaw) {
     }
 }
 
-TEST(SkinnedSkeleton, OfAnyGraphIsWatertight) {
+TEST(SkinnedSkeleton, OfRandomGraphsIsWatertight) {
     int folds = 0, quads = 0;
     for (std::uint32_t seed = 0; seed < effort(10000, 400); ++seed) {
         SCOPED_TRACE("seed " + std::to_string(seed));
@@ -232,7 +234,7 @@ TEST(SkinnedSkeleton, OfAnyGraphIsWatertight) {
     EXPECT_EQ(folds, 0) << "of " << quads;
 }
 
-TEST(SkinnedSkeleton, CleaningLeavesWhatIsCleanAlone) {
+TEST(SkinnedSkeleton, CleaningIsIdempotent) {
     const Skeleton y = star({{0, -1, 0}, {0.7, 0.7, 0}, {-0.7, 0.7, 0}}, 0.05);
     const CleanSkeleton clean = cleaned(y);
     ASSERT_EQ(clean.skeleton.nodes.size(), y.nodes.size());
@@ -243,8 +245,8 @@ TEST(SkinnedSkeleton, CleaningLeavesWhatIsCleanAlone) {
     }
 }
 
-TEST(SkinnedSkeleton, WhatMakesNoForkBeginsInside) {
-    // A fourth limb, a twig on a trunk, a sharp angle: each at a node of its own.
+TEST(SkinnedSkeleton, SegmentsThatMakeNoForkStartInside) {
+    // A fourth segment, a twig on a trunk and a sharp angle each start at a node of their own.
     const auto nodes = [](const Skeleton& skeleton) {
         return cleaned(skeleton).skeleton.nodes.size();
     };
@@ -261,11 +263,11 @@ TEST(SkinnedSkeleton, WhatMakesNoForkBeginsInside) {
     EXPECT_TRUE(names(problems, "/limbs/2", "too sharp an angle"));
 }
 
-TEST(SkinnedSkeleton, EachLimitIsNamedWhereItIsBroken) {
+TEST(SkinnedSkeleton, BrokenLimitsAreReportedAtTheirPlace) {
     const auto refused = [](const Skeleton& skeleton, const char* path, const char* words) {
         const auto problems = refusal([&] { (void)scaffold(skeleton, 2); });
         EXPECT_TRUE(names(problems, path, words)) << words;
-        // Cleaning mends it.
+        // Cleaning repairs it.
         EXPECT_TRUE(broken_limits(cleaned(skeleton).skeleton).empty()) << words;
     };
     refused(star({{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}}, 0.05), "/limbs/3",
@@ -287,7 +289,7 @@ TEST(SkinnedSkeleton, EachLimitIsNamedWhereItIsBroken) {
     refused(star({{0, 1, 0}, {0.3, 1, 0}}, 0.02), "/limbs/1", "too sharp an angle");
 }
 
-TEST(SkinnedSkeleton, RefusesGraphsBeyondAllBoundsBeforeAnyWork) {
+TEST(SkinnedSkeleton, RefusesOversizedGraphsBeforeAnyWork) {
     Skeleton crowd;
     crowd.nodes.resize(most_skeleton_nodes + 1, {{0, 0, 0}, 0.01});
     EXPECT_TRUE(names(refusal([&] { (void)cleaned(crowd); }), "/nodes",
@@ -307,7 +309,7 @@ TEST(SkinnedSkeleton, RefusesGraphsBeyondAllBoundsBeforeAnyWork) {
                       "/nodes/0/radius", "2000 is outside"));
 }
 
-TEST(SkinnedSkeleton, RefusesGraphsThatAreNone) {
+TEST(SkinnedSkeleton, RefusesInvalidGraphs) {
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_TRUE(names(refusal([&] { (void)cleaned({{{{nan, 0, 0}, 1}}, {}}); }), "/nodes/0/place"));
     EXPECT_TRUE(names(refusal([&] {

@@ -25,7 +25,7 @@ const QuadMesh cube = {
      {1, 1, 1}},
     {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
 
-// Quads in rows and columns that close to a torus, with any points.
+// Returns quads in rows and columns that close to a torus, with arbitrary points.
 QuadMesh torus(std::uint32_t rows, std::uint32_t columns) {
     Random random(11, 9100);
     QuadMesh mesh;
@@ -60,16 +60,18 @@ TEST(Subdivision, OfACubeHasTheKnownMasks) {
     const auto near = [](const glm::dvec3& a, const glm::dvec3& b) {
         return glm::distance(a, b) < 1e-15;
     };
-    // (n - 2) / n of a corner, and 1 / n^2 of its three neighbours and three middles.
+    // The mask is (n - 2) / n of a corner, and 1 / n^2 of its three neighbours and three face
+    // points.
     for (std::size_t i = 0; i < 8; ++i)
         EXPECT_TRUE(near(fine.points[i], 5.0 / 9.0 * cube.points[i])) << i;
-    EXPECT_EQ(fine.points[fine.first_middle], glm::dvec3(-1, 0, 0));
-    // The edge from corner 0 to corner 4.
+    EXPECT_EQ(fine.points[fine.first_face_point], glm::dvec3(-1, 0, 0));
+    // This is the edge from corner 0 to corner 4.
     EXPECT_EQ(fine.points[fine.patch(0)[1]], glm::dvec3(-0.75, -0.75, 0));
 }
 
-TEST(Subdivision, OfARegularMeshIsACubicSplineInBothWays) {
-    // Points of a uniform cubic B-spline with knots put in half-way: 1 6 1 over 8, and 4 4 over 8.
+TEST(Subdivision, OfARegularMeshIsABicubicSpline) {
+    // These are the points of a uniform cubic B-spline with knots inserted half-way: 1 6 1 over 8,
+    // and 4 4 over 8.
     constexpr std::uint32_t rows = 5, columns = 7;
     const QuadMesh coarse = torus(rows, columns);
     const Subdivided fine = subdivided(coarse, 1);
@@ -117,8 +119,8 @@ TEST(Subdivision, KeepsClosedMeshesClosed) {
         }
 }
 
-TEST(Subdivision, OfEachQuadStaysTogether) {
-    // A child of a quad lies near it: of a cube's, on its side.
+TEST(Subdivision, ChildrenOfAQuadStayNearIt) {
+    // A child of a quad lies near it: for a cube, on its side.
     const Subdivided fine = subdivided(cube, 3);
     for (std::size_t parent = 0; parent < fine.parents.size(); ++parent) {
         const std::array<std::uint32_t, 4>& quad = cube.quads[parent / 16];
@@ -128,7 +130,7 @@ TEST(Subdivision, OfEachQuadStaysTogether) {
     }
 }
 
-TEST(Subdivision, RefusesWhatIsNotClosed) {
+TEST(Subdivision, RefusesOpenMeshes) {
     QuadMesh open = cube;
     open.quads.pop_back();
     EXPECT_THROW((void)subdivided(open, 1), GenerationError);
