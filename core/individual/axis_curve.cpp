@@ -32,10 +32,10 @@ std::vector<glm::dvec3> spline_tangents(const std::vector<glm::dvec3>& points) {
     std::vector<glm::dvec3> tangents;
     std::size_t k = 1;
     for (int i = 0; i <= AxisCurve::stations; ++i) {
-        const double wanted = arc.back() * i / AxisCurve::stations;
-        while (k + 1 < arc.size() && arc[k] < wanted) ++k;
+        const double target = arc.back() * i / AxisCurve::stations;
+        while (k + 1 < arc.size() && arc[k] < target) ++k;
         const double t = arc[k] > arc[k - 1]
-                             ? std::clamp((wanted - arc[k - 1]) / (arc[k] - arc[k - 1]), 0.0, 1.0)
+                             ? std::clamp((target - arc[k - 1]) / (arc[k] - arc[k - 1]), 0.0, 1.0)
                              : 0.0;
         const glm::dvec3 d = (1.0 - t) * directions[k - 1] + t * directions[k];
         tangents.push_back(glm::dot(d, d) > 1e-18 ? unit(d) : directions[k]);

@@ -27,7 +27,7 @@ struct NodeDraws {
 };
 
 NodeDraws draws_of(std::uint32_t seed, std::uint32_t path) {
-    Random random(seed, purposes::bush_limbs, path);
+    Random random(seed, purposes::branch_segments, path);
     NodeDraws d{};
     d.length = random.symmetric();
     d.angle = random.symmetric();
@@ -52,7 +52,7 @@ std::uint32_t child_path(std::uint32_t path, std::uint32_t turn) {
 }
 
 std::uint32_t trunk_seed(std::uint32_t seed, std::uint32_t trunk) {
-    return trunk == 0 ? seed : Random(seed, purposes::bush_trunks, trunk).bits();
+    return trunk == 0 ? seed : Random(seed, purposes::branch_trunks, trunk).bits();
 }
 
 // The values of one species for a node: lengths relative to its longest path from fork to tip,

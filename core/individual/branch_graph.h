@@ -48,8 +48,8 @@ struct Bush {
         glm::dvec3 beside{0.0};  ///< start of its segment relative to the end of its parent, metres
         double radius = 0.0;     ///< metres
         bool may_end = false;    ///< some species of the set has a tip here
-        double few = 0.0;  ///< 0..1: weight of sparse species among those that have the node
-        double from_tip = 0.0;  ///< colour coordinate: 1 at the top of a trunk, 0 at a tip
+        double few = 0.0;        ///< 0..1: weight of sparse species among those that have the node
+        double from_tip = 0.0;   ///< colour coordinate: 1 at the top of a trunk, 0 at a tip
         double eaten =
             /// 0..1: share of a terminal segment eaten by slugs, times how far it is terminal
             0.0;

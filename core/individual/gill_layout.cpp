@@ -23,8 +23,8 @@ std::uint32_t hashed(std::uint32_t h) {
     return h ^ (h >> 15U);
 }
 
-std::uint32_t whole_bits(int whole) {
-    return std::bit_cast<std::uint32_t>(static_cast<float>(whole) + 12582912.0F);
+std::uint32_t integer_bits(int integer) {
+    return std::bit_cast<std::uint32_t>(static_cast<float>(integer) + 12582912.0F);
 }
 
 float upper_part(std::uint32_t h) {
@@ -95,8 +95,8 @@ std::array<std::uint32_t, 8> hymenium_words(std::uint32_t seed) {
     return words;
 }
 
-float hashed_symmetric(int whole, std::uint32_t word) {
-    return upper_part(hashed(hashed(whole_bits(whole) * prime_x) ^ word));
+float hashed_symmetric(int integer, std::uint32_t word) {
+    return upper_part(hashed(hashed(integer_bits(integer) * prime_x) ^ word));
 }
 
 BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, std::uint32_t seed,
@@ -151,11 +151,12 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
 double BladeRow::turn_of(double gaps) const {
     if (stand_.slots == 0) return gaps / stand_.blades;
     const double stands = gaps * stand_.stride;
-    const double whole = std::floor(stands);
+    const double integer = std::floor(stands);
     const auto slot = [&](double k) {
         return std::floor(k * stand_.slots / stand_.stands + 0.501);
     };
-    return (slot(whole) + (stands - whole) * (slot(whole + 1.0) - slot(whole))) / stand_.slots;
+    return (slot(integer) + (stands - integer) * (slot(integer + 1.0) - slot(integer))) /
+           stand_.slots;
 }
 
 void BladeRow::put(double gaps, Blade blade) {
@@ -180,13 +181,13 @@ std::vector<CrossVein> cross_veins(int ridges, double forking, std::uint32_t see
     std::vector<CrossVein> veins;
     for (int row = 0; row < rows; ++row)
         for (int ridge = 0; ridge < ridges; ++ridge) {
-            const int whole = ridge + vein_rows_apart * row;
-            const auto lot = [&](std::uint32_t which) {
-                return static_cast<double>(hashed_symmetric(whole, word + which));
+            const int integer = ridge + vein_rows_apart * row;
+            const auto random = [&](std::uint32_t which) {
+                return static_cast<double>(hashed_symmetric(integer, word + which));
             };
             veins.push_back(
-                {ridge, (row + 0.5 + vein_stray * lot(0)) / rows, vein_tilt * lot(1) / rows,
-                 std::clamp(vein_steepness * (veins_there(forking) - 0.5 * lot(2)), 0.0, 1.0)});
+                {ridge, (row + 0.5 + vein_stray * random(0)) / rows, vein_tilt * random(1) / rows,
+                 std::clamp(vein_steepness * (veins_there(forking) - 0.5 * random(2)), 0.0, 1.0)});
         }
     return veins;
 }
@@ -212,9 +213,9 @@ std::vector<CellPlace> cell_places(const CellRows& cells, std::uint32_t seed) {
     for (int row = 0; row < cells.rows; ++row) {
         const int count = cells_in_row(cells, row);
         const double shift = row % 2 == 0 ? 0.0 : 0.5;
-        const std::uint32_t row_bits = whole_bits(row) * prime_y + word;
+        const std::uint32_t row_bits = integer_bits(row) * prime_y + word;
         for (int column = 0; column < count; ++column) {
-            const std::uint32_t h = hashed((whole_bits(column) * prime_x) ^ row_bits);
+            const std::uint32_t h = hashed((integer_bits(column) * prime_x) ^ row_bits);
             const double x =
                 column + 0.5 + static_cast<double>(upper_part(h) * cell_jitter) + shift;
             const double y = row + 0.5 + static_cast<double>(upper_part(h << 16U) * cell_jitter);

@@ -88,7 +88,7 @@ struct Wander {
 
 /// Returns the hash of an integer as a number in -1..1, equal bit for bit to the hash in the paint
 /// kernels.
-[[nodiscard]] float hashed_symmetric(int whole, std::uint32_t word);
+[[nodiscard]] float hashed_symmetric(int integer, std::uint32_t word);
 
 /// One blade of a species.
 struct Blade {

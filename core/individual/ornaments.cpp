@@ -19,12 +19,12 @@ Style blended_shell(const std::vector<Source>& sources, Style Model::*shell, dou
                     double OrnamentsOf<Plain>::*amount, double size) {
     std::vector<Style> styles;
     std::vector<double> influences;
-    double whole = 0.0, influence_sum = 0.0;
+    double total = 0.0, influence_sum = 0.0;
     for (const Source& source : sources) {
         Style style = source.now.*shell;
         style.thickness /= source.size;
         const double extent_share = source.now.ornaments.*amount * style.*extent / source.size;
-        whole += source.weight * extent_share;
+        total += source.weight * extent_share;
         influences.push_back(source.weight * extent_share / (extent_share + half_influence));
         influence_sum += influences.back();
         styles.push_back(style);
@@ -34,7 +34,7 @@ Style blended_shell(const std::vector<Source>& sources, Style Model::*shell, dou
         shares.add(styles[i],
                    influence_sum > 0.0 ? influences[i] / influence_sum : sources[i].weight);
     Style one = blend(shares);
-    one.*extent = whole * size;
+    one.*extent = total * size;
     one.thickness *= size;
     return one;
 }

@@ -24,12 +24,12 @@ Reach reach_of_stem(double x) {
 
 }  // namespace
 
-OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open) {
+OutlineNodes proportioned(OutlineNodes nodes, const Proportions& proportions, double open) {
     const glm::dvec2 junction = nodes.stem.back().position, margin = nodes.cap.front().position;
     double stem = junction.x;
     for (const OutlineNode& node : nodes.stem)
         if (node.position.y >= margin.y) stem = std::max(stem, node.position.x);
-    const double lift = (by.longer - 1.0) * junction.y, widening = by.wider - 1.0;
+    const double lift = (proportions.longer - 1.0) * junction.y, widening = proportions.wider - 1.0;
     const auto outwards = [&](OutlineNode& node, bool on_stem) {
         const double r = node.position.x;
         const Reach near = stem > 0.0 ? reach_of_stem(r / stem) : Reach{0.0, 0.0};
@@ -40,13 +40,13 @@ OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open
     // Where sub-curves meet, both sides are stretched by the mean of their factors, so that a
     // smooth join stays smooth; the two joins of the lower face approach a single one as its weight
     // vanishes.
-    const double without = 0.5 * (by.longer + by.higher);
-    const double at_junction = open * 0.5 * (by.longer + 1.0) + (1.0 - open) * without;
-    const double at_margin = open * 0.5 * (1.0 + by.higher) + (1.0 - open) * without;
+    const double without = 0.5 * (proportions.longer + proportions.higher);
+    const double at_junction = open * 0.5 * (proportions.longer + 1.0) + (1.0 - open) * without;
+    const double at_margin = open * 0.5 * (1.0 + proportions.higher) + (1.0 - open) * without;
     for (OutlineNode& node : nodes.stem) {
         outwards(node, true);
-        node.position.y *= by.longer;
-        node.velocity.y *= by.longer;
+        node.position.y *= proportions.longer;
+        node.velocity.y *= proportions.longer;
     }
     for (OutlineNode& node : nodes.hymenium) {
         outwards(node, false);
@@ -54,14 +54,14 @@ OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open
     }
     for (OutlineNode& node : nodes.cap) {
         outwards(node, false);
-        node.position.y = margin.y + lift + (node.position.y - margin.y) * by.higher;
-        node.velocity.y *= by.higher;
+        node.position.y = margin.y + lift + (node.position.y - margin.y) * proportions.higher;
+        node.velocity.y *= proportions.higher;
     }
     const auto restretch = [](OutlineNode& node, double from, double to) {
         node.velocity.y *= to / from;
     };
-    restretch(nodes.stem.back(), by.longer, at_junction);
-    restretch(nodes.cap.front(), by.higher, at_margin);
+    restretch(nodes.stem.back(), proportions.longer, at_junction);
+    restretch(nodes.cap.front(), proportions.higher, at_margin);
     if (!nodes.hymenium.empty()) {
         restretch(nodes.hymenium.front(), 1.0, at_junction);
         restretch(nodes.hymenium.back(), 1.0, at_margin);
@@ -73,11 +73,11 @@ OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open
     return nodes;
 }
 
-OutlineNodes scaled(OutlineNodes nodes, double by) {
+OutlineNodes scaled(OutlineNodes nodes, double factor) {
     for (const CurveName curve : curve_names)
         for (OutlineNode& node : nodes.of(curve)) {
-            node.position *= by;
-            node.velocity *= by;
+            node.position *= factor;
+            node.velocity *= factor;
         }
     return nodes;
 }

@@ -23,10 +23,11 @@ struct Proportions {
 /// open    0..1: weight of the species with a lower face
 /// returns nodes whose velocities are transformed by the map's Jacobian, so that smooth joins of
 /// sub-curves stay smooth
-[[nodiscard]] OutlineNodes proportioned(OutlineNodes nodes, const Proportions& by, double open);
+[[nodiscard]] OutlineNodes proportioned(OutlineNodes nodes, const Proportions& proportions,
+                                        double open);
 
 /// Returns the outline scaled by a factor.
-[[nodiscard]] OutlineNodes scaled(OutlineNodes nodes, double by);
+[[nodiscard]] OutlineNodes scaled(OutlineNodes nodes, double factor);
 
 /// Returns the sub-curve in which the swept polyline of one level of detail touches itself, folds
 /// back or reaches the axis between its ends; none if it is simple. Coincident vertices count once:

@@ -20,7 +20,8 @@ glm::dvec3 square_to(const glm::dvec3& normal, const glm::dvec3& direction) {
     const glm::dvec3 other =
         std::abs(normal.x) < 0.8 ? glm::dvec3(1.0, 0.0, 0.0) : glm::dvec3(0.0, 1.0, 0.0);
     const glm::dvec3 flat = direction - glm::dot(direction, normal) * normal;
-    // Much shorter than it was: almost parallel to the normal, so its direction is rounding noise.
+    // A much shorter vector means that the direction was almost parallel to the normal: the rest is
+    // rounding noise.
     if (glm::dot(flat, flat) > 1e-8 * glm::dot(direction, direction)) return unit_or(flat, other);
     return unit_or(other - glm::dot(other, normal) * normal, other);
 }

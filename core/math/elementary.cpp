@@ -8,7 +8,8 @@ namespace sporeprint {
 
 namespace {
 
-// pi/2 in three parts; the first two have trailing zeros, so that small multiples are exact (Cody and Waite).
+// This is pi/2 in three parts; the first two have trailing zeros, so that small multiples are exact
+// (Cody and Waite).
 constexpr double half_pi_1 = 1.57079632673412561417e+00;
 constexpr double half_pi_2 = 6.07710050630396597660e-11;
 constexpr double half_pi_3 = 2.02226624879595063154e-21;
@@ -103,7 +104,8 @@ double arc_tangent(double y, double x) {
     if (ax == 0.0 && ay == 0.0) return 0.0;
     const bool steep = ay > ax;
     double t = steep ? ax / ay : ay / ax;
-    // atan(t) = 2 atan(t / (1 + sqrt(1 + t^2))), three times: from at most 1 to below 0.1
+    // atan(t) = 2 atan(t / (1 + sqrt(1 + t^2))) is applied three times: from at most 1 to below
+    // 0.1.
     for (int i = 0; i < 3; ++i) t = t / (1.0 + std::sqrt(1.0 + t * t));
     const double z = t * t;
     double p = 0.0;

@@ -1,4 +1,5 @@
-// Elementary functions whose bits are the same on every machine: libm's differ between CPUs, these use + - * / only.
+// Elementary functions with equal bits on every machine: libm's differ between CPUs, these use + -
+// * / and sqrt only.
 #pragma once
 
 namespace sporeprint {
@@ -9,28 +10,30 @@ struct SineCosine {
     double sine, cosine;
 };
 
-/// Sine and cosine of an angle in radians, |angle| < 1e5; error below 2e-15.
+/// Returns sine and cosine of an angle in radians, |angle| < 1e5; error below 2e-15.
 [[nodiscard]] SineCosine sine_cosine(double angle);
 [[nodiscard]] double sine(double angle);
 [[nodiscard]] double cosine(double angle);
 
-/// e^x, relative error below 1e-15; 0 below -700, and x above 700 counts as 700.
+/// Returns e^x, relative error below 1e-15; 0 below -700, and x above 700 counts as 700.
 [[nodiscard]] double exponential(double x);
 
-/// Natural logarithm of x > 0 (normal numbers), error below 1e-15 relative or absolute.
+/// Returns the natural logarithm of x > 0 (normal numbers), error below 1e-15 relative or absolute.
 [[nodiscard]] double logarithm(double x);
 
-/// base^exponent for base >= 0; 0^0 is 1.
+/// Returns base^exponent for base >= 0; 0^0 is 1.
 [[nodiscard]] double power(double base, double exponent);
 
-/// Angle of the point (x, y), -pi..pi; 0 for the origin.
+/// Returns the angle of the point (x, y), -pi..pi; 0 for the origin.
 [[nodiscard]] double arc_tangent(double y, double x);
 
-/// The sRGB transfer function and its inverse, 0..1 to 0..1.
+/// Returns the sRGB transfer function and its inverse, 0..1 to 0..1.
 [[nodiscard]] double srgb_to_linear(double encoded);
 [[nodiscard]] double linear_to_srgb(double linear);
 
-/// 0 below `from`, 1 above `to`, a cubic with flat ends between. from < to
+/// Returns 0 below `from`, 1 above `to` and a cubic with zero end slopes between.
+///
+/// pre  from < to
 [[nodiscard]] constexpr double smooth_step(double from, double to, double x) {
     const double t = x <= from ? 0.0 : x >= to ? 1.0 : (x - from) / (to - from);
     return t * t * (3.0 - 2.0 * t);

@@ -35,7 +35,7 @@ constexpr Target targets[] = {
     {"avx3", HWY_TARGETS& HWY_AVX3},
 };
 
-// What the processor has, whatever is forced just now.
+// Returns the instruction sets of the processor, whatever is forced.
 std::int64_t processor_targets() {
     static const std::int64_t found = [] {
         hwy::SetSupportedTargetsForTest(0);

@@ -1,7 +1,6 @@
-// Gradient noise and its hash on vectors of floats, once per instruction set: included by
-// noise.cpp and by core/surface only.
-// Products and sums stay apart and every operation is exact or correctly rounded, so that all
-// instruction sets agree.
+// Gradient noise and its hash on vectors of floats, compiled once per instruction set: included by
+// noise.cpp and by core/surface only. Products and sums are never fused and every operation is
+// exact or correctly rounded, so that all instruction sets agree.
 #if defined(SPOREPRINT_CORE_MATH_NOISE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_MATH_NOISE_INL
 #undef SPOREPRINT_CORE_MATH_NOISE_INL
@@ -20,7 +19,8 @@ namespace HWY_NAMESPACE {
 
 namespace hn = hwy::HWY_NAMESPACE;
 
-// At most eight lanes: wider vectors would need wider images than the smallest atlas has.
+// The lane count is at most eight: wider vectors would need wider images than the smallest atlas
+// has.
 using Floats = hn::CappedTag<float, 8>;
 using Ints = hn::RebindToSigned<Floats>;
 using Words = hn::RebindToUnsigned<Floats>;
@@ -36,17 +36,17 @@ HWY_INLINE VF clamped(VF x, float low, float high) {
 HWY_INLINE VF unit(VF x) { return clamped(x, 0.0F, 1.0F); }
 HWY_INLINE VF mix(VF a, VF b, VF weight) { return a + (b - a) * weight; }
 
-/// 0 below `from`, 1 above it by 1/slope, with flat ends.
+/// Returns 0 below `from`, 1 above it by 1/slope, with zero end slopes.
 HWY_INLINE VF smooth(VF x, float from, float slope) {
     const VF t = unit((x - set(from)) * set(slope));
     return t * t * (set(3.0F) - set(2.0F) * t);
 }
 
-/// Bits that stand for a whole number, |x| < 2^22; neighbours are neighbours. Cheaper than a
-/// conversion, and as exact.
+/// Returns bits that identify an integer, |x| < 2^22; consecutive integers have consecutive bits.
+/// It is cheaper than a conversion, and as exact.
 HWY_INLINE VU whole_bits(VF x) { return hn::BitCast(Words(), x + set(12582912.0F)); }
 
-/// Quintic with two flat derivatives at 0 and 1.
+/// Returns a quintic whose first two derivatives are zero at 0 and 1.
 HWY_INLINE VF fade(VF t) { return t * t * t * (t * (t * set(6.0F) - set(15.0F)) + set(10.0F)); }
 
 HWY_INLINE VU hash(VU h) {
@@ -54,7 +54,7 @@ HWY_INLINE VU hash(VU h) {
     return hn::Xor(h, hn::ShiftRight<15>(h));
 }
 
-/// Hash bits as a number: all of them, and the lower half. -1 <= x <= 1
+/// Returns hash bits as a number, -1 <= x <= 1: all of them, or the lower half.
 HWY_INLINE VF upper_part(VU h) {
     return hn::ConvertTo(Floats(), hn::BitCast(Ints(), h)) * set(1.0F / 2147483648.0F);
 }
@@ -64,9 +64,8 @@ inline constexpr std::uint32_t prime_x = 0x9E3779B1U;
 inline constexpr std::uint32_t prime_y = 0x85EBCA77U;
 inline constexpr std::uint32_t prime_z = 0xC2B2AE3DU;
 
-// Gradient times offset, not yet scaled to 1. Each component is the hash from another bit on: what
-// follows its own bits is too
-// small to matter.
+// Returns the dot product of gradient and offset, not yet scaled to 1. Each component is the hash
+// from another bit on; the bits after its own are too small to matter.
 HWY_INLINE VF slope2(VU h, VF dx, VF dy) {
     h = hash(h);
     const VF gx = hn::ConvertTo(Floats(), hn::BitCast(Ints(), h));
@@ -101,12 +100,14 @@ HWY_INLINE VF noise2(VF x, VF y, std::uint32_t seed) {
     return noise2_of(hx0, hx0 + word(prime_x), x - x0, y, seed);
 }
 
-/// Slopes at the corners of the cells that points lie in: neighbours along a row mostly lie in one cell, and need not ask again.
+/// A cache of the gradients at the corners of the cells that points lie in: neighbours along a row
+/// mostly lie in one cell.
 struct NoiseCells {
     VF x0, y0;
     VF slope_x[4], slope_y[4];
 
-    // Not a constructor: the compiler would build that without the instruction set.
+    // A member function, because the compiler would build a constructor without the instruction
+    // set.
     HWY_INLINE void begin() {
         x0 = y0 = set(1e9F);  // no cell
         for (VF& slope : slope_x) slope = set(0.0F);
@@ -129,9 +130,9 @@ struct NoiseCells {
     }
 };
 
-/// The same noise, to the bit, for points that follow one another.
+/// Returns the same noise, to the bit, for consecutive points.
 ///
-/// cells  of one seed
+/// cells  cache of one seed
 HWY_INLINE VF noise2(VF x, VF y, std::uint32_t seed, NoiseCells& cells) {
     const VF x0 = hn::Floor(x);
     const VF y0 = hn::Floor(y);
@@ -149,7 +150,7 @@ HWY_INLINE VF noise2(VF x, VF y, std::uint32_t seed, NoiseCells& cells) {
     return mix(near, far, fade(fy)) * set(1.6F / 2147483648.0F);
 }
 
-/// Repeats in x after `period`, for -period <= x < 2 period.
+/// Returns noise that is periodic in x with `period`, for -period <= x < 2 period.
 HWY_INLINE VF periodic_noise2(VF x, VF y, int period, std::uint32_t seed) {
     const VF x0 = hn::Floor(x);
     const VF whole = set(static_cast<float>(period));

@@ -1,4 +1,4 @@
-// The public noise functions over arrays, once per instruction set; see noise.h.
+// The public noise functions over arrays, compiled once per instruction set; see noise.h.
 #if defined(SPOREPRINT_CORE_MATH_NOISE_BATCH_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_MATH_NOISE_BATCH_INL
 #undef SPOREPRINT_CORE_MATH_NOISE_BATCH_INL
@@ -12,7 +12,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-// Loads what is left at the end of an array, the rest zero.
+// Loads the rest of an array, padded with zeros.
 HWY_INLINE VF load_some(const float* from, std::size_t count) {
     HWY_ALIGN float lanes[8] = {};
     for (std::size_t i = 0; i < count; ++i) lanes[i] = from[i];

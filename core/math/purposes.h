@@ -1,20 +1,21 @@
-// The one list of what random draws are for: each purpose is a stream of its own (core/math/random.h), so that a new draw in one
-// place changes nothing elsewhere.
+// The list of all purposes of random draws: each purpose is a stream of its own
+// (core/math/random.h), so that a new draw in one place changes nothing elsewhere.
 #pragma once
 
 #include <cstdint>
 
-/// What a stream of draws is for. A number once given stays: another one is another individual for every seed.
+/// The purposes of random streams. Assigned numbers never change: another number makes another
+/// individual for every seed.
 namespace sporeprint::purposes {
 
 enum Purpose : std::uint32_t {
     variation = 0,    ///< how an individual differs from its species
-    axis_angles = 1,  ///< which way a body leans and bends
+    axis_angles = 1,  ///< directions of lean and bend
     dents = 2,        ///< small deformations
     margin_waves = 3,
     lobes = 4,   ///< azimuth: fans, lobes, rays
     relief = 5,  ///< folds, pits and tiers
-    warts = 11,  ///< places of warts; so for the two below
+    warts = 11,  ///< places of warts; likewise for the two below
     scales = 12,
     bulb_scales = 13,
     ring_ruffle = 22,
@@ -22,7 +23,7 @@ enum Purpose : std::uint32_t {
     ring_tear = 24,
     sac = 25,
     corners = 26,       ///< outlines of solid warts, scales and bulb scales
-    blade_ripple = 29,  ///< how single gills stray
+    blade_ripple = 29,  ///< deviation of single gills
     sac_folds = 30,
     bites = 31,
     splits = 32,
@@ -30,45 +31,45 @@ enum Purpose : std::uint32_t {
     crack_net = 34,
     radial_cracks = 35,
     furrows = 36,
-    ragged = 37,  ///< edge of what is torn or dissolved
+    ragged = 37,  ///< edges of torn or melted parts
     drips = 38,
-    marks = 40,               ///< of four kinds on four parts
-    grown_ramification = 60,  ///< biorders of a tree, drawn node by node
-    dealt_ramification = 61,  ///< or dealt like cards
+    marks = 40,               ///< four kinds on four parts
+    grown_ramification = 60,  ///< biorders of a tree, sampled node by node
+    dealt_ramification = 61,  ///< biorders of a tree with exact counts, shuffled
     ramification_tips = 62,   ///< small trees in place of leaves
     tree_axes = 63,           ///< lengths, angles and azimuths of a tree's axes and nodes
-    leaf_autumn = 64,         ///< when each leaf turns
-    placed_leaves = 65,       ///< how leaves stand on their twigs
-    leaf_thinning = 66,       ///< which leaves are left out first
-    spot_spin = 67,           ///< how polygonal spots are turned
+    leaf_autumn = 64,         ///< time at which each leaf changes colour
+    placed_leaves = 65,       ///< orientation of leaves on their twigs
+    leaf_thinning = 66,       ///< order in which leaves are omitted
+    spot_spin = 67,           ///< rotation of polygonal spots
     leaf_variation = 68,      ///< how a leaf differs from its preset
-    root_field = 70,          ///< what the roots of a colony follow
-    root_branches = 71,       ///< where they branch
-    root_stems = 72,          ///< which of their nodes bear a stem
+    root_field = 70,          ///< vector field that the roots of a colony follow
+    root_branches = 71,       ///< places where roots branch
+    root_stems = 72,          ///< which nodes of roots bear a stem
     colony_seeds = 73,        ///< the different individuals of a colony
-    colony_places = 74,       ///< where they stand in habits without roots
-    colony_postures = 75,     ///< how each is turned, and which of them it is
-    colony_thinning = 76,     ///< which stems go where there are more than asked for
-    bush_trunks = 77,         ///< the branching of each further trunk
-    bush_limbs = 78,          ///< how limbs differ from what their style says
+    colony_places = 74,       ///< their places in habits without roots
+    colony_postures = 75,     ///< rotation of each instance, and which individual it is
+    colony_thinning = 76,     ///< which stems are removed where there are more than requested
+    branch_trunks = 77,       ///< the branching of each further trunk
+    branch_segments = 78,     ///< how segments differ from their style
     eaten_tips = 79,          ///< which tips slugs have eaten
-    limb_turns = 80,          ///< which side of its image a limb turns to the front
+    limb_turns = 80,          ///< which side of its image a segment turns to the front
     cap_paint = 101,
     hymenium = 102,  ///< places of gills, ridges, pores and spines
     stem_paint = 103,
     veil_paint = 104,
     clouds = 105,         ///< slowly varying fields of paint
     wart_outlines = 106,  ///< painted
-    wander = 107,         ///< how all gills stray together
+    wander = 107,         ///< common deviation of all gills
     blade_paint = 108,
     flesh_paint = 109,
-    scars = 110,           ///< painted, of ten kinds
+    scars = 110,           ///< painted, ten kinds
     scale_outlines = 120,  ///< painted
     scar_grain = 121,
 };
 
-/// How many numbers a purpose takes, itself the first; 0: no purpose begins here. Lists all of them: the compiler refuses two that
-/// are equal, and one that is forgotten.
+/// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
+/// here. The switch lists all of them: the compiler refuses duplicates and omissions.
 [[nodiscard]] constexpr std::uint32_t numbers_of(Purpose which) {
     switch (which) {
         case marks:
@@ -116,8 +117,8 @@ enum Purpose : std::uint32_t {
         case colony_places:
         case colony_postures:
         case colony_thinning:
-        case bush_trunks:
-        case bush_limbs:
+        case branch_trunks:
+        case branch_segments:
         case eaten_tips:
         case limb_turns:
         case cap_paint:
@@ -136,7 +137,7 @@ enum Purpose : std::uint32_t {
     return 0;
 }
 
-/// Whether no number belongs to two purposes below `end`.
+/// Returns true if no number belongs to two purposes below `end`.
 [[nodiscard]] constexpr bool are_apart(std::uint32_t end) {
     std::uint32_t free_from = 0;
     for (std::uint32_t number = 0; number < end; ++number) {

@@ -1,4 +1,5 @@
-// Counter-based random streams: every draw is a pure function of (seed, purpose, object, position in the stream).
+// Counter-based random streams: every draw is a pure function of (seed, purpose, object, position
+// in the stream).
 #pragma once
 
 #include <array>
@@ -6,13 +7,15 @@
 
 namespace sporeprint {
 
-/// One block of Philox4x32-10.
-/// source [Salmon2011]
+/// Returns one block of Philox4x32-10.
+///
+/// source  [Salmon2011]
 [[nodiscard]] std::array<std::uint32_t, 4> philox(std::array<std::uint32_t, 4> counter,
                                                   std::array<std::uint32_t, 2> key);
 
-/// A stream of draws for one purpose and object, so that a new draw in one place changes nothing elsewhere.
-/// Name every draw before it is used: the order of arguments differs between compilers.
+/// A stream of draws for one purpose and object, so that a new draw in one place changes nothing
+/// elsewhere. Assign every draw to a variable before use: the order of evaluation of arguments
+/// differs between compilers.
 class Random {
   public:
     Random(std::uint32_t seed, std::uint32_t purpose, std::uint32_t object = 0)
@@ -23,7 +26,7 @@ class Random {
     [[nodiscard]] double uniform(double from, double to);  ///< from <= x < to
     [[nodiscard]] double symmetric();                      ///< -1 <= x < 1
     [[nodiscard]] double
-    normal();  ///< mean 0, deviation 1, |x| < 6: the sum of twelve uniforms less six
+    normal();  ///< mean 0, deviation 1, |x| < 6: the sum of twelve uniforms minus six
 
   private:
     std::uint32_t seed_, purpose_, object_;

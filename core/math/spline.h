@@ -1,4 +1,5 @@
-// Interpolating splines: centripetal Catmull-Rom, which neither loops nor cusps between its control points.
+// Interpolating centripetal Catmull-Rom splines, which have neither loops nor cusps between their
+// control points.
 #pragma once
 
 #include <cmath>
@@ -12,7 +13,7 @@ namespace sporeprint {
 template <class V>
 struct SplineSample {
     V position;
-    V derivative;  ///< by the segment's own parameter 0..1
+    V derivative;  ///< with respect to the segment's own parameter 0..1
     V second_derivative;
 };
 
@@ -20,7 +21,7 @@ struct SplineSample {
 template <class V>
 struct SplineSegment {
     V from, to;
-    V leaving, arriving;  ///< derivatives by the parameter 0..1
+    V leaving, arriving;  ///< derivatives with respect to the parameter 0..1
 
     [[nodiscard]] SplineSample<V> at(double t) const {
         const V c = 3.0 * (to - from) - 2.0 * leaving - arriving;
@@ -30,8 +31,10 @@ struct SplineSegment {
     }
 };
 
-/// Velocity at `here` of the centripetal curve through three points, by a parameter whose step is the square root of the distance.
-/// source [Yuksel2011] sec. 3: the tangent of the Barry-Goldman pyramid at a control point
+/// Returns the velocity at `here` of the centripetal curve through three points, with respect to a
+/// parameter whose step is the square root of the distance.
+///
+/// source  [Yuksel2011] sec. 3: the tangent of the Barry-Goldman pyramid at a control point
 template <class V>
 [[nodiscard]] V centripetal_velocity(const V& before, const V& here, const V& after) {
     const double a = std::sqrt(std::sqrt(glm::dot(here - before, here - before)));
@@ -40,13 +43,14 @@ template <class V>
     return (here - before) / a - (after - before) / (a + b) + (after - here) / b;
 }
 
-/// Parameter step from one point to the next.
+/// Returns the parameter step from one point to the next.
 template <class V>
 [[nodiscard]] double centripetal_step(const V& from, const V& to) {
     return std::sqrt(std::sqrt(glm::dot(to - from, to - from)));
 }
 
-/// Segments through an open row of at least two points; the ends leave towards their neighbours.
+/// Returns the segments of an open curve through at least two points; its ends leave towards their
+/// neighbours.
 [[nodiscard]] std::vector<SplineSegment<glm::dvec3>> open_spline(
     const std::vector<glm::dvec3>& points);
 

@@ -57,10 +57,10 @@ class BlendedLength {
 
     /// Returns the mature stage's share at a share of the blend's length.
     [[nodiscard]] double mature_share(double share) const {
-        const double wanted = share * lengths_.back();
-        const auto above = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, wanted);
+        const double target = share * lengths_.back();
+        const auto above = std::upper_bound(lengths_.begin() + 1, lengths_.end() - 1, target);
         const double from = *(above - 1), to = *above;
-        const double t = to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0;
+        const double t = to > from ? std::clamp((target - from) / (to - from), 0.0, 1.0) : 0.0;
         return (static_cast<double>(above - 1 - lengths_.begin()) + t) / measure_steps;
     }
 
@@ -335,7 +335,7 @@ class Aligner {
         for (std::size_t s = 0; s < shapes_.size(); ++s) {
             if (curve(s).empty()) continue;
             double share = 0.0, turning = 0.0, sum = 0.0;
-            const double whole = std::max(curve(s).turning(1.0), 1e-9);
+            const double total_turning = std::max(curve(s).turning(1.0), 1e-9);
             const double scale = std::sqrt(curve(s).length() / heights_[s]);
             for (int i = 1; i <= measure_steps; ++i) {
                 const double place = places[static_cast<std::size_t>(i)];
@@ -343,7 +343,7 @@ class Aligner {
                     from_mature_[s](from_hub_[shapes_[s].species_index](place).at).at;
                 const double next_turning = curve(s).turning(next);
                 const double length = next - share, turn = next_turning - turning;
-                plain[s].push_back(evenness * length + turn / whole);
+                plain[s].push_back(evenness * length + turn / total_turning);
                 roots[s].push_back(scale * std::sqrt(length * turn));
                 sum += roots[s].back();
                 share = next;

@@ -140,10 +140,10 @@ void SubCurve::tabulate(int knots_per_segment) {
             last = point;
         }
     length_ = knots_.back().arc;
-    const double whole = std::max(length_, 1e-12);
+    const double total = std::max(length_, 1e-12);
     for (std::size_t k = 1; k < knots_.size(); ++k) {
         const Knot& before = knots_[k - 1];
-        const double length = (knots_[k].arc - before.arc) / whole;
+        const double length = (knots_[k].arc - before.arc) / total;
         const double turn = (knots_[k].turn - before.turn) / turn_per_length;
         knots_[k].bends = before.bends + std::min(turn, most_per_length * length);
     }
@@ -237,13 +237,13 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
     samples.reserve(static_cast<std::size_t>(count));
     const double bent = count <= few_rings ? 2.0 : 1.0, length = std::max(length_, 1e-12);
     const auto rings = [&](const Knot& knot) { return knot.arc / length + bent * knot.bends; };
-    const double whole = rings(knots_.back());
+    const double total = rings(knots_.back());
     std::size_t k = 1;
     for (int i = 0; i < count; ++i) {
-        const double wanted = whole * i / (count - 1);
-        while (k + 1 < knots_.size() && rings(knots_[k]) < wanted) ++k;
+        const double target = total * i / (count - 1);
+        while (k + 1 < knots_.size() && rings(knots_[k]) < target) ++k;
         const double from = rings(knots_[k - 1]), to = rings(knots_[k]);
-        const double t = to > from ? std::clamp((wanted - from) / (to - from), 0.0, 1.0) : 0.0;
+        const double t = to > from ? std::clamp((target - from) / (to - from), 0.0, 1.0) : 0.0;
         const Knot &a = knots_[k - 1], &b = knots_[k];
         samples.push_back(
             sample(a.parameter + t * (b.parameter - a.parameter), a.arc + t * (b.arc - a.arc)));

@@ -18,7 +18,7 @@ glm::dvec3 drawn(Random& random) {
     return v;
 }
 
-TEST(Direction, IsCarriedByTheShortestTurn) {
+TEST(Direction, IsTransportedByTheSmallestRotation) {
     Random random(7, 1, 0);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 from = glm::normalize(drawn(random)), to = glm::normalize(drawn(random)),
@@ -35,7 +35,7 @@ TEST(Direction, IsCarriedByTheShortestTurn) {
     EXPECT_EQ(carried({0, 0, 1}, {0, 1, 0}, {0, -1, 0}), glm::dvec3(0, 0, 1));
 }
 
-TEST(Direction, SquareToAnAxisTurnsAboutItRightHanded) {
+TEST(Direction, PerpendicularVectorsRotateRightHanded) {
     EXPECT_LT(glm::distance(turned_square({1, 0, 0}, {0, 0, 1}, pi / 2), glm::dvec3(0, 1, 0)),
               1e-12);
     Random random(7, 2, 0);

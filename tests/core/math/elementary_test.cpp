@@ -11,9 +11,10 @@
 namespace sporeprint {
 namespace {
 
-// libm in long double (64 bits of mantissa) stands for the truth.
+// The reference is libm in long double (64 bits of mantissa).
 
-/// Largest |function - truth| over random arguments from `low` to `high`, both ends included.
+/// Returns the largest |function - truth| over random arguments from `low` to `high`, both ends
+/// included.
 template <class Function, class Truth>
 double worst_error(double low, double high, const Function& function, const Truth& truth,
                    bool relative) {
@@ -32,7 +33,7 @@ double worst_error(double low, double high, const Function& function, const Trut
     return worst;
 }
 
-TEST(Elementary, SineAndCosineAgreeWithLibmNearAndFar) {
+TEST(Elementary, SineAndCosineAgreeWithLibmForSmallAndLargeAngles) {
     for (const double reach : {0.8, 10.0, 1e3, 99999.0}) {
         const auto sin_true = [](long double x) { return std::sin(x); };
         const auto cos_true = [](long double x) { return std::cos(x); };
@@ -86,7 +87,7 @@ TEST(Elementary, LogarithmAgreesWithLibmOverItsWholeRange) {
     EXPECT_EQ(logarithm(1.0), 0.0);
 }
 
-TEST(Elementary, ExponentialUndoesTheLogarithm) {
+TEST(Elementary, ExponentialInvertsTheLogarithm) {
     Random random(11, 0);
     for (int i = 0; i < 10000; ++i) {
         const double x = random.uniform(1e-6, 1e3);
@@ -109,7 +110,7 @@ TEST(Elementary, PowerAgreesWithLibmAndKeepsItsExactPoints) {
     EXPECT_EQ(power(17.3, 0.0), 1.0);
 }
 
-TEST(Elementary, ArcTangentAgreesWithLibmAllRound) {
+TEST(Elementary, ArcTangentAgreesWithLibmInAllQuadrants) {
     Random random(17, 0);
     for (int i = 0; i < 20000; ++i) {
         const double x = random.symmetric();
@@ -126,7 +127,7 @@ TEST(Elementary, ArcTangentAgreesWithLibmAllRound) {
     EXPECT_NEAR(arc_tangent(1e-300, 1e300), 0.0, 1e-300);
 }
 
-TEST(Elementary, ArcTangentUndoesSineAndCosine) {
+TEST(Elementary, ArcTangentInvertsSineAndCosine) {
     for (int i = -1000; i <= 1000; ++i) {
         const double angle = 0.999 * pi * i / 1000.0;
         const auto [s, c] = sine_cosine(angle);
@@ -134,7 +135,7 @@ TEST(Elementary, ArcTangentUndoesSineAndCosine) {
     }
 }
 
-TEST(Elementary, TheTransferFunctionOfSrgbIsTheStandards) {
+TEST(Elementary, SrgbTransferFunctionFollowsTheStandard) {
     for (int byte = 0; byte <= 255; ++byte) {
         const double encoded = byte / 255.0;
         const double linear = srgb_to_linear(encoded);
@@ -147,7 +148,7 @@ TEST(Elementary, TheTransferFunctionOfSrgbIsTheStandards) {
     EXPECT_EQ(srgb_to_linear(1.0), 1.0);
 }
 
-TEST(Elementary, SmoothStepIsFlatAtItsEndsAndSymmetricBetween) {
+TEST(Elementary, SmoothStepHasZeroEndSlopesAndIsSymmetric) {
     EXPECT_EQ(smooth_step(1.0, 3.0, 0.5), 0.0);
     EXPECT_EQ(smooth_step(1.0, 3.0, 1.0), 0.0);
     EXPECT_EQ(smooth_step(1.0, 3.0, 2.0), 0.5);

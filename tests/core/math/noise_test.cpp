@@ -16,7 +16,7 @@ struct Points {
     std::vector<float> x, y, z;
 };
 
-// Odd in number, so that every instruction set has a remainder.
+// The count is odd, so that every instruction set has a remainder.
 Points scattered(std::size_t count) {
     Points points;
     std::uint32_t state = 12345;
@@ -78,7 +78,7 @@ TEST_F(Noise, HasMeanZeroAndTheStatedSpread) {
     }
 }
 
-TEST_F(Noise, VanishesAtWholeNumbers) {
+TEST_F(Noise, VanishesAtIntegers) {
     std::vector<float> x, y, out;
     for (int i = -20; i <= 20; ++i) {
         x.push_back(static_cast<float>(i));
@@ -104,7 +104,7 @@ TEST_F(Noise, RepeatsAfterItsPeriod) {
     for (const int period : {1, 2, 7, 100}) {
         std::vector<float> x, moved, y;
         for (int i = 0; i < 64; ++i) {
-            // Sixteenths, so that the shift loses no bit.
+            // Multiples of 1/64 survive the shift without rounding.
             x.push_back(static_cast<float>(i) / 64.0F * static_cast<float>(period) * 0.5F);
             moved.push_back(x.back() + static_cast<float>(period));
             y.push_back(static_cast<float>(i) * 0.3F);
@@ -136,7 +136,7 @@ TEST_F(Noise, RefusesArraysOfDifferentLengths) {
     EXPECT_THROW(periodic_noise(three, three, 0, 1, three), InvalidInput);
 }
 
-TEST_F(Noise, AnUnknownInstructionSetIsRefusedByName) {
+TEST_F(Noise, AnUnknownInstructionSetIsRefusedAndNamed) {
     try {
         force_simd("avx9");
         FAIL();

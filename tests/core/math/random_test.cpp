@@ -12,8 +12,8 @@ namespace {
 
 using Block = std::array<std::uint32_t, 4>;
 
-TEST(Random, PhiloxGivesTheKnownAnswersOfItsAuthors) {
-    // Random123's kat_vectors for philox4x32-10.
+TEST(Random, PhiloxMatchesThePublishedTestVectors) {
+    // These are Random123's kat_vectors for philox4x32-10.
     EXPECT_EQ(philox({0, 0, 0, 0}, {0, 0}),
               (Block{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8}));
     EXPECT_EQ(philox({~0u, ~0u, ~0u, ~0u}, {~0u, ~0u}),
@@ -22,14 +22,14 @@ TEST(Random, PhiloxGivesTheKnownAnswersOfItsAuthors) {
               (Block{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1}));
 }
 
-TEST(Random, AStreamIsItsBlocksOneAfterAnother) {
+TEST(Random, AStreamIsTheConcatenationOfItsBlocks) {
     Random random(42, 5, 9);
     for (std::uint32_t block = 0; block < 3; ++block)
         for (const std::uint32_t word : philox({9, block, 0, 0}, {42, 5}))
             EXPECT_EQ(random.bits(), word);
 }
 
-TEST(Random, StreamsOfOtherSeedsPurposesAndObjectsDiffer) {
+TEST(Random, StreamsDifferBySeedPurposeAndObject) {
     std::set<std::uint64_t> firsts;
     for (std::uint32_t seed = 0; seed < 8; ++seed)
         for (std::uint32_t purpose = 0; purpose < 8; ++purpose)
@@ -42,7 +42,7 @@ TEST(Random, StreamsOfOtherSeedsPurposesAndObjectsDiffer) {
     EXPECT_EQ(firsts.size(), 512u);
 }
 
-TEST(Random, UniformDrawsFillTheirRangeEvenly) {
+TEST(Random, UniformDrawsAreUniform) {
     Random random(1, 2);
     std::array<int, 64> buckets{};
     constexpr int draws = 1 << 16;
@@ -56,12 +56,13 @@ TEST(Random, UniformDrawsFillTheirRangeEvenly) {
     const double expected = draws / 64.0;
     for (const int count : buckets)
         chi_square += (count - expected) * (count - expected) / expected;
-    // 63 degrees of freedom: 0.1 % of honest streams lie above 104, and this stream is always the same.
+    // With 63 degrees of freedom 0.1 % of random streams lie above 104, and this stream is always
+    // the same.
     EXPECT_LT(chi_square, 104.0);
     EXPECT_GT(chi_square, 30.0);
 }
 
-TEST(Random, DrawsBetweenTwoNumbersStayBetweenThem) {
+TEST(Random, DrawsFromARangeStayInside) {
     Random random(1, 3);
     for (int i = 0; i < 10000; ++i) {
         const double x = random.uniform(-3.0, 0.5);

@@ -38,7 +38,7 @@ TEST(Spline, PassesThroughItsControlPoints) {
     }
 }
 
-TEST(Spline, IsOnceContinuouslyDifferentiableByItsCentripetalParameter) {
+TEST(Spline, IsContinuouslyDifferentiableInItsCentripetalParameter) {
     for (std::uint32_t seed = 0; seed < 50; ++seed) {
         const Points points = random_points(seed, 7);
         const auto segments = open_spline(points);
@@ -52,7 +52,7 @@ TEST(Spline, IsOnceContinuouslyDifferentiableByItsCentripetalParameter) {
     }
 }
 
-TEST(Spline, DerivativesAgreeWithDifferences) {
+TEST(Spline, DerivativesAgreeWithFiniteDifferences) {
     const auto segments = open_spline(random_points(3, 6));
     constexpr double h = 1e-5;
     for (const auto& segment : segments)
@@ -68,7 +68,7 @@ TEST(Spline, DerivativesAgreeWithDifferences) {
         }
 }
 
-TEST(Spline, IsStraightThroughPointsOnALine) {
+TEST(Spline, IsStraightThroughCollinearPoints) {
     const glm::dvec3 direction(1.0, 2.0, -0.5);
     Points points;
     for (const double at : {0.0, 0.1, 1.0, 1.3, 4.0}) points.push_back(at * direction);
@@ -97,13 +97,14 @@ TEST(Spline, CoincidentPointsGiveFiniteNumbers) {
             }
 }
 
-// [Yuksel2011]: of all Catmull-Rom curves, the centripetal one has neither cusps nor loops within a segment.
+// [Yuksel2011]: of all Catmull-Rom curves, the centripetal one has neither cusps nor loops within a
+// segment.
 TEST(Spline, NoInnerSegmentHasACuspOrALoop) {
     Random random(5, 0);
     for (int trial = 0; trial < 500; ++trial) {
         glm::dvec2 p[4];
         for (glm::dvec2& point : p) {
-            // Steps of very different lengths are what makes other parameters loop.
+            // Steps of very different lengths make other parametrisations loop.
             const double scale = trial % 2 ? 1.0 : random.uniform(0.01, 3.0);
             const double x = random.symmetric();
             const double y = random.symmetric();
@@ -132,7 +133,7 @@ TEST(Spline, FollowsACircleToFourthOrder) {
         }
         const auto segments = open_spline(points);
         double worst = 0.0;
-        for (std::size_t i = 1; i + 1 < segments.size(); ++i)  // the ends have no neighbour
+        for (std::size_t i = 1; i + 1 < segments.size(); ++i)  // the ends have one neighbour only
             for (double t = 0.0; t <= 1.0; t += 0.0625)
                 worst = std::max(worst, std::abs(glm::length(segments[i].at(t).position) - 1.0));
         return worst;
