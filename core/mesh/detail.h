@@ -1,4 +1,4 @@
-// How many rings, columns and corners each level of detail has.
+// Numbers of rings, columns and corners for each level of detail.
 #pragma once
 
 #include <array>
@@ -7,23 +7,26 @@
 
 namespace sporeprint {
 
-/// What a part of a mesh comes to.
+/// The size of a mesh or of a part of it.
 struct MeshCount {
     std::uint64_t vertices = 0, triangles = 0;
 };
 
 struct Detail {
     int stem_rings, hymenium_rings, cap_rings, columns;
-    int patch_sides;  ///< corners of a wart or scale; 0: warts and scales are painted only
+    int patch_sides;  ///< corners of a wart or scale; 0: warts and scales are only painted
     int patch_rings;  ///< rings between its base and its tip
     int veil_rings;   ///< rings from a ring's attachment to its edge; 0: none
-    int sac_rings;    ///< rings from a sac's foot to its edge; 0: none
+    int sac_rings;    ///< rings from the base of a sac to its edge; 0: none
     double patches =
-        1.0;  ///< share of a layer's warts or scales that is built, those drawn largest; the others are painted only
+        /// share of a layer's warts or scales that is built, largest first; the others are only
+        /// painted
+        1.0;
 };
 
-/// By LOD. The same individual in each: counts change, draws do not. One table for every species: a mix has the rings and columns of
-/// each species alone, so that it ends where these begin.
+/// The levels of detail by index. The individual is the same in each: counts change, random draws
+/// do not. One table serves every species, so that a mix of weight 1 reproduces the single-species
+/// mesh.
 inline constexpr std::array<Detail, 4> details = {{
     {26, 18, 38, 96, 7, 1, 6, 11},
     {11, 9, 20, 40, 4, 0, 3, 7},

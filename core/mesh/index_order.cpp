@@ -5,7 +5,7 @@
 namespace sporeprint {
 
 void order_for_vertex_cache(Mesh& mesh) {
-    constexpr unsigned int cache_size = 16;  // what the smallest of today's processors keep
+    constexpr unsigned int cache_size = 16;  // the smallest vertex cache of current processors
     meshopt_optimizeVertexCacheFifo(mesh.indices.data(), mesh.indices.data(), mesh.indices.size(),
                                     mesh.positions.size(), cache_size);
 }

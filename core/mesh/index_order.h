@@ -5,11 +5,13 @@
 
 namespace sporeprint {
 
-/// Orders triangles so that a graphics processor finds most corners among the last sixteen that it has worked out: about 0.66
-/// vertices a triangle on a grid instead of one. Vertices, the set of triangles and the order of their corners stay.
+/// Orders triangles so that most corners hit a cache of the last sixteen transformed vertices:
+/// about 0.66 vertex transforms per triangle on a grid instead of one. The vertices, the set of
+/// triangles and the order of their corners do not change.
 ///
-/// cost    10 ns a triangle, a twentieth of what making it costs: cheaper than to keep it by a key
-/// source  [Sander2007] tipsify, as meshoptimizer has it: whole numbers only, so every machine finds the same order
+/// cost    10 ns per triangle, a twentieth of the cost of making it: cheaper than a cache
+/// source  [Sander2007] tipsify, by meshoptimizer: integers only, so every machine finds the same
+///         order
 void order_for_vertex_cache(Mesh& mesh);
 
 }  // namespace sporeprint

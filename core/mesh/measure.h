@@ -1,4 +1,4 @@
-// Measures a mesh, and says what is wrong with it.
+// Measurement and validation of meshes.
 #pragma once
 
 #include <string>
@@ -8,16 +8,19 @@
 
 namespace sporeprint {
 
-/// Enclosed volume in cubic metres; positive when triangles face outwards. Exact for closed meshes.
+/// Returns the enclosed volume in cubic metres, positive when triangles face outwards. It is exact
+/// for closed meshes.
 [[nodiscard]] double volume(const Mesh& mesh);
 
-/// Area in square metres.
+/// Returns the area in square metres.
 [[nodiscard]] double area(const Mesh& mesh);
 
-/// Everything that breaks the contract of a mesh, in words; empty when all is well:
-/// finite numbers, indices in range, no index twice in a triangle, unit normals (1e-3), unit tangents square to them,
-/// texture coordinates in 0..1, attribute counts equal, every edge closed once equal positions are welded.
-/// cost O(n log n)
+/// Returns descriptions of all violations of the contract of a mesh, empty if it is valid: finite
+/// numbers, indices in range, no index twice in a triangle, unit normals (1e-3), unit tangents
+/// perpendicular to them, texture coordinates in 0..1, equal attribute counts, every edge closed
+/// once equal positions are welded.
+///
+/// cost  O(n log n)
 [[nodiscard]] std::vector<std::string> defects(const Mesh& mesh);
 
 }  // namespace sporeprint

@@ -1,4 +1,4 @@
-// The one mesh type: a structure of arrays, ready to be written as glTF.
+// The mesh type: a structure of arrays, ready to be written as glTF.
 #pragma once
 
 #include <cstddef>
@@ -10,7 +10,8 @@
 
 namespace sporeprint {
 
-/// Indexed triangles, counter-clockwise from outside; metres, +Y up. Texture coordinates and tangents may both be empty.
+/// Indexed triangles, counter-clockwise from outside; metres, +Y up. Texture coordinates and
+/// tangents may both be empty.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
@@ -26,7 +27,9 @@ struct Bounds {
     glm::vec3 max{0.0F};
 };
 
-/// Box of the positions. pre: at least one vertex
+/// Returns the bounding box of the positions.
+///
+/// pre  at least one vertex
 [[nodiscard]] Bounds bounds(const Mesh& mesh);
 
 }  // namespace sporeprint

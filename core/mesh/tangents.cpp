@@ -16,7 +16,8 @@ void add_tangents(Mesh& mesh) {
         const glm::dvec2 corner(mesh.texture_coordinates[t[0]]);
         const glm::dvec2 a = glm::dvec2(mesh.texture_coordinates[t[1]]) - corner;
         const glm::dvec2 b = glm::dvec2(mesh.texture_coordinates[t[2]]) - corner;
-        // By area on the image: what is mirrored there counts with its own direction all the same.
+        // Triangles are weighted by their area in texture space; mirrored ones contribute with
+        // their own direction.
         const double turn = a.x * b.y - a.y * b.x < 0.0 ? -1.0 : 1.0;
         for (std::size_t k = 0; k < 3; ++k) {
             along_u[t[k]] += turn * (b.y * p - a.y * q);

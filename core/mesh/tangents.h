@@ -5,10 +5,11 @@
 
 namespace sporeprint {
 
-/// Gives every vertex the direction in which u grows, square to its normal; w tells on which side of it the image goes up (v goes
-/// down, as in glTF). Where triangles about a vertex have no area on the image, any direction square to the normal.
+/// Gives every vertex the direction in which u increases, perpendicular to its normal; w is the
+/// handedness of the bitangent (v increases downwards, as in glTF). Where the triangles at a vertex
+/// have no area in texture space, it is any direction perpendicular to the normal.
 ///
-/// pre   as many normals and texture coordinates as positions; vertices are split where the image is
+/// pre   as many normals and texture coordinates as positions; vertices are split at texture seams
 /// cost  O(vertices + triangles)
 void add_tangents(Mesh& mesh);
 

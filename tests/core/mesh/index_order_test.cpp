@@ -16,7 +16,8 @@ namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
 
-/// Corners in their order, from the least: what a triangle is, wherever it begins.
+/// Returns the corners of each triangle in their order, starting with the least: the triangle
+/// independent of its first corner.
 Triangles triangles_of(const Mesh& mesh) {
     Triangles all;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -28,7 +29,7 @@ Triangles triangles_of(const Mesh& mesh) {
     return all;
 }
 
-/// Vertices worked out per triangle by a processor that remembers the last sixteen.
+/// Returns the vertex transforms per triangle of a processor with a cache of sixteen.
 double misses(const Mesh& mesh) {
     std::deque<std::uint32_t> kept;
     std::size_t missed = 0;
@@ -41,7 +42,7 @@ double misses(const Mesh& mesh) {
     return static_cast<double>(missed) / static_cast<double>(mesh.triangles());
 }
 
-/// A sheet of side x side squares, row by row.
+/// Returns a sheet of side x side squares, row by row.
 Mesh sheet(std::uint32_t side) {
     Mesh mesh;
     mesh.positions.resize((side + 1) * (side + 1));
@@ -53,7 +54,7 @@ Mesh sheet(std::uint32_t side) {
     return mesh;
 }
 
-TEST(IndexOrder, NothingIsLostTurnedOverOrMoved) {
+TEST(IndexOrder, PreservesTrianglesOrientationAndVertices) {
     Random random(11, 1);
     for (int round = 0; round < 50; ++round) {
         Mesh mesh;
@@ -77,7 +78,7 @@ TEST(IndexOrder, ASheetNeedsTwoThirdsOfAVertexPerTriangle) {
     EXPECT_LT(misses(mesh), 0.68);
 }
 
-TEST(IndexOrder, EveryMushroomIsDrawnInSuchAnOrder) {
+TEST(IndexOrder, AppliesToEveryMushroom) {
     for (const std::string& id : species_ids())
         for (const int lod : {0, 1}) {
             const MushroomOrder order = textured(order_of(id, 0.6, 3, lod));
@@ -85,7 +86,7 @@ TEST(IndexOrder, EveryMushroomIsDrawnInSuchAnOrder) {
             const Mesh body = body_mesh(individual, lod), drawn = mushroom_mesh(order, individual);
             EXPECT_EQ(triangles_of(drawn), triangles_of(body)) << id;
             EXPECT_EQ(drawn.positions, body.positions) << id;
-            // Limbs are tubes, which come in about such an order by themselves.
+            // Segments are tubes, which are built almost in this order.
             EXPECT_LT(misses(drawn), std::max(0.9 * misses(body), 0.75)) << id << " at LOD " << lod;
         }
 }

@@ -12,7 +12,7 @@
 namespace sporeprint {
 namespace {
 
-/// A cube of the given side, each face with vertices of its own: closed once welded.
+/// Returns a cube of the given side, each face with vertices of its own: closed once welded.
 Mesh cube(float side, const glm::vec3& at = glm::vec3(0.0f)) {
     Mesh mesh;
     for (int axis = 0; axis < 3; ++axis)
@@ -44,14 +44,14 @@ TEST(Measure, ACubeHasTheVolumeAndAreaOfACube) {
     expect_valid(mesh);
 }
 
-TEST(Measure, AMeshTurnedInsideOutHasNegativeVolume) {
+TEST(Measure, AnInvertedMeshHasNegativeVolume) {
     Mesh mesh = cube(1.0f);
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
         std::swap(mesh.indices[i], mesh.indices[i + 1]);
     EXPECT_DOUBLE_EQ(volume(mesh), -1.0);
 }
 
-TEST(Measure, TwoApartAreTwoPieces) {
+TEST(Measure, DisjointMeshesAreTwoPieces) {
     Mesh mesh = cube(1.0f);
     const Mesh other = cube(3.0f, {9.0f, 0.0f, 0.0f});
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
@@ -63,22 +63,22 @@ TEST(Measure, TwoApartAreTwoPieces) {
     EXPECT_DOUBLE_EQ(volume(found[1]), 27.0);
 }
 
-/// What is said about a cube after `harm` was done to it.
-std::string said(const std::function<void(Mesh&)>& harm) {
+/// Returns the defects of a cube after a change.
+std::string defects_after(const std::function<void(Mesh&)>& change) {
     Mesh mesh = cube(1.0f);
-    harm(mesh);
+    change(mesh);
     std::string text;
     for (const std::string& defect : defects(mesh)) text += defect + "; ";
     return text;
 }
 
-TEST(Measure, EveryDefectIsNamed) {
+TEST(Measure, EveryDefectIsReported) {
     constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-    const auto expect = [](const std::string& words, const std::function<void(Mesh&)>& harm) {
-        const std::string text = said(harm);
+    const auto expect = [](const std::string& words, const std::function<void(Mesh&)>& change) {
+        const std::string text = defects_after(change);
         EXPECT_NE(text.find(words), std::string::npos) << words << " is not in: " << text;
     };
-    EXPECT_EQ(said([](Mesh&) {}), "");
+    EXPECT_EQ(defects_after([](Mesh&) {}), "");
     expect("empty", [](Mesh& m) { m = {}; });
     expect("normals and positions differ", [](Mesh& m) { m.normals.pop_back(); });
     expect("tangents and positions differ", [](Mesh& m) { m.tangents.pop_back(); });
@@ -99,7 +99,7 @@ TEST(Measure, EveryDefectIsNamed) {
     expect("open edge", [](Mesh& m) { std::swap(m.indices[0], m.indices[1]); });
 }
 
-TEST(Measure, AListOfDefectsHasAnEnd) {
+TEST(Measure, TheListOfDefectsIsBounded) {
     Mesh mesh = cube(1.0f);
     for (auto& normal : mesh.normals) normal *= 2.0f;
     EXPECT_LE(defects(mesh).size(), 20u);

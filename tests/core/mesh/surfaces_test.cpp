@@ -1,4 +1,4 @@
-// The rulers of the continuity tests are measured themselves.
+// Tests of the distance measures that the continuity tests use.
 #include "tests/support/surfaces.h"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ glm::dvec3 random_point(Random& random) {
     return {x, y, z};
 }
 
-/// A ball of `rings` x 2 `rings` faces.
+/// Returns a ball of `rings` x 2 `rings` faces.
 Mesh ball(double radius, int rings, const glm::dvec3& centre = glm::dvec3(0.0)) {
     Mesh mesh;
     const int columns = 2 * rings;
@@ -43,7 +43,7 @@ Mesh ball(double radius, int rings, const glm::dvec3& centre = glm::dvec3(0.0)) 
     return mesh;
 }
 
-TEST(Surfaces, TheDistanceToATriangleIsTheLeastOfAWalkOverIt) {
+TEST(Surfaces, TheDistanceToATriangleIsTheMinimumOfItsSamples) {
     Random random(1, 0);
     for (int i = 0; i < 200; ++i) {
         const glm::dvec3 p = random_point(random);
@@ -63,7 +63,7 @@ TEST(Surfaces, TheDistanceToATriangleIsTheLeastOfAWalkOverIt) {
             }
         const double found = distance_to_triangle(p, a, b, c);
         EXPECT_LE(found, walked + 1e-12);
-        EXPECT_GE(found, walked - 0.04);  // the walk's own step
+        EXPECT_GE(found, walked - 0.04);  // minus the step of the samples
     }
 }
 
@@ -71,12 +71,12 @@ TEST(Surfaces, TheHausdorffDistanceOfTwoBallsIsTheDifferenceOfTheirRadii) {
     const Mesh small = ball(1.0, 40), large = ball(1.3, 40);
     EXPECT_NEAR(hausdorff(small, large), 0.3, 0.01);
     EXPECT_LT(hausdorff(small, small), 1e-12);
-    EXPECT_LT(hausdorff(small, ball(1.0, 23)), 0.02);  // one surface, two nets
+    EXPECT_LT(hausdorff(small, ball(1.0, 23)), 0.02);  // one surface, two meshes
     EXPECT_NEAR(hausdorff(small, ball(1.0, 40, {0.0, 0.5, 0.0})), 0.5, 0.01);
     EXPECT_NEAR(hausdorff(small, ball(1.0, 40, {7.0, 0.0, 0.0})), 7.0, 0.01);
 }
 
-TEST(Surfaces, TheHausdorffDistanceSeesWhatOnlyOneOfThemHas) {
+TEST(Surfaces, TheHausdorffDistanceIncludesPiecesOfOneSurfaceOnly) {
     const Mesh alone = ball(1.0, 30);
     Mesh with_wart = alone;
     const Mesh wart = ball(0.05, 6, {0.0, 1.2, 0.0});
@@ -88,7 +88,7 @@ TEST(Surfaces, TheHausdorffDistanceSeesWhatOnlyOneOfThemHas) {
     EXPECT_NEAR(hausdorff(with_wart, alone), 0.25, 1e-6);
 }
 
-TEST(Surfaces, ThroughTheGridTheNearestTriangleIsThatOfAllTriangles) {
+TEST(Surfaces, TheGridFindsTheNearestOfAllTriangles) {
     Random random(2, 0);
     const auto soup = [&](double reach) {
         Mesh mesh;
@@ -124,16 +124,16 @@ TEST(Surfaces, ThroughTheGridTheNearestTriangleIsThatOfAllTriangles) {
     }
 }
 
-TEST(Surfaces, AJumpIsTheFarthestMoveOrTheSizeOfWhatAppears) {
+TEST(Surfaces, AJumpIsTheLargestMoveOrTheSizeOfANewPiece) {
     Mesh before = ball(1.0, 10);
     Mesh after = before;
     after.positions[25].y += 0.125f;
     EXPECT_NEAR(jump(before, after), 0.125, 1e-6);
-    // A vertex that no triangle shows may lie anywhere.
+    // A vertex without triangles may lie anywhere.
     before.positions.emplace_back(9.0f);
     after.positions.emplace_back(-9.0f);
     EXPECT_NEAR(jump(before, after), 0.125, 1e-6);
-    // A new piece 0.4 long and 0.1 wide: half of that in the mean.
+    // A new piece 0.4 long and 0.1 wide contributes half of that on average.
     for (Mesh* mesh : {&before, &after})
         for (const glm::vec3 corner : {glm::vec3(2.0f, 0.0f, 0.0f), glm::vec3(2.4f, 0.0f, 0.0f),
                                        glm::vec3(2.0f, 0.1f, 0.0f)})

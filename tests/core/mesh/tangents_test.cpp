@@ -7,7 +7,7 @@
 namespace sporeprint {
 namespace {
 
-// A square of the plane z = 0 that looks to +z and wears the image upright: u to +x, v down.
+// Returns a square in the plane z = 0 that faces +z with an upright image: u to +x, v down.
 Mesh upright_square() {
     Mesh mesh;
     mesh.positions = {{0, 0, 0}, {2, 0, 0}, {2, 3, 0}, {0, 3, 0}};
@@ -17,20 +17,20 @@ Mesh upright_square() {
     return mesh;
 }
 
-TEST(Tangents, PointWhereTheImageGoesRight) {
+TEST(Tangents, PointAlongIncreasingU) {
     Mesh mesh = upright_square();
     add_tangents(mesh);
     for (const glm::vec4& tangent : mesh.tangents) EXPECT_EQ(tangent, glm::vec4(1, 0, 0, 1));
 }
 
-TEST(Tangents, KnowAMirroredImage) {
+TEST(Tangents, HandleMirroredImages) {
     Mesh mesh = upright_square();
     for (glm::vec2& at : mesh.texture_coordinates) at.x = 1.0F - at.x;
     add_tangents(mesh);
     for (const glm::vec4& tangent : mesh.tangents) EXPECT_EQ(tangent, glm::vec4(-1, 0, 0, -1));
 }
 
-TEST(Tangents, AreSquareToTheNormalAndStandInForAMissingImage) {
+TEST(Tangents, ArePerpendicularToTheNormalAlsoWithoutAnImage) {
     Mesh mesh = upright_square();
     mesh.normals.assign(4, glm::normalize(glm::vec3(0.3F, 0.2F, 1.0F)));
     for (const bool blank : {false, true}) {
