@@ -1,4 +1,4 @@
-// Immutable bytes that are shared, never copied: what a GLB and an image are made of.
+// Immutable bytes that are shared and never copied: the content of GLB files and images.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,7 @@ namespace sporeprint {
 
 using Bytes = std::vector<std::uint8_t>;
 
-/// A stretch of shared immutable bytes.
+/// A range of shared immutable bytes.
 struct Slice {
     std::shared_ptr<const Bytes> owner;
     std::size_t offset = 0;
@@ -29,7 +29,7 @@ struct Slice {
     }
 };
 
-/// A body is its slices one after another.
+/// A body is the concatenation of its slices.
 using Body = std::vector<Slice>;
 
 [[nodiscard]] inline std::size_t size_of(const Body& body) {
@@ -38,7 +38,7 @@ using Body = std::vector<Slice>;
     return total;
 }
 
-/// One slice that owns a copy of `text`.
+/// Returns one slice that owns a copy of `text`.
 [[nodiscard]] inline Slice slice_of(const std::string& text) {
     return Slice(std::make_shared<const Bytes>(text.begin(), text.end()));
 }

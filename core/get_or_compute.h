@@ -1,4 +1,4 @@
-// Memory lent from above: what is expensive to make is made once per key.
+// A cache interface that callers of core provide: expensive results are computed once per key.
 #pragma once
 
 #include <functional>
@@ -7,12 +7,12 @@
 
 namespace sporeprint {
 
-/// Returns what it kept under `key`, or what `make` makes now.
+/// Returns the value cached under `key`, or the result of `make`.
 template <class T>
 using Remember = std::function<std::shared_ptr<const T>(
     const std::string& key, const std::function<std::shared_ptr<const T>()>& make)>;
 
-/// Remembers nothing.
+/// Computes the value without caching.
 template <class T>
 std::shared_ptr<const T> make_anew(const std::string& /*key*/,
                                    const std::function<std::shared_ptr<const T>()>& make) {

@@ -1,5 +1,4 @@
-// What can be wrong with parameters, and the three exceptions that core throws.
-// Standard library only.
+// Problems of parameters and the exceptions that core throws. Uses the standard library only.
 #pragma once
 
 #include <exception>
@@ -10,14 +9,14 @@
 
 namespace sporeprint {
 
-/// One thing wrong with a set of parameters. `path` is a JSON pointer ("/cap/radius"), or the
-/// query name ("cap.radius") where a query was read; `message` names the value and what is allowed.
+/// One problem of a set of parameters. `path` is a JSON pointer ("/cap/radius"), or the query name
+/// ("cap.radius") if a query was read; `message` names the value and what is allowed.
 struct Problem {
     std::string path, message;
     bool operator==(const Problem&) const = default;
 };
 
-/// No answer lists more problems than this: hostile input must not buy an answer without bound.
+/// The greatest number of problems in one response, so that hostile input cannot make it unbounded.
 inline constexpr std::size_t most_problems = 100;
 
 /// Appends a problem, or drops it when `most_problems` are already listed.
@@ -50,14 +49,14 @@ class InvalidInput : public std::invalid_argument {
     std::vector<Problem> problems_;
 };
 
-/// Thrown when each value is allowed but no such thing can be made: a crossing outline, a stem that
-/// folds, pores asked of gills.
+/// Thrown when each value is allowed but the combination cannot be made: a crossing outline, a stem
+/// that folds, pores requested of a species with gills.
 class Impossible : public InvalidInput {
   public:
     using InvalidInput::InvalidInput;
 };
 
-/// Thrown when the numbers fail: no convergence, a result that is not finite.
+/// Thrown when a computation fails: no convergence, a result that is not finite.
 class GenerationError : public std::runtime_error {
   public:
     using std::runtime_error::runtime_error;

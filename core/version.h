@@ -1,9 +1,9 @@
-// The generator's version: part of every key, ETag and golden hash.
+// The generator's version: part of every cache key, ETag and golden hash.
 #pragma once
 
 namespace sporeprint {
 
-/// Raised whenever bytes change for an unchanged request.
+/// It is raised whenever bytes change for an unchanged request.
 inline constexpr int generator_version = 10;
 
 }  // namespace sporeprint

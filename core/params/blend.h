@@ -1,4 +1,4 @@
-// Several weighted parameter structs made one, and overrides over values: both field by field.
+// Blending of weighted parameter structs, and overrides over values, both field by field.
 #pragma once
 
 #include <algorithm>
@@ -15,10 +15,10 @@
 
 namespace sporeprint {
 
-/// As many values as are ever blended at once: the species of a mix, or the stages of a species.
+/// The greatest number of values blended at once: the species of a mix, or the stages of a species.
 inline constexpr std::size_t most_blended = 8;
 
-/// What is blended: one to `most_blended` values of one type, each with its weight.
+/// The input of a blend: one to `most_blended` values of one type with their weights.
 template <class T>
 struct Shares {
     std::array<const T*, most_blended> values{};
@@ -30,7 +30,8 @@ struct Shares {
         values[count] = &value;
         weights[count++] = weight;
     }
-    /// The same shares of what `part` (a member, or a function of a value that returns a reference) picks.
+    /// Returns the same weights with what `part` (a member, or a function of a value that returns a
+    /// reference) selects.
     template <class Part>
     [[nodiscard]] auto of(Part part) const {
         Shares<std::remove_cvref_t<decltype(std::invoke(part, *values[0]))>> parts;
@@ -39,7 +40,7 @@ struct Shares {
         for (std::size_t i = 0; i < count; ++i) parts.values[i] = &std::invoke(part, *values[i]);
         return parts;
     }
-    /// The value of the largest weight; of equal ones the first.
+    /// Returns the value of the largest weight, the first of equal ones.
     [[nodiscard]] const T& heaviest() const {
         std::size_t best = 0;
         for (std::size_t i = 1; i < count; ++i)
@@ -48,11 +49,12 @@ struct Shares {
     }
 };
 
-/// Whether numbers of this description are sizes, which mix by ratio: lengths that cannot be 0.
+/// Returns true if numbers of this description are sizes, which blend geometrically: lengths that
+/// cannot be 0.
 inline bool is_size(const Info& info) { return std::string_view(info.unit) == "m" && info.min > 0; }
 
-/// The weighted mean of numbers (`by_ratio`: of positive ones, of their logarithms), never outside those that weigh
-/// something, and exact when these are equal.
+/// Returns the weighted mean of numbers (`by_ratio`: the geometric mean of positive ones), never
+/// outside the range of those with positive weight, and exact when these are equal.
 template <Number T>
 double mean_of(const Shares<T>& shares, bool by_ratio = false) {
     double sum = 0.0, least = std::numeric_limits<double>::infinity(), most = -least;
@@ -133,13 +135,14 @@ T blend_shares(const Shares<T>& shares, const Info& info) {
     }
 }
 
-/// The struct that several weighted ones give together, the same whatever their order (up to ties and rounding):
-/// numbers and ranges by their weighted mean, lengths that cannot be 0 (sizes) by that of their logarithms, colours
-/// in linear light, lists of equal length item by item, equal alternatives of a variant inside. Whole numbers are
-/// counts, fixed for a set: the largest of all, also of those that weigh nothing, so that nothing pops. Everything
-/// else (names, switches, lists of unequal length) is that of the heaviest.
+/// Returns the blend of several weighted structs, independent of their order (up to ties and
+/// rounding): the weighted mean of numbers and ranges, the geometric one of lengths that cannot be
+/// 0 (sizes), of colours in linear light, of lists of equal length item by item, of equal
+/// alternatives of a variant by their fields. Integers are counts, fixed for a set: the largest of
+/// all, including those of weight 0, so that nothing appears suddenly. Everything else (names,
+/// switches, lists of unequal length) is that of the largest weight.
 ///
-/// returns  exactly the one value when a single one weighs anything, except for its counts
+/// returns  exactly the one value when a single one has positive weight, except for its counts
 template <class T>
 T blend(const Shares<T>& shares) {
     assert(shares.count > 0);
@@ -149,7 +152,7 @@ T blend(const Shares<T>& shares) {
 template <Described Overrides, Described Values>
 consteval bool same_fields();
 
-/// Whether `Override` is `Member` made optional, or both are structs with the same fields.
+/// Returns true if `Override` is `Member` made optional, or both are structs with the same fields.
 template <class Overrides, class Override, class Values, class Member>
 constexpr bool fits(Override Overrides::*, Member Values::*) {
     if constexpr (Described<Override> && Described<Member>)
@@ -158,7 +161,8 @@ constexpr bool fits(Override Overrides::*, Member Values::*) {
         return std::is_same_v<Override, std::optional<Member>>;
 }
 
-/// Whether two descriptions have the same names in the same order, each override fitting its value.
+/// Returns true if two descriptions have the same names in the same order, each override fitting
+/// its value.
 template <Described Overrides, Described Values>
 consteval bool same_fields() {
     bool same = member_count<Overrides>() == member_count<Values>();
@@ -179,8 +183,8 @@ consteval bool same_fields() {
 template <Described Overrides, Described Values>
 void overlay(const Overrides& from, Values& to);
 
-/// One member of `overlay`; does nothing for a pair that does not belong together. (A function of
-/// its own: Clang 14 mixes up the types of nested generic lambdas.)
+/// Copies one member of `overlay`; does nothing for a pair that does not match. (It is a separate
+/// function because Clang 14 confuses the types of nested generic lambdas.)
 template <class Override, class Member>
 void overlay_member(const Override& from, Member& to) {
     if constexpr (std::is_same_v<Override, std::optional<Member>>) {
@@ -190,8 +194,8 @@ void overlay_member(const Override& from, Member& to) {
     }
 }
 
-/// Copies each optional that is set in `from` over its value in `to`, also in nested structs.
-/// Both have the same fields in the same order: the two versions of one struct template.
+/// Copies each optional that is set in `from` over its value in `to`, also in nested structs. Both
+/// have the same fields in the same order: the two versions of one struct template.
 template <Described Overrides, Described Values>
 void overlay(const Overrides& from, Values& to) {
     static_assert(same_fields<Overrides, Values>(), "overrides and values have different fields");

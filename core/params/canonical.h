@@ -1,4 +1,4 @@
-// Canonical text of parameters: equal values give equal text, however the request was spelt.
+// Canonical text of parameters: equal values have equal text, however the request was spelt.
 #pragma once
 
 #include <string>
@@ -76,7 +76,7 @@ void canonical(const T& value, std::string& out) {
     }
 }
 
-/// The canonical text of `value` alone.
+/// Returns the canonical text of `value` alone.
 template <class T>
 std::string canonical_text(const T& value) {
     std::string out;

@@ -1,4 +1,4 @@
-// Walks to the ends of every range: for tests that try a generator at all its extremes.
+// Visits the ends of every range: for tests that run a generator at all its extremes.
 #pragma once
 
 #include <initializer_list>
@@ -9,10 +9,10 @@
 
 namespace sporeprint {
 
-/// Sets every leaf of `value` in turn to each of its extremes, calls `use(path)` with `value` so
-/// changed, and puts the leaf back: numbers at both ends, ranges at both and at their widest,
+/// Sets every leaf of `value` in turn to each of its extremes, calls `use(path)` with the changed
+/// `value`, and restores the leaf: numbers at both ends, ranges at both and at their widest,
 /// booleans, enums and choices at each value, colours black and white, empty optionals set, each
-/// alternative of a variant with its defaults, lists as they are, item by item.
+/// alternative of a variant with its defaults, lists unchanged, item by item.
 template <class T, class Use>
 void walk_corners(T& value, const Info& info, const std::string& path, const Use& use) {
     const auto each = [&](std::initializer_list<T> extremes) {
@@ -77,8 +77,8 @@ void walk_corners(T& value, const Info& info, const std::string& path, const Use
     }
 }
 
-/// The walk over all of `value`; see `walk_corners`. `use` takes the JSON pointer of what is at an
-/// extreme and finds it in `value`, which is unchanged in the end.
+/// Visits the extremes of all of `value`; see `walk_corners`. `use` receives the JSON pointer of
+/// the changed leaf and finds it in `value`, which is unchanged at the end.
 template <Described T, class Use>
 void corners(T& value, const Use& use) {
     walk_corners(value, Info{.name = ""}, "", use);

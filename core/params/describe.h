@@ -1,5 +1,5 @@
-// Describe a parameter once; everything that needs to know about it asks here: the range check
-// below, the JSON reader, the query reader, the schema, the canonical text and the blend.
+// Descriptions of parameters: each is described once, and the range check below, the JSON reader,
+// the query reader, the schema, the canonical text and the blend are derived from it.
 #pragma once
 
 #include <array>
@@ -20,9 +20,9 @@
 
 namespace sporeprint {
 
-/// What a person needs to know about one parameter. Its default is not here: the default is the
-/// member initialiser of the struct. A described struct or a variant whose name is "" is inlined:
-/// its fields stand in the object of its parent.
+/// The description of one parameter. Its default is not here: the default is the member initialiser
+/// of the struct. A described struct or a variant whose name is "" is inlined: its fields belong to
+/// the object of its parent.
 struct Info {
     const char* name;             ///< JSON key, schema property and slider label: [a-z0-9_]
     const char* unit = "";        ///< "m", "deg", "1/m"; empty for a pure number
@@ -31,19 +31,19 @@ struct Info {
     const char* doc = "";         ///< one sentence, shown as tooltip and in the API docs
     double step = 0.0;            ///< a slider's step; 0 leaves it to the page
     const char* group =
-        "";  ///< heading under which controls of one object stand together; empty: that of the object
+        "";  ///< heading under which controls of one object are grouped; empty: that of the object
 };
 
 /// A parameter struct: an aggregate that calls `visit(&T::member, Info{...})` for each member, in
-/// their order. It may add a cross-field rule, asked only when each field is fine by itself:
+/// their order. It may add a cross-field rule, called only when each field is valid by itself:
 /// `void check(const std::string& path, std::vector<Problem>& problems) const`.
 template <class T>
 concept Described = std::is_aggregate_v<T> && requires {
     T::fields([](auto, const Info&) {});
 };
 
-/// An enum whose `const char* name(E)` switches over every enumerator and ends in nullptr,
-/// so -Wswitch proves that none is forgotten and counting up lists them all.
+/// An enum whose `const char* name(E)` switches over every enumerator and ends in nullptr, so that
+/// -Wswitch proves that none is forgotten and counting up lists them all.
 template <class T>
 concept NamedEnum = std::is_enum_v<T> && requires(T e) {
     { name(e) } -> std::same_as<const char*>;
@@ -92,7 +92,8 @@ using Plain = T;
 template <class T>
 using Maybe = std::optional<T>;
 
-/// The default of such a member: `value` where members are values, unset where they are overrides.
+/// Returns the default of such a member: `value` where members are values, unset where they are
+/// overrides.
 template <template <class> class M, class T>
 constexpr M<T> preset(T value) {
     if constexpr (is_optional<M<T>>)
@@ -101,8 +102,8 @@ constexpr M<T> preset(T value) {
         return value;
 }
 
-/// Whether `value` lies in the closed range of `info`; NaN never does. A float is compared with
-/// the bounds rounded to float.
+/// Returns true if `value` lies in the closed range of `info`; NaN never does. A float is compared
+/// with the bounds rounded to float.
 template <Number T>
 constexpr bool in_range(T value, const Info& info) {
     if constexpr (std::is_same_v<T, float>)
@@ -111,7 +112,7 @@ constexpr bool in_range(T value, const Info& info) {
         return static_cast<double>(value) >= info.min && static_cast<double>(value) <= info.max;
 }
 
-/// The key that tells which alternative of a variant is meant.
+/// The key that selects an alternative of a variant.
 inline constexpr const char* form_key = "form";
 
 /// The forms of a variant's alternatives, in order: `static constexpr const char* form = "swept"`.
@@ -141,13 +142,13 @@ struct FormsOf<std::variant<Ts...>> {
     }
 };
 
-/// The form of the alternative that `value` holds.
+/// Returns the form of the alternative that `value` holds.
 template <class... Ts>
 constexpr const char* form_of(const std::variant<Ts...>& value) {
     return FormsOf<std::variant<Ts...>>::names[value.index()];
 }
 
-/// "none, growth": every name of an enum.
+/// Returns every name of an enum: "none, growth".
 template <NamedEnum E>
 std::string enum_names() {
     std::string text;
@@ -156,7 +157,7 @@ std::string enum_names() {
     return text;
 }
 
-/// Whether `value` is one of the enumerators.
+/// Returns true if `value` is one of the enumerators.
 template <NamedEnum E>
 constexpr bool enum_holds(E value) {
     for (int i = 0; name(static_cast<E>(i)); ++i)
@@ -164,7 +165,7 @@ constexpr bool enum_holds(E value) {
     return false;
 }
 
-/// "128, 256, 512": every value of a Choice.
+/// Returns every value of a Choice: "128, 256, 512".
 template <class T>
 std::string choice_names() {
     std::string text;
@@ -174,13 +175,13 @@ std::string choice_names() {
 
 // --- Compile-time proof that a description is complete and sane -------------------------
 
-/// Converts to whatever a member wants; only ever named, never called.
+/// Converts to any type; it is only used in unevaluated operands.
 struct Anything {
     template <class T>
     operator T() const;
 };
 
-/// Number of members of the aggregate T.
+/// Returns the number of members of the aggregate T.
 template <class T, class... Found>
 consteval std::size_t member_count() {
     if constexpr (requires { T{Found{}..., Anything{}}; })
@@ -189,7 +190,8 @@ consteval std::size_t member_count() {
         return sizeof...(Found);
 }
 
-/// How often `wanted` is a key of T's object; inlined members count, alternatives as their most.
+/// Returns how often `wanted` is a key of T's object; inlined members count, alternatives as their
+/// maximum.
 template <class T>
 constexpr std::size_t key_count(std::string_view wanted);
 
@@ -217,7 +219,7 @@ constexpr std::size_t key_count(std::string_view wanted) {
     return count;
 }
 
-/// What the proof found out about T; see `well_described`.
+/// The result of the proof for T; see `well_described`.
 struct Description {
     std::size_t members = 0, described = 0;
     bool distinct = true;    ///< no member is visited twice
@@ -234,7 +236,7 @@ constexpr bool proper_name(const Info& info) {
     return !key.empty() && key.ends_with("_deg") == (std::string_view(info.unit) == "deg");
 }
 
-/// Whether a member of type T can live with the bounds in `info`.
+/// Returns true if the bounds in `info` suit a member of type T.
 template <class T>
 constexpr bool proper_bounds(const Info& info) {
     if constexpr (is_optional<T>)
@@ -255,7 +257,7 @@ constexpr bool proper_bounds(const Info& info) {
         return true;
 }
 
-/// Whether the default `value` obeys the bounds in `info`.
+/// Returns true if the default `value` obeys the bounds in `info`.
 template <class T>
 constexpr bool proper_default(const T& value, const Info& info) {
     if constexpr (is_optional<T>) {
@@ -287,7 +289,7 @@ constexpr bool constructs() {
     return static_cast<const void*>(&value) != nullptr;
 }
 
-/// Whether a T with its defaults can be made at compile time. Where it cannot (a std::variant whose
+/// States whether a default T can be made at compile time. Where it cannot (a std::variant whose
 /// alternative holds a list, under Clang 14), its defaults are left to `check` and to GCC.
 template <class T>
 concept ConstantDefault = requires {
@@ -342,8 +344,8 @@ consteval Description description() {
 template <Described T>
 inline constexpr Description description_of = description<T>();
 
-/// Whether T's `fields` names every member exactly once, each with a proper name, a doc, bounds
-/// that make sense and a default inside them. Put `static_assert(well_described<T>());` below T.
+/// Returns true if T's `fields` names every member exactly once, each with a proper name, a doc,
+/// valid bounds and a default inside them. Put `static_assert(well_described<T>());` below T.
 template <Described T>
 consteval bool well_described() {
     constexpr Description found = description_of<T>;
@@ -351,7 +353,7 @@ consteval bool well_described() {
            found.bounded && found.in_bounds;
 }
 
-/// The same proof with a sentence for each fault; every consumer of a description asks for it.
+/// Runs the same proof with a message for each fault; every consumer of a description calls it.
 template <Described T>
 consteval void prove() {
     constexpr Description found = description_of<T>;
@@ -370,21 +372,21 @@ consteval void prove() {
 
 // --- The one check of values, used by core itself and by the readers ---------------------
 
-/// "1.7 is outside 0..1"
+/// Returns the message "1.7 is outside 0..1".
 template <Number T>
 std::string outside_message(T value, const Info& info) {
     return number_text(value) + " is outside " + number_text(info.min) + ".." +
            number_text(info.max);
 }
 
-/// Longest text in bytes that a Text<N> described by `info` may hold.
+/// Returns the longest text in bytes that a Text<N> described by `info` may hold.
 template <class T>
 constexpr std::size_t longest_text(const Info& info) {
     return info.most ? info.most : T::capacity;
 }
 
-/// What bounds each item of the list described by `info`: its numbers' range, and for texts their
-/// capacity, since `most` is the list's own length.
+/// Returns the bounds of each item of the list described by `info`: the range of numbers, the
+/// capacity of texts (`most` is the list's own length).
 template <class T>
 constexpr Info item_info(const Info& info) {
     Info item = info;
@@ -392,7 +394,7 @@ constexpr Info item_info(const Info& info) {
     return item;
 }
 
-/// How `name` is described in T, so that nothing is described twice.
+/// Returns the description of the member `name` of T, so that nothing is described twice.
 template <class T>
 constexpr Info info_of(std::string_view name) {
     Info found{.name = ""};
@@ -402,13 +404,14 @@ constexpr Info info_of(std::string_view name) {
     return found;
 }
 
-/// Path of the member described by `sub` below `path`; an inlined member has its parent's.
+/// Returns the path of the member described by `sub` below `path`; an inlined member has its
+/// parent's.
 inline std::string member_path(const std::string& path, const Info& sub) {
     return sub.name[0] ? path + '/' + sub.name : path;
 }
 
-/// Appends what is wrong with `value` to `problems`; appends nothing when all is well. `path` is
-/// the JSON pointer of `value`. Cross-field rules are asked when their fields are fine.
+/// Appends what is wrong with `value` to `problems`, or nothing if it is valid. `path` is the JSON
+/// pointer of `value`. Cross-field rules are called when their fields are valid.
 template <class T>
 void check(const T& value, const Info& info, const std::string& path,
            std::vector<Problem>& problems) {
@@ -469,7 +472,7 @@ void check(const T& value, const Info& info, const std::string& path,
     }
 }
 
-/// Everything wrong with `value`; empty when all is well.
+/// Returns everything that is wrong with `value`, empty if it is valid.
 template <Described T>
 std::vector<Problem> problems_in(const T& value) {
     std::vector<Problem> problems;

@@ -15,14 +15,15 @@ std::string shortest(T value) {
     if (!(value >= std::numeric_limits<T>::lowest() && value <= std::numeric_limits<T>::max()))
         return value > 0 ? "inf" : value < 0 ? "-inf" : "nan";
     char text[64];
-    constexpr T exact = T{1} / std::numeric_limits<T>::epsilon();  // whole numbers below are exact
+    constexpr T exact = T{1} / std::numeric_limits<T>::epsilon();  // integers below are exact
     const bool as_integer =
         value > -exact && value < exact && value == static_cast<T>(static_cast<long long>(value));
     const auto end =
         as_integer ? std::to_chars(text, text + sizeof text, static_cast<long long>(value)).ptr
                    : std::to_chars(text, text + sizeof text, value).ptr;
     std::string out(text, end);
-    // "1e-07" and "1e+20" become "1e-7" and "1e20": shorter, and no '+' to be taken for a space.
+    // "1e-07" and "1e+20" become "1e-7" and "1e20": shorter, and no '+' that a query would decode
+    // as a space.
     if (const std::size_t e = out.find('e'); e != std::string::npos) {
         std::size_t digits = e + 1;
         if (out[digits] == '+') out.erase(digits, 1);
@@ -36,10 +37,11 @@ constexpr bool is_control(char c) { return static_cast<unsigned char>(c) < 0x20 
 
 constexpr char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c + 32) : c; }
 
-/// Names longer than this are nobody's typing error.
+/// Longer names are not treated as typing errors.
 constexpr std::size_t longest_name = 64;
 
-/// Edit distance with transpositions of neighbours (optimal string alignment), capitals ignored.
+/// Returns the edit distance with transpositions of neighbours (optimal string alignment), ignoring
+/// case.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     using Row = std::array<std::size_t, longest_name + 1>;
     Row older{}, old{}, now{};
@@ -71,7 +73,7 @@ std::size_t utf8_length(std::string_view text) {
     if (first < 0x80) return 1;
     const std::size_t length = first >= 0xf0 ? 4 : first >= 0xe0 ? 3 : 2;
     if (first < 0xc2 || first > 0xf4 || text.size() < length) return 0;
-    // The second byte excludes overlong forms, surrogates and what lies beyond U+10FFFF.
+    // The second byte excludes overlong forms, surrogates and code points beyond U+10FFFF.
     const unsigned char low = first == 0xe0 ? 0xa0 : first == 0xf0 ? 0x90 : 0x80;
     const unsigned char high = first == 0xed ? 0x9f : first == 0xf4 ? 0x8f : 0xbf;
     if (byte(1) < low || byte(1) > high) return 0;

@@ -1,4 +1,5 @@
-// From the pairs of a query string to parameter structs and back: dotted names, "cap.radius=0.05".
+// Conversion between the pairs of a query string and parameter structs, with dotted names:
+// "cap.radius=0.05".
 #pragma once
 
 #include <algorithm>
@@ -14,23 +15,23 @@
 
 namespace sporeprint {
 
-/// The decoded names and values of a query, in its order.
+/// The decoded names and values of a query, in their order.
 using QueryPairs = std::span<const std::pair<std::string, std::string>>;
 
-/// Whether a member of type T can be named in a query: lists, ranges and uploads cannot.
+/// States whether a member of type T can be named in a query: lists, ranges and uploads cannot.
 template <class T>
 inline constexpr bool in_query =
     !is_list<T> && !is_tuple<T> && !std::is_same_v<T, Range> && !std::is_same_v<T, Upload>;
 template <class T>
 inline constexpr bool in_query<std::optional<T>> = in_query<T>;
 
-/// The pairs of a query while they are being read: which are known, which were taken.
+/// The pairs of a query while they are read: which are known, which were taken.
 class QueryReader {
   public:
     QueryReader(QueryPairs pairs, std::vector<Problem>& problems)
         : pairs_(pairs), taken_(pairs.size(), false), problems_(problems) {}
 
-    /// The text given for `name`, or nullptr when it is absent or repeated (which is reported).
+    /// Returns the text of `name`, or nullptr if it is absent or repeated (which is reported).
     const std::string* take(const std::string& name) {
         known_.push_back(name);
         const std::string* text = nullptr;
@@ -45,13 +46,13 @@ class QueryReader {
         return count == 1 ? text : nullptr;
     }
 
-    /// Whether any pair's name begins with `prefix`.
+    /// Returns true if any pair's name begins with `prefix`.
     bool mentions(std::string_view prefix) const {
         return std::any_of(pairs_.begin(), pairs_.end(),
                            [&](const auto& pair) { return pair.first.starts_with(prefix); });
     }
 
-    /// Reports each pair that nobody took, once a name.
+    /// Reports each pair that was not taken, once per name.
     void refuse_the_rest() {
         for (std::size_t i = 0; i < pairs_.size() && problems_.size() < most_problems; ++i) {
             if (taken_[i]) continue;
@@ -71,8 +72,8 @@ class QueryReader {
     std::vector<Problem>& problems_;
 };
 
-/// The JSON value that the text of a query means for a member of type T; reports what is not even
-/// of T's kind and then returns false.
+/// Returns the JSON value of a query's text for a member of type T; reports text that is not of T's
+/// kind and then returns false.
 template <class T>
 bool value_from_query(const std::string& text, Value& value, const std::string& name,
                       std::vector<Problem>& problems) {
@@ -121,7 +122,8 @@ void read_query_members(QueryReader& query, T& out, const std::string& prefix) {
             } else if constexpr (is_optional<Member>) {
                 using Inner = typename Member::value_type;
                 if constexpr (Described<Inner> || is_variant<Inner>) {
-                    // Read even when not mentioned, so that its names are known to did-you-mean.
+                    // The optional is read even if it is absent, so that its names are known for
+                    // suggestions.
                     Inner inner = out.*member ? *(out.*member) : Inner{};
                     read_query_members(query, inner, name + '.');
                     if (query.mentions(name + '.')) out.*member = std::move(inner);
@@ -141,7 +143,7 @@ void read_query_members(QueryReader& query, T& out, const std::string& prefix) {
     }
 }
 
-/// "/cap/radius" as a query names it: "cap.radius".
+/// Returns the query name of a JSON pointer: "/cap/radius" is "cap.radius".
 inline std::string query_name(std::string_view pointer) {
     std::string name(pointer.substr(pointer.starts_with('/') ? 1 : 0));
     std::replace(name.begin(), name.end(), '/', '.');
@@ -149,8 +151,8 @@ inline std::string query_name(std::string_view pointer) {
 }
 
 /// Reads decoded pairs over the values already in `out`. Appends every problem, `path` being the
-/// query name: unknown (with the name probably meant), repeated, malformed, out of range; when
-/// there is none, what the cross-field rules say. Numbers follow JSON's grammar.
+/// query name: unknown (with the name probably meant), repeated, malformed, out of range and, if
+/// there is none, violations of the cross-field rules. Numbers follow JSON's grammar.
 template <class T>
 void read_query(QueryPairs pairs, T& out, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
@@ -209,9 +211,9 @@ void query_members(const T& value, const T& defaults, const std::string& prefix,
     }
 }
 
-/// The query, without '?', that makes `value` from `defaults`: "a=1&b.c=0.5", only what differs, in
-/// field order, shortest digits, percent-encoded. Lists, ranges and uploads cannot be told, nor
-/// that an optional set in `defaults` is empty in `value`.
+/// Returns the query, without '?', that makes `value` from `defaults`: "a=1&b.c=0.5", only
+/// differences, in field order, shortest digits, percent-encoded. Lists, ranges and uploads cannot
+/// be expressed, nor that an optional set in `defaults` is empty in `value`.
 template <class T>
 std::string query_text(const T& value, const T& defaults = {}) {
     std::string out;

@@ -1,4 +1,4 @@
-// From JSON to parameter structs and back, derived from their fields().
+// Conversion between JSON and parameter structs, derived from their fields().
 #pragma once
 
 #include <algorithm>
@@ -17,8 +17,8 @@ template <class T>
 void read(const Value& json, T& out, const Info& info, const std::string& path,
           std::vector<Problem>& problems);
 
-/// Reads the members of the object `json` into a described struct or variant, adding the keys it
-/// knows to `known`. Returns false when a form is unknown and so the keys cannot be told.
+/// Reads the members of the object `json` into a described struct or variant and adds the keys it
+/// knows to `known`. Returns false if a form is unknown, because its keys are then unknown too.
 template <class T>
 bool read_members(const Value& json, T& out, const std::string& path,
                   std::vector<std::string>& known, std::vector<Problem>& problems) {
@@ -49,8 +49,8 @@ bool read_members(const Value& json, T& out, const std::string& path,
                 }
             }
             known.emplace_back(sub.name);
-            if (const Value* given = json.find(sub.name))
-                read(*given, out.*member, sub, path + '/' + sub.name, problems);
+            if (const Value* found = json.find(sub.name))
+                read(*found, out.*member, sub, path + '/' + sub.name, problems);
         });
         if constexpr (requires { out.check(path, problems); })
             if (problems.size() == before) out.check(path, problems);
@@ -58,16 +58,16 @@ bool read_members(const Value& json, T& out, const std::string& path,
     }
 }
 
-/// Reads `json` over the values already in `out`; what is absent keeps its value, a list is
-/// replaced whole, a variant keeps its alternative unless "form" says otherwise. Appends every
-/// problem with its JSON pointer, unknown keys included; a faulty leaf keeps its value.
+/// Reads `json` over the values already in `out`; absent members keep their value, a list is
+/// replaced as a whole, a variant keeps its alternative unless "form" selects another. Appends
+/// every problem with its JSON pointer, unknown keys included; a faulty leaf keeps its value.
 template <class T>
 void read(const Value& json, T& out, const Info& info, const std::string& path,
           std::vector<Problem>& problems) {
     const auto expected = [&](const std::string& what) {
         report(problems, path, "expected " + what + ", got " + shown(json));
     };
-    // Takes over a leaf once it has passed the one check of values.
+    // Assigns a leaf once it has passed the check of values.
     const auto take = [&](T value) {
         const std::size_t before = problems.size();
         check(value, info, path, problems);
@@ -164,7 +164,7 @@ void read(const Value& json, T& out, const Info& info, const std::string& path,
                 value != static_cast<double>(static_cast<long long>(value)))
                 return expected("a whole number");
         }
-        // Compared as a double first, so that the cast below cannot overflow.
+        // The value is compared as a double first, so that the cast below cannot overflow.
         if constexpr (std::is_same_v<T, float>) {
             if (!(value >= std::numeric_limits<float>::lowest() &&
                   value <= std::numeric_limits<float>::max()))
@@ -176,7 +176,7 @@ void read(const Value& json, T& out, const Info& info, const std::string& path,
     }
 }
 
-/// The T that `json` describes, over T's defaults. Appends every problem.
+/// Returns the T that `json` describes, over T's defaults. Appends every problem.
 template <class T>
 T read_all(const Value& json, std::vector<Problem>& problems) {
     T out{};
@@ -184,8 +184,8 @@ T read_all(const Value& json, std::vector<Problem>& problems) {
     return out;
 }
 
-/// The T that the JSON text describes, over T's defaults. Appends every problem; when the text is
-/// malformed or repeats a key, only that is told.
+/// Returns the T that the JSON text describes, over T's defaults. Appends every problem; if the
+/// text is malformed or repeats a key, only that is reported.
 template <class T>
 T read_json(std::string_view text, std::vector<Problem>& problems) {
     const std::size_t before = problems.size();
@@ -221,8 +221,8 @@ void write_members(const T& value, Value& object) {
     }
 }
 
-/// All values as JSON, in field order; empty optionals and uploads are absent. Reading it back
-/// gives an equal value.
+/// Returns all values as JSON, in field order; empty optionals and uploads are absent. Reading it
+/// back gives an equal value.
 template <class T>
 Value write(const T& value) {
     if constexpr (Described<T> || is_variant<T>) {
@@ -251,7 +251,7 @@ Value write(const T& value) {
         return value.value;
     } else {
         static_assert(Number<T>, "no rule for this member type");
-        // A float is written by its own shortest digits: 0.3f is 0.3, not 0.30000001192092896.
+        // A float is written with its own shortest digits: 0.3f is 0.3, not 0.30000001192092896.
         if constexpr (std::is_same_v<T, float>) {
             double digits = 0.0;
             read_number(number_text(value), digits);

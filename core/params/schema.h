@@ -1,4 +1,4 @@
-// JSON Schema (2020-12) of parameter structs: the OpenAPI component and the page's controls.
+// JSON Schema (2020-12) of parameter structs: the OpenAPI component and the controls of the page.
 #pragma once
 
 #include <string>
@@ -25,7 +25,7 @@ void each_form(const std::variant<Ts...>& fallback, Use use) {
     (one(std::get_if<Ts>(&fallback)), ...);
 }
 
-/// The schema of an object from its `properties` and the `choices` of its inlined variants.
+/// Returns the schema of an object from its `properties` and the `choices` of its inlined variants.
 inline Value object_schema(Value properties, Value choices) {
     Value out = Value::object();
     out.set("type", "object");
@@ -46,8 +46,8 @@ inline Value object_schema(Value properties, Value choices) {
     return out;
 }
 
-/// The schema of one alternative: an object whose `form_key` is `form`. As a part of a larger
-/// object it leaves the other properties alone.
+/// Returns the schema of one alternative: an object whose `form_key` is `form`. As a part of a
+/// larger object it does not restrict the other properties.
 template <class T>
 Value form_schema(const char* form, const T& fallback, bool is_part) {
     Value properties = Value::object(), choices = Value::array();
@@ -92,9 +92,9 @@ void schema_members(const T& fallback, Value& properties, Value& choices) {
     }
 }
 
-/// The schema of T, its defaults read off `fallback`. Leaves carry type, range or enum, default,
-/// title, description, "x-unit", "x-group" and "x-step"; an empty optional has no default but
-/// "x-default-from": "species". Unknown properties are refused.
+/// Returns the schema of T with the defaults of `fallback`. Leaves carry type, range or enum,
+/// default, title, description, "x-unit", "x-group" and "x-step"; an empty optional has no default
+/// but "x-default-from": "species". Unknown properties are refused.
 template <class T>
 Value schema(const T& fallback, const Info& info) {
     Value out = Value::object();
@@ -167,7 +167,7 @@ Value schema(const T& fallback, const Info& info) {
     return out;
 }
 
-/// The schema of T as a document of its own.
+/// Returns the schema of T as a document of its own.
 template <class T>
 Value schema_document(std::string_view title, const T& fallback = {}) {
     Value out = Value::object();

@@ -92,7 +92,8 @@ bool read_base64(std::string_view text, std::vector<std::uint8_t>& out) {
             bytes.push_back(static_cast<std::uint8_t>((bits >> held) & 255u));
         }
     }
-    if ((bits & ((1u << held) - 1u)) != 0) return false;  // two spellings of one value
+    // non-zero unused bits would be a second spelling of the same value
+    if ((bits & ((1u << held) - 1u)) != 0) return false;
     out = std::move(bytes);
     return true;
 }

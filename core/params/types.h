@@ -43,7 +43,7 @@ class Text {
     std::size_t size_ = 0;
 };
 
-/// An sRGB colour of 8 bits a channel; "#RRGGBB" in JSON and text.
+/// An sRGB colour of 8 bits per channel; "#RRGGBB" in JSON and text.
 struct Colour {
     std::uint8_t r = 0, g = 0, b = 0;
     bool operator==(const Colour&) const = default;
@@ -55,8 +55,8 @@ struct Range {
     bool operator==(const Range&) const = default;
 };
 
-/// One of a few whole numbers, such as the side of an image; a number in JSON and text.
-/// `Choice<256, 512> side{512}`; a value that is not among them does not compile as a default.
+/// One of a few integers, such as the side of an image; a number in JSON and text. In `Choice<256,
+/// 512> side{512}` a value that is not among them does not compile as a default.
 template <int... Values>
 struct Choice {
     static_assert(sizeof...(Values) > 0);
@@ -67,7 +67,7 @@ struct Choice {
 };
 
 /// Bytes sent by the user, such as an image; base64 in JSON, "sha256:<hex>" in canonical text.
-/// Empty means that nothing was sent. Make one with `uploaded`, so that the digest belongs to it.
+/// Empty means that nothing was sent. `uploaded` makes one with the matching digest.
 struct Upload {
     std::vector<std::uint8_t> bytes;
     Text<64> sha256;  ///< lower-case hexadecimal digest of `bytes`; empty when there are none
@@ -75,23 +75,24 @@ struct Upload {
     bool operator==(const Upload&) const = default;
 };
 
-/// The upload holding `bytes`, with its SHA-256. Throws std::runtime_error if the digest fails.
+/// Returns the upload of `bytes` with its SHA-256. Throws std::runtime_error if the digest fails.
 Upload uploaded(std::vector<std::uint8_t> bytes);
 
-/// Lower-case hexadecimal SHA-256 of `bytes` (64 characters), by OpenSSL's libcrypto.
+/// Returns the lower-case hexadecimal SHA-256 of `bytes` (64 characters), by OpenSSL's libcrypto.
 std::string sha256_hex(const void* bytes, std::size_t size);
 
-/// Reads "#RRGGBB" (either case). Returns false and leaves `out` when `text` is anything else.
+/// Reads "#RRGGBB" (either case). Returns false and leaves `out` unchanged if `text` is anything
+/// else.
 bool read_colour(std::string_view text, Colour& out);
 
-/// "#RRGGBB", upper case.
+/// Returns "#RRGGBB", upper case.
 std::string colour_text(Colour colour);
 
-/// Reads strict base64 (RFC 4648 §4: padded, no white space, unused bits zero). Returns false when
+/// Reads strict base64 (RFC 4648 §4: padded, no white space, unused bits zero). Returns false if
 /// `text` is anything else.
 bool read_base64(std::string_view text, std::vector<std::uint8_t>& out);
 
-/// Base64 of `bytes`, padded.
+/// Returns the base64 of `bytes`, padded.
 std::string base64_text(const std::vector<std::uint8_t>& bytes);
 
 }  // namespace sporeprint

@@ -90,8 +90,8 @@ class Builder final : public Sax {
         return placed != nullptr;
     }
 
-    /// Puts `value` where the text stands now. Pointers to open containers stay valid: a container
-    /// grows only while it is the innermost one.
+    /// Stores `value` at the current position of the text. Pointers to open containers stay valid:
+    /// a container grows only while it is the innermost one.
     Value* place(Value value) {
         if (++count_ > most_json_values) {
             report(problems_, "", "more than " + std::to_string(most_json_values) + " values");
@@ -105,7 +105,7 @@ class Builder final : public Sax {
         return &open_.back()->members().emplace_back(std::move(key_), std::move(value)).second;
     }
 
-    /// Pointer of the innermost open container.
+    /// Returns the pointer of the innermost open container.
     std::string open_path() const {
         std::string path;
         for (std::size_t i = 0; i + 1 < open_.size(); ++i) path += '/' + last_token(*open_[i]);
@@ -117,7 +117,7 @@ class Builder final : public Sax {
                                     : pointer_token(container.members().back().first);
     }
 
-    /// Pointer of the value that comes next.
+    /// Returns the pointer of the next value.
     std::string next_path() const {
         if (open_.empty()) return "";
         const Value& inner = *open_.back();
@@ -249,7 +249,7 @@ void Value::erase(std::string_view key) {
 bool operator==(const Value& a, const Value& b) { return a.data == b.data; }
 
 Value parse(std::string_view text, std::vector<Problem>& problems) {
-    // The parser takes a zero byte for the end of the text and would pass over whatever follows.
+    // The parser takes a zero byte for the end of the text and would ignore the rest.
     if (const std::size_t zero = text.find('\0'); zero != std::string_view::npos) {
         report(problems, "", "not JSON: a zero byte at position " + std::to_string(zero));
         return {};

@@ -1,4 +1,4 @@
-// A JSON value of our own, its strict reader and its writer.
+// A JSON value type, its strict reader and its writer.
 #pragma once
 
 #include <concepts>
@@ -43,7 +43,7 @@ struct Value {
     bool is_array() const { return std::holds_alternative<Array>(data); }
     bool is_object() const { return std::holds_alternative<Object>(data); }
 
-    /// The content; throws std::bad_variant_access when the value is of another kind.
+    /// Returns the content; throws std::bad_variant_access if the value is of another kind.
     bool as_bool() const { return std::get<bool>(data); }
     double as_number() const { return std::get<double>(data); }
     const std::string& as_string() const { return std::get<std::string>(data); }
@@ -52,14 +52,14 @@ struct Value {
     const Object& members() const { return std::get<Object>(data); }
     Object& members() { return std::get<Object>(data); }
 
-    /// The member called `key`, or nullptr when there is none or this is not an object.
+    /// Returns the member `key`, or nullptr if there is none or this is not an object.
     const Value* find(std::string_view key) const;
     Value* find(std::string_view key);
 
-    /// The value at an RFC 6901 pointer such as "/cap/3/r" ("" is this value), or nullptr.
+    /// Returns the value at an RFC 6901 pointer such as "/cap/3/r" ("" is this value), or nullptr.
     const Value* at_pointer(std::string_view pointer) const;
 
-    /// Sets the member `key`, appending it when it is new. Null becomes an object first.
+    /// Sets the member `key`, appending it if it is new. Null becomes an object first.
     Value& set(std::string_view key, Value value);
 
     /// Appends an item. Null becomes an array first.
@@ -71,32 +71,32 @@ struct Value {
 
 bool operator==(const Value& a, const Value& b);
 
-/// Deepest nesting of arrays and objects that `parse` accepts.
+/// The deepest nesting of arrays and objects that `parse` accepts.
 inline constexpr std::size_t deepest_json = 32;
 
-/// Most values in one text that `parse` accepts.
+/// The greatest number of values in one text that `parse` accepts.
 inline constexpr std::size_t most_json_values = 200'000;
 
-/// Reads JSON (RFC 8259). Appends to `problems`, with the place, what is malformed, not UTF-8, too
-/// deep, too much, not finite (1e999) or a repeated key; then the result is null or incomplete.
+/// Reads JSON (RFC 8259). Appends to `problems`, with its place, text that is malformed, not UTF-8,
+/// too deep, too long, not finite (1e999) or repeats a key; then the result is null or incomplete.
 /// Never throws on bad text.
 Value parse(std::string_view text, std::vector<Problem>& problems);
 
 /// Reads one number in JSON's grammar and nothing else: no "+1", ".5", "1.", hexadecimal or space.
-/// Returns false when `text` is anything else or too large for a double.
+/// Returns false if `text` is anything else or too large for a double.
 bool read_number(std::string_view text, double& out);
 
-/// Writes JSON with shortest round-trip numbers, -0 as 0, whole numbers without ".0". `indent` < 0
+/// Writes JSON with shortest round-trip numbers, -0 as 0, integers without ".0". `indent` < 0
 /// writes one line without spaces. Text that is not UTF-8 gets U+FFFD; not finite becomes null.
 std::string dump(const Value& value, int indent = -1);
 
-/// `text` as a JSON string with its quotes.
+/// Returns `text` as a JSON string with its quotes.
 std::string json_string(std::string_view text);
 
-/// What kind of value this is, in words: "a number", "text", "a list", "an object", ...
+/// Returns the kind of a value for messages: "a number", "text", "a list", "an object", ...
 const char* kind_name(const Value& value);
 
-/// The value as an error message shows it: a short one itself, else its kind.
+/// Returns the value for an error message: a short one itself, otherwise its kind.
 std::string shown(const Value& value);
 
 }  // namespace sporeprint

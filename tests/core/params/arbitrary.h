@@ -13,7 +13,7 @@
 
 namespace sporeprint {
 
-/// A number in [0, 1], both ends included often.
+/// Returns a number in [0, 1], often one of the ends.
 inline double arbitrary_fraction() {
     const auto step = *rc::gen::inRange<std::uint32_t>(0, 1u << 20);
     if (step % 16 == 0) return 0.0;
@@ -21,7 +21,7 @@ inline double arbitrary_fraction() {
     return static_cast<double>(step) / 1048575.0;
 }
 
-/// Fills `value` with random content that obeys `info`. Cross-field rules are the caller's affair.
+/// Fills `value` with random content that obeys `info`. Callers have to satisfy cross-field rules.
 template <class T>
 void arbitrary(T& value, const Info& info) {
     if constexpr (Described<T>) {
@@ -78,7 +78,7 @@ void arbitrary(T& value, const Info& info) {
     }
 }
 
-/// A random T, its members inside their ranges.
+/// Returns a random T whose members are inside their ranges.
 template <Described T>
 T arbitrary_of() {
     T value{};

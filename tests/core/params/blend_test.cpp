@@ -37,7 +37,7 @@ std::vector<double> arbitrary_weights(std::size_t count) {
     return weights;
 }
 
-/// Requests with the same counts, so that an end is exactly one of them.
+/// Returns requests with the same counts, so that an end is exactly one of them.
 std::vector<Request> arbitrary_requests(std::size_t count) {
     std::vector<Request> requests;
     for (std::size_t i = 0; i < count; ++i) {
@@ -62,7 +62,7 @@ struct Sizes {
     bool operator==(const Sizes&) const = default;
 };
 
-TEST(Blend, OneOfWeightOneIsExact) {
+TEST(Blend, ASingleValueOfWeightOneIsExact) {
     EXPECT_TRUE(rc::check([] {
         const Request a = arbitrary_of<Request>();
         RC_ASSERT(blended<Request>({a}, {1.0}) == a);
@@ -79,7 +79,7 @@ TEST(Blend, StaysInsideTheRanges) {
     }));
 }
 
-TEST(Blend, NumbersGoLinearlyAndSizesByTheirRatio) {
+TEST(Blend, NumbersBlendLinearlyAndSizesGeometrically) {
     EXPECT_EQ(blended<double>({1.0, 3.0}, {0.75, 0.25}), 1.5);
     EXPECT_NEAR(blended<double>({1.0, 3.0, 8.0}, {0.5, 0.25, 0.25}), 3.25, 1e-15);
     EXPECT_EQ(blended<Range>({{0, 2}, {1, 4}}, {0.5, 0.5}), (Range{0.5, 3}));
@@ -92,14 +92,14 @@ TEST(Blend, NumbersGoLinearlyAndSizesByTheirRatio) {
     EXPECT_NEAR(third.radius, std::cbrt(0.1 * 0.2 * 0.8), 1e-15);
 }
 
-TEST(Blend, CountsAreThoseOfTheWholeSetWhateverTheWeights) {
+TEST(Blend, CountsAreTheMaximumForAllWeights) {
     for (const double t : {0.0, 0.001, 0.5, 1.0}) {
         EXPECT_EQ((blended<int>({3, 7}, {1.0 - t, t})), 7);
         EXPECT_EQ((blended<std::uint32_t>({4294967295u, 0u}, {1.0 - t, t})), 4294967295u);
     }
 }
 
-TEST(Blend, ColoursMixAsLight) {
+TEST(Blend, ColoursBlendInLinearLight) {
     // Half the light of white is sRGB 188 (IEC 61966-2-1: 1.055 * 0.5^(1/2.4) - 0.055 = 0.7354).
     EXPECT_EQ((blended<Colour>({{0, 0, 0}, {255, 255, 255}}, {0.5, 0.5})), (Colour{188, 188, 188}));
     EXPECT_EQ((blended<Colour>({{255, 0, 7}, {0, 255, 7}}, {0.5, 0.5})), (Colour{188, 188, 7}));
@@ -109,7 +109,7 @@ TEST(Blend, ColoursMixAsLight) {
         (Colour{156, 156, 156}));
 }
 
-TEST(Blend, TheRestComesFromTheHeaviest) {
+TEST(Blend, OtherValuesComeFromTheLargestWeight) {
     using sample::Animation;
     EXPECT_EQ((blended<Animation>({Animation::none, Animation::growth}, {0.25, 0.75})),
               Animation::growth);

@@ -22,7 +22,7 @@ std::string canonical_of(std::string_view text) {
     return canonical_text(request);
 }
 
-TEST(Canonical, IsTheSameHoweverItIsSpelt) {
+TEST(Canonical, DoesNotDependOnTheSpelling) {
     const std::string standard = canonical_of("{}");
     for (const char* same :
          {R"({"seed":1})", R"({"seed":1.0,"cap":{"radius":4e-2}})", R"({"cap":{"radius":0.040}})",
@@ -36,7 +36,7 @@ TEST(Canonical, IsTheSameHoweverItIsSpelt) {
         EXPECT_NE(canonical_of(other), standard) << other;
 }
 
-TEST(Canonical, TellsEveryValueInFieldOrder) {
+TEST(Canonical, ContainsEveryValueInFieldOrder) {
     EXPECT_EQ(canonical_text(Request{}),
               "{seed:1,age:0.6,has_ring:false,animation:none,texture_size:1024,rough:0.3,"
               "cap:{radius:0.04,tilt_deg:4,gill_count:90,colour:#D22B1F,},r:0.1,y:0.2,"
@@ -46,7 +46,7 @@ TEST(Canonical, TellsEveryValueInFieldOrder) {
               "profile:[1,0.9,1.1,],tags:[],}");
 }
 
-TEST(Canonical, UploadsStandByTheirDigest) {
+TEST(Canonical, UploadsAreWrittenAsTheirDigest) {
     Request request;
     request.image = uploaded({'a', 'b', 'c'});
     EXPECT_NE(canonical_text(request).find("image:sha256:ba7816bf8f01cfea"), std::string::npos);
@@ -60,7 +60,7 @@ TEST(Canonical, EqualTextMeansEqualValues) {
     }));
 }
 
-TEST(Canonical, TextCannotForgeItsNeighbours) {
+TEST(Canonical, TextIsEscapedSoThatItCannotImitateOtherFields) {
     Request a, b;
     a.tags = {Text<8>("a\",\"b")};
     b.tags = {Text<8>("a"), Text<8>("b")};

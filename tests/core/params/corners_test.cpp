@@ -12,7 +12,7 @@ namespace {
 
 using sample::Request;
 
-TEST(Corners, VisitEveryLeafAtItsExtremesAndPutItBack) {
+TEST(Corners, VisitEveryLeafAtItsExtremesAndRestoreIt) {
     Request request;
     std::map<std::string, int> visits;
     double widest = 0.0;

@@ -166,7 +166,7 @@ TEST(Describe, NotANumberIsOutsideEveryRange) {
     EXPECT_EQ(problems_in(request), expected);
 }
 
-TEST(Describe, CrossFieldRuleIsAskedWhenItsFieldsAreFine) {
+TEST(Describe, CrossFieldRuleIsCalledWhenItsFieldsAreValid) {
     Request request;
     request.stem_radius = 0.1;
     const std::vector<Problem> expected = {{"/stem_radius", "must be smaller than /cap/radius"}};

@@ -59,7 +59,7 @@ TEST(Messages, Utf8RefusesOverlongSurrogatesAndBeyondUnicode) {
         EXPECT_FALSE(is_plain_text(bad)) << testing::PrintToString(std::string(bad));
 }
 
-TEST(Messages, ClosestNameIsTheOneMeant) {
+TEST(Messages, ClosestFindsTheIntendedName) {
     const std::vector<std::string> known = {"seed", "age", "size", "weathering.cracks",
                                             "texture_size"};
     EXPECT_EQ(closest("sed", known), "seed");

@@ -30,7 +30,7 @@ void expect_fault(const Pairs& pairs, const std::string& path, const std::string
     EXPECT_EQ(problems[0].message, message);
 }
 
-/// The decoded pairs of a query text.
+/// Returns the decoded pairs of a query text.
 Pairs split(std::string_view text) {
     Pairs pairs;
     const auto decoded = [](std::string_view coded) {
@@ -94,7 +94,7 @@ TEST(Query, ReadsDottedNamesOfEveryLeaf) {
     EXPECT_EQ(std::get<sample::Branched>(request.roots).forks, 9u) << "in any order";
 }
 
-TEST(Query, TellsEachFaultWithItsName) {
+TEST(Query, ReportsEachFaultWithItsName) {
     expect_fault({{"age", "1.7"}}, "age", "1.7 is outside 0..1");
     expect_fault({{"sed", "1"}}, "sed", "unknown parameter; did you mean 'seed'?");
     expect_fault({{"cap.radus", "1"}}, "cap.radus",
@@ -127,14 +127,14 @@ TEST(Query, ListsRangesAndUploadsHaveNoNames) {
         EXPECT_EQ(faults({{name, "1"}}).size(), 1u) << name;
 }
 
-TEST(Query, TellsAllFaultsAtOnceAndNotWithoutBound) {
+TEST(Query, ReportsAllFaultsAtOnceUpToALimit) {
     EXPECT_EQ(faults({{"age", "2"}, {"sed", "1"}, {"has_ring", "x"}}).size(), 3u);
     Pairs many;
     for (int i = 0; i < 1000; ++i) many.emplace_back("x" + std::to_string(i), "1");
     EXPECT_EQ(faults(many).size(), most_problems);
 }
 
-TEST(Query, TextTellsOnlyWhatDiffers) {
+TEST(Query, TextContainsOnlyDifferences) {
     EXPECT_EQ(query_text(Request{}), "");
     Request request;
     request.seed = 7;
@@ -149,11 +149,11 @@ TEST(Query, TextTellsOnlyWhatDiffers) {
     EXPECT_EQ(query_text(request, request), "");
 }
 
-TEST(Query, WhatIsToldReadsBackEqual) {
+TEST(Query, TextReadsBackEqual) {
     EXPECT_TRUE(rc::check([] {
         Request request = arbitrary_of<Request>();
         request.cap.radius = 0.5;  // the cross-field rule
-        const Request standard;    // what a query cannot tell
+        const Request standard;    // for what a query cannot express
         request.season = standard.season;
         request.span = standard.span;
         request.wind = standard.wind;
@@ -173,7 +173,7 @@ TEST(Query, WhatIsToldReadsBackEqual) {
     }));
 }
 
-TEST(Query, AnyPairsAreReadWithoutHarm) {
+TEST(Query, ArbitraryPairsAreHandled) {
     EXPECT_TRUE(rc::check([](const std::vector<std::pair<std::string, std::string>>& pairs) {
         std::vector<Problem> problems;
         Request request;

@@ -28,7 +28,7 @@ std::vector<Problem> faults(std::string_view text) {
     return problems;
 }
 
-/// Expects that `text` has this one problem.
+/// Expects that `text` has exactly this problem.
 void expect_fault(std::string_view text, const std::string& path, const std::string& message) {
     const std::vector<Problem> problems = faults(text);
     ASSERT_EQ(problems.size(), 1u) << text;
@@ -70,7 +70,7 @@ TEST(Reader, ReadsEveryKind) {
     EXPECT_EQ(request.image.bytes.size(), 6u);
 }
 
-TEST(Reader, ReadsOverWhatIsThere) {
+TEST(Reader, ReadsOverExistingValues) {
     Request request;
     request.age = 0.25;
     request.model.shape = sample::Branched{.forks = 7};
@@ -83,7 +83,7 @@ TEST(Reader, ReadsOverWhatIsThere) {
     EXPECT_EQ(request.model.gloss, 0.75);
 }
 
-TEST(Reader, TellsEachFaultWithItsPointer) {
+TEST(Reader, ReportsEachFaultWithItsPointer) {
     expect_fault("[]", "", "expected an object, got a list");
     expect_fault(R"({"age":1.7})", "/age", "1.7 is outside 0..1");
     expect_fault(R"({"age":"old"})", "/age", "expected a number, got 'old'");
@@ -139,7 +139,7 @@ TEST(Reader, TellsEachFaultWithItsPointer) {
     expect_fault(R"({"age":0.5,"age":0.5})", "/age", "given more than once");
 }
 
-TEST(Reader, TellsAllFaultsAtOnce) {
+TEST(Reader, ReportsAllFaultsAtOnce) {
     const std::vector<Problem> problems =
         faults(R"({"zz":1,"age":7,"cap":{"radius":"x","colour":1},"wind":{},"yy":2})");
     ASSERT_EQ(problems.size(), 6u);
@@ -147,7 +147,7 @@ TEST(Reader, TellsAllFaultsAtOnce) {
     EXPECT_EQ(problems[5].path, "/yy");
 }
 
-TEST(Reader, HostileTextIsRefusedWithBoundedAnswers) {
+TEST(Reader, HostileTextIsRefusedWithBoundedProblems) {
     std::string many = "{\"a\":0";
     for (int i = 0; i < 50'000; ++i) many += ",\"sed" + std::to_string(i) + "\":0";
     EXPECT_EQ(faults(many + "}").size(), most_problems);
@@ -157,7 +157,7 @@ TEST(Reader, HostileTextIsRefusedWithBoundedAnswers) {
     EXPECT_LT(long_key[0].path.size() + long_key[0].message.size(), 300u);
 }
 
-TEST(Reader, WhatIsWrittenReadsBackEqual) {
+TEST(Reader, WrittenValuesReadBackEqual) {
     EXPECT_TRUE(rc::check([] {
         Request request = arbitrary_of<Request>();
         request.cap.radius = 0.5;  // the cross-field rule
@@ -170,7 +170,7 @@ TEST(Reader, WhatIsWrittenReadsBackEqual) {
     }));
 }
 
-TEST(Reader, WritesAllValuesInOrderAndLeavesEmptyOnesOut) {
+TEST(Reader, WritesAllValuesInOrderWithoutEmptyOnes) {
     const Value json = write(Request{});
     EXPECT_EQ(json.members().front().first, "seed");
     EXPECT_EQ(json.find("tint"), nullptr);

@@ -1,4 +1,5 @@
-// The parameter structs that the tests of core/params read, write and blend: one member of each kind.
+// The parameter structs that the tests of core/params read, write and blend: one member of each
+// kind.
 #pragma once
 
 #include <array>
@@ -134,7 +135,7 @@ struct DeformationOf {
     bool operator==(const DeformationOf&) const = default;
 };
 
-/// Cross-field rule: the stem is thinner than the cap.
+/// The cross-field rule: the stem is thinner than the cap.
 struct Request {
     std::uint32_t seed = 1;
     double age = 0.6;

@@ -16,7 +16,7 @@ std::string at(const Value& schema, std::string_view pointer) {
     return found ? dump(*found) : "nothing at " + std::string(pointer);
 }
 
-TEST(Schema, LeavesTellTypeRangeDefaultAndWords) {
+TEST(Schema, LeavesHaveTypeRangeDefaultAndDescription) {
     const Value json = schema(Request{});
     EXPECT_EQ(at(json, "/type"), "\"object\"");
     EXPECT_EQ(at(json, "/additionalProperties"), "false");
@@ -40,7 +40,7 @@ TEST(Schema, LeavesTellTypeRangeDefaultAndWords) {
     EXPECT_EQ(at(json, "/properties/r/title"), "\"r\"") << "inlined";
 }
 
-TEST(Schema, ListsTellTheirItems) {
+TEST(Schema, ListsDescribeTheirItems) {
     const Value json = schema(Request{});
     EXPECT_EQ(
         at(json, "/properties/profile"),
@@ -65,7 +65,7 @@ TEST(Schema, OptionalsTakeTheirDefaultFromTheSpecies) {
     EXPECT_EQ(at(schema(request), bend + "/default"), "30");
 }
 
-TEST(Schema, FormsAreTold) {
+TEST(Schema, FormsAreDescribed) {
     const Value json = schema(Request{});
     EXPECT_EQ(
         at(json, "/properties/roots"),

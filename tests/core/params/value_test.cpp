@@ -48,7 +48,7 @@ TEST(Value, RepeatedKeysAreRefusedWithTheirPointer) {
     EXPECT_EQ(faults(R"({"a":1,"\u0061":2})").size(), 1u) << "escapes hide nothing";
 }
 
-TEST(Value, AZeroByteEndsNothing) {
+TEST(Value, AZeroByteDoesNotEndTheText) {
     const auto problems = faults(std::string_view("{}\0{", 4));
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_EQ(problems[0].message, "not JSON: a zero byte at position 2");
@@ -83,7 +83,7 @@ TEST(Value, NumbersThatAreNotFiniteAreRefusedWithTheirPointer) {
     EXPECT_EQ(faults("Infinity").size(), 1u);
 }
 
-TEST(Value, MalformedTextIsToldWithItsPlace) {
+TEST(Value, MalformedTextIsReportedWithItsPlace) {
     const std::vector<Problem> problems = faults("{\"a\":1,\n  b}");
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_EQ(problems[0].path, "");
@@ -146,7 +146,7 @@ TEST(Value, PointersFindValues) {
         EXPECT_EQ(value.at_pointer(none), nullptr) << none;
 }
 
-TEST(Value, IsBuiltByHand) {
+TEST(Value, CanBeBuiltInCode) {
     Value value;
     value.set("a", 1).set("b", Value::array().push("x").push(false)).set("a", 2u);
     EXPECT_EQ(dump(value), R"({"a":2,"b":["x",false]})");

@@ -1,4 +1,5 @@
-// The control of this folder: what the other files get wrong is right here, and it compiles.
+// The control of this folder: it compiles, and differs from the other files only in having no
+// fault.
 #include "core/params/describe.h"
 
 namespace sporeprint {
