@@ -10,7 +10,8 @@
 
 namespace sporeprint {
 
-const std::vector<std::string>& built_in_templates();  // made from core/atlas/*.json at build time
+// generated from core/atlas/*.json at build time
+const std::vector<std::string>& built_in_templates();
 
 Atlas::Atlas(const std::vector<std::string>& json_texts) {
     std::vector<Problem> problems;

@@ -1,4 +1,4 @@
-// The atlas of species: compiled in, or read from a folder. Immutable once made.
+// The atlas of species: compiled in, or read from a folder. It is immutable.
 #pragma once
 
 #include <filesystem>
@@ -19,7 +19,9 @@ struct AtlasEntry {
 
 class Atlas {
   public:
-    /// throws InvalidInput with all problems of all texts, paths prefixed by the species' id
+    /// Parses and validates the templates.
+    ///
+    /// throws  InvalidInput with all problems of all texts, paths prefixed by the species' id
     explicit Atlas(const std::vector<std::string>& json_texts);
 
     [[nodiscard]] const AtlasEntry* find(std::string_view id) const;
@@ -31,10 +33,12 @@ class Atlas {
     std::vector<AtlasEntry> entries_;
 };
 
-/// The species compiled in.
+/// Returns the species that are compiled in.
 [[nodiscard]] std::shared_ptr<const Atlas> built_in_atlas();
 
-/// Every *.json of a folder. throws InvalidInput naming the file
+/// Reads every *.json file of a folder.
+///
+/// throws  InvalidInput naming the file
 [[nodiscard]] std::shared_ptr<const Atlas> atlas_from(const std::filesystem::path& folder);
 
 }  // namespace sporeprint

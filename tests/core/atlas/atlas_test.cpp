@@ -18,7 +18,7 @@
 namespace sporeprint {
 namespace {
 
-/// A folder of one test, gone when the test ends.
+/// A temporary folder of one test, removed when the test ends.
 class Folder {
   public:
     Folder()
@@ -41,7 +41,7 @@ class Folder {
     std::filesystem::path path_;
 };
 
-/// The template of a species with one piece of its text replaced.
+/// Returns the template of a species with one piece of its text replaced.
 std::string edited(const std::string& id, const std::string& from, const std::string& to) {
     std::string json = atlas().find(id)->json;
     const std::size_t at = json.find(from);
@@ -62,7 +62,7 @@ TEST(Atlas, HoldsItsSpeciesSortedById) {
     EXPECT_EQ(atlas().find("zzz"), nullptr);
 }
 
-TEST(Atlas, EverySpeciesLivesFromEggOrButtonToDecay) {
+TEST(Atlas, EverySpeciesHasStagesFromButtonToDecay) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const std::string id = entry.species.id.string();
         const auto& stages = entry.species.stages;
@@ -82,7 +82,7 @@ TEST(Atlas, EverySpeciesLivesFromEggOrButtonToDecay) {
     }
 }
 
-TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
+TEST(Atlas, GrowthIsMonotoneUntilMaturityAndLossesArePermanent) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const std::string id = entry.species.id.string();
         const auto& stages = entry.species.stages;
@@ -93,7 +93,7 @@ TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
             if (const auto* grown = std::get_if<Branched>(&after.shape)) {
                 const LimbStyle &old = grown->limbs,
                                 &young = std::get<Branched>(before.shape).limbs;
-                // Spikes fork as they rise, and no fork closes again.
+                // Branches fork as they rise, and no fork closes again.
                 EXPECT_GE(old.unfolding, young.unfolding) << id << " at " << stages[i].age;
                 EXPECT_EQ(old.unfolding == 1.0, stages[i].age >= 0.6) << id;
                 if (stages[i].age <= 0.6) {
@@ -103,14 +103,16 @@ TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
             }
             const Silhouette &young = std::get<Swept>(before.shape).silhouette,
                              &old = std::get<Swept>(after.shape).silhouette;
-            // Of the whole: rays of an earthstar reach further than the sac that its cap becomes.
+            // The width is that of the whole shape: rays of an earthstar reach further than the sac
+            // that its cap becomes.
             const auto widest = [](const Silhouette& shape) {
                 double r = 0.0;
                 for (const auto* part : {&shape.stem, &shape.hymenium, &shape.cap})
                     for (const OutlinePoint& p : *part) r = std::max(r, p.r);
                 return r;
             };
-            // From what is under the ground, or below the middle of a wall, to the top.
+            // The height is measured from the underground part, or from below the middle of a wall,
+            // to the top.
             const auto tall = [](const Silhouette& shape) {
                 double low = 0.0, high = 0.0;
                 for (const auto* part : {&shape.stem, &shape.hymenium, &shape.cap})
@@ -121,10 +123,10 @@ TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
                 return high - low;
             };
             if (stages[i].age <= 0.6) {
-                // What shoots up from a wide egg is slimmer than it.
+                // A species that grows tall from a wide egg becomes slimmer.
                 EXPECT_TRUE(widest(old) > widest(young) || tall(old) > tall(young))
                     << id << " at " << stages[i].age;
-                // A cup flattens while it widens; rays of an earthstar bend down while they lift it.
+                // A cup flattens while it widens; rays of an earthstar bend down and lift it.
                 EXPECT_TRUE(tall(old) > tall(young) || old.stem.back().y > young.stem.back().y)
                     << id << " at " << stages[i].age;
             } else {
@@ -137,7 +139,7 @@ TEST(Atlas, WhatGrowsGrowsUntilMaturityAndWhatIsLostStaysLost) {
     }
 }
 
-TEST(Atlas, NoOutlineTouchesItselfAtAnyMomentOfALife) {
+TEST(Atlas, NoOutlineTouchesItselfAtAnyAge) {
     for (const AtlasEntry& entry : swept_atlas().entries()) {
         std::vector<ControlShape> shapes;
         for (const Stage& stage : entry.species.stages)
@@ -167,7 +169,7 @@ TEST(Atlas, NoOutlineTouchesItselfAtAnyMomentOfALife) {
     }
 }
 
-TEST(Atlas, IndividualsThatDifferMostAreSoundAtEveryStageAndBetween) {
+TEST(Atlas, ExtremeIndividualsAreValidAtAndBetweenStages) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const auto& stages = entry.species.stages;
         for (std::size_t i = 0; i < stages.size(); ++i)
@@ -204,7 +206,7 @@ TEST(Atlas, AnotherTemplateHasAnotherHash) {
     EXPECT_NE(other.entries()[0].hash, atlas().find("boletus_edulis")->hash);
 }
 
-TEST(Atlas, ProblemsAreToldWithTheIdOfTheirSpecies) {
+TEST(Atlas, ProblemsNameTheirSpecies) {
     const std::string boletus = atlas().find("boletus_edulis")->json;
     EXPECT_TRUE(names(refusal([&] {
                           (void)Atlas({boletus, boletus});
@@ -227,7 +229,7 @@ TEST(Atlas, OrderOfTextsDoesNotMatter) {
         EXPECT_EQ(other.entries()[i].species.id, atlas().entries()[i].species.id);
 }
 
-TEST(Atlas, AFolderIsReadAndOnlyItsTemplates) {
+TEST(Atlas, OnlyTheTemplatesOfAFolderAreRead) {
     const Folder folder;
     folder.write("porcini.json", atlas().find("boletus_edulis")->json);
     folder.write("notes.txt", "not a template");
@@ -236,7 +238,7 @@ TEST(Atlas, AFolderIsReadAndOnlyItsTemplates) {
     EXPECT_EQ(found->entries()[0].species, atlas().find("boletus_edulis")->species);
 }
 
-TEST(Atlas, ABadFolderOrFileIsNamed) {
+TEST(Atlas, InvalidFoldersAndFilesAreNamed) {
     const Folder folder;
     const auto said = [&] { return refusal([&] { (void)atlas_from(folder.path()); }); };
     EXPECT_TRUE(names(said(), folder.path().string(), "no *.json"));

@@ -1,4 +1,5 @@
-// Sizes that are recorded of each species, kept here a second time with where they come from, against what the generator makes.
+// Recorded sizes of each species, kept here a second time with their sources, compared with
+// generated meshes.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -19,10 +20,11 @@ struct Sizes {
     double from, to;
 };
 
-/// Centimetres. Where only the stem is recorded, the height ends above it by the depth of a large cap.
+/// Sizes in centimetres. Where only the stem is recorded, the height ends above it by the depth of
+/// a large cap.
 struct Recorded {
     std::string_view id;
-    Sizes cap;     ///< diameter, to the greatest that is reported; 0 where there is no cap
+    Sizes cap;     ///< diameter, to the greatest that is reported; 0 without a cap
     Sizes height;  ///< of the whole fruit body
     const char* source;
 };
@@ -71,7 +73,7 @@ constexpr std::array recorded = {
     Recorded{"xylaria_hypoxylon", {0, 0}, {3, 8}, "en.wikipedia Xylaria_hypoxylon"},
 };
 
-/// The atlas with straight axes.
+/// Returns the atlas with straight axes.
 const Atlas& straight_atlas() {
     static const Atlas straight = [] {
         std::vector<std::string> texts;
@@ -93,15 +95,16 @@ struct Measured {
     double width = 0.0, height = 0.0;  ///< centimetres
 };
 
-/// Whether a vertex wears the chart of a part.
-bool wears(const glm::vec2& uv, Part part) {
+/// Returns true if a vertex uses the chart of a part.
+bool uses_chart(const glm::vec2& uv, Part part) {
     const Chart& chart = swept_charts[static_cast<std::size_t>(part)];
     return uv.x >= chart.u && uv.x <= chart.u + chart.width && uv.y >= chart.v &&
            uv.y <= chart.v + chart.height;
 }
 
-/// The cap's width and the height of its top, from the vertices that wear the charts of its faces: no ring, volva, bulb, wart or bend.
-/// The rays of an earthstar are faces too. What grows from a wall has its height from its lowest point, not from the ground.
+/// Returns the cap's width and the height of its top, from the vertices that use the charts of its
+/// faces: no ring, volva, bulb, wart or bend. The rays of an earthstar are faces too. A fruit body
+/// on a wall has its height from its lowest point, not from the ground.
 Measured measure(MushroomOrder order) {
     order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
     order = textured(order);
@@ -110,7 +113,7 @@ Measured measure(MushroomOrder order) {
     glm::vec3 low(1e9F), high(-1e9F);
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const glm::vec2 uv = mesh.texture_coordinates[i];
-        if (!wears(uv, Part::cap) && !wears(uv, Part::hymenium)) continue;
+        if (!uses_chart(uv, Part::cap) && !uses_chart(uv, Part::hymenium)) continue;
         low = glm::min(low, mesh.positions[i]);
         high = glm::max(high, mesh.positions[i]);
     }
@@ -127,7 +130,8 @@ TEST(Sizes, FactsLieWithinTheRecord) {
         const std::string id = entry.species.id.string();
         const auto* const row = std::find_if(recorded.begin(), recorded.end(),
                                              [&](const Recorded& one) { return one.id == id; });
-        // A new species is one file, and is measured against its own facts below; those of the record are held against it too.
+        // A new species is one file and is compared with its own facts below; species of the record
+        // are compared with it too.
         if (row == recorded.end()) continue;
         ++known;
         EXPECT_GE(100.0 * facts.height_m.from, row->height.from - rounding) << id;
@@ -140,7 +144,7 @@ TEST(Sizes, FactsLieWithinTheRecord) {
     EXPECT_GE(known, 38U) << "species of the record that the atlas has";
 }
 
-TEST(Sizes, MatureMushroomsLieWithinWhatIsRecorded) {
+TEST(Sizes, MatureMushroomsLieWithinTheRecordedRange) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const Facts& facts = entry.species.facts;
         const std::string id = entry.species.id.string();
@@ -155,20 +159,20 @@ TEST(Sizes, MatureMushroomsLieWithinWhatIsRecorded) {
     }
 }
 
-TEST(Sizes, IndividualsSpanMostOfWhatIsRecordedAndNoMore) {
+TEST(Sizes, IndividualsSpanTheRecordedRange) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const Facts& facts = entry.species.facts;
         const std::string id = entry.species.id.string();
         Sizes width{1e9, 0.0}, height{1e9, 0.0};
         for (std::uint32_t seed = 1; seed <= 96; ++seed) {
-            // Of bushes the second level has lost limbs.
+            // The second level of detail of branched forms omits segments.
             MushroomOrder order = order_of(id, 0.6, seed, is_branched(entry.species) ? 1 : 2);
             order.params.variation = 1.0;
             const Measured size = measure(order);
             width = {std::min(width.from, size.width), std::max(width.to, size.width)};
             height = {std::min(height.from, size.height), std::max(height.to, size.height)};
         }
-        // Shares of logarithms: sizes vary by factors.
+        // The shares are of logarithms, because sizes vary by factors.
         const auto expect_span = [&](const char* what, Sizes made, Range fact) {
             EXPECT_GE(made.from, 100.0 * fact.from) << id << ": " << what;
             EXPECT_LE(made.to, 100.0 * fact.to) << id << ": " << what;
