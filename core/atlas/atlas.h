@@ -11,12 +11,14 @@
 
 namespace sporeprint {
 
+/// One species with its canonical text.
 struct AtlasEntry {
     Species species;
     std::string json;        ///< the template as served: canonical JSON
     std::uint64_t hash = 0;  ///< of `json`
 };
 
+/// The species of an atlas, sorted by id.
 class Atlas {
   public:
     /// Parses and validates the templates.

@@ -84,6 +84,7 @@ struct Tongue {
 /// end: 0 along the margin, 1/4 straight inwards.
 [[nodiscard]] double tongue_ragged(const Tongue& tongue, double turn);
 
+/// Returns the peeled strips of an individual.
 [[nodiscard]] std::vector<Tongue> tongues(std::uint32_t seed);
 
 /// A point of a crack on the young face in polar projection: the distance from the pole in lengths
@@ -93,6 +94,7 @@ struct CrackPoint {
     double along = 0.0;  ///< share of the crack's length, from where it begins to open
 };
 
+/// A crack as a polyline.
 struct Crack {
     std::vector<CrackPoint> points;  ///< two or more
     double onset = 0.0;

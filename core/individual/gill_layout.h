@@ -21,6 +21,7 @@ struct Comb {
     bool operator==(const Comb&) const = default;
 };
 
+/// Returns true for gills and ridges, which are blades.
 [[nodiscard]] constexpr bool is_bladed(HymeniumPattern pattern) {
     return pattern == HymeniumPattern::gills || pattern == HymeniumPattern::ridges;
 }

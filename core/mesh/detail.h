@@ -12,6 +12,7 @@ struct MeshCount {
     std::uint64_t vertices = 0, triangles = 0;
 };
 
+/// The counts of one level of detail.
 struct Detail {
     int stem_rings, hymenium_rings, cap_rings, columns;
     int patch_sides;  ///< corners of a wart or scale; 0: warts and scales are only painted
@@ -34,6 +35,7 @@ inline constexpr std::array<Detail, 4> details = {{
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
+/// Returns the counts of a level of detail, 0..3.
 [[nodiscard]] constexpr const Detail& detail_of(int lod) {
     return details[static_cast<std::size_t>(lod)];
 }

@@ -22,6 +22,7 @@ struct Mesh {
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }
 };
 
+/// An axis-aligned bounding box.
 struct Bounds {
     glm::vec3 min{0.0F};
     glm::vec3 max{0.0F};

@@ -69,6 +69,7 @@ double mean_of(const Shares<T>& shares, bool by_ratio = false) {
     return std::clamp(by_ratio ? exponential(sum) : sum, least, most);
 }
 
+/// Returns the weighted mean of colours in linear light.
 inline Colour blend_colours(const Shares<Colour>& shares) {
     const auto channel = [&](std::uint8_t Colour::*which) {
         double light = 0.0;

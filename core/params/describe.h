@@ -229,6 +229,7 @@ struct Description {
     bool in_bounds = true;   ///< defaults obey their own bounds
 };
 
+/// Returns true if a name is [a-z0-9_]+ and ends in "_deg" exactly if its unit is "deg".
 constexpr bool proper_name(const Info& info) {
     const std::string_view key = info.name;
     for (const char c : key)

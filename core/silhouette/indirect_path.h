@@ -15,6 +15,7 @@ namespace sporeprint {
 /// The shape through which the mix of two stages passes; `none` means linear interpolation.
 enum class Via : std::uint8_t { none, mature, intermediate };
 
+/// The choice of path for every pair of shapes of a set, and the effective weights along it.
 class IndirectPaths {
   public:
     /// The degree in t of the weights of a mix along an indirect path.

@@ -50,6 +50,7 @@ struct Certificate {
 [[nodiscard]] CurveName curve_of(const Intersection& intersection, std::size_t stem_rings,
                                  std::size_t hymenium_rings);
 
+/// A set of outlines that blend without self-intersection; immutable.
 class MorphSet {
   public:
     /// Computes the correspondence of the shapes and the paths by which they blend without
