@@ -124,7 +124,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             std::vector<double> between(set.size());
             for (std::size_t k = 0; k < between.size(); ++k)
                 between[k] = first[k] + (second[k] - first[k]) * i / 8.0;
-            expect_simple(set, between, "no mix on the path crosses itself");
+            expect_simple(set, between, "no mix along the path crosses itself");
         }
         expect(path.detour >= 0.0 && path.detour <= 1.0, "a detour is a share");
         const Certificate whole = set.certificate();

@@ -31,7 +31,7 @@ TEST(IntermediateShape, LiesOnOneSideOfTheAxisForShapesOfEitherDirection) {
             intermediate.cap.back().position.y - intermediate.stem.front().position.y;
         EXPECT_GE(std::abs(rise), 0.01 - 1e-12);
         if (to != 0.0) {
-            EXPECT_GT(rise * to, 0.0) << "a intermediate stands or hangs as its shapes do";
+            EXPECT_GT(rise * to, 0.0) << "the intermediate shape keeps the direction of its shapes";
         }
     }
 }
