@@ -1,4 +1,4 @@
-// Single vertices and triangles at the end of a mesh.
+// Helpers that append single vertices and triangles to a mesh.
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,12 @@
 
 namespace sporeprint {
 
-/// textured    whether the mesh has texture coordinates and tangents; without them the last three are not read
-/// tangent     made unit and square to the normal
-/// handedness  of the tangent space, 1 or -1
+/// Appends one vertex.
+///
+/// textured    whether the mesh has texture coordinates and tangents; otherwise the last three
+///             arguments are ignored
+/// tangent     orthonormalised against the normal before it is stored
+/// handedness  handedness of the tangent space, 1 or -1
 inline void append_vertex(Mesh& mesh, bool textured, const glm::dvec3& position,
                           const glm::dvec3& normal, const glm::dvec3& tangent,
                           const glm::vec2& texture, double handedness = 1.0) {

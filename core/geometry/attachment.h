@@ -1,4 +1,5 @@
-// Where solids of the lower face begin, and how deep they may be there: what gills, ridges, spines and tubes have in common.
+// Where solids of the lower face (gills, ridges, spines, tubes) attach to the flesh, and how deep
+// they may be there.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -8,47 +9,57 @@
 
 namespace sporeprint {
 
-/// How deep a solid may be along the meridian, 0..1: it rises from the stem's skin, slowly where it runs down that, and runs out
-/// towards the margin.
-[[nodiscard]] double envelope(const HymeniumOf<Plain>& h, double share);
+/// Returns the depth limit of a solid at a share of the meridian, 0..1: it rises from the stem
+/// (slowly where the hymenium is decurrent) and falls to 0 at the margin.
+[[nodiscard]] double depth_envelope(const HymeniumOf<Plain>& hymenium, double share);
 
-/// 0..1: how much of what runs down the stem stands out beyond the outline.
-[[nodiscard]] double running_down(const HymeniumOf<Plain>& h);
+/// Returns 0..1: how much of the decurrent part (the part that continues down the stem) stands out
+/// beyond the outline.
+[[nodiscard]] double decurrence(const HymeniumOf<Plain>& hymenium);
 
-/// How much of that depth a species uses where its blades meet the stem; they begin at their gap.
-[[nodiscard]] double attachment(const HymeniumOf<Plain>& h, double share);
+/// Returns the fraction of that depth which a species uses near the stem, according to its
+/// attachment (free, adnexed, sinuate, ...); blades begin at the species' inner gap.
+[[nodiscard]] double attached_depth(const HymeniumOf<Plain>& hymenium, double share);
 
-/// The same of pores and spines, which stand in the gap too, without any depth.
-[[nodiscard]] double carried(const HymeniumOf<Plain>& h, double share);
+/// Returns the same factor for pores and spines, which also stand in the inner gap, with depth 0
+/// there.
+[[nodiscard]] double cell_depth(const HymeniumOf<Plain>& hymenium, double share);
 
-/// Roots of solids on the flesh of one lower face, and the vertices that stand on them.
-class Roots {
+/// Computes where solids attach to the flesh of one lower face, and appends their vertices.
+class Attachment {
   public:
-    Roots(Mesh& mesh, const Individual& individual, const LowerFace& face, const Ground& ground);
+    Attachment(Mesh& mesh, const Individual& individual, const LowerFace& face,
+               const OrnamentContext& context);
 
-    /// Where a solid begins: sunk into the flesh (rooted: 1), or, when all but gone (0), on the very chords that are swept.
-    [[nodiscard]] OutlineSample at(double share, double rooted) const;
+    /// Returns the base point of a solid: sunk into the flesh (embedding 1) or, for a vanishing
+    /// solid (embedding 0), exactly on the chords of the swept mesh.
+    [[nodiscard]] OutlineSample at(double share, double embedding) const;
 
-    /// Where a sample of a sub-curve comes to lie: its meridian becomes the way out of the skin.
-    /// hangs  in its own half-plane, as gills do; else it stands upright on the face
+    /// Returns the world-space point of a sample of a sub-curve; its `meridian` is the outward
+    /// normal of the surface.
+    ///
+    /// in_half_plane  true: the solid stays in its half-plane through the axis, as gills do; false:
+    ///                it stands perpendicular to the face
     [[nodiscard]] SurfacePoint place(Part part, const OutlineSample& sample, double angle,
-                                     const AxisStation& station, bool hangs) const;
+                                     const AxisStation& station, bool in_half_plane) const;
 
-    /// The vertex of the body nearest to a place: between vertices its chords lie off the skin, so that what is left of a solid that
-    /// is all but gone would stand off there.
-    struct Spot {
+    /// A place on the lower face.
+    struct FacePoint {
         double share, angle;
     };
-    [[nodiscard]] Spot vertex_near(double share, double angle) const;
+    /// Returns the vertex of the body nearest to a place. Between vertices the mesh is a chord that
+    /// lies off the surface, so a vanishing solid that stood there would be visible as a gap.
+    [[nodiscard]] FacePoint nearest_vertex(double share, double angle) const;
 
-    /// Appends a vertex of a solid: u from stem to margin, v from its root to its edge.
-    void vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& along,
-                double u, double v, float hand) const;
+    /// Appends a vertex of a solid: u runs from stem to margin, v from the base of the solid to its
+    /// edge.
+    void add_vertex(const glm::dvec3& position, const glm::dvec3& normal, const glm::dvec3& along,
+                    double u, double v, float handedness) const;
 
     Mesh& mesh;
     const Individual& individual;
     const LowerFace& face;
-    const Ground& ground;
+    const OrnamentContext& context;
 
   private:
     std::vector<OutlineSample> flesh_;

@@ -37,7 +37,7 @@ std::vector<glm::dvec3> rotation_minimising_normals(const std::vector<glm::dvec3
         const glm::dvec3 v2 = tangents[i + 1] - tangent;
         const double c2 = glm::dot(v2, v2);
         glm::dvec3 normal = c2 < 1e-24 ? left : left - (2.0 / c2) * glm::dot(v2, left) * v2;
-        // Rounding drifts; the frame stays orthonormal by one Gram-Schmidt step.
+        // One Gram-Schmidt step removes rounding drift, so that the frame stays orthonormal.
         normal -= glm::dot(normal, tangents[i + 1]) * tangents[i + 1];
         normals.push_back(unit(normal));
     }
@@ -50,7 +50,7 @@ Axis::Axis(const AxisCurve& curve, const DeformationOf<Plain>& deformation,
     const std::vector<glm::dvec3> tangents = curve.tangents();
     const auto across = [](double azimuth) {
         const auto [s, c] = sine_cosine(azimuth);
-        return glm::dvec3(s, 0.0, -c);  // turning about this tips +Y towards (c, 0, s)
+        return glm::dvec3(s, 0.0, -c);  // a rotation about this tips +Y towards (c, 0, s)
     };
     const glm::dvec3 bend_about = across(angles.bend), lean_about = across(angles.lean);
     const double bend = radians(deformation.bend_deg), lean = radians(deformation.lean_deg);
@@ -75,7 +75,7 @@ Axis::Axis(const AxisCurve& curve, const DeformationOf<Plain>& deformation,
         greatest_curvature_ =
             std::max(greatest_curvature_, std::sqrt(glm::dot(change, change)) * stations / length);
     }
-    // The first frame is the upright one, tipped the shortest way.
+    // The first frame is the upright frame under the shortest rotation.
     const glm::dvec3 up(0.0, 1.0, 0.0);
     const glm::dvec3 axis = glm::cross(up, directions.front());
     const double sine_of_tip = std::sqrt(glm::dot(axis, axis));
@@ -121,7 +121,8 @@ AxisStation Axis::at(double height) const {
     AxisStation station = frozen_at(height);
     const double inside = station.height;
     if (height >= base_ && height <= top_) {
-        // A central difference of a smooth map in double precision: exact to 1e-9, and the same on every machine.
+        // Central difference of a smooth map in double precision: exact to 1e-9, and the same on
+        // every machine.
         const double step = 1e-5 * (top_ - base_);
         const double low = std::max(inside - step, base_), high = std::min(inside + step, top_);
         const Local below = local(low), above = local(high);

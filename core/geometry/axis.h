@@ -1,4 +1,5 @@
-// The axis S of a mushroom: a curve with rotation-minimising frames that carries the outline, bent, twisted and leaning.
+// The axis S of a mushroom: a curve with rotation-minimising frames along which the outline is
+// swept; it bends, twists and leans.
 #pragma once
 
 #include <glm/vec3.hpp>
@@ -9,23 +10,24 @@
 
 namespace sporeprint {
 
-/// Where the axis takes the plane of one height, and how fast that changes with height. Exact to first order.
+/// Image of the plane of one height under the axial map, with its derivative by height; exact to
+/// first order.
 struct AxisStation {
     glm::dvec3 origin, x, y,
-        z;  ///< images of the axis point and of the unit vectors; x and z carry twist and taper
-    glm::dvec3 d_origin, d_x, d_z;  ///< their derivatives by height
-    double height = 0.0;  ///< the height this station stands for, inside the axis' own span
+        z;  ///< images of the axis point and of the unit vectors; x and z include twist and taper
+    glm::dvec3 d_origin, d_x, d_z;  ///< derivatives by height
+    double height = 0.0;            ///< the height of this station, clamped to the span of the axis
 
     [[nodiscard]] glm::dvec3 point(const glm::dvec3& p) const {
         return origin + p.x * x + (p.y - height) * y + p.z * z;
     }
-    /// Image of a direction at p: the Jacobian of the axial map.
+    /// Returns the image of a direction at p under the Jacobian of the axial map.
     [[nodiscard]] glm::dvec3 direction(const glm::dvec3& p, const glm::dvec3& v) const {
         return v.x * x + v.z * z + v.y * (d_origin + p.x * d_x + p.z * d_z);
     }
 };
 
-/// Directions drawn for one individual, radians round the vertical.
+/// Random azimuths of bend and lean of one individual, radians round the vertical.
 struct AxisAngles {
     double bend = 0.0;
     double lean = 0.0;
@@ -33,18 +35,21 @@ struct AxisAngles {
 
 class Axis {
   public:
-    /// curve     the individual's own, before it bends and leans; it is given the stem's length
-    /// base, top heights between which the stem lives, metres, top > base; above the top the frame is frozen, so caps stay rigid
-    /// source    [Lazarus1994] axial deformation; [Wang2008] double reflection; zone of influence along the axis
+    /// curve      axis of the individual before bend and lean; it is scaled to the length of the
+    ///            stem
+    /// base, top  heights of the ends of the stem, metres, top > base; above `top` the frame is
+    ///            constant, so caps stay rigid
+    /// source     [Lazarus1994] axial deformation; [Wang2008] double reflection; zone of influence
+    ///            along the axis
     Axis(const AxisCurve& curve, const DeformationOf<Plain>& deformation, const AxisAngles& angles,
          double base, double top);
 
     [[nodiscard]] AxisStation at(double height) const;
 
-    /// The same place as a rigid frame: what is attached there keeps its shape.
+    /// Returns the same station as a rigid frame, so that what is attached there keeps its shape.
     [[nodiscard]] AxisStation frozen_at(double height) const;
 
-    /// Largest curvature, 1/m: a stem of radius r folds where curvature * r >= 1.
+    /// Returns the largest curvature, 1/m: a stem of radius r folds where curvature * r >= 1.
     [[nodiscard]] double greatest_curvature() const { return greatest_curvature_; }
 
   private:
@@ -62,11 +67,12 @@ class Axis {
     double greatest_curvature_ = 0.0;
 };
 
-/// Carries a unit normal along a curve without twist.
+/// Transports a unit normal along a curve without twist.
 ///
-/// positions, tangents  N >= 1 samples, unit tangents; first  unit normal at the first sample
-/// returns  N unit normals. error O(h^4)
-/// source   [Wang2008] sec. 4, double reflection
+/// positions, tangents  N >= 1 samples, unit tangents
+/// first                unit normal at the first sample
+/// returns              N unit normals; the error is O(h^4)
+/// source               [Wang2008] sec. 4, double reflection
 [[nodiscard]] std::vector<glm::dvec3> rotation_minimising_normals(
     const std::vector<glm::dvec3>& positions, const std::vector<glm::dvec3>& tangents,
     const glm::dvec3& first);

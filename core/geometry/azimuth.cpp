@@ -13,15 +13,15 @@ namespace {
 
 constexpr double least_columns_per_lobe = 2.5;
 constexpr double gather = 0.45;  // how far columns turn towards the front of a fan, radians
-constexpr double crowd = 0.40;   // and then to its sides, where it turns back to the wall
-constexpr double back = 0.06;    // reach of a fan towards what it grows on
-constexpr double blunt = 0.15;   // roundness of the points of lobes
+constexpr double crowd = 0.40;   // how far they then turn to its sides, where the fan curves back
+constexpr double back = 0.06;    // reach of a fan towards its substrate
+constexpr double blunt = 0.15;   // roundness of the tips of lobes
 
-/// How much nearer to the core a place moves (see the class) and the derivatives of that.
+/// Factor m by which a place moves towards the core (see the class), and its derivatives.
 struct Pull {
-    double value = 1.0, slope = 1.0;  ///< m, and that of q m by q
-    double by_share = 0.0;            ///< of m by q
-    double by_reach = 0.0;            ///< of m by K
+    double value = 1.0, slope = 1.0;  ///< m, and the derivative of q m by q
+    double by_share = 0.0;            ///< derivative of m by q
+    double by_reach = 0.0;            ///< derivative of m by K
 };
 
 Pull pull_at(double q, double reach) {
@@ -35,7 +35,8 @@ Pull pull_at(double q, double reach) {
             k_by * (1.0 - near) + (1.0 - k) * near * near * (q / (s * s)) * s_by};
 }
 
-/// How far between a lobe's crest (0) and the notch beside it (1), by the cosine u of its phase: -1 on the crest, 1 in the notch.
+/// Position between a lobe's crest (0) and the notch beside it (1) as a function of u, the cosine
+/// of its phase: u is -1 on the crest and 1 in the notch.
 struct Notch {
     double value, by_cosine;
 };
@@ -43,7 +44,8 @@ struct Notch {
 Notch notch_at(double u, double sharpness) {
     const double scale = 1.0 / (std::sqrt(1.0 + blunt * blunt) - blunt);
     const double sharp = std::abs(sharpness);
-    // Crests as pointed as rays, or notches as sharp as between scallops; half-way a cosine.
+    // Positive sharpness gives crests as pointed as rays, negative notches as sharp as between
+    // scallops; 0 is a cosine.
     const double side = sharpness > 0.0 ? u : -u;
     const double root = std::sqrt(0.5 * (1.0 + side) + blunt * blunt);
     const double tent = (root - blunt) * scale, tent_by = 0.25 * scale / root;
@@ -98,7 +100,7 @@ AzimuthMap::Reach AzimuthMap::lobe_at(const Layer& layer, double angle) const {
     const double n = form.lobes, uneven = n * form.lobe_uneven;
     const auto one = sine_cosine(angle + first_), two = sine_cosine(2.0 * angle + second_),
                low = sine_cosine(2.0 * angle + third_);
-    // The phase rises with the angle: its derivative is at least 0.35 n.
+    // The phase increases with the angle: its derivative is at least 0.35 n.
     const double phase = n * angle + phase_ + uneven * (0.25 * one.sine + 0.2 * two.sine);
     const double phase_by = n + uneven * (0.25 * one.cosine + 0.4 * two.cosine);
     const auto turn = sine_cosine(phase);
@@ -112,7 +114,8 @@ AzimuthMap::Reach AzimuthMap::lobe_at(const Layer& layer, double angle) const {
 
 AzimuthMap::Reach AzimuthMap::fan_at(const SineCosine& direction, double turning) const {
     if (!has_fan_) return {};
-    // The front is +z. A fan is an ellipse between two lines that run back from its front, beside the axis.
+    // The front is +z. A fan is an ellipse between two lines that run back from its front, beside
+    // the axis.
     const double x = direction.cosine, z = direction.sine, x_by = -z, z_by = x;
     const double wide = azimuth_.width * azimuth_.width;
     const double ellipse = 1.0 / std::sqrt(z * z + x * x / wide);
@@ -137,7 +140,8 @@ AzimuthMap::Column AzimuthMap::column(double angle) const {
     column.to = column.from;
     double to = angle;
     if (has_fan_) {
-        // Towards the front; from there to both sides; and with these a little backwards, to where it meets the wall.
+        // Columns turn towards the front, then from there to both sides, and with these slightly
+        // backwards to the substrate.
         const double turn = gather * azimuth_.lateral;
         const double beside = crowd * azimuth_.lateral * (2.0 - azimuth_.lateral);
         const double nearer = angle + turn * column.from.cosine;
@@ -166,7 +170,7 @@ AzimuthMap::Place AzimuthMap::placed(double r, double y, const Column& column) c
         const double out = place.r - core;
         if (out <= 0.0) continue;
         const Pull pull = pull_at(out / width, reach.value);
-        // How m changes with the place that the layers before have moved to, and with the angle.
+        // Derivatives of m by the position after the previous layers, and by the angle.
         const double by_out = pull.by_share / width, by_angle = pull.by_reach * reach.by_angle;
         const double up = place.y - layers_[k].root, share = form.lobe_pull;
         const double pulled = 1.0 + share * (pull.value - 1.0);

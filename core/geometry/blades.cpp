@@ -16,25 +16,27 @@ namespace sporeprint {
 
 namespace {
 
-// Rows of a blade on the face: equal in all but crowded sets, or a mix would not end where its species begin.
+// Rows of a blade on the face. They are equal in all but large sets, so that weight 1 reproduces
+// the single-species mesh.
 constexpr int face_segments = 6, least_segments = 3, stem_segments = 2;
 constexpr int most_blade_triangles = 36000;
 constexpr std::size_t row_corners = 6;
-constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from ridge to ridge
+constexpr std::array<double, 4> vein_rows = {0.1, 0.22, 0.78, 0.9};  // from one ridge to the next
 constexpr int vein_segments = 3, least_veins = 100, most_veins = 400;
 
-// Share of the stem's length from which on blades stand on its skin: no species of the atlas that has them there has less.
+// Decurrence from which on blades stand on the stem's surface, as a share of its length: all
+// decurrent species of the atlas have more.
 constexpr double least_decurrence = 0.01;
 
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
-/// Cross veins of one species that are built, whatever of them is there.
+/// Returns the cross veins of one species that are built, absent ones included.
 std::vector<CrossVein> built_veins(const SpeciesShare& part, const BladeBudget& shares,
                                    std::uint32_t seed) {
     std::vector<CrossVein> built;
     if (part.model.surface.hymenium.pattern != HymeniumPattern::ridges) return built;
-    const HymeniumOf<Plain>& h = part.model.hymenium;
-    const std::vector<CrossVein> all = cross_veins(h.blades, h.forking, seed);
+    const HymeniumOf<Plain>& hymenium = part.model.hymenium;
+    const std::vector<CrossVein> all = cross_veins(hymenium.blades, hymenium.forking, seed);
     for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(shares.vein_stride))
         built.push_back(all[i]);
     return built;
@@ -49,7 +51,7 @@ int built_vein_count(const Individual& individual, int stride) {
     return count;
 }
 
-/// The tier that a slot belongs to when all tiers are filled; -1 for blades that reach the stem.
+/// Returns the tier of a slot when all tiers are filled; -1 for blades that reach the stem.
 int tier_of(int slot, int tiers) {
     if (slot % (1 << tiers) == 0) return -1;
     int zeros = 0;
@@ -57,7 +59,8 @@ int tier_of(int slot, int tiers) {
     return tiers - 1 - zeros;
 }
 
-/// Visits the slots that are built. All have as many rows: what reaches the stem in one species may be short in another.
+/// Visits the slots that are built. All have the same number of rows, because a blade that reaches
+/// the stem in one species may be short in another.
 template <class Work>
 void for_each_blade(const Individual& individual, const BladeBudget& shares, const Work& work) {
     const int slots = individual.comb.blades << individual.blade_tiers;
@@ -66,11 +69,12 @@ void for_each_blade(const Individual& individual, const BladeBudget& shares, con
     }
 }
 
-/// A species' blades on the slots of the set. A slot says only which blades of two species are one; each stands at its own place, so
-/// that a corner is the species itself, and no blade is farther from its slot than half-way to the next.
-struct Wearer {
+/// The blades of one species on the slots of the set. A slot only says which blades of two species
+/// correspond; each blade stands at its own place, so that weight 1 reproduces the species itself,
+/// and no blade is farther from its slot than half the distance to the next.
+struct SpeciesBlades {
     double weight;
-    const HymeniumOf<Plain>* h;
+    const HymeniumOf<Plain>* hymenium;
     bool ridges;
     BladeRow row;
 
@@ -79,21 +83,21 @@ struct Wearer {
     }
 };
 
-std::vector<Wearer> wearers(const Individual& individual) {
-    std::vector<Wearer> out;
+std::vector<SpeciesBlades> species_blades(const Individual& individual) {
+    std::vector<SpeciesBlades> out;
     for (const SpeciesShare& part : individual.parts) {
         const HymeniumPattern pattern = part.model.surface.hymenium.pattern;
         if (!is_bladed(pattern) || part.weight <= 0.0) continue;
-        const HymeniumOf<Plain>& h = part.model.hymenium;
-        out.push_back({part.weight, &h, pattern == HymeniumPattern::ridges,
-                       BladeRow(stand_on(0, pattern, h.blades, h.tiers), pattern, h.forking,
-                                individual.effective.seed,
+        const HymeniumOf<Plain>& hymenium = part.model.hymenium;
+        out.push_back({part.weight, &hymenium, pattern == HymeniumPattern::ridges,
+                       BladeRow(stand_on(0, pattern, hymenium.blades, hymenium.tiers), pattern,
+                                hymenium.forking, individual.effective.seed,
                                 individual.comb.blades << individual.blade_tiers)});
     }
     return out;
 }
 
-/// How a blade strays to its sides along the meridian.
+/// Sideways displacement of a blade along the meridian.
 struct Ripple {
     double size, pitch, phase, other;
 
@@ -111,73 +115,79 @@ struct Ripple {
 
 class Builder {
   public:
-    explicit Builder(const Roots& roots)
-        : roots_(roots), individual_(roots.individual), face_(roots.face), ground_(roots.ground) {}
+    explicit Builder(const Attachment& attachment)
+        : attachment_(attachment),
+          individual_(attachment.individual),
+          face_(attachment.face),
+          context_(attachment.context) {}
 
     void blades(const BladeBudget& shares);
     void veins(const BladeBudget& shares);
 
   private:
-    /// One cross-section of a blade: a place on its root, and which way it is deep and thick.
+    /// One cross-section of a blade: its base point, with the directions of depth and thickness.
     struct Row {
-        SurfacePoint root;  ///< meridian: the way it is deep; azimuth: the way it is thick
+        SurfacePoint root;  ///< meridian: direction of depth; azimuth: direction of thickness
         double share = 0.0, height = 0.0, half = 0.0, stray = 0.0;
     };
-    /// The same before it has a place in space.
+    /// The same in coordinates of the face, before it is placed in space.
     struct Plan {
-        double along = 0.0;  ///< metres from the stem's top along the face; below 0 down the stem
-        double buried =
-            0.0;  ///< 0..1: how far a root on the stem stands in the flesh, as on the face
+        /// Metres from the top of the stem along the face; below 0 down the stem.
+        double along = 0.0;
+        /// 0..1: how far a base point on the stem is sunk into the flesh, as on the face.
+        double buried = 0.0;
         double angle = 0.0, height = 0.0, half = 0.0, stray = 0.0;
     };
-    void row(const Plan& plan, double rooted);
+    void row(const Plan& plan, double embedding);
     void append(double shoulder, double waist, bool drawn);
 
-    const Roots& roots_;
+    const Attachment& attachment_;
     const Individual& individual_;
     const LowerFace& face_;
-    const Ground& ground_;
+    const OrnamentContext& context_;
     std::vector<Plan> plans_;
     std::vector<Row> rows_;
 };
 
-// Roots are sunk into the flesh; those of blades that are all but gone less so (rooted: 1 to 0), or what is left of another species
-// would stay under the skin until the last.
-void Builder::row(const Plan& plan, double rooted) {
+// Base points are sunk into the flesh; those of vanishing blades less so (embedding 1 to 0),
+// otherwise the rest of an absent species would stay visible under the surface.
+void Builder::row(const Plan& plan, double embedding) {
     Row row;
     row.half = plan.half;
-    const SubCurve& stem = ground_.outline.stem;
+    const SubCurve& stem = context_.outline.stem;
     if (plan.along < 0.0) {
         OutlineSample root = stem.at(1.0 + plan.along / stem.length());
         const double deep = std::min(0.3 * plan.height, 0.05 * root.r);
         row.height = plan.height + deep;
         const AxisStation station =
-            ground_.deformer.station(root.share == 1.0 ? ground_.deformer.top() : root.y);
+            context_.deformer.station(root.share == 1.0 ? context_.deformer.top() : root.y);
         root.r -= deep * root.tangent_y;
         root.y += deep * root.tangent_r;
-        const OutlineSample inner = roots_.at(0.0, rooted), skin = stem.at(1.0);
-        root.r += plan.buried * (inner.r - skin.r);
-        root.y += plan.buried * (inner.y - skin.y);
-        row.root = roots_.place(Part::stem, root, plan.angle, station, true);
+        const OutlineSample inner = attachment_.at(0.0, embedding), stem_end = stem.at(1.0);
+        root.r += plan.buried * (inner.r - stem_end.r);
+        root.y += plan.buried * (inner.y - stem_end.y);
+        row.root = attachment_.place(Part::stem, root, plan.angle, station, true);
     } else {
         const double whole = plan.along / std::max(face_.length(), 1e-12);
         // Where the margin is cut back, blades end with it.
-        const double share = ground_.cuts.lower(whole, plan.angle);
-        const double deep = rooted * face_.at(share).sink;
+        const double share = context_.cuts.lower(whole, plan.angle);
+        const double deep = embedding * face_.at(share).sink;
         row.share = whole;
         row.height =
             plan.height + deep * std::min(1.0, plan.height / (0.01 * face_.length() + 1e-12));
         row.stray = plan.stray;
-        row.root = roots_.place(Part::hymenium, roots_.at(share, rooted), plan.angle,
-                                ground_.deformer.frozen_station(ground_.deformer.top()), true);
+        row.root =
+            attachment_.place(Part::hymenium, attachment_.at(share, embedding), plan.angle,
+                              context_.deformer.frozen_station(context_.deformer.top()), true);
     }
     rows_.push_back(row);
 }
 
-// Six corners a row: root, shoulder and tip of one face, tip, shoulder and root of the other. The first and the last row have no
-// thickness, so that both faces meet there and the solid is closed.
+// A row has six corners: root, shoulder and tip of one face; tip, shoulder and root of the other.
+// The first and the last row have no thickness, so that both faces meet there and the solid is
+// closed.
 void Builder::append(double shoulder, double waist, bool drawn) {
-    const auto first = static_cast<std::uint32_t>(roots_.mesh.positions.size());
+    const auto first = static_cast<std::uint32_t>(attachment_.mesh.positions.size());
     for (std::size_t j = 0; j < rows_.size(); ++j) {
         const Row& row = rows_[j];
         const glm::dvec3 &root = row.root.position, &deep = row.root.meridian,
@@ -193,12 +203,12 @@ void Builder::append(double shoulder, double waist, bool drawn) {
         const glm::dvec3 leaning = unit_or(side + 0.4 * down, side),
                          other = unit_or(-side + 0.4 * down, -side);
         const double u = row.share;
-        roots_.vertex(root - half * thick, side, along, u, 0.0, -1.0F);
-        roots_.vertex(middle - waist * half * thick, leaning, along, u, shoulder, -1.0F);
-        roots_.vertex(tip, down, along, u, 1.0, -1.0F);
-        roots_.vertex(tip, down, along, u, 1.0, 1.0F);
-        roots_.vertex(middle + waist * half * thick, other, along, u, shoulder, 1.0F);
-        roots_.vertex(root + half * thick, -side, along, u, 0.0, 1.0F);
+        attachment_.add_vertex(root - half * thick, side, along, u, 0.0, -1.0F);
+        attachment_.add_vertex(middle - waist * half * thick, leaning, along, u, shoulder, -1.0F);
+        attachment_.add_vertex(tip, down, along, u, 1.0, -1.0F);
+        attachment_.add_vertex(tip, down, along, u, 1.0, 1.0F);
+        attachment_.add_vertex(middle + waist * half * thick, other, along, u, shoulder, 1.0F);
+        attachment_.add_vertex(root + half * thick, -side, along, u, 0.0, 1.0F);
     }
     std::vector<std::array<std::uint32_t, 3>> faces;
     const auto last = static_cast<std::uint32_t>(rows_.size()) - 2;
@@ -212,8 +222,9 @@ void Builder::append(double shoulder, double waist, bool drawn) {
         if (j > 0) faces.push_back({here + 5, next, here});
         if (j < last) faces.push_back({here + 5, next + 5, next});
     }
-    // Where a fan turns back to its wall, a blade may run the other way round the axis than its thickness points.
-    Mesh& mesh = roots_.mesh;
+    // Where a fan turns back to its substrate, a blade may run round the axis against its thickness
+    // direction; then both sides are swapped.
+    Mesh& mesh = attachment_.mesh;
     double volume = 0.0;
     const glm::dvec3 origin(mesh.positions[first]);
     for (const auto& [a, b, c] : faces)
@@ -235,19 +246,21 @@ void Builder::append(double shoulder, double waist, bool drawn) {
 }
 
 void Builder::blades(const BladeBudget& shares) {
-    const std::vector<Wearer> all = wearers(individual_);
+    const std::vector<SpeciesBlades> all = species_blades(individual_);
     const int slots = individual_.comb.blades << individual_.blade_tiers;
     const double length = face_.length();
-    const SubCurve& stem = ground_.outline.stem;
-    // Blades are as thick all along, but where they crowd at the stem.
+    const SubCurve& stem = context_.outline.stem;
+    // Blades have the same thickness along their length, except where they are close together at
+    // the stem.
     const double rim = face_.at(1.0).r;
     double half_sum = 0.0, blunt = 0.0, weight = 0.0, reaching = 0.0;
-    for (const Wearer& w : all) {
+    for (const SpeciesBlades& w : all) {
         const double gap = 2.0 * pi * rim /
-                           static_cast<double>(w.ridges ? w.h->blades : w.h->blades << w.h->tiers);
-        half_sum += w.weight * 0.5 * w.h->thickness * gap;
+                           static_cast<double>(w.ridges ? w.hymenium->blades
+                                                        : w.hymenium->blades << w.hymenium->tiers);
+        half_sum += w.weight * 0.5 * w.hymenium->thickness * gap;
         blunt += w.weight * (w.ridges ? 1.0 : 0.0);
-        reaching += w.weight * w.h->blades;
+        reaching += w.weight * w.hymenium->blades;
         weight += w.weight;
     }
     const double per = weight > 0.0 ? 1.0 / weight : 0.0;
@@ -258,16 +271,17 @@ void Builder::blades(const BladeBudget& shares) {
     for_each_blade(individual_, shares, [&](int slot) {
         double present = 0.0, begin = 0.0, down = 0.0, runs = 0.0;
         ripples.clear();
-        for (const Wearer& w : all) {
+        for (const SpeciesBlades& w : all) {
             const Blade& blade = w.on(slot);
             const double here = w.weight * blade.presence;
-            ripples.emplace_back(individual_.effective.seed, blade.number, here * w.h->edge_waves);
+            ripples.emplace_back(individual_.effective.seed, blade.number,
+                                 here * w.hymenium->edge_waves);
             present += here;
-            begin += here * std::max(blade.begin, w.h->inner_gap);
+            begin += here * std::max(blade.begin, w.hymenium->inner_gap);
             if (blade.begin > 0.0) continue;
-            down += here * w.h->decurrent;
-            // What stands out beyond the outline where blades run down the stem.
-            runs += here * running_down(*w.h) * w.h->depth;
+            down += here * w.hymenium->decurrent;
+            // Depth that stands out beyond the outline where blades are decurrent.
+            runs += here * decurrence(*w.hymenium) * w.hymenium->depth;
         }
         const double each = present > 0.0 ? 1.0 / present : 0.0;
         begin = present > 0.0 ? std::min(begin * each, 0.97) : 0.5;
@@ -276,57 +290,60 @@ void Builder::blades(const BladeBudget& shares) {
         const auto angle_at = [&](double share) {
             if (present <= 0.0) return 2.0 * pi * even;
             double turn = 0.0;
-            for (const Wearer& w : all) {
+            for (const SpeciesBlades& w : all) {
                 const Blade& blade = w.on(slot);
                 if (blade.presence <= 0.0) continue;
-                // The first blade stands on both sides of the seam.
+                // The first blade stands on both sides of the seam, so its turn is taken modulo 1.
                 const double own = w.row.turn(blade, share);
                 turn += w.weight * blade.presence * (own - std::floor(own - even + 0.5));
             }
             return 2.0 * pi * turn * each;
         };
-        // No steeper than a taper where they run down but a little.
+        // The height of a slightly decurrent blade is limited to that of a taper.
         const double beyond =
             shares.below > 0 ? std::min(0.55 * length * runs, 0.3 * down * stem.length()) : 0.0;
         plans_.clear();
         double most = 0.0;
-        // Down the stem and up to where the blade begins on the face, for those that do.
+        // Rows on the stem, up to where the blade begins on the face, for decurrent blades.
         for (int j = 0; j < shares.below; ++j) {
             const double up = static_cast<double>(j) / shares.below;
             Plan plan;
             plan.along = begin * length - down * stem.length() * (1.0 - up);
             plan.height = beyond * smooth_step(0.0, 1.0, up);
-            // What hardly runs down begins where it does in a species that does not: in the flesh.
+            // A blade that is hardly decurrent begins in the flesh, where it does in a species that
+            // is not.
             plan.buried = std::max(0.0, 1.0 - down / least_decurrence);
             plans_.push_back(plan);
         }
-        // Rows crowd where a blade rises at the stem.
+        // Rows are denser where a blade rises at the stem.
         const double crowding = 0.65 * smooth_step(0.0, 1.0, (0.3 - begin) / 0.3);
         for (int j = 0; j <= shares.segments; ++j) {
             const double t = static_cast<double>(j) / shares.segments;
             const double share = begin + (1.0 - begin) * (t + crowding * (t * t - t));
             Plan plan;
             plan.along = share * length;
-            for (const Wearer& w : all) {
+            for (const SpeciesBlades& w : all) {
                 const Blade& blade = w.on(slot);
                 if (blade.presence <= 0.0) continue;
                 const double rise = blade.rise > 0.0
                                         ? smooth_step(0.0, 1.0, 0.85 * (share - begin) / blade.rise)
                                         : 1.0;
-                plan.height += w.weight * blade.presence * rise * w.h->depth *
-                               attachment(*w.h, share) * envelope(*w.h, share);
+                plan.height += w.weight * blade.presence * rise * w.hymenium->depth *
+                               attached_depth(*w.hymenium, share) *
+                               depth_envelope(*w.hymenium, share);
             }
             plan.height *= length * face_.at(share).scale;
             plan.height += beyond * (1.0 - smooth_step(0.0, 1.0, share / 0.25));
             plans_.push_back(plan);
         }
         for (const Plan& plan : plans_) most = std::max(most, plan.height);
-        // A blade that is all but gone is as thin and short, and stands no deeper in the flesh.
+        // A vanishing blade also becomes thin and short, and is sunk less deep into the flesh.
         const auto left = [&](double full) {
             return std::min(1.0, most / (full * length + 1e-12));
         };
         const double own_middle = 0.4 * begin + 0.6;
-        const Roots::Spot rest = roots_.vertex_near(own_middle, angle_at(own_middle));
+        const Attachment::FacePoint rest =
+            attachment_.nearest_vertex(own_middle, angle_at(own_middle));
         const double middle = length * (rest.share + left(0.003) * (own_middle - rest.share));
         for (Plan& plan : plans_) {
             plan.along = middle + left(0.015) * (plan.along - middle);
@@ -339,31 +356,33 @@ void Builder::blades(const BladeBudget& shares) {
                 if (one.size > 0.0) ripple += one.at(share);
             plan.angle = rest.angle + left(0.003) * (angle_at(share) - rest.angle);
             plan.half = left(0.004) * std::min(half_all, room);
-            // A blade that does not run down the stem begins on the face as sharp as where no species of the set does.
+            // A blade that is not decurrent begins on the face as sharp as in a set without
+            // decurrent species.
             if (&plan - plans_.data() <= shares.below) plan.half *= std::min(1.0, 12.0 * down);
             plan.stray = left(0.004) * 0.275 * each * std::min(room, 3.0 * half_all) * ripple *
                          smooth_step(0.0, 1.0, share / 0.15) *
                          smooth_step(0.0, 1.0, (1.0 - share) / 0.2);
             row(plan, left(0.01));
         }
-        append(shoulder, waist, most > 0.0 || ground_.keep_absent);
+        append(shoulder, waist, most > 0.0 || context_.keep_absent);
     });
 }
 
-// A vein is a low blade across the gap: both its ends are inside the ridges that it joins.
+// A vein is a low blade across the gap: both its ends lie inside the ridges that it joins.
 void Builder::veins(const BladeBudget& shares) {
     const double length = face_.length();
     const std::uint32_t seed = individual_.effective.seed;
     for (const SpeciesShare& part : individual_.parts) {
-        const HymeniumOf<Plain>& h = part.model.hymenium;
+        const HymeniumOf<Plain>& hymenium = part.model.hymenium;
         const std::vector<CrossVein> all = built_veins(part, shares, seed);
         if (all.empty()) continue;
-        const BladeRow row_of(stand_on(0, HymeniumPattern::ridges, h.blades, h.tiers),
-                              HymeniumPattern::ridges, h.forking, seed, h.blades << h.tiers);
-        const double half = vein_width * length / cross_vein_rows(h.blades);
+        const BladeRow row_of(stand_on(0, HymeniumPattern::ridges, hymenium.blades, hymenium.tiers),
+                              HymeniumPattern::ridges, hymenium.forking, seed,
+                              hymenium.blades << hymenium.tiers);
+        const double half = vein_width * length / cross_vein_rows(hymenium.blades);
         for (const CrossVein& vein : all) {
             plans_.clear();
-            const double full = part.weight * vein.height * 0.45 * length * h.depth;
+            const double full = part.weight * vein.height * 0.45 * length * hymenium.depth;
             double most = 0.0;
             for (int j = 0; j <= vein_segments; ++j) {
                 const double t = vein_rows[static_cast<std::size_t>(j)];
@@ -372,8 +391,8 @@ void Builder::veins(const BladeBudget& shares) {
                 Plan plan;
                 plan.along = share * length;
                 plan.angle = 2.0 * pi * row_of.turn({.from = gaps, .to = gaps}, share);
-                plan.height =
-                    full * attachment(h, share) * envelope(h, share) * face_.at(share).scale;
+                plan.height = full * attached_depth(hymenium, share) *
+                              depth_envelope(hymenium, share) * face_.at(share).scale;
                 plan.half = half;
                 most = std::max(most, plan.height);
                 plans_.push_back(plan);
@@ -381,8 +400,8 @@ void Builder::veins(const BladeBudget& shares) {
             const auto left = [&](double whole) {
                 return std::min(1.0, most / (whole * length + 1e-12));
             };
-            const Roots::Spot rest =
-                roots_.vertex_near(vein.share, 0.5 * (plans_[1].angle + plans_[2].angle));
+            const Attachment::FacePoint rest =
+                attachment_.nearest_vertex(vein.share, 0.5 * (plans_[1].angle + plans_[2].angle));
             for (Plan& plan : plans_) {
                 plan.along = length * rest.share + left(0.006) * (plan.along - length * rest.share);
                 plan.angle = rest.angle + left(0.006) * (plan.angle - rest.angle);
@@ -392,12 +411,12 @@ void Builder::veins(const BladeBudget& shares) {
             for (std::size_t j = 0; j < rows_.size(); ++j) {
                 const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
                                          rows_[j == 0 ? 0 : j - 1].root.position;
-                // A vein is thick along the meridian; its image runs along itself.
+                // A vein is thick along the meridian; its texture runs along its length.
                 rows_[j].share = vein.share + 0.06 * (static_cast<double>(j) / vein_segments - 0.5);
                 rows_[j].root.azimuth =
                     unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
             }
-            append(0.7, 0.85, most > 0.0 || ground_.keep_absent);
+            append(0.7, 0.85, most > 0.0 || context_.keep_absent);
         }
     }
 }
@@ -409,12 +428,13 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     while (built_vein_count(individual, shares.vein_stride) > most_veins) ++shares.vein_stride;
     shares.veins = built_vein_count(individual, shares.vein_stride);
     const Comb& comb = individual.comb;
-    const int budget = beside_pores ? most_blade_triangles / 6 : most_blade_triangles;
+    const int max_triangles = beside_pores ? most_blade_triangles / 6 : most_blade_triangles;
     shares.tiers = individual.blade_tiers;
     shares.below = individual.runs_down ? stem_segments : 0;
-    // Rows down the stem go first, then the shortest blades.
+    // Rows on the stem are dropped first, then the shortest blades.
     const auto too_many = [&] {
-        return (comb.blades << shares.tiers) * triangles_of(face_segments + shares.below) > budget;
+        return (comb.blades << shares.tiers) * triangles_of(face_segments + shares.below) >
+               max_triangles;
     };
     while (shares.below > 1 && too_many()) --shares.below;
     while (shares.tiers > 0 && too_many()) --shares.tiers;
@@ -446,9 +466,9 @@ MeshCount solid_count(const Individual& individual, const BladeBudget& budget) {
     return count;
 }
 
-void add_blades(const Roots& roots, const BladeBudget& budget) {
-    Builder builder(roots);
-    if (roots.individual.comb.blades > 0) builder.blades(budget);
+void add_blades(const Attachment& attachment, const BladeBudget& budget) {
+    Builder builder(attachment);
+    if (attachment.individual.comb.blades > 0) builder.blades(budget);
     if (budget.veins > 0) builder.veins(budget);
 }
 

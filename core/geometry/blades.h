@@ -5,26 +5,31 @@
 
 namespace sporeprint {
 
-/// How blades share the triangles there are. What there is of one kind does not change how another looks, as far as the budget
-/// allows: else no mix would end where its species begin.
+/// Number and resolution of the blades of one mesh. Within the triangle limit the counts of one
+/// kind do not affect how another kind looks; otherwise weight 1 would not reproduce the
+/// single-species mesh.
 struct BladeBudget {
-    int tiers = 0;        ///< of the comb that are built; finer ones are painted only
-    int segments = 0;     ///< of a blade on the face
-    int below = 0;        ///< of a blade on the stem
-    int veins = 0;        ///< between ridges
-    int vein_stride = 1;  ///< each so-manieth of all is built
+    int tiers = 0;        ///< tiers of the gill layout that are built; finer ones are painted only
+    int segments = 0;     ///< per blade, on the face
+    int below = 0;        ///< per blade, on the stem
+    int veins = 0;        ///< cross veins between ridges
+    int vein_stride = 1;  ///< every `vein_stride`-th cross vein is built
 };
 
-/// beside_pores  whether the set has solid pores, which leave blades a sixth of the triangles
+/// Returns the blade budget of an individual.
+///
+/// beside_pores  whether the set has solid pores too, which leave a sixth of the triangles to
+///               blades
 [[nodiscard]] BladeBudget blade_budget(const Individual& individual, bool beside_pores);
 
-/// Gives up a tier of blades, or cross veins, or a row of each blade; false when there is nothing left to give up.
+/// Makes the budget one step coarser: drops a tier of blades, or cross veins, or a row of each
+/// blade. Returns false when no step is left.
 bool coarsen(const Individual& individual, BladeBudget& budget);
 
-/// What the blades and veins of an individual come to.
+/// Returns the exact vertex and triangle counts of the blades and veins.
 [[nodiscard]] MeshCount solid_count(const Individual& individual, const BladeBudget& budget);
 
-/// Appends them, each a closed solid.
-void add_blades(const Roots& roots, const BladeBudget& budget);
+/// Appends blades and veins, each a closed solid.
+void add_blades(const Attachment& attachment, const BladeBudget& budget);
 
 }  // namespace sporeprint

@@ -1,4 +1,5 @@
-// Turns a bush into a mesh: each limb with what goes on from it is one closed tube that begins inside of its bearer.
+// Turns a branch graph into a mesh: each chain of segments is one closed tube that begins inside
+// its parent.
 #pragma once
 
 #include <cstdint>
@@ -11,18 +12,20 @@
 
 namespace sporeprint {
 
-/// What branched_mesh() comes to at a level of detail, 0..3, exactly. Vertices follow from the species and the seed alone: no age and no
-/// weight changes them. Triangles are those of the limbs that are there; `keep_absent`: of all of them, as often as there are vertices.
-[[nodiscard]] MeshCount limb_count(const Bush& bush, int lod, bool keep_absent = false);
+/// Returns the exact counts of branched_mesh() at a level of detail, 0..3. The vertex count follows
+/// from species and seed alone: no age and no weight changes it. Triangles are counted for segments
+/// that are present or, with `keep_absent`, for all segments, as for vertices.
+[[nodiscard]] MeshCount branched_mesh_count(const Bush& graph, int lod, bool keep_absent = false);
 
-/// Mesh of a branched individual at a level of detail, 0..3.
+/// Returns the mesh of a branched individual at a level of detail, 0..3.
 ///
-/// Limbs wear the cap's chart, their tips its pole; trunks wear the stem's. Where triangles are few the limbs that bear fewest tips go
-/// first, and what is left grows as wide as what it stands for.
+/// Branches use the chart of the cap, with tips at its pole; trunks use the chart of the stem.
+/// Where the triangle limit is low, the tubes with the fewest tips are dropped first, and the
+/// remaining ones are widened to represent them.
 ///
-/// options   its stem is not read
-/// returns   closed pieces, one to a tip, which pierce each other only where limbs fork
-/// throws    Impossible ("/deformation/bend_deg") for a bush that would be bent through itself
+/// options   `stem` is not read
+/// returns   closed pieces, one per tip, which intersect each other only at forks
+/// throws    Impossible ("/deformation/bend_deg") if the bend would make the graph intersect itself
 /// cost      O(vertices)
 [[nodiscard]] Mesh branched_mesh(const Individual& individual, int lod,
                                  const SweepOptions& options = {});

@@ -24,7 +24,7 @@ MeshCount body_count(const Individual& individual, int lod) {
     const auto rings =
         static_cast<std::uint64_t>(detail.stem_rings + (lower_face ? detail.hymenium_rings : 0) +
                                    flesh_rings(individual, lod) + detail.cap_rings);
-    // Between rings of one face lie quads, at either pole triangles.
+    // Rings of one face are joined by quads, and by triangles at either pole.
     return {rings * (weathered.columns + 1) + weathered.vertices,
             2 * (rings - (lower_face ? 4 : 3)) * weathered.columns + weathered.triangles};
 }
@@ -44,7 +44,7 @@ MeshCount ornament_count(const Individual& individual, const Detail& detail) {
     return count;
 }
 
-/// One step coarser; false when there is none.
+/// Makes the detail one step coarser; returns false when no step is left.
 bool coarsen(Detail& detail, int lod) {
     struct Step {
         int Detail::*count;
@@ -88,8 +88,8 @@ Budget budget_of(const Individual& individual, int lod) {
         return count;
     };
     budget.count = total();
-    const std::uint64_t most = most_triangles[static_cast<std::size_t>(lod)];
-    while (budget.count.triangles > most &&
+    const std::uint64_t limit = most_triangles[static_cast<std::size_t>(lod)];
+    while (budget.count.triangles > limit &&
            (coarsen(budget.ornaments, lod) || (solids && coarsen(individual, budget.blades))))
         budget.count = total();
     return budget;

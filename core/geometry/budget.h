@@ -1,4 +1,4 @@
-// How the parts of a mushroom share the triangles of a level of detail.
+// How the parts of a mushroom share the triangle limit of a level of detail.
 #pragma once
 
 #include <array>
@@ -11,22 +11,24 @@
 
 namespace sporeprint {
 
-/// What a mushroom may come to, by LOD.
+/// Largest number of triangles of a mushroom, by LOD.
 inline constexpr std::array<std::uint64_t, 4> most_triangles = {60000, 6000, 1200, 200};
 
-/// The shares of one individual. They follow from its set of species alone: no age and no weight changes them.
+/// Triangle budget of one individual. It follows from the set of species alone: no age and no
+/// weight changes it.
 struct Budget {
-    Detail ornaments;  ///< of patches and shells; coarser in a crowded set
-    CellBudget cells;  ///< of the hymenium; none where it is painted only
+    Detail ornaments;  ///< resolution of patches and shells; coarser in a large set
+    CellBudget cells;  ///< of the hymenium; zero where it is painted only
     BladeBudget blades;
-    MeshCount count;  ///< what everything comes to when all of it is there
+    MeshCount count;  ///< exact counts when everything is present
 };
 
-/// The shares of an individual at a level of detail. A set that comes to more than `most_triangles` gives up what is seen least, as
-/// far as it must: corners and rings of patches, rows of shells, blades in the grooves between others, cross veins, rows of blades; at the next
-/// level the smaller patches themselves, which are painted then.
+/// Returns the budget of an individual at a level of detail. A set that exceeds `most_triangles` is
+/// coarsened step by step, least visible detail first: corners and rings of patches, rows of
+/// shells, short blades between others, cross veins, rows of blades; at the next level the smaller
+/// patches themselves, which are painted then.
 ///
-/// cost  a few us, a tenth of a millisecond at LOD 0, where blades are counted one by one
+/// cost  a few microseconds; 0.1 ms at LOD 0, where blades are counted one by one
 [[nodiscard]] Budget budget_of(const Individual& individual, int lod);
 
 }  // namespace sporeprint

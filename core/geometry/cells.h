@@ -1,24 +1,23 @@
-// Spines and the mouths of tubes as solids.
+// Spines and the mouths of tubes (pores) as solids.
 #pragma once
 
 #include "core/geometry/attachment.h"
 
 namespace sporeprint {
 
-/// How many there are, and how finely they are built.
+/// Numbers and resolution of spines and pores.
 struct CellBudget {
     int spines = 0;
     int pores = 0;
-    int corners = 6;  ///< of a pore
-    bool walls =
-        true;  ///< whether the walls of pores are thick; else both their sides are one sheet
+    int corners = 6;    ///< per pore
+    bool walls = true;  ///< whether walls of pores are thick; otherwise both sides are one sheet
 };
 [[nodiscard]] CellBudget cell_budget(const Individual& individual);
 
-/// What the spines and pores of an individual come to.
+/// Returns the exact vertex and triangle counts of spines and pores.
 [[nodiscard]] MeshCount solid_count(const CellBudget& budget);
 
-/// Appends them, each a closed solid.
-void add_cells(const Roots& roots, const CellBudget& budget);
+/// Appends spines and pores, each a closed solid.
+void add_cells(const Attachment& attachment, const CellBudget& budget);
 
 }  // namespace sporeprint

@@ -9,22 +9,25 @@
 
 namespace sporeprint {
 
-Curl::Curl(const Individual& individual, const Cuts& cuts, std::vector<glm::dvec3> away)
+Curl::Curl(const Individual& individual, const MarginCuts& cuts, std::vector<glm::dvec3> away)
     : cuts_(&cuts),
       cap_length_(individual.outline.cap.length()),
       lower_length_(individual.outline.hymenium.length()),
       reach_(0.22 * cap_length_),
-      most_(0.075 * cap_length_ * smooth_step(0.0, 0.6, individual.wear.amounts.deliquescence)),
+      max_height_(0.075 * cap_length_ *
+                  smooth_step(0.0, 0.6, individual.wear.amounts.deliquescence)),
       away_(std::move(away)) {}
 
 double Curl::height(bool cap, double at, double cap_end, double lower_end) const {
     const double off = cap ? cap_length_ * (cap_end - at) : lower_length_ * (lower_end - at);
-    // As far on both faces, or they would cross; where a face begins it stays on its neighbour, however little is left of it.
+    // The same length on both faces, otherwise they would intersect. Where a face begins it stays
+    // attached to its neighbour, however little is left of it.
     const double whole =
         std::min(reach_, 0.95 * std::min(cap_length_ * cap_end, lower_length_ * lower_end));
     const double u = whole > 1e-9 ? std::max(0.0, 1.0 - off / whole) : 0.0;
-    // The lower face stays behind a little: rings of both faces stand at places of their own, and the flesh between is thin.
-    return (cap ? 1.0 : 0.75) * most_ * u * u;
+    // The lower face is displaced less: its rings are at other places than those of the cap, and
+    // the flesh between both is thin.
+    return (cap ? 1.0 : 0.75) * max_height_ * u * u;
 }
 
 glm::dvec3 Curl::moved(bool cap, double at, double cap_end, double lower_end,
@@ -33,14 +36,14 @@ glm::dvec3 Curl::moved(bool cap, double at, double cap_end, double lower_end,
 }
 
 double Curl::turned(const glm::dvec3& by) const {
-    return std::min(1.0, 80.0 * std::sqrt(glm::length(by) * most_) / cap_length_);
+    return std::min(1.0, 80.0 * std::sqrt(glm::length(by) * max_height_) / cap_length_);
 }
 
 glm::dvec3 Curl::moved(bool cap, double at, double angle) const {
     if (none()) return glm::dvec3(0.0);
     const double high = height(cap, at, cuts_->cap_end(angle), cuts_->lower_end(angle));
     if (high <= 0.0) return glm::dvec3(0.0);
-    const std::vector<double>& turns = cuts_->laid();
+    const std::vector<double>& turns = cuts_->placed_turns();
     double turn = angle / (2.0 * pi);
     turn -= std::floor(turn);
     const auto next = static_cast<std::size_t>(std::upper_bound(turns.begin(), turns.end(), turn) -

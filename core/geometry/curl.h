@@ -1,4 +1,5 @@
-// The curl of a melting margin: how far what is left of cap and lower face has rolled away from where it was swept.
+// The curl of a deliquescing margin: how far what is left of cap and lower face is displaced from
+// the swept surface.
 #pragma once
 
 #include <cstddef>
@@ -10,31 +11,35 @@
 
 namespace sporeprint {
 
-/// A melting margin rolls up and outwards. What stands on the faces goes with them.
+/// Displacement of a deliquescing margin, which rolls up and outwards. Solids on the faces are
+/// displaced with them.
 class Curl {
   public:
     Curl() = default;
 
-    /// away  where each column of `cuts`, which must outlive this, goes to: unit vectors
-    Curl(const Individual& individual, const Cuts& cuts, std::vector<glm::dvec3> away);
+    /// away  unit direction of displacement of each column of `cuts`; `cuts` must outlive this
+    ///       object
+    Curl(const Individual& individual, const MarginCuts& cuts, std::vector<glm::dvec3> away);
 
     [[nodiscard]] bool none() const { return away_.empty(); }
 
-    /// How far a place goes, metres. at: on the cap its sigma, on the lower face its share, where the cuts have brought it
+    /// Returns the displacement of a place, metres.
+    ///
+    /// at  place after the cuts: sigma on the cap, share on the lower face
     [[nodiscard]] glm::dvec3 moved(bool cap, double at, double angle) const;
 
-    /// The same in a column, where the faces end there.
+    /// Returns the same for a column, given where the faces end there.
     [[nodiscard]] glm::dvec3 moved(bool cap, double at, double cap_end, double lower_end,
                                    std::size_t column) const;
 
-    /// How much of its new normal a vertex takes that has gone so far, 0..1.
+    /// Returns the weight of the recomputed normal for a vertex with this displacement, 0..1.
     [[nodiscard]] double turned(const glm::dvec3& by) const;
 
   private:
     [[nodiscard]] double height(bool cap, double at, double cap_end, double lower_end) const;
 
-    const Cuts* cuts_ = nullptr;
-    double cap_length_ = 0.0, lower_length_ = 0.0, reach_ = 0.0, most_ = 0.0;
+    const MarginCuts* cuts_ = nullptr;
+    double cap_length_ = 0.0, lower_length_ = 0.0, reach_ = 0.0, max_height_ = 0.0;
     std::vector<glm::dvec3> away_;
 };
 

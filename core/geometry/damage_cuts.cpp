@@ -16,39 +16,42 @@ namespace {
 
 constexpr double whole_turn = 2.0 * pi;
 
-// What stays of a face under the deepest cut.
+// Shares of the faces that remain under the deepest cut.
 constexpr double least_cap = 0.28, least_lower = 0.14;
-// Further in than this nothing moves.
-constexpr double still_cap = 0.18, still_lower = 0.06;
-// Columns nearer to each other than this, in turns, are one.
-constexpr double nearest = 0.0002;
-// A cut is as good as open when so much of it has come: from then on its columns stand at their own places.
-constexpr double opens_until = 0.12;
+// Below these shares nothing moves.
+constexpr double fixed_cap = 0.18, fixed_lower = 0.06;
+// Columns closer than this, in turns, are merged.
+constexpr double merge_distance = 0.0002;
+// Share of a cut's damage from which on its columns stand at their own places.
+constexpr double open_at = 0.12;
 
-// What a level of detail can carry; `inside`: columns on each side of a bite's middle, beside its edge.
-struct Carried {
+// Numbers of cuts at a level of detail; `inside`: columns on each side of a bite's middle, beside
+// its edge.
+struct LodLimits {
     int bites, inside, splits;
 };
-constexpr std::array<Carried, 4> carried = {{{4, 2, 9}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0}}};
-// Shares of a bite's half width: its arc is steepest at its edges, even columns stand in its middle.
+constexpr std::array<LodLimits, 4> limits_by_lod = {{{4, 2, 9}, {2, 0, 2}, {2, 0, 0}, {0, 0, 0}}};
+// Positions in shares of a bite's half width: its arc is steepest at its edges; its middle has even
+// columns.
 constexpr std::array<double, 2> inside_at = {0.95, 0.78};
 
-// A place slides along its meridian so that the end goes to `last`; what lies within `still` stays.
-double slid(double share, double still, double last) {
-    if (share <= still || last >= 1.0) return share;
-    return still + (share - still) * (last - still) / (1.0 - still);
+// Scales a share along its meridian so that the end moves to `last`; shares up to `fixed` are
+// unchanged.
+double scaled_share(double share, double fixed, double last) {
+    if (share <= fixed || last >= 1.0) return share;
+    return fixed + (share - fixed) * (last - fixed) / (1.0 - fixed);
 }
 
-// The notches that a level of detail carries, in the order in which they come.
-std::vector<Notch> notches_of(const Individual& individual, const Carried& carries) {
+// Returns the notches of a level of detail, in the order of their onset.
+std::vector<Notch> notches_of(const Individual& individual, const LodLimits& limits) {
     const std::uint32_t seed = individual.effective.seed;
     std::vector<Notch> out;
     const auto add = [&out](const std::vector<Notch>& all, int most) {
         const auto count = std::min(all.size(), static_cast<std::size_t>(most));
         out.insert(out.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
     };
-    if (individual.wear.bites && carries.bites > 0) add(bites(seed), carries.bites);
-    if (individual.wear.splits && carries.splits > 0) add(splits(seed), carries.splits);
+    if (individual.wear.bites && limits.bites > 0) add(bites(seed), limits.bites);
+    if (individual.wear.splits && limits.splits > 0) add(splits(seed), limits.splits);
     return out;
 }
 
@@ -58,13 +61,13 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
 
 }  // namespace
 
-Cuts::Cuts(const Individual& individual, int lod) {
+MarginCuts::MarginCuts(const Individual& individual, int lod) {
     const Outline& outline = individual.outline;
     const WeatheringOf<Plain>& amounts = individual.wear.amounts;
-    const Carried& carries = carried[static_cast<std::size_t>(lod)];
+    const LodLimits& limits = limits_by_lod[static_cast<std::size_t>(lod)];
     std::vector<Notch> notches;
     if (!outline.hymenium.empty()) {
-        notches = notches_of(individual, carries);
+        notches = notches_of(individual, limits);
         melts_ = individual.wear.melts;
     }
     possible_ = melts_ || !notches.empty();
@@ -81,37 +84,39 @@ Cuts::Cuts(const Individual& individual, int lod) {
         melted_ = melted(amounts.deliquescence) * cap_length_;
         phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
     }
-    place_columns(notches, amounts, carries.inside, detail_of(lod).columns);
-    laid_ = turns_;
+    place_columns(notches, amounts, limits.inside, detail_of(lod).columns);
+    placed_turns_ = turns_;
     const auto turn_of = [this](std::size_t k) { return k == turns_.size() ? 1.0 : turns_[k]; };
-    for (const Between& column : between_) {
-        double on_ways = 0.0;
-        for (const Way& way : ways(column))
-            on_ways +=
-                way.weight * (turn_of(way.left) +
-                              closed_width * way.share * (turn_of(way.right) - turn_of(way.left)));
-        laid_[column.column] = on_ways + column.open * (turns_[column.column] - on_ways);
+    for (const InsertedColumn& column : inserted_) {
+        double on_chords = 0.0;
+        for (const Chord& chord : chords(column))
+            on_chords += chord.weight *
+                         (turn_of(chord.left) + collapsed_width * chord.share *
+                                                    (turn_of(chord.right) - turn_of(chord.left)));
+        placed_turns_[column.column] =
+            on_chords + column.open * (turns_[column.column] - on_chords);
     }
     if (none()) return;
     for (const double turn : turns_) depths_.push_back(cut_at(whole_turn * turn));
     depths_.push_back(depths_.front());
     const std::vector<double> own = depths_;
-    for (const Between& column : between_) {
-        double on_ways = 0.0;
-        for (const Way& way : ways(column))
-            on_ways += way.weight * (own[way.left] + way.share * (own[way.right] - own[way.left]));
-        depths_[column.column] = on_ways + column.open * (own[column.column] - on_ways);
+    for (const InsertedColumn& column : inserted_) {
+        double on_chords = 0.0;
+        for (const Chord& chord : chords(column))
+            on_chords += chord.weight *
+                         (own[chord.left] + chord.share * (own[chord.right] - own[chord.left]));
+        depths_[column.column] = on_chords + column.open * (own[column.column] - on_chords);
     }
 }
 
-void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
-                         int inside, int even) {
+void MarginCuts::place_columns(const std::vector<Notch>& notches,
+                               const WeatheringOf<Plain>& amounts, int inside, int even) {
     struct Own {
         double turn, open;
     };
     std::vector<Own> own;
     for (const Notch& notch : notches) {
-        const double open = smooth_step(0.0, opens_until, share_of(notch, amounts));
+        const double open = smooth_step(0.0, open_at, share_of(notch, amounts));
         const auto add = [&](double angle) {
             const double turn = angle / whole_turn;
             own.push_back({turn - std::floor(turn), open});
@@ -126,15 +131,15 @@ void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<P
     std::stable_sort(own.begin(), own.end(),
                      [](const Own& a, const Own& b) { return a.turn < b.turn; });
     auto next = own.begin();
-    std::vector<double> open;  // of the columns from an even one to the next
+    std::vector<double> open;  // per column from an even one to the next
     for (int j = 0; j < even; ++j) {
         const double from = static_cast<double>(j) / even, to = static_cast<double>(j + 1) / even;
         const std::size_t left = turns_.size();
         turns_.push_back(from);
         open.assign(1, 1.0);
         for (; next != own.end() && next->turn < to; ++next) {
-            if (to - next->turn <= nearest) continue;
-            if (next->turn - turns_.back() > nearest) {
+            if (to - next->turn <= merge_distance) continue;
+            if (next->turn - turns_.back() > merge_distance) {
                 turns_.push_back(next->turn);
                 open.push_back(next->open);
             } else {
@@ -152,25 +157,25 @@ void Cuts::place_columns(const std::vector<Notch>& notches, const WeatheringOf<P
             return k + 1 == open.size() ? to : turns_[left + k];
         };
         for (std::size_t k = 1; k + 1 < open.size(); ++k) {
-            Between column{left + k, open[k], ways_.size(), 0};
-            double before = 1.0;  // weight of what lies beyond on the left
+            InsertedColumn column{left + k, open[k], chords_.size(), 0};
+            double before = 1.0;  // weight of the columns further left
             for (std::size_t l = k; l-- > 0 && before > 0.0; before *= 1.0 - open[l]) {
                 double after = before * open[l];
                 for (std::size_t r = k + 1; r < open.size() && after > 0.0; ++r) {
                     if (open[r] > 0.0)
-                        ways_.push_back({left + l, left + r,
-                                         (turn_of(k) - turn_of(l)) / (turn_of(r) - turn_of(l)),
-                                         after * open[r]});
+                        chords_.push_back({left + l, left + r,
+                                           (turn_of(k) - turn_of(l)) / (turn_of(r) - turn_of(l)),
+                                           after * open[r]});
                     after *= 1.0 - open[r];
                 }
             }
-            column.last = ways_.size();
-            between_.push_back(column);
+            column.last = chords_.size();
+            inserted_.push_back(column);
         }
     }
 }
 
-double Cuts::cut_at(double angle) const {
+double MarginCuts::cut_at(double angle) const {
     double deepest = 0.0;
     for (const Open& cut : open_)
         deepest = std::max(deepest, cut.depth * notch_profile(cut.notch, angle));
@@ -182,7 +187,7 @@ double Cuts::cut_at(double angle) const {
     return deepest;
 }
 
-double Cuts::depth(double angle) const {
+double MarginCuts::depth(double angle) const {
     if (depths_.empty()) return 0.0;
     double turn = angle / whole_turn;
     turn -= std::floor(turn);
@@ -193,18 +198,20 @@ double Cuts::depth(double angle) const {
     return depths_[next - 1] + t * (depths_[next] - depths_[next - 1]);
 }
 
-double Cuts::cap_end(double angle) const {
+double MarginCuts::cap_end(double angle) const {
     if (none() || cap_length_ <= 0.0) return 1.0;
     return std::max(1.0 - depth(angle) / cap_length_, least_cap);
 }
 
-double Cuts::lower_end(double angle) const {
+double MarginCuts::lower_end(double angle) const {
     if (none() || lower_length_ <= 0.0) return 1.0;
     return std::max(1.0 - depth(angle) / lower_length_, least_lower);
 }
 
-double Cuts::cap_to(double sigma, double end) { return slid(sigma, still_cap, end); }
+double MarginCuts::cap_to(double sigma, double end) { return scaled_share(sigma, fixed_cap, end); }
 
-double Cuts::lower_to(double share, double end) { return slid(share, still_lower, end); }
+double MarginCuts::lower_to(double share, double end) {
+    return scaled_share(share, fixed_lower, end);
+}
 
 }  // namespace sporeprint

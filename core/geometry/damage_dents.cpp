@@ -10,7 +10,7 @@ namespace {
 
 constexpr double whole_turn = 2.0 * pi;
 
-// Of a furrow, to each side of its middle.
+// Angle from the middle of a furrow to either side, radians.
 constexpr double furrow_half_width = 0.045 * whole_turn;
 
 }  // namespace

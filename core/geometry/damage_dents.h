@@ -1,4 +1,5 @@
-// Lumps and furrows of a worn skin: how high they stand at a place, for the body that is dented and for all that stands on it.
+// Lumps and furrows of a damaged surface: height at a place, for the body itself and for everything
+// that stands on it.
 #pragma once
 
 #include <vector>
@@ -8,27 +9,31 @@
 
 namespace sporeprint {
 
-/// How deep a full furrow is, in mean radii of the stem.
+/// Depth of a full furrow, in mean radii of the stem.
 inline constexpr double furrow_deep = 0.20;
 
-/// The upper part of a club swells between few rings: this share of its furrows is geometry, the rest of them is painted.
+/// Fraction of furrow depth on the upper part of a club that is geometry; the club has few rings
+/// there, so the rest is painted.
 inline constexpr double club_carried = 0.35;
 
-/// Depth of a furrow at an angle, 0..1: 1 at its middle, 0 beyond its sides.
+/// Returns the relative depth of a furrow at an angle, 0..1: 1 at its middle, 0 beyond its sides.
 [[nodiscard]] double furrow_valley(double middle, double angle);
 
-/// Mean distance of the stem's skin from the axis, metres.
+/// Returns the mean distance of the stem's surface from the axis, metres.
 [[nodiscard]] double mean_radius(const SubCurve& stem);
 
-/// How far from its neighbours' edges the skin of the stem may move, 0..1; share 0 at the ground.
+/// Returns how far the stem may be displaced, 0..1: it falls to 0 at its ends, which are shared
+/// with other faces. share is 0 at the ground.
 [[nodiscard]] double stem_freedom(double share);
 
-/// Lumps and furrows of the skin: what stands on it, or is all but gone, goes with them.
+/// Height field of lumps and furrows. Solids that stand on the surface, and those that vanish,
+/// follow it.
 class Dents {
   public:
     explicit Dents(const Individual& individual);
 
-    /// Height at a place of the cap (sigma 0 at the apex) or the stem (sigma 0 at the ground), metres.
+    /// Return the height at a place of the cap (sigma 0 at the apex) or of the stem (sigma 0 at the
+    /// ground), metres.
     [[nodiscard]] double cap(double sigma, double angle) const;
     [[nodiscard]] double stem(double sigma, double angle) const;
 

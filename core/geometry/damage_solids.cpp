@@ -18,10 +18,10 @@ namespace {
 
 constexpr double whole_turn = 2.0 * pi;
 
-// By LOD.
-constexpr std::array<SolidNumbers, 4> carried = {
+// Numbers of solids by LOD; values chosen by eye.
+constexpr std::array<SolidCounts, 4> limits_by_lod = {
     {{5, 14, 22, 12}, {0, 0, 0, 6}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
-const SolidNumbers& carried_at(int lod) { return carried[static_cast<std::size_t>(lod)]; }
+const SolidCounts& limits_at(int lod) { return limits_by_lod[static_cast<std::size_t>(lod)]; }
 
 constexpr int roll_sides = 5, drop_sides = 6, drip_sides = 5, drip_rows = 4;
 constexpr std::uint64_t roll_vertices(int pieces) {
@@ -38,40 +38,39 @@ constexpr std::uint64_t drip_triangles = 2 * (drip_rows - 1) * drip_sides + 2 * 
 
 }  // namespace
 
-MeshCount worn_solids_count(const Individual& individual, int lod) {
-    const SolidNumbers& carries = carried_at(lod);
+MeshCount damage_solid_count(const Individual& individual, int lod) {
+    const SolidCounts& limits = limits_at(lod);
     MeshCount count;
     const auto solids = [&](int number, std::uint64_t vertices, std::uint64_t triangles) {
         count.vertices += static_cast<std::uint64_t>(number) * vertices;
         count.triangles += static_cast<std::uint64_t>(number) * triangles;
     };
     if (individual.wear.peels)
-        solids(carries.rolls, roll_vertices(carries.roll_pieces),
-               roll_triangles(carries.roll_pieces));
-    if (individual.wear.melts) solids(carries.drips, drip_vertices, drip_triangles);
-    if (individual.wear.dew) solids(carries.drops, drop_vertices, drop_triangles);
+        solids(limits.rolls, roll_vertices(limits.roll_pieces), roll_triangles(limits.roll_pieces));
+    if (individual.wear.melts) solids(limits.drips, drip_vertices, drip_triangles);
+    if (individual.wear.dew) solids(limits.drops, drop_vertices, drop_triangles);
     return count;
 }
 
-WornSolids::WornSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual,
-                       const Cuts& cuts, int lod, bool keep_absent)
+DamageSolids::DamageSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual,
+                           const MarginCuts& cuts, int lod, bool keep_absent)
     : mesh_(mesh),
       cap_(cap),
       individual_(individual),
-      carries_(carried_at(lod)),
+      limits_(limits_at(lod)),
       amounts_(individual.wear.amounts),
       cuts_(cuts),
       keep_absent_(keep_absent),
       textured_(!mesh.texture_coordinates.empty()),
       columns_(cuts.turns().size()) {}
 
-WornSolids::Spot WornSolids::spot(double share, double turn) const {
+DamageSolids::CapPoint DamageSolids::cap_point(double share, double turn) const {
     turn -= std::floor(turn);
-    const auto column =
-        static_cast<std::size_t>(std::upper_bound(cuts_.laid().begin(), cuts_.laid().end(), turn) -
-                                 cuts_.laid().begin() - 1);
-    const double next = column + 1 == columns_ ? 1.0 : cuts_.laid()[column + 1];
-    const double v = (turn - cuts_.laid()[column]) / (next - cuts_.laid()[column]);
+    const auto column = static_cast<std::size_t>(
+        std::upper_bound(cuts_.placed_turns().begin(), cuts_.placed_turns().end(), turn) -
+        cuts_.placed_turns().begin() - 1);
+    const double next = column + 1 == columns_ ? 1.0 : cuts_.placed_turns()[column + 1];
+    const double v = (turn - cuts_.placed_turns()[column]) / (next - cuts_.placed_turns()[column]);
     const auto above = std::upper_bound(cap_.shares.begin(), cap_.shares.end(), share);
     const std::size_t ring = std::min(
         static_cast<std::size_t>(std::max<std::ptrdiff_t>(above - cap_.shares.begin() - 1, 0)),
@@ -84,7 +83,7 @@ WornSolids::Spot WornSolids::spot(double share, double turn) const {
         const auto high = of[b] + static_cast<float>(v) * (of[b + 1] - of[b]);
         return low + static_cast<float>(u) * (high - low);
     };
-    Spot spot;
+    CapPoint spot;
     spot.position = glm::dvec3(mixed(mesh_.positions));
     spot.normal = unit_or(glm::dvec3(mixed(mesh_.normals)), glm::dvec3(mesh_.normals[a]));
     spot.meridian =
@@ -93,10 +92,10 @@ WornSolids::Spot WornSolids::spot(double share, double turn) const {
     return spot;
 }
 
-void WornSolids::solid(const std::vector<glm::dvec3>& corners, const glm::dvec3& start,
-                       const glm::dvec3& end, std::size_t sides,
-                       const std::vector<glm::vec2>& textures, const glm::dvec3& fallback,
-                       bool drawn) {
+void DamageSolids::solid(const std::vector<glm::dvec3>& corners, const glm::dvec3& start,
+                         const glm::dvec3& end, std::size_t sides,
+                         const std::vector<glm::vec2>& textures, const glm::dvec3& fallback,
+                         bool drawn) {
     const std::size_t rows = textures.size(), row = sides + 1;
     const auto first = mesh_.positions.size();
     std::vector<glm::dvec3> normals(rows * row + 2, glm::dvec3(0.0));
@@ -133,19 +132,19 @@ void WornSolids::solid(const std::vector<glm::dvec3>& corners, const glm::dvec3&
     for (const auto& [a, b, c] : faces) append_triangle(mesh_, first + a, first + b, first + c);
 }
 
-void WornSolids::rolls() {
-    if (!individual_.wear.peels || carries_.rolls == 0) return;
+void DamageSolids::add_rolls() {
+    if (!individual_.wear.peels || limits_.rolls == 0) return;
     const double most = individual_.model.surface.scars.peel_reach;
     const double length = individual_.outline.cap.length();
-    int left = carries_.rolls;
+    int left = limits_.rolls;
     for (const Tongue& tongue : tongues(individual_.effective.seed)) {
         if (left-- <= 0) break;
         const double scale = begun(tongue.onset, amounts_.peel) * (most > 0.0 ? 1.0 : 0.0);
         const double deep = std::min(tongue.reach * most * scale, 0.95);
         const double wide = tongue.half_width * (0.6 + 0.4 * scale);
         const auto sides = static_cast<std::size_t>(roll_sides);
-        const auto pieces = static_cast<std::size_t>(carries_.roll_pieces);
-        std::vector<Spot> line;
+        const auto pieces = static_cast<std::size_t>(limits_.roll_pieces);
+        std::vector<CapPoint> line;
         for (std::size_t k = 0; k <= pieces; ++k) {
             const double phase =
                 pi * (0.015 + 0.97 * static_cast<double>(k) / static_cast<double>(pieces));
@@ -153,17 +152,17 @@ void WornSolids::rolls() {
             const double theta = tongue.theta + wide * far * cosine(phase);
             const double sigma =
                 std::min(1.0 - std::min(0.985, deep * far * sine(phase)), cuts_.cap_end(theta));
-            line.push_back(spot(1.0 - sigma, theta / whole_turn));
+            line.push_back(cap_point(1.0 - sigma, theta / whole_turn));
         }
         std::vector<glm::dvec3> corners;
         std::vector<glm::vec2> textures;
         for (std::size_t k = 0; k <= pieces; ++k) {
-            const Spot& here = line[k];
+            const CapPoint& here = line[k];
             const glm::dvec3 ahead = square_to(here.normal, line[std::min(k + 1, pieces)].position -
                                                                 line[k == 0 ? 0 : k - 1].position);
             const glm::dvec3 aside = glm::cross(here.normal, ahead);
             const double t = static_cast<double>(k) / static_cast<double>(pieces);
-            // Thickest where the most skin has come up.
+            // Rolls are thickest where most of the cuticle has peeled off.
             const double thick = 0.024 * length * std::min(1.0, 2.5 * deep) *
                                  (0.35 + 0.65 * sine(pi * t)) *
                                  (1.0 + 0.25 * sine(17.0 * t + tongue.theta));
@@ -180,17 +179,17 @@ void WornSolids::rolls() {
     }
 }
 
-void WornSolids::drips() {
-    if (!individual_.wear.melts || carries_.drips == 0) return;
+void DamageSolids::add_drips() {
+    if (!individual_.wear.melts || limits_.drips == 0) return;
     const double length = individual_.outline.cap.length();
-    for (int i = 0; i < carries_.drips; ++i) {
+    for (int i = 0; i < limits_.drips; ++i) {
         Random random(individual_.effective.seed, purposes::drips, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double size = random.uniform(0.5, 1.0);
         const double hang = random.uniform(1.6, 4.2);
         const double scale = smooth_step(0.04 * i, 0.3 + 0.05 * i, amounts_.deliquescence) * size;
-        const double turn = (5 * i % carries_.drips + 0.35 * round) / carries_.drips;
-        const Spot edge = spot(0.0, turn);
+        const double turn = (5 * i % limits_.drips + 0.35 * round) / limits_.drips;
+        const CapPoint edge = cap_point(0.0, turn);
         const double thick = 0.018 * length * scale;
         const auto sides = static_cast<std::size_t>(drip_sides);
         std::vector<glm::dvec3> corners;
@@ -213,16 +212,16 @@ void WornSolids::drips() {
     }
 }
 
-void WornSolids::drops() {
-    if (!individual_.wear.dew || carries_.drops == 0) return;
+void DamageSolids::add_drops() {
+    if (!individual_.wear.dew || limits_.drops == 0) return;
     const double length = individual_.outline.cap.length();
-    int left = carries_.drops;
+    int left = limits_.drops;
     for (const Mark& mark : marks(MarkKind::dew, CurveName::cap, individual_.effective.seed)) {
         if (left-- <= 0) break;
         const double scale = begun(mark.onset, amounts_.dew);
         const double radius = std::max(mark.radius * 1.15 * scale * length, 0.0);
         const double sigma = std::min(mark.sigma, cuts_.cap_end(mark.theta) - 0.02);
-        const Spot here = spot(1.0 - sigma, mark.theta / whole_turn);
+        const CapPoint here = cap_point(1.0 - sigma, mark.theta / whole_turn);
         const glm::dvec3 aside = glm::cross(here.meridian, here.normal);
         const auto sides = static_cast<std::size_t>(drop_sides);
         std::vector<glm::dvec3> corners;

@@ -1,4 +1,4 @@
-// Closed solids that stand on a worn body: rolls of peeled skin, drips of ink and drops of water.
+// Closed solids on a damaged body: rolls of peeled cuticle, drips of ink and drops of water.
 #pragma once
 
 #include <cstddef>
@@ -14,42 +14,46 @@
 
 namespace sporeprint {
 
-/// How many of them a level of detail carries.
-struct SolidNumbers {
+/// Numbers of solids at a level of detail.
+struct SolidCounts {
     int rolls, roll_pieces, drops, drips;
 };
 
-/// What they come to when all of them are there; no amount changes it.
-[[nodiscard]] MeshCount worn_solids_count(const Individual& individual, int lod);
+/// Returns the vertex and triangle counts when all of them are present; no amount changes them.
+[[nodiscard]] MeshCount damage_solid_count(const Individual& individual, int lod);
 
-/// Appends them to the mesh of a swept body, each kind where the individual can have it and the level of detail carries it.
-class WornSolids {
+/// Appends these solids to the mesh of a swept body, each kind where the individual can have it and
+/// the level of detail includes it.
+class DamageSolids {
   public:
-    /// What is referred to must outlive this.
+    /// All references must outlive this object.
     ///
-    /// cap          of the mesh; its columns are those of the cuts
-    /// keep_absent  whether triangles of what is absent stay, without area
-    WornSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual, const Cuts& cuts,
-               int lod, bool keep_absent);
+    /// cap          grid of the cap in the mesh; its columns are those of the cuts
+    /// keep_absent  whether triangles of absent solids are kept, with zero area
+    DamageSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual,
+                 const MarginCuts& cuts, int lod, bool keep_absent);
 
-    /// Skin rolled back along the border of what has peeled off. pre: the cap stands where it was swept
-    void rolls();
+    /// Appends cuticle rolled back along the border of peeled areas. pre: the cap is where it was
+    /// swept
+    void add_rolls();
 
-    /// Drops of water on the cap. pre: the cap stands where it was swept
-    void drops();
+    /// Appends drops of water on the cap. pre: the cap is where it was swept
+    void add_drops();
 
-    /// Ink that gathers at the melted margin and falls. pre: the cap stands where the cuts leave it
-    void drips();
+    /// Appends ink that gathers at the deliquesced margin and drips. pre: the cap is where the cuts
+    /// leave it
+    void add_drips();
 
   private:
-    /// The place of the cap between its vertices.
-    struct Spot {
+    /// A point of the cap, interpolated between vertices.
+    struct CapPoint {
         glm::dvec3 position, normal, meridian;
         glm::vec2 texture;
     };
-    [[nodiscard]] Spot spot(double share, double turn) const;
+    [[nodiscard]] CapPoint cap_point(double share, double turn) const;
 
-    /// A closed solid of rings round a line: [row][column], the first column repeated, a point at each end.
+    /// Appends a closed solid of rings round a line: corners are [row][column] with the first
+    /// column repeated, plus a point at each end.
     void solid(const std::vector<glm::dvec3>& corners, const glm::dvec3& start,
                const glm::dvec3& end, std::size_t sides, const std::vector<glm::vec2>& textures,
                const glm::dvec3& fallback, bool drawn);
@@ -57,9 +61,9 @@ class WornSolids {
     Mesh& mesh_;
     const FaceGrid& cap_;
     const Individual& individual_;
-    const SolidNumbers& carries_;
+    const SolidCounts& limits_;
     const WeatheringOf<Plain>& amounts_;
-    const Cuts& cuts_;
+    const MarginCuts& cuts_;
     bool keep_absent_, textured_;
     std::size_t columns_;
 };

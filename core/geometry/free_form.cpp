@@ -11,7 +11,7 @@ namespace {
 
 constexpr int highest_degree = 7;
 
-// A dent's lattice: the one control point that moves is the middle of five along each axis.
+// Lattice of a dent: the one control point that moves is the middle of five along each axis.
 constexpr int dent_degree = 4, dent_middle = 2;
 constexpr std::array<int, 3> dent_degrees{dent_degree, dent_degree, dent_degree};
 constexpr std::array<int, 3> dent_index{dent_middle, dent_middle, dent_middle};
@@ -32,10 +32,10 @@ double power_of(double x, int exponent) {
     return p;
 }
 
-/// The Bernstein polynomial B_i^n and its derivative at s.
+/// Returns the Bernstein polynomial B_i^n and its derivative at s.
 Weight bernstein(int n, int i, double s) {
     const double rest = 1.0 - s;
-    // C(n,i) s^i (1-s)^(n-i); its derivative shares all but one factor of each.
+    // The value is C(n,i) s^i (1-s)^(n-i); its derivative shares all but one factor of each power.
     const double low = i > 0 ? power_of(s, i - 1) : 0.0,
                  high = i < n ? power_of(rest, n - i - 1) : 0.0;
     const double left = i > 0 ? low * s : 1.0, right = i < n ? high * rest : 1.0;
@@ -47,25 +47,26 @@ struct DentWeights {
     glm::dvec3 value, derivative;
 };
 
-/// bernstein() of a dent's control point along the three axes, without its loops; equal to the bit.
+/// Returns bernstein() of a dent's control point along the three axes, without loops;
+/// bit-identical.
 DentWeights dent_weights(const glm::dvec3& s) {
     constexpr double c = binomial(dent_degree, dent_middle);
     const glm::dvec3 rest = 1.0 - s, left = s * s, right = rest * rest;
     return {c * left * right, c * (2.0 * s * right - 2.0 * left * rest)};
 }
 
-/// Largest value of B_i^n on 0..1, taken at s = i / n.
+/// Returns the largest value of B_i^n on 0..1, attained at s = i / n.
 double peak(int n, int i) { return bernstein(n, i, static_cast<double>(i) / n).value; }
 
-/// Largest |derivative| of B_i^n: its extrema lie where the second derivative vanishes; a fine walk plus the walk's own error bound.
+/// Returns a bound of the largest |derivative| of B_i^n: the maximum over a fine grid plus the
+/// error bound of the grid.
 double steepest(int n, int i) {
     constexpr int steps = 512;
     double most = 0.0;
     for (int k = 0; k <= steps; ++k)
         most = std::max(most, std::abs(bernstein(n, i, static_cast<double>(k) / steps).derivative));
-    return most +
-           4.0 * n * n /
-               steps;  // the second derivative of a Bernstein polynomial is below 4 n^2 on 0..1
+    // The second derivative of a Bernstein polynomial is below 4 n^2 on 0..1.
+    return most + 4.0 * n * n / steps;
 }
 
 }  // namespace
@@ -97,7 +98,8 @@ void FreeForm::apply(std::span<SurfacePoint> points) const {
     for (SurfacePoint& point : points) {
         if (!contains(point.position)) continue;
         const auto [value, derivative] = dent_weights((point.position - corner_) / size_);
-        // The general form adds to zero: that, too, is kept, for the sign of a zero.
+        // The general form starts its sums at zero; adding zero is kept here, because it affects
+        // the sign of a zero.
         const glm::dvec3 by_x = (none + derivative.x * value.y * value.z * by) / size_.x,
                          by_y = (none + value.x * derivative.y * value.z * by) / size_.y,
                          by_z = (none + value.x * value.y * derivative.z * by) / size_.z;
@@ -163,7 +165,8 @@ double FreeForm::stretch_bound() const {
 
 FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size, const glm::dvec3& push) {
     constexpr double share = (6.0 / 16.0) * (6.0 / 16.0) * (6.0 / 16.0);  // B_2^4(1/2) cubed
-    // For this lattice the bound of stretch_bound() is |push| * 1.1858 / 0.375 / size per axis: keep it below 0.7.
+    // For this lattice the bound of stretch_bound() is |push| * 1.1858 / 0.375 / size per axis; it
+    // is kept below 0.7.
     const glm::dvec3 steep = glm::dvec3(1.20 / 0.375) / size;
     const double bound = std::sqrt(glm::dot(push, push)) * std::sqrt(glm::dot(steep, steep));
     const double keep = bound > 0.7 ? 0.7 / bound : 1.0;

@@ -1,4 +1,5 @@
-// Local free-form deformation: a box of space moved by a Bernstein lattice, everything outside left alone.
+// Local free-form deformation: a box of space displaced by a Bernstein lattice; everything outside
+// is unchanged.
 #pragma once
 
 #include <array>
@@ -8,12 +9,14 @@
 
 namespace sporeprint {
 
-/// A point of the surface at rest (straight axis) and two unit directions that span its tangent plane; outward is first x second.
+/// A point of the surface at rest (straight axis) and two unit tangent directions; the outward
+/// normal is meridian x azimuth.
 struct SurfacePoint {
     glm::dvec3 position, meridian, azimuth;
 };
 
-/// A lattice of (degree + 1)^3 control points over an axis-aligned box; only points that are displaced are stored.
+/// A lattice of (degree + 1)^3 control points over an axis-aligned box; only displaced points are
+/// stored.
 class FreeForm {
   public:
     struct Displaced {
@@ -21,7 +24,8 @@ class FreeForm {
         glm::dvec3 by;             ///< metres
     };
 
-    /// degree  1..7 along each axis. The box blends C1 into its surroundings when the two outermost layers on each side are not displaced.
+    /// degree  1..7 along each axis. The box joins its surroundings C1 when the two outermost
+    ///         layers on each side are not displaced.
     /// throws  std::invalid_argument if an index or a degree is out of range, or the box is empty
     /// source  [Sederberg1986], in displacement form: no displacement is the exact identity
     FreeForm(const glm::dvec3& corner, const glm::dvec3& size, std::array<int, 3> degree,
@@ -33,18 +37,20 @@ class FreeForm {
                q.z < size_.z;
     }
 
-    /// Moves `p` and the two directions with it, by the Jacobian at p; nothing happens outside the box.
+    /// Displaces `p`, and the two directions by the Jacobian at p; a point outside the box is
+    /// unchanged.
     void apply(glm::dvec3& p, glm::dvec3& first, glm::dvec3& second) const {
         if (contains(p)) move(p, first, second);
     }
 
-    /// The same for many points, a dent's much faster; equal to the bit.
+    /// Does the same for many points; bit-identical, and much faster for a dent.
     void apply(std::span<SurfacePoint> points) const;
 
-    /// The same for places without directions.
+    /// Does the same for positions without directions.
     void apply(std::span<glm::dvec3> places) const;
 
-    /// Upper bound of the norm of the displacement's derivative anywhere; below 1 the map is injective and keeps orientation.
+    /// Returns an upper bound of the norm of the displacement's derivative; below 1 the map is
+    /// injective and keeps orientation.
     [[nodiscard]] double stretch_bound() const;
 
   private:
@@ -56,7 +62,8 @@ class FreeForm {
     bool is_dent_ = false;
 };
 
-/// A dent or bulge: degree 4, its one free control point displaced so that the centre moves by `push` (or as far as is injective).
+/// Returns a dent or bulge: degree 4 with one free control point, displaced so that the centre
+/// moves by `push`, or as far as the map stays injective.
 [[nodiscard]] FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size,
                             const glm::dvec3& push);
 

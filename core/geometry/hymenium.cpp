@@ -11,13 +11,14 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int stations = 64;       // of the meridian
-constexpr double room_used = 0.6;  // of what lies between the edges and the cap's upper face
-/// Where the flesh has rings of its own: it rises from the stem and runs out at the margin.
+constexpr int stations = 64;         // samples of the meridian
+constexpr double usable_room = 0.6;  // share of the distance from the edges to the cap's upper face
+/// Places of extra rings of the flesh, which rises steeply at the stem and thins at the margin.
 constexpr std::array<double, 10> steep_places = {0.012, 0.026, 0.042, 0.06, 0.085,
                                                  0.12,  0.2,   0.7,   0.8,  0.9};
 
-/// Distance along a ray to a polyline in the half-plane; nothing nearer than `from` counts.
+/// Returns the distance along a ray to a polyline in the half-plane; intersections nearer than
+/// `from` are ignored.
 double distance_to(const std::vector<OutlineSample>& line, double r, double y, double dr, double dy,
                    double from) {
     double nearest = 1e9;
@@ -47,14 +48,15 @@ LowerFace::LowerFace(const Individual& individual, int lod) {
     const SubCurve& curve = individual.outline.hymenium;
     if (curve.empty()) return;
     length_ = curve.length();
-    carries_ = flesh_rings(individual, lod) > 0;
+    has_solids_ = flesh_rings(individual, lod) > 0;
     std::vector<OutlineSample> line;
     for (int i = 0; i <= stations; ++i) line.push_back(curve.at(static_cast<double>(i) / stations));
     const auto cap = individual.outline.rings(CurveName::cap, 0);
     for (int i = 0; i <= stations; ++i) {
         const double share = static_cast<double>(i) / stations;
         const OutlineSample& at = line[static_cast<std::size_t>(i)];
-        // Blades do not turn as sharply as the outline does at the stem: normals of a stretch of it.
+        // Blades do not turn as sharply as the outline does at the stem, so normals are averaged
+        // over a stretch of it.
         double normal_r = 0.0, normal_y = 0.0;
         for (int k = std::max(i - 5, 0); k <= std::min(i + 5, stations); ++k) {
             normal_r += line[static_cast<std::size_t>(k)].tangent_y;
@@ -71,23 +73,24 @@ LowerFace::LowerFace(const Individual& individual, int lod) {
         if (room > 1e8) room = 0.0;
         double wanted = 0.0, groove = 0.0;
         for (const SpeciesShare& part : individual.parts) {
-            const HymeniumOf<Plain>& h = part.model.hymenium;
+            const HymeniumOf<Plain>& hymenium = part.model.hymenium;
             const HymeniumPattern pattern = part.model.surface.hymenium.pattern;
-            const double deep = part.weight * h.depth * length_ * envelope(h, share);
+            const double deep =
+                part.weight * hymenium.depth * length_ * depth_envelope(hymenium, share);
             if (is_bladed(pattern) || part.cells.rows > 0)
                 wanted += deep;
             else if (pattern == HymeniumPattern::pores)
-                groove += deep * (1.0 - carried(h, share));
+                groove += deep * (1.0 - cell_depth(hymenium, share));
         }
-        // Tubes are the outline themselves, but for the groove round the stem.
+        // Tubes fill the outline itself, except in the groove round the stem.
         if (!has_solids(lod)) wanted = 0.0;
-        const double most = room_used * room;
+        const double most = usable_room * room;
         place.recess = std::min(wanted + groove, most);
         place.scale = wanted > 0.0 ? std::min(1.0, place.recess / (wanted + groove)) : 0.0;
         place.sink = std::min(0.12 * place.recess + 0.008 * length_, 0.15 * room);
         places_.push_back(place);
     }
-    // Where the room ends abruptly the flesh still goes over smoothly.
+    // The recess is smoothed where the room ends abruptly.
     for (int pass = 0; pass < 2; ++pass) {
         const std::vector<Place> before = places_;
         for (std::size_t i = 1; i + 1 < places_.size(); ++i) {
@@ -126,7 +129,7 @@ LowerFace::Place LowerFace::at(double share) const {
 
 std::vector<OutlineSample> LowerFace::flesh(const Outline& outline, int lod) const {
     std::vector<OutlineSample> rings = outline.rings(CurveName::hymenium, lod);
-    if (!carries_) return rings;
+    if (!has_solids_) return rings;
     for (const double place : steep_places) rings.push_back(outline.hymenium.at(place));
     std::sort(rings.begin() + 1, rings.end(),
               [](const OutlineSample& a, const OutlineSample& b) { return a.share < b.share; });
@@ -143,7 +146,7 @@ std::vector<OutlineSample> LowerFace::flesh(const Outline& outline, int lod) con
         const double tr = ring.tangent_r + slope.x / length_,
                      ty = ring.tangent_y + slope.y / length_;
         const double size = std::sqrt(tr * tr + ty * ty);
-        if (i > 0 && i + 1 < rings.size()) {  // the ends belong to stem and cap too
+        if (i > 0 && i + 1 < rings.size()) {  // the end rings are shared with stem and cap
             ring.r += by.x;
             ring.y += by.y;
         }
@@ -156,11 +159,11 @@ std::vector<OutlineSample> LowerFace::flesh(const Outline& outline, int lod) con
 }
 
 void add_hymenium(Mesh& mesh, const Individual& individual, const LowerFace& face,
-                  const Ground& ground, const Budget& budget) {
+                  const OrnamentContext& context, const Budget& budget) {
     if (face.empty()) return;
-    const Roots roots(mesh, individual, face, ground);
-    add_blades(roots, budget.blades);
-    add_cells(roots, budget.cells);
+    const Attachment attachment(mesh, individual, face, context);
+    add_blades(attachment, budget.blades);
+    add_cells(attachment, budget.cells);
 }
 
 }  // namespace sporeprint

@@ -1,4 +1,5 @@
-// The lower face as it is built: gills, ridges and spines as solids, and the flesh between them.
+// Geometry of the lower face: gills, ridges, spines and pores as solids, and the flesh between
+// them.
 #pragma once
 
 #include <vector>
@@ -11,29 +12,31 @@ namespace sporeprint {
 
 struct Budget;
 
-/// Whether a level of detail carries the hymenium as solids; farther ones wear it in their images alone.
+/// Returns true when a level of detail has the hymenium as solids; coarser levels only paint it.
 [[nodiscard]] constexpr bool has_solids(int lod) { return lod == 0; }
 
-/// Rings that the flesh of an individual has beside those of its set, because it rises steeply between gills.
+/// Returns the number of extra rings of the flesh, which rises steeply between gills.
 [[nodiscard]] int flesh_rings(const Individual& individual, int lod);
 
-/// The lower face of an individual. Its outline is where the edges of the gills lie: the flesh lies deeper by what the blades are
-/// deep there, at most by a share of the room under the cap. So blades pierce nothing, a closed button keeps its gills inside, and
-/// every level of detail has one silhouette.
+/// The lower face of an individual. Its outline is where the edges of the gills lie; the flesh is
+/// recessed by the depth of the blades, at most by a fixed fraction of the room under the cap. So
+/// blades intersect nothing, a closed button encloses its gills, and all levels of detail have the
+/// same silhouette.
 class LowerFace {
   public:
     LowerFace(const Individual& individual, int lod);
 
-    /// The rings of the lower face at a level of detail, moved from the edges of the blades to the flesh between them.
+    /// Returns the rings of the lower face at a level of detail, displaced from the edges of the
+    /// blades to the flesh between them.
     [[nodiscard]] std::vector<OutlineSample> flesh(const Outline& outline, int lod) const;
 
-    /// A place on the meridian, 0 at the stem, 1 at the margin.
+    /// A place on the meridian, from 0 at the stem to 1 at the margin.
     struct Place {
-        double r = 0.0, y = 0.0;                 ///< of the edges
-        double normal_r = 0.0, normal_y = -1.0;  ///< out of the face
-        double recess = 0.0;                     ///< how much deeper the flesh lies, metres
-        double sink = 0.0;                       ///< how much deeper still solids may begin
-        double scale = 1.0;  ///< factor on depths: less than 1 where there is not room enough
+        double r = 0.0, y = 0.0;                 ///< position of the edges, metres
+        double normal_r = 0.0, normal_y = -1.0;  ///< outward unit normal of the face
+        double recess = 0.0;                     ///< depth of the flesh below the edges, metres
+        double sink = 0.0;   ///< further depth at which solids may begin, metres
+        double scale = 1.0;  ///< factor on depths; below 1 where there is not enough room
     };
     [[nodiscard]] Place at(double share) const;
 
@@ -43,14 +46,14 @@ class LowerFace {
   private:
     std::vector<Place> places_;
     double length_ = 0.0;
-    bool carries_ = false;  ///< whether a species of the mix carries anything on it
+    bool has_solids_ = false;  ///< whether a species of the mix has solids on it
 };
 
-/// Appends blades and spines: closed solids sunk a little into the flesh. What a weight or an age leaves nothing of keeps its
-/// vertices and, in clips, its triangles.
+/// Appends blades, spines and pores: closed solids sunk a little into the flesh. A solid that a
+/// weight or an age reduces to nothing keeps its vertices and, in growth clips, its triangles.
 ///
-/// source  algorithms of fine structure: profiles by attachment (free, adnexed, adnate, sinuate, decurrent), lamellulae in tiers
+/// source  profiles by attachment (free, adnexed, adnate, sinuate, decurrent), lamellulae in tiers
 void add_hymenium(Mesh& mesh, const Individual& individual, const LowerFace& face,
-                  const Ground& ground, const Budget& budget);
+                  const OrnamentContext& context, const Budget& budget);
 
 }  // namespace sporeprint

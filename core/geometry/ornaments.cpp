@@ -18,23 +18,25 @@ namespace {
 
 constexpr const Chart& veil = swept_charts[static_cast<std::size_t>(Part::veil)];
 
-/// A closed solid made of a grid of corners: rows from its base to its tip, columns round it, the first column repeated.
+/// A closed solid made of a grid of corners: rows from its base to its tip, columns round it, the
+/// first column repeated.
 struct Solid {
     std::vector<glm::dvec3> corners;  ///< [row][column]
-    std::vector<glm::dvec3> normals;  ///< worked out by append()
+    std::vector<glm::dvec3> normals;  ///< computed by append()
     int rows = 0, columns = 0;        ///< columns without the repeated one
-    bool loops =
-        false;  ///< the last row meets the first (a ring); else the base is closed by a polygon
+    /// Whether the last row meets the first (a ring); otherwise the base is closed by a polygon.
+    bool loops = false;
 };
 
-/// Appends a solid: normals by area over what shares a place, texture from the veil's strip. Without `drawn` its vertices alone.
+/// Appends a solid. Normals are area-weighted over vertices that share a position, texture
+/// coordinates are those of the veil's strip. Without `drawn` only its vertices are appended.
 void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured, bool drawn) {
     const std::size_t indices = mesh.indices.size();
     const int row = solid.columns + 1;
     const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * row + j); };
     const auto& p = solid.corners;
-    const bool pointed = !solid.loops;  // its last row is one place
+    const bool pointed = !solid.loops;  // its last row is one point
     std::vector<glm::dvec3>& normals = solid.normals;
     normals.assign(p.size(), glm::dvec3(0.0));
     glm::dvec3 tip(0.0);
@@ -79,7 +81,8 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured,
                       behind = j > 0 ? j - 1 : solid.columns - 1;
             const int side = pointed && i == solid.rows - 1 ? i - 1 : i;
             const glm::dvec3 tangent = p[at(side, ahead)] - p[at(side, behind)];
-            // Going round counter-clockwise with the tip above, image-up is towards the base; the ring's other side is mirrored.
+            // Columns run counter-clockwise with the tip above, so image-up points to the base; the
+            // other side of a ring is mirrored.
             const bool mirrored = solid.loops && i >= solid.rows / 2;
             mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
                                        mirrored ? 1.0F : -1.0F);
@@ -105,11 +108,11 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured,
                                                  base + static_cast<std::uint32_t>(j)});
 }
 
-/// Share of the stem's arc length at which a place of the mature stem lies now: on its segment, at its share of it. The same place
-/// when the stem is the mature one.
+/// Returns the share of the current stem's arc length that corresponds to a share of the mature
+/// stem: the same segment, at the same share of it. For the mature stem it is the identity.
 double grown_share(const std::vector<double>& mature, const std::vector<double>& now,
                    double share) {
-    if (mature.size() != now.size()) return share;  // nothing known of another age
+    if (mature.size() != now.size()) return share;  // other ages have no corresponding segments
     std::size_t k = 0;
     while (k + 2 < mature.size() && mature[k + 1] <= share) ++k;
     const double length = mature[k + 1] - mature[k];
@@ -117,59 +120,62 @@ double grown_share(const std::vector<double>& mature, const std::vector<double>&
     return now[k] + within * (now[k + 1] - now[k]);
 }
 
-/// Adds the pieces of one layer.
-void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
-    if (ground.detail.patch_sides == 0) return;
+/// Appends the pieces of one layer.
+void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& context) {
+    if (context.detail.patch_sides == 0) return;
     const PatchStyle& style = layer.style;
-    // Positions run up the stem, or from the apex down.
+    // Positions run up the stem, or down from the apex.
     const bool on_stem = layer.purpose == purposes::bulb_scales;
-    const SubCurve& curve = on_stem ? ground.outline.stem : ground.outline.cap;
+    const SubCurve& curve = on_stem ? context.outline.stem : context.outline.cap;
     const std::vector<double> segments = on_stem ? curve.segment_shares() : std::vector<double>{};
-    const double length = ground.outline.cap.length();
+    const double length = context.outline.cap.length();
     const Part part = on_stem ? Part::stem : Part::cap;
-    const int columns = detail_of(ground.lod).columns;
+    const int columns = detail_of(context.lod).columns;
     const std::vector<OutlineSample> rings =
-        ground.outline.rings(on_stem ? CurveName::stem : CurveName::cap, ground.lod);
-    const int sides = ground.detail.patch_sides, between = ground.detail.patch_rings;
-    // An outline with fewer corners stands wider, so that it covers as much.
+        context.outline.rings(on_stem ? CurveName::stem : CurveName::cap, context.lod);
+    const int sides = context.detail.patch_sides, between = context.detail.patch_rings;
     // Low pieces are cushions, tall ones spines.
     const double pointed = smooth_step(0.9, 1.5, style.height);
     const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
+    // An outline with fewer corners is widened, so that it covers the same area.
     const double wider = std::sqrt(covered(details[0].patch_sides) / covered(sides));
     Solid solid;
-    std::vector<Patch> built = patches(style, ground.seed, layer.purpose);
-    if (ground.detail.patches < 1.0) {
+    std::vector<Patch> built = patches(style, context.seed, layer.purpose);
+    if (context.detail.patches < 1.0) {
         std::stable_sort(built.begin(), built.end(),
                          [](const Patch& a, const Patch& b) { return a.drawn > b.drawn; });
         built.resize(
-            std::min(built.size(), static_cast<std::size_t>(piece_count(layer, ground.detail))));
+            std::min(built.size(), static_cast<std::size_t>(piece_count(layer, context.detail))));
     }
     for (const Patch& patch : built) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
-        // What stood where the margin is cut has moved inwards with it.
+        // A piece where the margin is cut moves inwards with the surface.
         const OutlineSample at =
             curve.at(on_stem ? grown_share(layer.segments, segments, patch.sigma)
-                             : 1.0 - ground.cuts.cap(patch.sigma, patch.theta));
-        // On the mesh itself, whose chords stand off from the skin: nothing is left under it, or in the air.
-        const SurfacePoint place = ground.skin.meshed(part, rings, columns, at.share, patch.theta);
+                             : 1.0 - context.cuts.cap(patch.sigma, patch.theta));
+        // The base lies on the mesh itself, whose chords lie off the surface: otherwise a vanishing
+        // piece would be hidden under it, or float above.
+        const SurfacePoint place =
+            context.rest_surface.meshed(part, rings, columns, at.share, patch.theta);
         glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
-        if (!ground.skin.plain()) {
+        if (!context.rest_surface.plain()) {
             normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));
             meridian = square_to(normal, meridian);
         }
         const glm::dvec3 outward = on_stem ? meridian : -meridian;
-        // (round, outward, normal) is right-handed, so that corners run counter-clockwise seen from outside.
+        // (round, outward, normal) is right-handed, so corners run counter-clockwise seen from
+        // outside.
         const glm::dvec3 round = glm::cross(outward, normal);
         const double radius = patch.radius * scale * length, height = patch.height * radius;
         glm::dvec3 centre = place.position;
-        if (!on_stem) centre += ground.dents.cap(patch.sigma, patch.theta) * normal;
-        const AxisStation station = ground.deformer.frozen_station(
-            on_stem ? std::min(at.y, ground.deformer.top()) : ground.deformer.top());
+        if (!on_stem) centre += context.dents.cap(patch.sigma, patch.theta) * normal;
+        const AxisStation station = context.deformer.frozen_station(
+            on_stem ? std::min(at.y, context.deformer.top()) : context.deformer.top());
         solid.rows = between + 2;
         solid.columns = sides;
         solid.corners.clear();
-        Random random(ground.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
-        // Seven draws whatever the detail; a coarser outline takes some of them.
+        Random random(context.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
+        // Seven numbers are drawn at every level of detail; a coarser outline uses some of them.
         std::array<double, 7> reach{};
         for (double& r : reach) r = random.uniform(0.78, 1.12);
         const double tip_round = 0.25 * random.symmetric();
@@ -193,28 +199,29 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const Ground& ground) {
             solid.corners.push_back(
                 solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
         }
-        ground.deformer.apply(solid.corners, station);
-        if (!on_stem && !ground.curl.none()) {
-            const glm::dvec3 by = ground.curl.moved(true, 1.0 - at.share, patch.theta);
+        context.deformer.apply(solid.corners, station);
+        if (!on_stem && !context.curl.none()) {
+            const glm::dvec3 by = context.curl.moved(true, 1.0 - at.share, patch.theta);
             for (glm::dvec3& corner : solid.corners) corner += by;
         }
         const glm::dvec3 fallback =
             unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
-        append(mesh, solid, fallback, ground.textured, radius > 0.0 || ground.keep_absent);
+        append(mesh, solid, fallback, context.textured, radius > 0.0 || context.keep_absent);
     }
 }
 
-/// How far a stem has risen along its way, metres: what is flatter than `least` counts as rising so much of its length, so that a
-/// place by its rise never leaps along rays that lie flat or bend down to the ground.
+/// Cumulated rise of a stem along its length, metres. Stretches flatter than `least` count as
+/// rising by that share of their length, so that a place given by its rise moves continuously along
+/// a meridian that is level or bends down to the ground.
 class Rise {
   public:
     Rise(const SubCurve& stem, double least) : stem_(stem) {
         OutlineSample last = stem.at(0.0);
-        for (int i = 1; i <= looks; ++i) {
-            const OutlineSample here = stem.at(static_cast<double>(i) / looks);
+        for (int i = 1; i <= samples; ++i) {
+            const OutlineSample here = stem.at(static_cast<double>(i) / samples);
             risen_[static_cast<std::size_t>(i)] =
                 risen_[static_cast<std::size_t>(i - 1)] +
-                std::max(here.y - last.y, least * stem.length() / looks);
+                std::max(here.y - last.y, least * stem.length() / samples);
             last = here;
         }
     }
@@ -223,20 +230,21 @@ class Rise {
         const auto above = std::upper_bound(risen_.begin() + 1, risen_.end() - 1, rise);
         const double from = *(above - 1), to = *above;
         const double t = to > from ? std::clamp((rise - from) / (to - from), 0.0, 1.0) : 0.0;
-        return stem_.at((static_cast<double>(above - 1 - risen_.begin()) + t) / looks);
+        return stem_.at((static_cast<double>(above - 1 - risen_.begin()) + t) / samples);
     }
 
   private:
-    static constexpr int looks = 96;
+    static constexpr int samples = 96;
     const SubCurve& stem_;
-    std::array<double, looks + 1> risen_{};
+    std::array<double, samples + 1> risen_{};
 };
 
-/// How far a shell of a size lies on what dents the stem inside it: wholly when all but gone, no more when it is a third as large as
-/// the stem is thick.
-double lying(double size, double radius) { return 1.0 - smooth_step(0.0, 0.3 * radius, size); }
+/// Returns how far a shell of a size follows the dents of the stem inside it: fully when vanishing,
+/// not at all from 0.3 of the stem's radius on.
+double conforming(double size, double radius) { return 1.0 - smooth_step(0.0, 0.3 * radius, size); }
 
-/// How far an edge is torn at an angle, 0..1: rents between `count` lobes, and a finer raggedness.
+/// Depth of the tears of an edge at an angle, 0..1: `count` tears between lobes, and a finer
+/// raggedness.
 class Rents {
   public:
     Rents(Random& random, int least, int most)
@@ -270,35 +278,36 @@ int piece_count(const PatchLayer& layer, const Detail& detail) {
     return static_cast<int>(std::ceil(detail.patches * layer.style.count));
 }
 
-void add_patches(Mesh& mesh, const Individual& individual, const Ground& ground) {
-    for (const PatchLayer& layer : individual.layers) add_layer(mesh, layer, ground);
+void add_patches(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
+    for (const PatchLayer& layer : individual.layers) add_layer(mesh, layer, context);
 }
 
-void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
+void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
     const RingStyle& style = individual.ring;
-    const int rings = ground.detail.veil_rings;
+    const int rings = context.detail.veil_rings;
     if (rings == 0 || !individual.has_ring) return;
-    const Rise rise(ground.outline.stem, 0.2);
+    const Rise stem_rise(context.outline.stem, 0.2);
     const OutlineSample attachment = rise.at(style.height * rise.whole());
     const double height = attachment.y;
     const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);
-    Random groove_stream(ground.seed, purposes::ring_grooves),
-        tear_stream(ground.seed, purposes::ring_tear);
+    Random groove_stream(context.seed, purposes::ring_grooves),
+        tear_stream(context.seed, purposes::ring_tear);
     const int groove_count = 15 + static_cast<int>(groove_stream.bits() % 5);
     const Rents rents(tear_stream, 9, 13);
-    Random random(ground.seed, purposes::ring_ruffle);
+    Random random(context.seed, purposes::ring_ruffle);
     const int waves = 5 + static_cast<int>(random.bits() % 4);
     const double phase = random.uniform(0.0, 2.0 * pi);
     const double other = random.uniform(0.0, 2.0 * pi);
-    const AxisStation station = ground.deformer.frozen_station(height);
+    const AxisStation station = context.deformer.frozen_station(height);
 
-    // Centre line of the cross-section: leaves the stem at the flare and hangs down towards its edge.
+    // Centre line of the cross-section: it leaves the stem at the flare angle and hangs down
+    // towards its edge.
     struct Station {
         double r, y, normal_r, normal_y, share;
     };
     std::vector<Station> line;
-    // A little inside the stem; a ring that comes or goes no deeper than it is wide.
+    // The ring begins slightly inside the stem; a vanishing ring no deeper than it is wide.
     const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
     const double clear = style.gap * std::min(attachment.r, width);
     double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = attachment.y;
@@ -313,32 +322,32 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
         SineCosine turn;
         double ruffle, groove, reach, dent;
     };
-    // What is left of a ring lies on the stem's furrows and lumps; a whole one spans them.
-    const double lies = lying(width, attachment.r);
+    // A vanishing ring follows the furrows and lumps of the stem; a full one spans them.
+    const double conforms = conforming(width, attachment.r);
     std::vector<Column> columns;
-    for (int j = 0; j <= ground.detail.columns; ++j) {
-        const double angle = -2.0 * pi * (j % ground.detail.columns) /
-                             ground.detail.columns;  // counter-clockwise seen from above
-        // Grooves too fine for these columns would beat with them.
+    for (int j = 0; j <= context.detail.columns; ++j) {
+        const double angle = -2.0 * pi * (j % context.detail.columns) /
+                             context.detail.columns;  // counter-clockwise seen from above
+        // Grooves too fine for the columns of the mesh would alias.
         columns.push_back(
             {sine_cosine(angle),
              sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
-             3 * groove_count > ground.detail.columns ? 0.0 : sine(groove_count * angle + other),
+             3 * groove_count > context.detail.columns ? 0.0 : sine(groove_count * angle + other),
              1.0 - 0.8 * style.tear * rents.at(angle),
-             lies > 0.0 ? lies * ground.dents.stem(attachment.share, angle) : 0.0});
+             conforms > 0.0 ? conforms * context.dents.stem(attachment.share, angle) : 0.0});
     }
-    // The veil tears off level with its edge, which is thicker.
-    Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
+    // The tears end level with the edge, which is thicker.
+    Solid solid{{}, {}, 2 * (rings + 1), context.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool lower = i <= rings;
         const int row = lower ? i : solid.rows - 1 - i;
         const double whole_share = static_cast<double>(row) / rings;
-        // A double edge: two lips that stand off from each other.
+        // A double edge has two lips that stand off from each other.
         const double half =
             (lower ? -0.5 : 0.5) * thickness *
             (0.6 + 0.8 * whole_share + 5.0 * style.edge * smooth_step(0.45, 1.0, whole_share));
         for (const Column& column : columns) {
-            // Where the edge is torn the line ends sooner.
+            // Where the edge is torn, the line ends sooner.
             const double place = row * column.reach;
             const auto before =
                 static_cast<std::size_t>(std::min<int>(static_cast<int>(place), rings - 1));
@@ -353,123 +362,126 @@ void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground) {
                                style.grooves * 0.04 * width * at.share * column.groove;
             const double rr = std::max(at.r + off * at.normal_r + column.dent, 0.0),
                          yy = at.y + off * at.normal_y;
-            solid.corners.push_back(
-                ground.skin.azimuth().moved({rr * column.turn.cosine, yy, rr * column.turn.sine}));
+            solid.corners.push_back(context.rest_surface.azimuth().moved(
+                {rr * column.turn.cosine, yy, rr * column.turn.sine}));
         }
     }
-    ground.deformer.apply(solid.corners, station);
-    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured,
-           width > 0.0 || ground.keep_absent);
+    context.deformer.apply(solid.corners, station);
+    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), context.textured,
+           width > 0.0 || context.keep_absent);
 }
 
-void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground) {
+void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
     const SacStyle& style = individual.sac;
-    const int rings = ground.detail.sac_rings;
+    const int rings = context.detail.sac_rings;
     if (rings == 0 || !individual.has_sac) return;
     const double height = style.height;
     const double thickness = std::min(style.thickness, 0.2 * height);
-    // From under the bulb, or where a stem ends that grows from a wall above or below it; a low one holds as much of the bulb as it is
-    // high, or it would run in under a flat foot faster than it grows.
-    const double base = ground.deformer.base();
+    // The sac begins under the bulb, or at the end of a stem that grows from a vertical substrate.
+    // A low sac includes only as much of the bulb as it is high; otherwise it would extend under a
+    // flat base faster than it grows.
+    const double base = context.deformer.base();
     const double level =
-        std::min(std::max(base, 0.0), std::max(base, ground.outline.stem.at(1.0).y));
+        std::min(std::max(base, 0.0), std::max(base, context.outline.stem.at(1.0).y));
     const double buried = std::min(std::max(level - base, 0.0), 0.6 * height);
-    Random random(ground.seed, purposes::sac);
+    Random random(context.seed, purposes::sac);
     const Rents rents(random, 3, 5);
-    Random fold_stream(ground.seed, purposes::sac_folds);
+    Random fold_stream(context.seed, purposes::sac_folds);
     const int folds = 5 + static_cast<int>(fold_stream.bits() % 3);
     std::array<double, 3> phases{};
     for (double& phase : phases) phase = fold_stream.uniform(0.0, 2.0 * pi);
     const double lean = fold_stream.uniform(-1.5, 1.5);
 
-    // The way of its skin: along the stem up to where that is widest, and on from there by itself.
+    // Profile of the sac: along the stem up to its widest place, and freely upwards from there.
     constexpr int samples = 48;
-    const Rise way_up(ground.outline.stem, 0.2);
-    struct Way {
+    const Rise stem_rise(context.outline.stem, 0.2);
+    struct ProfilePoint {
         double r, y, normal_r, normal_y;
-        double clear;  // how far it is from the stem
+        double clear;  // distance from the stem
         double above;  // 0 at the ground, 1 at the highest lobe
         double share;  // of the stem
     };
-    std::array<Way, samples + 1> way{};
+    std::array<ProfilePoint, samples + 1> profile{};
     double widest = 0.0;
     for (int i = 0; i <= samples; ++i) {
-        // Rows crowd under the bulb, where the stem turns.
+        // Rows are denser under the bulb, where the stem turns.
         const double share = static_cast<double>(i) / samples;
         const double climb = share * (0.12 + 0.88 * share);
         const double y = level - buried + (buried + height) * climb;
-        const OutlineSample stem = way_up.at(y - base);
+        const OutlineSample stem = stem_rise.at(y - base);
         const double above = height > 0.0 ? std::clamp((y - level) / height, 0.0, 1.0) : 0.0;
         widest = std::max(widest, stem.r);
         const double held = style.hold * (widest - stem.r);
         const double off = held + style.gap * height * above * above;
         const bool free = stem.r < widest;
-        way[static_cast<std::size_t>(i)] = {
+        profile[static_cast<std::size_t>(i)] = {
             stem.r + off, stem.y,    free ? 1.0 : stem.tangent_y, free ? 0.0 : -stem.tangent_r, off,
             above,        stem.share};
     }
-    // By arc length, so that rows lie as close where it turns under the bulb as where it rises.
+    // Resampled by arc length, so that rows are equally spaced under the bulb and above it.
     std::array<double, samples + 1> arcs{};
     for (std::size_t i = 1; i <= samples; ++i) {
-        const double dr = way[i].r - way[i - 1].r, dy = way[i].y - way[i - 1].y;
+        const double dr = profile[i].r - profile[i - 1].r, dy = profile[i].y - profile[i - 1].y;
         arcs[i] = arcs[i - 1] + std::sqrt(dr * dr + dy * dy);
     }
-    const auto way_at = [&](double share) {
+    const auto profile_at = [&](double share) {
         const double arc = share * arcs.back();
         std::size_t k = 0;
         while (k + 1 < samples && arcs[k + 1] < arc) ++k;
         const double step = arcs[k + 1] - arcs[k];
         const double t = step > 0.0 ? std::clamp((arc - arcs[k]) / step, 0.0, 1.0) : share;
-        const Way &a = way[k], &b = way[k + 1];
+        const ProfilePoint &a = profile[k], &b = profile[k + 1];
         const auto mix = [t](double x, double y) { return x + t * (y - x); };
-        return Way{mix(a.r, b.r),
-                   mix(a.y, b.y),
-                   mix(a.normal_r, b.normal_r),
-                   mix(a.normal_y, b.normal_y),
-                   mix(a.clear, b.clear),
-                   mix(a.above, b.above),
-                   mix(a.share, b.share)};
+        return ProfilePoint{mix(a.r, b.r),
+                            mix(a.y, b.y),
+                            mix(a.normal_r, b.normal_r),
+                            mix(a.normal_y, b.normal_y),
+                            mix(a.clear, b.clear),
+                            mix(a.above, b.above),
+                            mix(a.share, b.share)};
     };
-    // Folds too fine for these columns would beat with them.
-    const bool fine = 4 * (2 * folds + 1) <= ground.detail.columns;
+    // Folds too fine for the columns of the mesh would alias.
+    const bool fine = 4 * (2 * folds + 1) <= context.detail.columns;
     const auto fold_at = [&](double angle, double share) {
         const double coarse = sine(folds * angle + phases[0] + lean * share);
         return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases[1]) +
                (fine ? 0.2 * sine((2 * folds + 1) * angle + phases[2] - lean * share) : 0.0);
     };
-    const double lies = lying(height, widest);
-    // Inside the stem where it begins, outside of it before long.
+    const double conforms = conforming(height, widest);
+    // The sac begins inside the stem and comes out of it soon after.
     const double sunk = std::min(0.02 * widest, 0.25 * height);
-    // A single band would cut through the bulb: from afar it is the wall alone.
+    // A single band would cut through the bulb; at coarse levels only the wall is built.
     const double first = rings > 1 ? 0.01 : 0.6;
-    Solid solid{{}, {}, 2 * (rings + 1), ground.detail.columns, true};
+    Solid solid{{}, {}, 2 * (rings + 1), context.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
         const double share = static_cast<double>(outside ? i : solid.rows - 1 - i) / rings;
-        for (int j = 0; j <= ground.detail.columns; ++j) {
+        for (int j = 0; j <= context.detail.columns; ++j) {
             const double angle =
-                -2.0 * pi * (j % ground.detail.columns) / ground.detail.columns;  // as the ring
+                -2.0 * pi * (j % context.detail.columns) / context.detail.columns;  // as for rings
             const double up =
                 first + (1.0 - first) * share * (1.0 - 0.62 * style.tear * rents.at(angle));
-            const Way at = way_at(up);
-            // The skin thins towards its edge, lies in folds where it is loose, and its lobes bend out or in.
+            const ProfilePoint at = profile_at(up);
+            // The wall thins towards its edge and is folded where it is loose; its lobes bend
+            // outwards or inwards.
             const double half = (outside ? 0.5 : -0.5) * thickness * (1.2 - 0.6 * share);
             const double fold = fold_at(angle, up);
             const double loose = at.clear * (0.5 * fold - 0.12 * at.above);
             const double rise = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.16, share) - sunk;
             const double off = half + rise + std::max(loose, -0.8 * at.clear);
             double r = std::max(at.r + off * at.normal_r, thickness + half);
-            if (lies > 0.0) r = std::max(r + lies * ground.dents.stem(at.share, angle), 0.0);
+            if (conforms > 0.0)
+                r = std::max(r + conforms * context.dents.stem(at.share, angle), 0.0);
             const auto turn = sine_cosine(angle);
-            glm::dvec3 place = ground.skin.azimuth().moved(
+            glm::dvec3 place = context.rest_surface.azimuth().moved(
                 {r * turn.cosine, at.y + off * at.normal_y, r * turn.sine});
-            ground.deformer.apply(std::span(&place, 1), ground.deformer.station(std::min(
-                                                            place.y, ground.deformer.top())));
+            context.deformer.apply(std::span(&place, 1), context.deformer.station(std::min(
+                                                             place.y, context.deformer.top())));
             solid.corners.push_back(place);
         }
     }
-    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), ground.textured,
-           height > 0.0 || ground.keep_absent);
+    append(mesh, solid, glm::dvec3(0.0, 1.0, 0.0), context.textured,
+           height > 0.0 || context.keep_absent);
 }
 
 }  // namespace sporeprint

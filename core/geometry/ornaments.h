@@ -1,4 +1,4 @@
-// What stands on the surface as solids of its own: warts, scales, bulb scales, the ring and the sac.
+// Ornaments: solids that stand on the surface (warts, scales, bulb scales, the ring and the sac).
 #pragma once
 
 #include "core/geometry/curl.h"
@@ -9,37 +9,40 @@
 
 namespace sporeprint {
 
-/// What ornaments stand on.
-struct Ground {
+/// Everything that ornaments need to know about the body they stand on.
+struct OrnamentContext {
     const Outline& outline;
     const Deformer& deformer;
-    const Skin& skin;
+    const RestSurface& rest_surface;
     const Detail& detail;
     int lod;
     std::uint32_t seed;
     bool textured;
-    bool keep_absent;  ///< whether what has no size keeps its triangles
-    const Cuts& cuts;  ///< of the margin
-    const Curl& curl;  ///< of what is left of it
+    bool keep_absent;        ///< whether ornaments of size 0 keep their triangles
+    const MarginCuts& cuts;  ///< of the margin
+    const Curl& curl;        ///< of the remaining margin
     const Dents& dents;
     const Individual& individual;
 };
 
-/// Pieces of a layer: those that are gone too, so that no amount changes the number of vertices.
+/// Returns the number of pieces of a layer, absent ones included, so that no amount changes the
+/// number of vertices.
 [[nodiscard]] int piece_count(const PatchLayer& layer, const Detail& detail);
 
-/// Appends warts, scales and bulb scales, each a closed solid a little sunk into the surface. A piece of which nothing is left
-/// is a point on the surface, with unit normals.
-void add_patches(Mesh& mesh, const Individual& individual, const Ground& ground);
+/// Appends warts, scales and bulb scales, each a closed solid sunk a little into the surface. A
+/// piece of size 0 is a point on the surface, with unit normals.
+void add_patches(Mesh& mesh, const Individual& individual, const OrnamentContext& context);
 
-/// Vertices of the ring and the sac, which are there for a set of species or are not, whatever the amounts.
+/// Returns the number of rings of vertices of ring and sac. It depends on the set of species only,
+/// not on amounts.
 [[nodiscard]] int shell_rings(const Individual& individual, const Detail& detail);
 
-/// Appends the ring: a closed thin shell attached to the stem; a line round it when nothing is left.
-void add_ring(Mesh& mesh, const Individual& individual, const Ground& ground);
+/// Appends the ring, a closed thin shell attached to the stem; at size 0 it is a circle round the
+/// stem.
+void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& context);
 
-/// Appends the sac-like volva: a closed thin shell round the base of the stem, torn at its edge; a line round it when nothing is
-/// left.
-void add_sac(Mesh& mesh, const Individual& individual, const Ground& ground);
+/// Appends the sac-like volva, a closed thin shell round the base of the stem, torn at its edge; at
+/// size 0 it is a circle round the stem.
+void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& context);
 
 }  // namespace sporeprint

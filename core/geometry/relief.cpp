@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::uint32_t prime_x = 0x9E3779B1U, prime_y = 0x85EBCA77U, prime_z = 0xC2B2AE3DU;
 
-// The hash of core/math/noise.inl, one number at a time.
+// Scalar version of the hash of core/math/noise.inl.
 std::uint32_t hashed(std::uint32_t h) {
     h *= 0x27D4EB2DU;
     return h ^ (h >> 15U);
@@ -27,20 +27,20 @@ struct Step {
     double value, slope;
 };
 
-/// smooth_step() and its derivative.
+/// Returns smooth_step() and its derivative.
 Step step_at(double from, double to, double x) {
     const double t = std::clamp((x - from) / (to - from), 0.0, 1.0);
     return {t * t * (3.0 - 2.0 * t), 6.0 * t * (1.0 - t) / (to - from)};
 }
 
-/// How deep a crease is at a value of noise: 1 where it is 0.
+/// Returns the relative depth of a crease at a value of noise: 1 where the noise is 0.
 Step crease_at(double noise) {
     constexpr double square = crease * crease;
     const double depth = square / (noise * noise + square);
     return {depth, -2.0 * noise * depth * depth / square};
 }
 
-/// Nothing at the apex and at the margin, where the face meets others.
+/// Returns a window that is 0 at the apex and at the margin, where the face meets others.
 Step window_at(double sigma) {
     const Step apex = step_at(relief_apex, relief_apex_end, sigma),
                margin = step_at(relief_margin, 1.0, sigma);
@@ -131,7 +131,7 @@ PitSample pit_sample(const ReliefStyle& style, double turn, double row, std::uin
         const double border = 0.5 * twice / root;
         if (border >= sample.border) continue;
         sample.border = border;
-        // Points of other rows move at another pace when the turn changes.
+        // Points of rows with another number of columns move at another rate with the turn.
         const double px = -point.columns, nx = -near.columns, ex_by = px - nx;
         sample.by_turn = (point.x * px - near.x * nx) / root - border * ex * ex_by / apart;
         sample.by_row = -ey / root;
@@ -176,8 +176,8 @@ double Relief::room(const Outline& outline) const {
         const double depth = deepest * window_at(sigma).value;
         if (depth <= 0.0) continue;
         const OutlineSample at = outline.cap.at(1.0 - sigma);
-        // Curvature over a stretch of the meridian: at a point it differs between a species' own nodes and those of a set, and so
-        // would all depths.
+        // Curvature is measured over a stretch of the meridian: at a single point it differs
+        // between the nodes of a species and those of a set, and all depths would differ with it.
         const OutlineSample before = outline.cap.at(1.0 - sigma - 1.0 / 48.0),
                             after = outline.cap.at(1.0 - sigma + 1.0 / 48.0);
         const double turn = before.tangent_r * after.tangent_y - before.tangent_y * after.tangent_r;
@@ -195,7 +195,7 @@ double Relief::room(const Outline& outline) const {
 
 void Relief::add_folds(Depth& depth, const ReliefStyle& style, double sigma,
                        const SineCosine& turn) const {
-    // On the hemisphere that the face was when it was young.
+    // Noise is evaluated on a hemisphere, which is the shape of the young face.
     const auto tilt = sine_cosine(0.5 * pi * sigma);
     for (int octave = 0; octave < 2; ++octave) {
         const double f = 0.5 * style.fold_count * (octave == 0 ? 1.0 : 2.03);

@@ -1,4 +1,4 @@
-// Relief of the skin: heights along its normal, by place, with derivatives.
+// Relief of the upper face: heights along the outline's normal, by place, with derivatives.
 #pragma once
 
 #include <array>
@@ -13,9 +13,9 @@
 
 namespace sporeprint {
 
-/// Heights over the outline turned about its axis, metres. A sum of sources, each with its derivatives; those that a level of
-/// detail cannot carry are lower in it, and painted instead. As deep as the flesh allows: where the depths asked for would reach
-/// another face, the axis or the centre of curvature, all of it is shallower.
+/// Height field over the outline revolved about its axis, metres: a sum of sources, each with its
+/// derivatives. Sources too fine for a level of detail are reduced, and painted instead. All depths
+/// are scaled down where they would reach another face, the axis or the centre of curvature.
 class Relief {
   public:
     Relief(const Individual& individual, const Detail& detail);
@@ -26,7 +26,10 @@ class Relief {
 
     [[nodiscard]] bool flat(Part part) const { return part != Part::cap || styles_.empty(); }
 
-    /// share  along the part's sub-curve, base to apex; angle at rest and its sine and cosine
+    /// Returns the height at a place.
+    ///
+    /// share        along the part's sub-curve, base to apex
+    /// angle, turn  angle at rest, and its sine and cosine
     [[nodiscard]] Height at(Part part, double share, double angle, const SineCosine& turn) const;
 
   private:
@@ -38,7 +41,8 @@ class Relief {
                    const SineCosine& turn) const;
     void add_pits(Depth& depth, const ReliefStyle& style, double sigma, double angle) const;
 
-    /// Share of the depths that keeps the face clear of everything else in every half-plane.
+    /// Returns the factor on depths that keeps the face clear of everything else in every
+    /// half-plane.
     [[nodiscard]] double room(const Outline& outline) const;
 
     std::vector<ReliefStyle> styles_;
@@ -46,14 +50,15 @@ class Relief {
     double meridian_;
 };
 
-/// Gradient noise as gradient_noise() in space, with its derivatives.
+/// Value of gradient_noise() in space, with its derivatives.
 struct NoiseSample {
     double value = 0.0;
     std::array<double, 3> by{};
 };
 [[nodiscard]] NoiseSample noise_sample(const std::array<double, 3>& at, std::uint32_t seed);
 
-/// Distance to the border of the pit at a place, in cells, and its derivatives by turn and row; and how deep this pit is, 0.7..1.
+/// Distance to the border of the pit at a place, in cells, with its derivatives by turn and row;
+/// and the relative depth of this pit, 0.7..1.
 struct PitSample {
     double border = 0.0, by_turn = 0.0, by_row = 0.0, deep = 1.0;
 };

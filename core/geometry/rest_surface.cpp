@@ -8,32 +8,33 @@
 
 namespace sporeprint {
 
-Skin::Skin(const Individual& individual, const Detail& detail)
+RestSurface::RestSurface(const Individual& individual, const Detail& detail)
     : outline_(individual.outline),
       relief_(individual, detail),
       waves_(individual.waves, greatest_radius(individual.outline.cap), detail.columns,
              individual.effective.seed),
       azimuth_(individual, detail.columns) {}
 
-Skin::Column Skin::column(double angle) const {
+RestSurface::Column RestSurface::column(double angle) const {
     Column column{angle, azimuth_.column(angle), {}};
     if (!waves_.flat()) column.waves = waves_.phases(angle);
     return column;
 }
 
-const SubCurve& Skin::curve(Part part) const {
+const SubCurve& RestSurface::curve(Part part) const {
     return part == Part::stem       ? outline_.stem
            : part == Part::hymenium ? outline_.hymenium
                                     : outline_.cap;
 }
 
-SurfacePoint Skin::at(Part part, const OutlineSample& sample, const Column& column) const {
+SurfacePoint RestSurface::at(Part part, const OutlineSample& sample, const Column& column) const {
     const auto [s, c] = column.azimuth.from;
     SurfacePoint point{{sample.r * c, sample.y, sample.r * s},
                        {sample.tangent_r * c, sample.tangent_y, sample.tangent_r * s},
                        {-s, 0.0, c}};
     if (!relief_.flat(part)) {
-        // Along the normal of the outline, which turns with it: n' is the curvature times the tangent.
+        // Displacement along the normal of the outline. The normal turns with the outline: n' is
+        // curvature times tangent.
         const Relief::Height height =
             relief_.at(part, sample.share, column.angle, column.azimuth.from);
         const double length = curve(part).length();
@@ -61,12 +62,12 @@ SurfacePoint Skin::at(Part part, const OutlineSample& sample, const Column& colu
     return point;
 }
 
-SurfacePoint Skin::at(Part part, double share, double angle) const {
+SurfacePoint RestSurface::at(Part part, double share, double angle) const {
     return at(part, curve(part).at(share), column(angle));
 }
 
-SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, int columns,
-                          double share, double angle) const {
+SurfacePoint RestSurface::meshed(Part part, const std::vector<OutlineSample>& rings, int columns,
+                                 double share, double angle) const {
     const Column here = column(angle);
     SurfacePoint point = at(part, curve(part).at(share), here);
     const auto above =
@@ -79,7 +80,7 @@ SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, in
     const double round = turn - first;
     const Column left = column(2.0 * pi * first / columns),
                  right = column(2.0 * pi * (first + 1.0) / columns);
-    // A quad's diagonal runs from the right of its lower ring to the left of its upper one.
+    // The diagonal of a quad runs from the right of its lower ring to the left of its upper one.
     const glm::dvec3 b = at(part, low, right).position, c = at(part, high, left).position;
     if (round + up <= 1.0) {
         const glm::dvec3 a = at(part, low, left).position;
@@ -88,7 +89,8 @@ SurfacePoint Skin::meshed(Part part, const std::vector<OutlineSample>& rings, in
         const glm::dvec3 d = at(part, high, right).position;
         point.position = d + (1.0 - round) * (c - d) + (1.0 - up) * (b - d);
     }
-    // As steep as the mesh is: where an outline bends between two rings, its own tangent swings round as the bend passes by.
+    // The meridian has the slope of the mesh: where an outline bends between two rings, its own
+    // tangent changes abruptly while the bend passes.
     const auto last = rings.end() - 1;
     const auto chord = [&](std::vector<OutlineSample>::const_iterator ring) {
         const auto& before = ring == rings.begin() ? *ring : *(ring - 1);

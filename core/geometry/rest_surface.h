@@ -1,4 +1,5 @@
-// The skin of an individual while its axis is straight: where solids stand before dents and the axis move them.
+// The surface of an individual while its axis is straight: where solids stand before dents and the
+// axis displace them.
 #pragma once
 
 #include "core/geometry/azimuth.h"
@@ -8,14 +9,15 @@
 
 namespace sporeprint {
 
-/// Places of the skin by (part, share, angle). `share` runs along the part's own sub-curve, base to apex: on the cap it is 0 at the
-/// margin and 1 at the apex. Angles are those of the columns, before a fan turns them to its front.
-class Skin {
+/// Evaluates the surface by (part, share, angle). `share` runs along the part's own sub-curve, base
+/// to apex: on the cap it is 0 at the margin and 1 at the apex. Angles are those of the columns,
+/// before a fan turns them to its front.
+class RestSurface {
   public:
-    /// detail  of the mesh: what its columns and rings cannot carry is left out
-    Skin(const Individual& individual, const Detail& detail);
+    /// detail  of the mesh; sources too fine for its columns and rings are left out
+    RestSurface(const Individual& individual, const Detail& detail);
 
-    /// All that depends on the angle alone.
+    /// Everything that depends on the angle alone.
     struct Column {
         double angle = 0.0;
         AzimuthMap::Column azimuth;
@@ -23,19 +25,22 @@ class Skin {
     };
     [[nodiscard]] Column column(double angle) const;
 
-    /// Whether it is the outline turned about the axis and nothing more.
+    /// Returns true when the surface is the outline revolved about the axis and nothing more.
     [[nodiscard]] bool plain() const {
         return waves_.flat() && azimuth_.identity() && relief_.flat(Part::cap);
     }
 
-    /// The place of a sample of the part's sub-curve. The directions are the derivatives by arc length of the outline at rest, base
-    /// to apex, and by angle over the radius at rest; their cross product points outwards and is not unit. part: stem, hymenium or cap
+    /// Returns the surface point of a sample of the part's sub-curve (stem, hymenium or cap). The
+    /// directions are the derivatives by arc length of the outline at rest, base to apex, and by
+    /// angle divided by the radius at rest; their cross product points outwards and is not a unit
+    /// vector.
     [[nodiscard]] SurfacePoint at(Part part, const OutlineSample& sample,
                                   const Column& column) const;
     [[nodiscard]] SurfacePoint at(Part part, double share, double angle) const;
 
-    /// The place of a mesh over this skin with these rings and so many even columns: between its vertices lie chords, which relief,
-    /// fans and lobes stand off from. Its meridian is that of the mesh, of length 1.
+    /// Returns the point of a mesh over this surface with these rings and this number of even
+    /// columns: between vertices the mesh is a chord, which lies off relief, fans and lobes. Its
+    /// meridian is the unit tangent of the mesh.
     [[nodiscard]] SurfacePoint meshed(Part part, const std::vector<OutlineSample>& rings,
                                       int columns, double share, double angle) const;
 

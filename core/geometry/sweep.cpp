@@ -41,17 +41,17 @@ std::string text(double value) {
 
 class Sweeper {
   public:
-    /// columns  where they stand, in turns
-    Sweeper(Mesh& mesh, const Deformer& deformer, const Skin& skin,
+    /// columns  their positions, in turns
+    Sweeper(Mesh& mesh, const Deformer& deformer, const RestSurface& rest_surface,
             const std::vector<double>& columns, bool textured)
         : mesh_(mesh),
           deformer_(deformer),
-          skin_(skin),
+          rest_surface_(rest_surface),
           columns_(static_cast<int>(columns.size())),
           textured_(textured),
           shares_(columns),
           row_(columns.size() + 1) {
-        for (const double turn : columns) turns_.push_back(skin.column(2.0 * pi * turn));
+        for (const double turn : columns) turns_.push_back(rest_surface.column(2.0 * pi * turn));
         turns_.push_back(turns_.front());
         shares_.push_back(1.0);
     }
@@ -79,10 +79,10 @@ class Sweeper {
     void ring(Part part, const OutlineSample& sample) {
         const AxisStation station = deformer_.station(part, sample);
         const Chart& chart = swept_charts[static_cast<std::size_t>(part)];
-        const double length = skin_.curve(part).length();
+        const double length = rest_surface_.curve(part).length();
         for (int j = 0; j <= columns_; ++j)
             row_[static_cast<std::size_t>(j)] =
-                skin_.at(part, sample, turns_[static_cast<std::size_t>(j)]);
+                rest_surface_.at(part, sample, turns_[static_cast<std::size_t>(j)]);
         deformer_.apply(row_, station);
         for (int j = 0; j <= columns_; ++j) {
             const SurfacePoint& point = row_[static_cast<std::size_t>(j)];
@@ -109,11 +109,9 @@ class Sweeper {
                     : hymenium_inner_share + (1.0 - hymenium_inner_share) * sample.share;
             const double by_radius =
                 cap ? -length
-                    : length /
-                          (1.0 -
-                           hymenium_inner_share);  // arc per unit of disc radius, along the meridian
+                    : length / (1.0 - hymenium_inner_share);  // arc length per disc radius
             const double by_angle =
-                share > 1e-9 ? sample.r / share : length;  // its limit at the pole
+                share > 1e-9 ? sample.r / share : length;  // `length` is the limit at the pole
             at = disc_point(chart, share, c, s);
             along = c * by_radius * point.meridian - s * by_angle * point.azimuth;
             handedness = cap ? 1.0 : -1.0;
@@ -129,11 +127,11 @@ class Sweeper {
 
     Mesh& mesh_;
     const Deformer& deformer_;
-    const Skin& skin_;
+    const RestSurface& rest_surface_;
     int columns_;
     bool textured_;
-    std::vector<double> shares_;  // of a turn
-    std::vector<Skin::Column> turns_;
+    std::vector<double> shares_;  // positions of the columns, in turns
+    std::vector<RestSurface::Column> turns_;
     std::vector<SurfacePoint> row_;
 };
 
@@ -193,7 +191,8 @@ Deformer::Deformer(const Individual& individual)
 }
 
 AxisStation Deformer::station(Part part, const OutlineSample& sample) const {
-    // What rises above the stem's end (a bulging top) moves with the cap: there the frame is frozen.
+    // Everything above the stem's end (a bulging top) moves with the cap, where the frame is
+    // constant.
     if (part != Part::stem) return frozen_station(top_);
     return station(sample.share == 1.0 ? top_ : sample.y);
 }
@@ -217,8 +216,8 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const Detail& detail = detail_of(lod);
     const std::uint32_t seed = individual.effective.seed;
     const Deformer deformer(individual);
-    const Skin skin(individual, detail);
-    const Cuts cuts(individual, lod);
+    const RestSurface rest_surface(individual, detail);
+    const MarginCuts cuts(individual, lod);
     Mesh mesh;
     const Budget budget = budget_of(individual, lod);
     const auto vertices = static_cast<std::size_t>(budget.count.vertices);
@@ -230,7 +229,7 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
         mesh.tangents.reserve(vertices);
     }
     SweptBody body;
-    Sweeper sweeper(mesh, deformer, skin, cuts.turns(), options.textured);
+    Sweeper sweeper(mesh, deformer, rest_surface, cuts.turns(), options.textured);
     body.stem = sweeper.face(
         Part::stem, options.stem.empty()
                         ? outline.rings(CurveName::stem, lod)
@@ -238,29 +237,30 @@ Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& optio
     const LowerFace lower(individual, lod);
     body.hymenium = sweeper.face(Part::hymenium, lower.flesh(outline, lod));
     body.cap = sweeper.face(Part::cap, outline.rings(CurveName::cap, lod));
-    // A sheet a metre wide and thinner than its dents are drawn by the mesh: no species is one.
+    // A sheet a metre wide would be thinner than its dents on the mesh; no species of the atlas is
+    // one.
     if (individual.parts.front().id.empty() && volume(mesh) <= 0.0)
         throw Impossible("/model/silhouette",
                          "so thin for its width that dents turn it inside out at level of detail " +
                              std::to_string(lod));
     const Curl curl = weather(mesh, body, individual, cuts, lod, options.keep_absent);
     const Dents dents(individual);
-    const Ground ground{outline,
-                        deformer,
-                        skin,
-                        budget.ornaments,
-                        lod,
-                        seed,
-                        options.textured,
-                        options.keep_absent,
-                        cuts,
-                        curl,
-                        dents,
-                        individual};
-    add_patches(mesh, individual, ground);
-    add_ring(mesh, individual, ground);
-    add_sac(mesh, individual, ground);
-    if (has_solids(lod)) add_hymenium(mesh, individual, lower, ground, budget);
+    const OrnamentContext context{outline,
+                                  deformer,
+                                  rest_surface,
+                                  budget.ornaments,
+                                  lod,
+                                  seed,
+                                  options.textured,
+                                  options.keep_absent,
+                                  cuts,
+                                  curl,
+                                  dents,
+                                  individual};
+    add_patches(mesh, individual, context);
+    add_ring(mesh, individual, context);
+    add_sac(mesh, individual, context);
+    if (has_solids(lod)) add_hymenium(mesh, individual, lower, context, budget);
     return mesh;
 }
 

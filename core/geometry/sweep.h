@@ -1,4 +1,5 @@
-// Turns an individual into a mesh: the outline swept round the axis, with deformation, waves and ornaments.
+// Turns an individual into a mesh: the outline is swept round the axis, with deformation, waves and
+// ornaments.
 #pragma once
 
 #include <span>
@@ -13,18 +14,21 @@
 
 namespace sporeprint {
 
-/// Everything that moves a point from rest to its place: imperfections, then the axis.
+/// Maps points from the rest surface to their final position: imperfections first, then the axis.
 class Deformer {
   public:
-    /// throws Impossible if the stem would fold: "/deformation/bend_deg", or "/model/axis" if it folds without a bend
+    /// throws  Impossible if the stem would fold: "/deformation/bend_deg", or "/model/axis" if it
+    ///         folds without a bend
     explicit Deformer(const Individual& individual);
 
-    /// Moves points that belong to one station of the axis: the stem's skin to that of its height, caps and rings to the frozen one
-    /// where they are attached. A dent moves a point by far less than the axis' radius of curvature, so it keeps its station.
+    /// Maps points that belong to one station of the axis: the stem's surface uses the station of
+    /// its height, caps and rings the rigid one where they are attached. A dent moves a point by
+    /// far less than the axis' radius of curvature, so the point keeps its station.
     void apply(std::span<SurfacePoint> points, const AxisStation& station) const;
     void apply(std::span<glm::dvec3> places, const AxisStation& station) const;
 
-    /// The station of a place on the skin: that of its height on the stem, the top for all that the stem carries.
+    /// Returns the station of a place on the surface: that of its height on the stem, and that of
+    /// the stem's top for everything the stem supports.
     [[nodiscard]] AxisStation station(Part part, const OutlineSample& sample) const;
 
     [[nodiscard]] AxisStation station(double height) const { return axis_.at(height); }
@@ -40,21 +44,26 @@ class Deformer {
     std::vector<FreeForm> dents_;
 };
 
-/// What a mesh is for.
+/// Options of swept_mesh() and branched_mesh().
 struct SweepOptions {
-    bool textured = true;  ///< whether texture coordinates and tangents are made
-    bool keep_absent =
-        false;  ///< whether triangles of what is absent stay, without area: then all ages have the same triangles
-    /// Rings that are swept in place of the stem's own, from the axis to its end (share 1); none: its own.
+    /// Whether texture coordinates and tangents are made.
+    bool textured = true;
+    /// Whether triangles of absent parts are kept, with zero area; then all ages have the same
+    /// triangles.
+    bool keep_absent = false;
+    /// Rings swept in place of the stem's own, from the axis to its end (share 1); empty: its own.
     std::span<const OutlineSample> stem = {};
 };
 
-/// Mesh of an individual at a level of detail, 0..3.
+/// Returns the mesh of an individual at a level of detail, 0..3.
 ///
-/// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last. The number and order of its vertices are
-///           those of the set of species: ages and weights inside the mix do not change them
-/// throws    Impossible for a stem that folds, and for a model of one's own so thin that its dents turn it inside out
-/// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by meridian arc length, so that they never fold
+/// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last. Number and
+///           order of the vertices are those of the set of species: ages and weights inside the mix
+///           do not change them
+/// throws    Impossible for a stem that folds, and for a user-defined model so thin that its dents
+///           turn it inside out
+/// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by
+///           meridian arc length, so that they never fold
 [[nodiscard]] Mesh swept_mesh(const Individual& individual, int lod,
                               const SweepOptions& options = {});
 

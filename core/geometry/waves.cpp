@@ -14,7 +14,8 @@ Waves::Waves(double amount, double cap_radius, int columns, std::uint32_t seed)
     const double phase = random.uniform(0.0, 2.0 * pi);
     const double other = random.uniform(0.0, 2.0 * pi);
     const double fine = random.uniform(0.0, 2.0 * pi);
-    // Finer waves live nearer the edge, as in any sheet whose edge has outgrown it.
+    // Finer waves begin nearer to the edge, as in any sheet whose edge has grown longer than its
+    // circle.
     modes_ = {{coarse, 0.6, phase, 0.35},
               {coarse + 2, 0.3, other, 0.5},
               {2 * coarse + 3, 0.14, fine, 0.68}};

@@ -9,7 +9,8 @@
 
 namespace sporeprint {
 
-/// The margin's waves: height added at a share of a face (0 centre, 1 margin), with derivatives.
+/// Height added at a share of a face (0 centre, 1 margin) by the waves of the margin, with
+/// derivatives.
 class Waves {
   public:
     Waves(double amount, double cap_radius, int columns, std::uint32_t seed);
@@ -20,7 +21,7 @@ class Waves {
     [[nodiscard]] bool flat() const { return amplitude_ == 0.0; }
     [[nodiscard]] Value at(double share, double angle) const { return at(share, phases(angle)); }
 
-    /// The waves' own angles at an azimuth; worked out once for a whole column.
+    /// Phases of the waves at an azimuth; computed once per column.
     using Phases = std::array<SineCosine, 3>;
     [[nodiscard]] Phases phases(double angle) const;
     [[nodiscard]] Value at(double share, const Phases& phases) const;

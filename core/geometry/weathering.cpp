@@ -21,23 +21,23 @@ namespace {
 
 constexpr double whole_turn = 2.0 * pi;
 
-// Which dents a level of detail can carry.
-struct Carried {
+// Kinds of dents at a level of detail.
+struct LodLimits {
     bool lumps, furrows, pits;
 };
-constexpr std::array<Carried, 4> carried = {
+constexpr std::array<LodLimits, 4> limits_by_lod = {
     {{true, true, true}, {true, true, false}, {true, false, false}, {false, false, false}}};
-const Carried& carried_at(int lod) { return carried[static_cast<std::size_t>(lod)]; }
+const LodLimits& limits_at(int lod) { return limits_by_lod[static_cast<std::size_t>(lod)]; }
 
-/// Works on the vertices of a swept body.
+/// Applies weathering to the vertices of a swept body.
 class Weatherer {
   public:
-    Weatherer(Mesh& mesh, const SweptBody& body, const Individual& individual, const Cuts& cuts,
-              int lod, bool keep_absent)
+    Weatherer(Mesh& mesh, const SweptBody& body, const Individual& individual,
+              const MarginCuts& cuts, int lod, bool keep_absent)
         : mesh_(mesh),
           body_(body),
           individual_(individual),
-          carries_(carried_at(lod)),
+          limits_(limits_at(lod)),
           amounts_(individual.wear.amounts),
           cuts_(cuts),
           lod_(lod),
@@ -46,20 +46,20 @@ class Weatherer {
           columns_(cuts.turns().size()),
           solids_(mesh, body.cap, individual, cuts, lod, keep_absent) {
         for (const double turn : cuts.turns()) turns_.push_back(sine_cosine(whole_turn * turn));
-        opened_.assign(columns_ + 1, 1.0);
+        openness_.assign(columns_ + 1, 1.0);
         even_.assign(columns_ + 1, true);
-        for (const Cuts::Between& own : cuts.between()) {
-            opened_[own.column] = own.open;
-            even_[own.column] = false;
+        for (const MarginCuts::InsertedColumn& column : cuts.inserted_columns()) {
+            openness_[column.column] = column.open;
+            even_[column.column] = false;
         }
     }
 
-    Curl all() {
+    Curl run() {
         dent();
-        lay_closed();
-        // What stands on the cap finds its place while the rings still stand where they were swept.
-        solids_.rolls();
-        solids_.drops();
+        collapse_closed_columns();
+        // Solids on the cap are placed while the rings are still where they were swept.
+        solids_.add_rolls();
+        solids_.add_drops();
         if (!cuts_.none()) {
             for (std::size_t j = 0; j < columns_; ++j) {
                 cap_ends_.push_back(cuts_.cap_end(angle(j)));
@@ -68,10 +68,10 @@ class Weatherer {
             slide(body_.hymenium);
             slide(body_.cap);
             curl();
-            lay_closed();
+            collapse_closed_columns();
         }
-        if (cuts_.possible()) wall();
-        solids_.drips();
+        if (cuts_.possible()) add_walls();
+        solids_.add_drips();
         return std::move(curl_);
     }
 
@@ -85,8 +85,8 @@ class Weatherer {
     [[nodiscard]] glm::dvec3 place(std::size_t vertex) const {
         return glm::dvec3(mesh_.positions[vertex]);
     }
-    // The last column repeats the first.
-    void close(const FaceGrid& face) {
+    // Copies the first column to the last, which repeats it.
+    void copy_seam(const FaceGrid& face) {
         for (std::size_t i = 0; i < face.shares.size(); ++i) {
             const std::size_t first = at(face, i, 0), last = at(face, i, columns_);
             mesh_.positions[last] = mesh_.positions[first];
@@ -95,9 +95,10 @@ class Weatherer {
         }
     }
 
-    /// The neighbour of a vertex along its ring. To an even column a column on the straight way to the next one is none.
-    [[nodiscard]] glm::dvec3 beside(const FaceGrid& face, std::size_t ring, std::size_t column,
-                                    bool after) const {
+    /// Returns the neighbour of a vertex along its ring. Columns collapsed onto a chord do not
+    /// count as neighbours of an even column.
+    [[nodiscard]] glm::dvec3 ring_neighbour(const FaceGrid& face, std::size_t ring,
+                                            std::size_t column, bool after) const {
         const auto next = [&](std::size_t j) {
             return after ? (j + 1) % columns_ : (j == 0 ? columns_ : j) - 1;
         };
@@ -106,21 +107,23 @@ class Weatherer {
         glm::dvec3 found(0.0);
         double left = 1.0;
         for (; !even_[other] && left > 0.0; other = next(other)) {
-            found += left * opened_[other] * place(at(face, ring, other));
-            left *= 1.0 - opened_[other];
+            found += left * openness_[other] * place(at(face, ring, other));
+            left *= 1.0 - openness_[other];
         }
         return left > 0.0 ? found + left * place(at(face, ring, other)) : found;
     }
 
-    /// Lays columns of closed cuts onto the straight ways between those that count beside them, near their left ends.
-    void lay_closed() {
-        std::vector<Laid> laid;
+    /// Collapses the columns of closed cuts onto the chords between their active neighbours, next
+    /// to the left ends.
+    void collapse_closed_columns() {
+        std::vector<CollapsedVertex> collapsed_vertices;
         for (const FaceGrid* face : {&body_.stem, &body_.hymenium, &body_.cap})
             for (std::size_t i = 0; i < face->shares.size(); ++i) {
-                laid.clear();
-                for (const Cuts::Between& own : cuts_.between())
-                    if (own.open < 1.0) laid.push_back(laid_on_ways(*face, i, own));
-                for (const Laid& one : laid) {
+                collapsed_vertices.clear();
+                for (const MarginCuts::InsertedColumn& column : cuts_.inserted_columns())
+                    if (column.open < 1.0)
+                        collapsed_vertices.push_back(collapsed(*face, i, column));
+                for (const CollapsedVertex& one : collapsed_vertices) {
                     mesh_.positions[one.vertex] = glm::vec3(one.position);
                     mesh_.normals[one.vertex] = glm::vec3(one.normal);
                     if (!textured_) continue;
@@ -131,26 +134,28 @@ class Weatherer {
                 }
             }
     }
-    struct Laid {
+    struct CollapsedVertex {
         std::size_t vertex;
         glm::dvec3 position, normal, tangent;
         glm::dvec2 texture;
     };
-    // As double, so that faces which share an edge keep it.
-    [[nodiscard]] Laid laid_on_ways(const FaceGrid& face, std::size_t ring,
-                                    const Cuts::Between& own) const {
-        const std::size_t first = at(face, ring, 0), vertex = first + own.column;
-        Laid one{vertex, own.open * place(vertex), own.open * glm::dvec3(mesh_.normals[vertex]),
-                 glm::dvec3(0.0), glm::dvec2(0.0)};
+    // Computed in double precision, so that faces which share an edge get identical positions
+    // there.
+    [[nodiscard]] CollapsedVertex collapsed(const FaceGrid& face, std::size_t ring,
+                                            const MarginCuts::InsertedColumn& column) const {
+        const std::size_t first = at(face, ring, 0), vertex = first + column.column;
+        CollapsedVertex one{vertex, column.open * place(vertex),
+                            column.open * glm::dvec3(mesh_.normals[vertex]), glm::dvec3(0.0),
+                            glm::dvec2(0.0)};
         if (textured_) {
-            one.tangent = own.open * glm::dvec3(mesh_.tangents[vertex]);
-            one.texture = own.open * glm::dvec2(mesh_.texture_coordinates[vertex]);
+            one.tangent = column.open * glm::dvec3(mesh_.tangents[vertex]);
+            one.texture = column.open * glm::dvec2(mesh_.texture_coordinates[vertex]);
         }
-        for (const Cuts::Way& way : cuts_.ways(own)) {
-            const double weight = (1.0 - own.open) * way.weight;
-            const double to_right = weight * Cuts::closed_width * way.share,
+        for (const MarginCuts::Chord& chord : cuts_.chords(column)) {
+            const double weight = (1.0 - column.open) * chord.weight;
+            const double to_right = weight * MarginCuts::collapsed_width * chord.share,
                          to_left = weight - to_right;
-            const std::size_t left = first + way.left, right = first + way.right;
+            const std::size_t left = first + chord.left, right = first + chord.right;
             one.position += to_left * place(left) + to_right * place(right);
             one.normal += to_left * glm::dvec3(mesh_.normals[left]) +
                           to_right * glm::dvec3(mesh_.normals[right]);
@@ -164,8 +169,8 @@ class Weatherer {
         return one;
     }
 
-    /// Gives the vertices of a face the normals of their neighbours' places, as far as `weights` says.
-    void turn_normals(const FaceGrid& face, const std::vector<double>& weights) {
+    /// Blends the normals of a face with those recomputed from neighbouring vertices, by `weights`.
+    void update_normals(const FaceGrid& face, const std::vector<double>& weights) {
         const std::size_t rings = face.shares.size();
         for (std::size_t i = 0; i < rings; ++i)
             for (std::size_t j = 0; j < columns_; ++j) {
@@ -173,7 +178,8 @@ class Weatherer {
                 if (weight <= 0.0) continue;
                 const glm::dvec3 meridian = place(at(face, std::min(i + 1, rings - 1), j)) -
                                             place(at(face, i == 0 ? 0 : i - 1, j));
-                const glm::dvec3 azimuth = beside(face, i, j, true) - beside(face, i, j, false);
+                const glm::dvec3 azimuth =
+                    ring_neighbour(face, i, j, true) - ring_neighbour(face, i, j, false);
                 const std::size_t vertex = at(face, i, j);
                 const glm::dvec3 old(mesh_.normals[vertex]);
                 glm::dvec3 found = unit_or(glm::cross(meridian, azimuth), old);
@@ -186,14 +192,14 @@ class Weatherer {
                         glm::vec4(glm::vec3(square_to(normal, glm::dvec3(tangent))), tangent.w);
                 }
             }
-        close(face);
+        copy_seam(face);
     }
 
-    /// Lumps, furrows and pits, along the normals.
+    /// Displaces the body along its normals by lumps, furrows and pits.
     void dent() {
-        const bool lumps = carries_.lumps && amounts_.bumps > 0.0;
-        const bool furrowed = carries_.furrows && amounts_.creases > 0.0;
-        const bool pitted = carries_.pits && amounts_.bites > 0.0;
+        const bool lumps = limits_.lumps && amounts_.bumps > 0.0;
+        const bool furrowed = limits_.furrows && amounts_.creases > 0.0;
+        const bool pitted = limits_.pits && amounts_.bites > 0.0;
         if (!lumps && !furrowed && !pitted) return;
         for (const bool stem : {true, false}) {
             const FaceGrid& face = stem ? body_.stem : body_.cap;
@@ -206,7 +212,7 @@ class Weatherer {
         }
     }
 
-    // How far from its neighbours' edges a face may move.
+    // Returns how far a face may be displaced at a share: 0 at edges shared with other faces.
     [[nodiscard]] static double freedom(bool stem, double share) {
         return stem ? stem_freedom(share) : smooth_step(0.0, 0.08, share);
     }
@@ -234,7 +240,7 @@ class Weatherer {
                 const double a = (sigma - mark.sigma) * length / along;
                 if (a < -1.0 || a > 1.0) continue;
                 const double ring = curve.at(face.shares[i]).r;
-                // On the circle half-way between: right across the pole, too.
+                // Distance on the circle of the mean radius, so that it also holds across the pole.
                 const double mean = ring > 0.0 ? std::sqrt(r * ring) / ring : 0.0;
                 for (std::size_t j = 0; j < columns_; ++j) {
                     const double dx = mean * ring * turns_[j].cosine - x,
@@ -250,7 +256,8 @@ class Weatherer {
         }
     }
 
-    // A pit narrower than a few rings and columns is painted only: it would be as deep as a vertex happens to stand in it.
+    // A pit narrower than a few rings and columns is only painted: its depth would depend on which
+    // vertex happens to lie in it.
     [[nodiscard]] double carried_pit(double size, double length, const Mark& mark,
                                      const SubCurve& curve, bool stem) const {
         const Detail& detail = detail_of(lod_);
@@ -267,7 +274,7 @@ class Weatherer {
             if (scale <= 0.0) continue;
             for (std::size_t i = 0; i < face.shares.size(); ++i) {
                 const double share = face.shares[i];
-                // On a club they run on over its end.
+                // On a club, furrows continue over its end.
                 const double sigma = stem ? share : 1.0 + share;
                 const double fades =
                     stem ? 1.0 : club_carried * individual_.wear.clubs * club_fade(share);
@@ -305,8 +312,8 @@ class Weatherer {
             }
         }
         if (!any) return;
-        close(face);
-        // A vertex turns as far as its neighbours have moved.
+        copy_seam(face);
+        // The weight of a new normal follows the largest displacement among the neighbours.
         for (std::size_t i = 0; i < rings; ++i) {
             if (curve.at(face.shares[i]).r <= 0.0) continue;
             for (std::size_t j = 0; j < columns_; ++j) {
@@ -318,11 +325,11 @@ class Weatherer {
                 weights[i * columns_ + j] = std::min(1.0, most / full);
             }
         }
-        turn_normals(face, weights);
+        update_normals(face, weights);
     }
 
-    /// The place between rings k and k + 1, on a cubic through them and their neighbours: on the straight way it would depend on
-    /// where the rings of a set stand.
+    /// Returns the point between rings k and k + 1 on a cubic through them and their neighbours.
+    /// With linear interpolation it would depend on where the rings of a set are.
     static glm::vec3 along_meridian(const std::vector<glm::vec3>& places,
                                     const std::vector<double>& shares, std::size_t k, double t) {
         const auto slope = [&](std::size_t i) {
@@ -363,8 +370,8 @@ class Weatherer {
             std::size_t k = 0;
             for (std::size_t i = 0; i < rings; ++i) {
                 const double from = face.shares[i];
-                const double to =
-                    cap ? 1.0 - Cuts::cap_to(1.0 - from, end) : Cuts::lower_to(from, end);
+                const double to = cap ? 1.0 - MarginCuts::cap_to(1.0 - from, end)
+                                      : MarginCuts::lower_to(from, end);
                 if (to == from) continue;
                 while (k > 0 && face.shares[k] > to) --k;
                 while (k + 2 < rings && face.shares[k + 1] < to) ++k;
@@ -386,10 +393,10 @@ class Weatherer {
                     tangents[k].w);
             }
         }
-        close(face);
+        copy_seam(face);
     }
 
-    /// A melting margin rolls up and outwards.
+    /// Displaces a deliquescing margin, which rolls up and outwards.
     void curl() {
         if (amounts_.deliquescence <= 0.0) return;
         std::vector<glm::dvec3> away(columns_);
@@ -403,21 +410,21 @@ class Weatherer {
                 for (std::size_t j = 0; j < columns_; ++j) {
                     const double share = face->shares[i];
                     const double end = (cap ? cap_ends_ : lower_ends_)[j];
-                    const double to =
-                        cap ? Cuts::cap_to(1.0 - share, end) : Cuts::lower_to(share, end);
+                    const double to = cap ? MarginCuts::cap_to(1.0 - share, end)
+                                          : MarginCuts::lower_to(share, end);
                     const glm::dvec3 by = curl_.moved(cap, to, cap_ends_[j], lower_ends_[j], j);
                     if (by == glm::dvec3(0.0)) continue;
                     const std::size_t vertex = at(*face, i, j);
                     mesh_.positions[vertex] = glm::vec3(place(vertex) + by);
                     weights[i * columns_ + j] = curl_.turned(by);
                 }
-            close(*face);
-            turn_normals(*face, weights);
+            copy_seam(*face);
+            update_normals(*face, weights);
         }
     }
 
-    /// Flesh between the cut edges of cap and lower face.
-    void wall() {
+    /// Appends walls of flesh between the cut edges of cap and lower face.
+    void add_walls() {
         const std::size_t last = body_.hymenium.shares.size() - 1;
         const auto first = mesh_.positions.size();
         constexpr const Chart& chart = swept_charts[static_cast<std::size_t>(Part::flesh)];
@@ -432,11 +439,12 @@ class Weatherer {
             const glm::dvec3 outward =
                 unit_or(glm::dvec3(mesh_.normals[top]) + glm::dvec3(mesh_.normals[bottom]),
                         glm::dvec3(mesh_.normals[top]));
-            // Less sure of its direction the lower it is.
+            // The lower the wall, the less reliable its cross product; the outward normal takes
+            // over.
             const double sure = 1e3 / individual_.outline.cap.length();
             const glm::dvec3 normal =
                 unit_or(1e-4 * outward + sure * sure * glm::cross(up, along), outward);
-            // The chart is worn eight times round, to and fro.
+            // The chart is repeated eight times round the margin, mirrored every other time.
             const double turns = 8.0 * (j == columns_ ? 1.0 : cuts_.turns()[here]);
             const double to = turns - 2.0 * std::floor(0.5 * turns);
             const double u = to > 1.0 ? 2.0 - to : to;
@@ -447,7 +455,7 @@ class Weatherer {
         }
         for (std::size_t j = 0; j < columns_; ++j) {
             if (!cuts_.may_cut(j)) continue;
-            // By the places themselves: a column that begins to open stands off before it is cut.
+            // Compared by position: a column that begins to open leaves its chord before it is cut.
             const auto closed = [&](std::size_t k) {
                 return mesh_.positions[first + 2 * k] == mesh_.positions[first + 2 * k + 1];
             };
@@ -461,17 +469,17 @@ class Weatherer {
     Mesh& mesh_;
     const SweptBody& body_;
     const Individual& individual_;
-    const Carried& carries_;
+    const LodLimits& limits_;
     const WeatheringOf<Plain>& amounts_;
-    const Cuts& cuts_;
+    const MarginCuts& cuts_;
     int lod_;
     bool keep_absent_, textured_;
     std::size_t columns_;
-    WornSolids solids_;
-    std::vector<double> opened_;  // by column: how far it stands at its own place
-    std::vector<bool> even_;      // by column
+    DamageSolids solids_;
+    std::vector<double> openness_;  // per column: 1 at its own place, 0 collapsed onto its chords
+    std::vector<bool> even_;        // per column
     std::vector<double> heights_;
-    std::vector<double> cap_ends_, lower_ends_;  // by column, when something is cut
+    std::vector<double> cap_ends_, lower_ends_;  // per column, when something is cut
     std::vector<SineCosine> turns_;
     Curl curl_;
 };
@@ -480,24 +488,24 @@ class Weatherer {
 
 WeatheringCount weathering_count(const Individual& individual, int lod) {
     WeatheringCount count;
-    const Cuts cuts(individual, lod);
+    const MarginCuts cuts(individual, lod);
     count.columns = cuts.turns().size();
     if (cuts.possible()) {
         count.vertices += 2 * (count.columns + 1);
         count.triangles += 2 * count.columns;
     }
-    const MeshCount solids = worn_solids_count(individual, lod);
+    const MeshCount solids = damage_solid_count(individual, lod);
     count.vertices += solids.vertices;
     count.triangles += solids.triangles;
     return count;
 }
 
-Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual, const Cuts& cuts,
-             int lod, bool keep_absent) {
+Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual,
+             const MarginCuts& cuts, int lod, bool keep_absent) {
     const Wear& wear = individual.wear;
     if (!wear.any() && !wear.bites && !wear.splits && !wear.melts && !wear.peels && !wear.dew)
         return {};
-    return Weatherer(mesh, body, individual, cuts, lod, keep_absent).all();
+    return Weatherer(mesh, body, individual, cuts, lod, keep_absent).run();
 }
 
 }  // namespace sporeprint

@@ -69,7 +69,7 @@ Mesh body_mesh(const Individual& individual, int lod, const SweepOptions& option
 }
 
 MeshCount body_count(const Individual& individual, int lod, bool keep_absent) {
-    return individual.is_branched() ? limb_count(individual.bush, lod, keep_absent)
+    return individual.is_branched() ? branched_mesh_count(individual.bush, lod, keep_absent)
                                     : budget_of(individual, lod).count;
 }
 

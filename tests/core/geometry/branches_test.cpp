@@ -52,14 +52,14 @@ TEST(Limbs, KeepTheTrianglesOfTheirLevelAndAreCountedBefore) {
             const std::uint32_t seed = random.bits();
             const MushroomOrder order = textured(mix_of(mix, age, seed, lod));
             const Individual individual = resolved(order);
-            const MeshCount count = limb_count(individual.bush, lod);
+            const MeshCount count = branched_mesh_count(individual.bush, lod);
             EXPECT_LE(count.triangles, most_triangles[static_cast<std::size_t>(lod)]);
             EXPECT_GT(count.triangles, 0U);
             const Mesh mesh = branched_mesh(individual, lod);
             EXPECT_EQ(mesh.positions.size(), count.vertices) << text_of(mix);
             EXPECT_EQ(mesh.triangles(), count.triangles) << text_of(mix);
             const Mesh whole = branched_mesh(individual, lod, {.keep_absent = true});
-            const MeshCount most = limb_count(individual.bush, lod, true);
+            const MeshCount most = branched_mesh_count(individual.bush, lod, true);
             EXPECT_EQ(whole.positions.size(), most.vertices) << text_of(mix);
             EXPECT_EQ(whole.triangles(), most.triangles) << text_of(mix);
         }

@@ -110,7 +110,7 @@ TEST(Ornaments, TheirTextureComesFromTheVeilsStrip) {
     MushroomOrder order = textured(order_of("amanita_muscaria"));
     const Mesh mesh = mesh_of(order);
     const Chart& strip = swept_charts[static_cast<std::size_t>(Part::veil)];
-    const std::size_t columns = Cuts(resolve(order, atlas()), 0).turns().size() + 1;
+    const std::size_t columns = MarginCuts(resolve(order, atlas()), 0).turns().size() + 1;
     const auto rings = static_cast<std::size_t>(details[0].stem_rings + details[0].hymenium_rings +
                                                 details[0].cap_rings) +
                        static_cast<std::size_t>(flesh_rings(resolve(order, atlas()), 0));

@@ -127,7 +127,7 @@ TEST(Relief, NormalsAgreeWithDifferencesOfTheSkin) {
             individual.lobes.emplace_back();
             individual.lobes[0].lobes = 5;
             individual.lobes[0].lobe_depth = 0.2;
-            const Skin skin(individual, details[0]);
+            const RestSurface skin(individual, details[0]);
             Random random(3, 1);
             double sum = 0.0;
             constexpr int count = 400;
@@ -200,9 +200,9 @@ TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
             const Individual individual =
                 with(resolve(order_of(id, 0.4 * seed - 0.3, seed), atlas()), deep);
-            const Skin skin(individual, details[0]);
+            const RestSurface skin(individual, details[0]);
             for (int j = 0; j < 12; ++j) {
-                const Skin::Column column = skin.column(2.0 * pi * j / 12.0);
+                const RestSurface::Column column = skin.column(2.0 * pi * j / 12.0);
                 std::vector<glm::dvec2> section;
                 for (const Part part : {Part::stem, Part::hymenium, Part::cap}) {
                     if (skin.curve(part).empty()) continue;

@@ -232,7 +232,7 @@ TEST(Sweep, DeformationOfAmountZeroChangesNoByte) {
 
 /// The surface at a share of a sub-curve and an angle.
 struct Surface3 {
-    const Skin& skin;
+    const RestSurface& skin;
     const Deformer& deformer;
     Part part;
 
@@ -257,7 +257,7 @@ struct Surface3 {
 /// Largest and mean normal error over the three faces of an individual.
 std::pair<double, double> normal_errors(const Individual& individual, std::uint32_t seed) {
     const Deformer deformer(individual);
-    const Skin skin(individual, details[0]);
+    const RestSurface skin(individual, details[0]);
     double worst = 0.0, sum = 0.0;
     int count = 0;
     Random random(seed, 99);

@@ -186,7 +186,7 @@ TEST(Weathering, ABiteTakesItsDepthOutOfCapAndLowerFace) {
     order.params.weathering.bites = 1.0;
     order.params.weathering.splits = 0.0;
     const Individual individual = resolve(order, atlas());
-    const Cuts cuts(individual, 0);
+    const MarginCuts cuts(individual, 0);
     const double radius = greatest_radius(individual.outline.cap);
     for (const Notch& bite : bites(4)) {
         EXPECT_NEAR(cuts.depth(bite.theta), bite.depth * radius, 1e-9 + 0.2 * radius * bite.depth);
@@ -210,7 +210,7 @@ TEST(Weathering, AllEvenColumnsStandAndMoreWhereACutNeedsThem) {
             MushroomOrder order = order_of("boletus_edulis", 0.6, seed, lod);
             order.params.weathering.bites = 0.5;
             order.params.weathering.splits = 0.5;
-            const Cuts cuts(resolve(order, atlas()), lod);
+            const MarginCuts cuts(resolve(order, atlas()), lod);
             const std::vector<double>& turns = cuts.turns();
             EXPECT_EQ(turns.front(), 0.0);
             for (std::size_t i = 1; i < turns.size(); ++i)
@@ -221,14 +221,14 @@ TEST(Weathering, AllEvenColumnsStandAndMoreWhereACutNeedsThem) {
                 EXPECT_TRUE(
                     std::binary_search(turns.begin(), turns.end(), static_cast<double>(j) / even))
                     << j;
-            EXPECT_EQ(turns.size(), static_cast<std::size_t>(even) + cuts.between().size());
+            EXPECT_EQ(turns.size(), static_cast<std::size_t>(even) + cuts.inserted_columns().size());
             EXPECT_LE(turns.size(), static_cast<std::size_t>(even) * 2);
             if (lod == 3) {
-                EXPECT_TRUE(cuts.between().empty());
+                EXPECT_TRUE(cuts.inserted_columns().empty());
             }
-            for (const Cuts::Between& own : cuts.between()) {
+            for (const MarginCuts::InsertedColumn& own : cuts.inserted_columns()) {
                 double sum = 0.0;
-                for (const Cuts::Way& way : cuts.ways(own)) {
+                for (const MarginCuts::Chord& way : cuts.chords(own)) {
                     const double left = turns[way.left],
                                  right = way.right == turns.size() ? 1.0 : turns[way.right];
                     EXPECT_NEAR(turns[own.column], left + way.share * (right - left), 1e-12);
@@ -257,21 +257,21 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
         expect_valid(worn);
         EXPECT_GT(worn.positions.size(), clean.positions.size());
         const Bounds box = bounds(clean);
-        const Cuts cuts(individual, lod);
+        const MarginCuts cuts(individual, lod);
         const Detail& detail = detail_of(lod);
         const std::size_t row = cuts.turns().size() + 1;
         const auto rings =
             static_cast<std::size_t>(detail.stem_rings + detail.hymenium_rings +
                                      flesh_rings(individual, lod) + detail.cap_rings);
         for (std::size_t i = 0; i < rings; ++i)
-            for (const Cuts::Between& own : cuts.between()) {
+            for (const MarginCuts::InsertedColumn& own : cuts.inserted_columns()) {
                 ASSERT_EQ(own.open, 0.0);
-                ASSERT_EQ(cuts.ways(own).size(), 1U);
-                const Cuts::Way& way = cuts.ways(own).front();
+                ASSERT_EQ(cuts.chords(own).size(), 1U);
+                const MarginCuts::Chord& way = cuts.chords(own).front();
                 const glm::dvec3 left(worn.positions[i * row + way.left]),
                     right(worn.positions[i * row + way.right]);
                 EXPECT_LT(glm::distance(glm::dvec3(worn.positions[i * row + own.column]),
-                                        left + Cuts::closed_width * way.share * (right - left)),
+                                        left + MarginCuts::collapsed_width * way.share * (right - left)),
                           1e-6 * glm::distance(box.min, box.max));
             }
         // Between rings a twisted quad is two triangles in one mesh and more in the other: more so the coarser it is.
