@@ -287,7 +287,7 @@ void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& c
     const int rings = context.detail.veil_rings;
     if (rings == 0 || !individual.has_ring) return;
     const Rise stem_rise(context.outline.stem, 0.2);
-    const OutlineSample attachment = rise.at(style.height * rise.whole());
+    const OutlineSample attachment = stem_rise.at(style.height * stem_rise.whole());
     const double height = attachment.y;
     const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);

@@ -264,12 +264,12 @@ std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
             params.push_back(&share.painting);
             weights.push_back(share.sixty_fourths / static_cast<double>(whole));
         }
-        const std::vector<GivenTurns> turns = aligned_turns(params, weights);
+        const std::vector<ImageRotations> turns = aligned_rotations(params, weights);
         std::vector<std::shared_ptr<const RawImages>> paintings;
         std::vector<const RawImages*> raw;
         for (std::size_t i = 0; i < recipe.size(); ++i) {
             if (workshop.stop.stop_requested()) throw Cancelled();
-            const PaintParams bare = unlaid(*params[i]);
+            const PaintParams bare = without_patches(*params[i]);
             std::string key = "raw " + painting_key(bare);
             for (const double turn : {turns[i].cap, turns[i].hymenium, turns[i].stem})
                 (key += ' ') += number_text(turn);
@@ -279,7 +279,7 @@ std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
             }));
             raw.push_back(paintings.back().get());
         }
-        return std::make_shared<const ImageSet>(dissolve(raw, weights, workshop.parallel, params));
+        return std::make_shared<const ImageSet>(blend_images(raw, weights, workshop.parallel, params));
     };
     return workshop.memo.images(image_key(recipe), [&]() -> std::shared_ptr<const ImageSet> {
         if (recipe.size() > 1) return dissolved();

@@ -13,36 +13,36 @@
 namespace sporeprint {
 namespace {
 
-// Memory of finished paintings. At most four of the default size are kept.
-class Canvases {
+// Pool of the memory of finished paintings; at most four of the default size are kept.
+class CanvasPool {
   public:
-    Bytes take(std::size_t size) {
+    Bytes acquire(std::size_t size) {
         Bytes found;
         {
             const std::lock_guard lock(mutex_);
-            if (!kept_.empty()) {
-                found = std::move(kept_.back());
-                kept_.pop_back();
+            if (!free_.empty()) {
+                found = std::move(free_.back());
+                free_.pop_back();
             }
         }
         found.resize(size);
         return found;
     }
-    void give(Bytes canvas) {
-        if (canvas.capacity() > largest_kept) return;
+    void release(Bytes canvas) {
+        if (canvas.capacity() > largest_canvas) return;
         const std::lock_guard lock(mutex_);
-        if (kept_.size() < most_kept) kept_.push_back(std::move(canvas));
+        if (free_.size() < most_canvases) free_.push_back(std::move(canvas));
     }
 
   private:
-    static constexpr std::size_t largest_kept = 10U << 20U;
-    static constexpr std::size_t most_kept = 4;
+    static constexpr std::size_t largest_canvas = 10U << 20U;
+    static constexpr std::size_t most_canvases = 4;
     std::mutex mutex_;
-    std::vector<Bytes> kept_;
+    std::vector<Bytes> free_;
 };
 
-Canvases& canvases() {
-    static Canvases shared;
+CanvasPool& canvas_pool() {
+    static CanvasPool shared;
     return shared;
 }
 
@@ -51,9 +51,9 @@ Canvases& canvases() {
 Canvas::Canvas(int side)
     : side_(side),
       size_(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side)),
-      bytes_(canvases().take(3 * size_)) {}
+      bytes_(canvas_pool().acquire(3 * size_)) {}
 
-Canvas::~Canvas() { canvases().give(std::move(bytes_)); }
+Canvas::~Canvas() { canvas_pool().release(std::move(bytes_)); }
 
 namespace {
 

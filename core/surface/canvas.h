@@ -1,4 +1,5 @@
-// Where an atlas is painted before it is encoded, and what all that paint on it share. Private to core/surface.
+// The pixel buffers of an atlas, and helpers shared by everything that paints into them. Private to
+// core/surface.
 #pragma once
 
 #include <array>
@@ -10,10 +11,11 @@
 
 namespace sporeprint {
 
-/// Rows that one piece of work paints.
+/// Number of rows that one task paints.
 inline constexpr int rows_per_piece = 128;
 
-/// Three RGB images of an atlas. Their memory is lent again: fresh pages cost as much as painting them.
+/// Three RGB images of an atlas. Their memory comes from a pool, because page faults of fresh
+/// memory cost as much as painting.
 class Canvas {
   public:
     explicit Canvas(int side);
@@ -22,7 +24,7 @@ class Canvas {
     ~Canvas();
 
     [[nodiscard]] int side() const { return side_; }
-    /// Bytes of one image.
+    /// Returns the size of one image in bytes.
     [[nodiscard]] std::size_t size() const { return size_; }
     [[nodiscard]] const std::uint8_t* image(std::size_t i) const {
         return bytes_.data() + i * size_;
@@ -37,19 +39,19 @@ class Canvas {
     Bytes bytes_;
 };
 
-/// The three images as JPEG files, by the qualities of paint().
+/// Encodes the three images as JPEG files, with the qualities stated at paint().
 [[nodiscard]] ImageSet encoded(const Canvas& canvas, const Parallel& parallel);
 
-/// The three images as they are.
+/// Returns a copy of the three images.
 [[nodiscard]] RawImages raw(const Canvas& canvas);
 
-/// The charts' rectangles on an atlas of `side` texels.
+/// Returns the rectangles of the charts on an atlas of `side` texels.
 [[nodiscard]] std::array<Frame, part_count> chart_frames(int side);
 
-/// Linear light of each sRGB byte.
+/// Returns the linear light of each sRGB byte.
 [[nodiscard]] const std::array<float, 256>& linear_table();
 
-/// Whether `side` is one of an atlas: a power of two from 16 to 2048.
+/// Returns true when `side` is a valid size of an atlas: a power of two from 16 to 2048.
 [[nodiscard]] constexpr bool proper_side(int side) {
     return side >= 16 && side <= 2048 && (side & (side - 1)) == 0;
 }

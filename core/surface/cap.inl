@@ -26,11 +26,11 @@ HWY_INLINE Rgb ramp_colour(const CapPlan& plan, VF along) {
     return colour;
 }
 
-// Cells grow from the pole outwards.
+// Inverse size of cells, which grow from the pole outwards.
 HWY_INLINE VF one_over_stretch(VF rho) { return set(1.25F) - set(0.45F) * rho; }
 
-/// The fields of a cap that vary slowly enough to be sampled at every other texel; the first three
-/// come from the grid.
+/// Computes the slowly varying fields of a cap, which are sampled at every other texel; the first
+/// three come from the coarse grid.
 HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) {
     const VF px = p.radius * p.cosine;
     const VF pz = p.radius * p.sine;
@@ -62,8 +62,8 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
         fields[cap_fibre] = a * shown(round_texels * set(1.0F / n), 5.0F) * set(0.75F);
     }
     if ((plan.fields & (1U << cap_vein)) != 0) {
-        // In the plane of the disc, drawn out along the meridians by a warp, so that most veins
-        // run outwards.
+        // A net in the plane of the disc, elongated along the meridians by a warp, so that most
+        // veins run outwards.
         const VF rows = set(plan.vein_rows);
         const VF draw = one_over_stretch(p.rho);
         const VF x = p.x * rows * draw + fields[cap_uneven] * set(0.50F);
@@ -74,7 +74,7 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
     }
 }
 
-/// fields: those of cap_fields() at this texel
+/// Returns a texel of the cap. fields: values of cap_fields() at this texel
 HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
     const VF zero = set(0.0F);
@@ -83,7 +83,7 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     const VF mottle = fields[cap_mottle];
     const VF middle = fields[cap_middle];
 
-    // Fine unevenness of the skin.
+    // Fine bumps of the cuticle.
     VF fine = zero;
     VF height = zero;
     if ((plan.fields & (1U << cap_bump)) != 0) {
@@ -167,13 +167,13 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
     out.height = height;
     out.roughness = rough;
     out.occlusion = occlusion;
-    if (plan.relief.any()) lay_relief(plan.relief, p, out);
+    if (plan.relief.any()) add_relief(plan.relief, p, out);
     return out;
 }
 
-/// Lays one wart or scale over a texel: colour, roughness, a little relief, and shade round its
-/// foot.
-HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF y, Texel& texel) {
+/// Draws one wart or scale over a texel: colour, roughness, a little relief, and shade round its
+/// base.
+HWY_INLINE void add_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF y, Texel& texel) {
     const VF one = set(1.0F);
     const VF dx = x - set(patch.x);
     const VF dy = y - set(patch.y);
@@ -194,13 +194,14 @@ HWY_INLINE void lay_patch(const PatchPlan& patch, const VeilPlan& veil, VF x, VF
         colour = shaded(colour, one + grain * set(0.12F) - set(0.10F) * far);
         texel.colour = mix(texel.colour, colour, cover);
         texel.roughness = mix(texel.roughness, set(veil.roughness), cover);
-        // A wart that leans is higher on one side.
+        // A leaning wart is higher on one side.
         texel.height = texel.height + (up + grain * set(0.15F) + a * set(0.3F * patch.lift)) *
                                           set(patch.relief) * cover;
         texel.occlusion = texel.occlusion * (one - set(0.38F) * foot);
         texel.colour = shaded(texel.colour, one - set(0.16F) * foot);
     } else {
-        // A tongue of skin: broad at the root, ragged and pointed at the tip, standing off there.
+        // A scale is a tongue of cuticle: broad at the base, ragged and pointed at the tip, which
+        // stands off.
         const VF thread = noise2(a * set(1.5F), b * set(5.3F), patch.seed);
         const VF tipwards = a * set(patch.lift);
         const VF taper = one - set(0.62F) * smooth(tipwards, -0.35F, 0.8F);

@@ -1,4 +1,4 @@
-// The image atlas as data: which rectangle of it each part of a mushroom wears, and by which map.
+// Layout of the image atlas: the rectangle and the texture map of each part of a mushroom.
 #pragma once
 
 #include <array>
@@ -6,12 +6,12 @@
 
 namespace sporeprint {
 
-/// disc: the paper's planar map, the pole in the middle. strip: the paper's cylinder map, u along
-/// the part, v once round.
+/// Texture maps [Desbenoit2004]. disc: planar map with the pole in the middle. strip: cylinder map,
+/// u along the part, v once round.
 enum class ChartMap { disc, strip };
 
 /// Rectangle in texture coordinates (0..1, v down as in glTF). `inset` is the share of each side
-/// left as bleed for mips.
+/// kept as padding for mipmaps.
 struct Chart {
     ChartMap map = ChartMap::disc;
     double u = 0.0, v = 0.0, width = 1.0, height = 1.0;
@@ -21,14 +21,17 @@ struct Chart {
 enum class Part { cap, hymenium, stem, veil, blade, flesh };
 inline constexpr std::size_t part_count = 6;
 
-/// Layout of the Swept family. cap: disc, pole = apex, rim = margin, radius = meridian arc / whole
-/// arc.
-/// hymenium: disc, radius = (inner + (1 - inner) * arc share) with inner = hymenium_inner_share;
-/// rim = margin.
-/// stem: strip, u = arc from the ground / whole arc, v = theta / 2 pi. veil: strip, u = theta / 2
-/// pi, v = 0 at the attachment, 1 at the edge or tip. blade: strip, the face of a gill, ridge or
-/// spine: u = 0 at the stem, 1 at the margin, v = 0 at the root, 1 at the edge. flesh: strip, what
-/// a tear lays open: u along the tear, v = 0 under the skin, 1 where it is deepest.
+/// Layout for mushrooms of swept outlines.
+///
+/// cap       disc: pole = apex, rim = margin, radius = share of the meridian arc
+/// hymenium  disc: radius = inner + (1 - inner) * arc share with inner = hymenium_inner_share; rim
+///           = margin
+/// stem      strip: u = share of the arc from the ground, v = theta / 2 pi
+/// veil      strip: u = theta / 2 pi, v = 0 at the attachment, 1 at the edge or tip
+/// blade     strip, the face of a gill, ridge or spine: u = 0 at the stem, 1 at the margin; v = 0
+///           at the base, 1 at the edge
+/// flesh     strip, flesh exposed by a tear: u along the tear; v = 0 under the cuticle, 1 at its
+///           deepest
 inline constexpr std::array<Chart, part_count> swept_charts = {{
     {ChartMap::disc, 0.0, 0.0, 0.5, 0.5, 0.03},
     {ChartMap::disc, 0.5, 0.0, 0.5, 0.5, 0.03},
@@ -41,17 +44,18 @@ inline constexpr std::array<Chart, part_count> swept_charts = {{
 /// Radius of the stem's edge in the hymenium's disc.
 inline constexpr double hymenium_inner_share = 0.15;
 
-/// Texture coordinate of a disc chart; `radius` 0..1 from the pole to the rim.
+/// A texture coordinate.
 struct TexturePoint {
     double u, v;
 };
+/// Returns the texture coordinate on a disc chart; `radius` is 0 at the pole and 1 at the rim.
 [[nodiscard]] constexpr TexturePoint disc_point(const Chart& chart, double radius, double cosine,
                                                 double sine) {
     const double reach = 0.5 - chart.inset;
     return {chart.u + chart.width * (0.5 + reach * radius * cosine),
             chart.v + chart.height * (0.5 + reach * radius * sine)};
 }
-/// Texture coordinate of a strip chart; `along` and `across` 0..1.
+/// Returns the texture coordinate on a strip chart; `along` and `across` are 0..1.
 [[nodiscard]] constexpr TexturePoint strip_point(const Chart& chart, double along, double across) {
     return {chart.u + chart.width * (chart.inset + (1.0 - 2.0 * chart.inset) * along),
             chart.v + chart.height * (chart.inset + (1.0 - 2.0 * chart.inset) * across)};

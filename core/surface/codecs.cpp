@@ -38,7 +38,7 @@ Picture empty_picture(int width, int height) {
     return picture;
 }
 
-// A progressive file may repeat its scans thousands of times in few bytes; honest ones have about
+// A progressive file may repeat its scans thousands of times in few bytes; real files have about
 // ten.
 bool has_too_many_scans(std::span<const std::uint8_t> file) {
     int scans = 0;
@@ -111,7 +111,7 @@ Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality
     thread_local const TurboHandle handle(tjInitCompress());
     if (!handle) throw GenerationError("no JPEG encoder");
     const int subsampling = chroma == Chroma::halved ? TJSAMP_420 : TJSAMP_444;
-    // Room for the worst case, of which only what is written is ever touched.
+    // The buffer has the size of the worst case; pages that are not written are never touched.
     const std::size_t room = tjBufSize(width, height, subsampling);
     const auto buffer = std::make_unique_for_overwrite<unsigned char[]>(room);
     unsigned char* out = buffer.get();

@@ -1,4 +1,4 @@
-// Image codecs: RGB pixels to JPEG, and an uploaded PNG, JPEG or WebP to RGB pixels.
+// Image codecs: RGB pixels to JPEG, and an uploaded PNG, JPEG or WebP file to RGB pixels.
 #pragma once
 
 #include <cstdint>
@@ -9,20 +9,21 @@
 
 namespace sporeprint {
 
-/// Rows from top to bottom, three bytes a pixel, without padding.
+/// Decoded pixels: rows from top to bottom, three bytes per pixel, without padding.
 struct Picture {
     int width = 0;
     int height = 0;
     Bytes rgb;
 };
 
-/// Largest width and height of an uploaded image.
+/// Largest width and height of an uploaded image, pixels.
 inline constexpr int largest_upload_side = 2048;
 
-/// How finely a JPEG keeps colour: at half the resolution of the brightness, or in full.
+/// Chroma resolution of a JPEG: half that of the luma, or full.
 enum class Chroma { halved, full };
 
-/// JPEG file of an image, by the slow exact transform: the same bytes with any instruction set.
+/// Encodes an image as a JPEG file with the accurate integer transform, so that the bytes are the
+/// same with any instruction set.
 ///
 /// rgb      3 * width * height bytes
 /// quality  1..100
@@ -30,12 +31,12 @@ enum class Chroma { halved, full };
 [[nodiscard]] Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality,
                          Chroma chroma);
 
-/// Pixels of an uploaded image, told by its first bytes; transparency is dropped, animation is
-/// refused.
-/// The size is read and checked before any pixel is decoded.
+/// Decodes an uploaded image, whose format is detected by its first bytes. Transparency is dropped,
+/// animation is refused. The size is checked before any pixel is decoded.
 ///
-/// path     what InvalidInput names, e.g. "/surface/cap/image"
-/// throws   InvalidInput if it is none of the three, broken, or larger than 2048 x 2048
+/// path     JSON path reported in InvalidInput, e.g. "/surface/cap/image"
+/// throws   InvalidInput if the format is not one of the three, the file is broken, or larger than
+///          2048 x 2048
 [[nodiscard]] Picture decoded_picture(std::span<const std::uint8_t> file, const std::string& path);
 
 }  // namespace sporeprint

@@ -25,18 +25,18 @@ std::array<float, 3> light_of(Colour colour) {
     return {table[colour.r], table[colour.g], table[colour.b]};
 }
 
-/// One chart as scars see it.
-class Sheet {
+/// Coordinate system of one chart, in which damage is placed.
+class ChartSpace {
   public:
-    Sheet(const PaintPlan& plan, int part) : plan_(plan), part_(part) {}
+    ChartSpace(const PaintPlan& plan, int part) : plan_(plan), part_(part) {}
 
     [[nodiscard]] bool strip() const { return part_ == 2; }
 
-    /// Place on the chart of a point of the meridian at an angle.
+    /// Position on the chart of a point of the meridian at an angle.
     struct Place {
-        double x, y;              // in lengths of the chart
+        double x, y;              // relative to the chart
         double along_x, along_y;  // unit, along the meridian
-        double widening;          // a step round the axis over the same step on the chart
+        double widening;          // length of a step round the axis over that on the chart
     };
     [[nodiscard]] Place place(double sigma, double theta) const {
         if (strip()) return {sigma * aspect(), theta / (2.0 * pi), 1.0, 0.0, 1.0};
@@ -46,13 +46,13 @@ class Sheet {
         return {rho * turn.cosine, rho * turn.sine, turn.cosine, turn.sine, widening(rho)};
     }
 
-    /// Length on the chart of one texel.
+    /// Returns the length of one texel on the chart.
     [[nodiscard]] double texel() const {
         return strip() ? std::max<double>(plan_.stem.texel_along, plan_.stem.texel_round)
                        : static_cast<double>(disc().per_texel);
     }
 
-    /// A meridian's own length on the sheet.
+    /// Returns the length of the meridian on the chart.
     [[nodiscard]] double unit() const {
         return strip() ? 1.0 : 1.0 - static_cast<double>(disc().inner);
     }
@@ -81,148 +81,151 @@ class Sheet {
     int part_;
 };
 
-class Planner {
+class DamagePlanner {
   public:
-    Planner(const PaintParams& params, PaintPlan& plan) : params_(params), plan_(plan) {}
+    DamagePlanner(const PaintParams& params, PaintPlan& plan) : params_(params), plan_(plan) {}
 
-    void all() {
+    void add_all() {
         const PaintedWeathering<Plain>& w = params_.weathering;
         const bool has_margin = params_.metrics.hymenium_arc > quantised_length(0.0);
-        if (w.creases > 0.0) lay_furrows(w.creases);
+        if (w.creases > 0.0) add_furrows(w.creases);
         if (w.bumps > 0.0) {
-            lay_ovals(ScarKind::lump, MarkKind::lump, 0, w.bumps);
-            lay_ovals(ScarKind::lump, MarkKind::lump, 2, w.bumps);
+            add_ovals(DamageKind::lump, MarkKind::lump, 0, w.bumps);
+            add_ovals(DamageKind::lump, MarkKind::lump, 2, w.bumps);
         }
         if (w.bruise > 0.0)
             for (int part = 0; part < 3; ++part)
-                lay_ovals(ScarKind::bruise, MarkKind::bruise, part, w.bruise);
-        if (w.peel > 0.0 && has_margin) lay_tongues(w.peel);
-        if (w.cracks > 0.0) lay_cracks(w.cracks);
+                add_ovals(DamageKind::bruise, MarkKind::bruise, part, w.bruise);
+        if (w.peel > 0.0 && has_margin) add_tongues(w.peel);
+        if (w.cracks > 0.0) add_cracks(w.cracks);
         if (w.bites > 0.0) {
-            lay_ovals(ScarKind::pit, MarkKind::pit, 0, w.bites);
-            lay_ovals(ScarKind::pit, MarkKind::pit, 2, w.bites);
-            if (has_margin) lay_notches(bites(params_.seed), ScarKind::bite, w.bites);
+            add_ovals(DamageKind::pit, MarkKind::pit, 0, w.bites);
+            add_ovals(DamageKind::pit, MarkKind::pit, 2, w.bites);
+            if (has_margin) add_notches(bites(params_.seed), DamageKind::bite, w.bites);
         }
         if (w.splits > 0.0 && has_margin)
-            lay_notches(splits(params_.seed), ScarKind::split, w.splits);
+            add_notches(splits(params_.seed), DamageKind::split, w.splits);
         if (w.dew > 0.0) {
-            lay_ovals(ScarKind::drop, MarkKind::dew, 0, w.dew);
-            lay_ovals(ScarKind::drop, MarkKind::dew, 2, w.dew);
+            add_ovals(DamageKind::drop, MarkKind::dew, 0, w.dew);
+            add_ovals(DamageKind::drop, MarkKind::dew, 2, w.dew);
         }
     }
 
   private:
-    void add(int part, Scar scar) {
-        plan_.scars.scars[static_cast<std::size_t>(part)].push_back(scar);
+    void add(int part, DamageMark painted) {
+        plan_.damage.marks[static_cast<std::size_t>(part)].push_back(painted);
         if (part != 2) return;
-        // Once more on the other side of the seam.
-        const float turn = scar.middle_y < 0.5F ? 1.0F : -1.0F;
-        scar.y += turn;
-        scar.middle_y += turn;
-        plan_.scars.scars[2].push_back(scar);
+        // A copy on the other side of the seam.
+        const float turn = painted.middle_y < 0.5F ? 1.0F : -1.0F;
+        painted.y += turn;
+        painted.middle_y += turn;
+        plan_.damage.marks[2].push_back(painted);
     }
 
-    void lay_ovals(ScarKind kind, MarkKind marked, int part, double amount) {
-        const Sheet sheet(plan_, part);
+    void add_ovals(DamageKind kind, MarkKind marked, int part, double amount) {
+        const ChartSpace chart(plan_, part);
         const CurveName curve = part == 0   ? CurveName::cap
                                 : part == 1 ? CurveName::hymenium
                                             : CurveName::stem;
         for (const Mark& mark : marks(marked, curve, params_.seed)) {
             const double scale = grown(mark.onset, amount);
             if (scale <= 0.0) continue;
-            const Sheet::Place at = sheet.place(mark.sigma, mark.theta);
-            // Stains and lumps come gently, all else grows from a point.
-            const bool gentle = kind == ScarKind::bruise || kind == ScarKind::lump;
+            const ChartSpace::Place at = chart.place(mark.sigma, mark.theta);
+            // Bruises and lumps fade in; all other kinds grow from a point.
+            const bool gentle = kind == DamageKind::bruise || kind == DamageKind::lump;
             const double radius =
-                std::max(mark.radius * (gentle ? 0.5 + 0.5 * scale : scale), 1e-4) * sheet.unit();
+                std::max(mark.radius * (gentle ? 0.5 + 0.5 * scale : scale), 1e-4) * chart.unit();
             const double length = radius * mark.elongation, width = radius / at.widening;
-            Scar scar;
-            scar.kind = kind;
-            scar.x = single(at.x);
-            scar.y = single(at.y);
-            scar.along_x = single(at.along_x);
-            scar.along_y = single(at.along_y);
-            scar.per_length = single(1.0 / length);
-            scar.per_width = single(1.0 / width);
-            scar.middle_x = scar.x;
-            scar.middle_y = scar.y;
-            scar.reach = 1.5F * single(std::max(length, width));
-            scar.rows = single(std::sqrt(static_cast<double>(oval_window(kind))) *
-                               diagonal(length * at.along_y, width * at.along_x));
-            scar.seed = Random(params_.seed, purposes::scars + static_cast<std::uint32_t>(part),
-                               static_cast<std::uint32_t>(kind) * 1000U + mark.id)
-                            .bits();
-            const double shown = std::min(1.0, radius / sheet.texel());
+            DamageMark painted;
+            painted.kind = kind;
+            painted.x = single(at.x);
+            painted.y = single(at.y);
+            painted.along_x = single(at.along_x);
+            painted.along_y = single(at.along_y);
+            painted.per_length = single(1.0 / length);
+            painted.per_width = single(1.0 / width);
+            painted.middle_x = painted.x;
+            painted.middle_y = painted.y;
+            painted.reach = 1.5F * single(std::max(length, width));
+            painted.rows = single(std::sqrt(static_cast<double>(oval_window(kind))) *
+                                  diagonal(length * at.along_y, width * at.along_x));
+            painted.seed = Random(params_.seed, purposes::scars + static_cast<std::uint32_t>(part),
+                                  static_cast<std::uint32_t>(kind) * 1000U + mark.id)
+                               .bits();
+            const double shown = std::min(1.0, radius / chart.texel());
             switch (kind) {
-                case ScarKind::pit:
-                    scar.height = single(0.30 * radius);
-                    scar.strength = single(shown);
+                case DamageKind::pit:
+                    painted.height = single(0.30 * radius);
+                    painted.strength = single(shown);
                     break;
-                case ScarKind::bruise:
-                    scar.strength = single(scale);
+                case DamageKind::bruise:
+                    painted.strength = single(scale);
                     break;
-                case ScarKind::drop:
-                    scar.height = single(0.55 * radius);
-                    scar.strength = single(shown * shown);
+                case DamageKind::drop:
+                    painted.height = single(0.55 * radius);
+                    painted.strength = single(shown * shown);
                     break;
                 default:
-                    // Every third is a hollow. Geometry carries the rest of its height.
-                    scar.height = single(lump_height(mark) * scale * 0.5 * sheet.unit());
+                    // Every third lump is a hollow. Half of its height is painted, the rest is
+                    // geometry.
+                    painted.height = single(lump_height(mark) * scale * 0.5 * chart.unit());
                     break;
             }
-            add(part, scar);
+            add(part, painted);
         }
     }
 
-    // A piece of a crack or furrow from one point to the next; half widths in lengths of the sheet.
-    void lay_line(int part, ScarKind kind, double ax, double ay, double bx, double by,
+    // Adds a piece of a crack or furrow from one point to the next; half widths are relative to the
+    // chart.
+    void add_line(int part, DamageKind kind, double ax, double ay, double bx, double by,
                   double width_a, double width_b, double strength, std::uint32_t seed) {
         if (width_a <= 0.0 && width_b <= 0.0) return;
-        const Sheet sheet(plan_, part);
+        const ChartSpace chart(plan_, part);
         const double dx = bx - ax, dy = by - ay, length = std::sqrt(dx * dx + dy * dy);
         if (length < 1e-9) return;
-        // Where the chart draws out what lies round the axis, a crack along the meridian is wider on it.
+        // Where the chart compresses the circumference, a crack along the meridian is wider on the
+        // chart.
         double stretch = 1.0;
-        if (!sheet.strip()) {
+        if (!chart.strip()) {
             const double mx = 0.5 * (ax + bx), my = 0.5 * (ay + by);
             const double rho = std::max(std::sqrt(mx * mx + my * my), 1e-6);
             const double across = (mx * dx + my * dy) / (rho * length);
-            const double k = sheet.widening(rho);
+            const double k = chart.widening(rho);
             stretch = 1.0 / std::sqrt(across * across * k * k + (1.0 - across * across));
         }
-        const double texel = 0.62 * sheet.texel();
+        const double texel = 0.62 * chart.texel();
         const double mean = 0.5 * (width_a + width_b) * stretch;
-        Scar scar;
-        scar.shape = ScarShape::line;
-        scar.kind = kind;
-        scar.x = single(ax);
-        scar.y = single(ay);
-        scar.along_x = single(dx / length);
-        scar.along_y = single(dy / length);
-        scar.length = single(length);
-        scar.width = single(std::max(width_a * stretch, texel));
+        DamageMark painted;
+        painted.shape = DamageShape::line;
+        painted.kind = kind;
+        painted.x = single(ax);
+        painted.y = single(ay);
+        painted.along_x = single(dx / length);
+        painted.along_y = single(dy / length);
+        painted.length = single(length);
+        painted.width = single(std::max(width_a * stretch, texel));
         const float width_end = single(std::max(width_b * stretch, texel));
-        scar.width_grow = (width_end - scar.width) / scar.length;
-        // What is thinner than a texel shows by its share of it.
-        scar.strength = single(strength * std::min(1.0, mean / texel));
-        scar.height = single(mean);
-        scar.middle_x = single(0.5 * (ax + bx));
-        scar.middle_y = single(0.5 * (ay + by));
-        const float widest = std::max(scar.width, width_end);
-        const float rise = std::abs(scar.along_y);
-        scar.reach = single(0.5 * length) + 2.6F * widest;
-        scar.cover = 1.02F * line_window(kind) * widest;
-        scar.rows = std::min(scar.reach, rise * scar.length * 0.5F + scar.cover);
-        // A line that runs along the rows is in each of them as far as it reaches.
+        painted.width_grow = (width_end - painted.width) / painted.length;
+        // A line thinner than a texel has the opacity of its share of the texel.
+        painted.strength = single(strength * std::min(1.0, mean / texel));
+        painted.height = single(mean);
+        painted.middle_x = single(0.5 * (ax + bx));
+        painted.middle_y = single(0.5 * (ay + by));
+        const float widest = std::max(painted.width, width_end);
+        const float rise = std::abs(painted.along_y);
+        painted.reach = single(0.5 * length) + 2.6F * widest;
+        painted.cover = 1.02F * line_window(kind) * widest;
+        painted.rows = std::min(painted.reach, rise * painted.length * 0.5F + painted.cover);
+        // A line almost parallel to the rows is limited by its bounding circle only.
         const bool crosses = rise > 0.05F;
-        scar.lean = crosses ? scar.along_x / scar.along_y : 0.0F;
-        scar.breadth = crosses ? scar.cover / rise : 1e9F;
-        scar.seed = seed;
-        add(part, scar);
+        painted.lean = crosses ? painted.along_x / painted.along_y : 0.0F;
+        painted.breadth = crosses ? painted.cover / rise : 1e9F;
+        painted.seed = seed;
+        add(part, painted);
     }
 
-    void lay_cracks(double amount) {
-        // The same share as the growth strain, moved by what the species' skin prefers.
+    void add_cracks(double amount) {
+        // Share of radial cracks: the growth strain, shifted by the preference of the species.
         const double own = params_.surface.scars.cracking;
         const double strain = params_.metrics.radial_strain / 16.0;
         const double radial =
@@ -232,7 +235,7 @@ class Planner {
         const auto pieces = [&](const Crack& crack, auto width_at) {
             for (std::size_t i = 0; i + 1 < crack.points.size(); ++i) {
                 const CrackPoint &a = crack.points[i], &b = crack.points[i + 1];
-                lay_line(0, ScarKind::crack, a.x, a.y, b.x, b.y, width_at(a), width_at(b), 1.0,
+                add_line(0, DamageKind::crack, a.x, a.y, b.x, b.y, width_at(a), width_at(b), 1.0,
                          seed);
             }
         };
@@ -242,7 +245,8 @@ class Planner {
                 if (scale <= 0.0) continue;
                 pieces(crack, [&](const CrackPoint& p) {
                     const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-                    // Islands on the disc, where all has stretched alike; it tears open from its middle to its ends.
+                    // A net on the disc, where the strain is isotropic; cracks open from their
+                    // middle to their ends.
                     const double here = net_share * (1.0 - radial * smooth_step(0.35, 0.9, rho)) *
                                         (1.0 - 0.5 * smooth_step(0.85, 1.0, rho));
                     const double open =
@@ -263,7 +267,7 @@ class Planner {
             }
     }
 
-    void lay_furrows(double amount) {
+    void add_furrows(double amount) {
         constexpr int steps = 28;
         const double aspect = plan_.stem.aspect;
         const std::uint32_t seed = Random(params_.seed, purposes::scars + 9U).bits();
@@ -278,9 +282,9 @@ class Planner {
                              b = static_cast<double>(k + 1) / steps;
                 const double wa = furrow_depth(furrow, a) * scale,
                              wb = furrow_depth(furrow, b) * scale;
-                lay_line(2, ScarKind::furrow, a * aspect, place(a), b * aspect, place(b),
+                add_line(2, DamageKind::furrow, a * aspect, place(a), b * aspect, place(b),
                          0.020 * wa, 0.020 * wb, 0.35 + 0.65 * scale, seed);
-                // The deepest split when all is dry.
+                // The deepest furrows split when they are dry.
                 const double torn =
                     smooth_step(0.55, 1.0, amount) * smooth_step(0.6, 0.85, furrow.depth);
                 const auto open = [&](double sigma) {
@@ -289,13 +293,13 @@ class Planner {
                     return t <= 0.0 || t >= 1.0 ? 0.0 : 0.022 * torn * 4.0 * t * (1.0 - t);
                 };
                 if (torn > 0.0)
-                    lay_line(2, ScarKind::crack, a * aspect, place(a), b * aspect, place(b),
+                    add_line(2, DamageKind::crack, a * aspect, place(a), b * aspect, place(b),
                              open(a), open(b), 1.0, seed);
             }
         }
     }
 
-    void lay_notches(const std::vector<Notch>& notches, ScarKind kind, double amount) {
+    void add_notches(const std::vector<Notch>& notches, DamageKind kind, double amount) {
         const double radius = length_of_step(params_.metrics.cap_radius);
         for (const Notch& notch : notches) {
             const double scale = grown(notch.onset, amount);
@@ -303,56 +307,57 @@ class Planner {
             for (int part = 0; part < 2; ++part) {
                 const double arc = length_of_step(part == 0 ? params_.metrics.cap_arc
                                                             : params_.metrics.hymenium_arc);
-                const Sheet sheet(plan_, part);
+                const ChartSpace chart(plan_, part);
                 const double depth = std::min(notch.depth * scale * radius / arc, 0.9);
-                // What the slug has left gnawed, or the tear has frayed, beyond the cut.
-                const double rim = std::min(kind == ScarKind::bite ? 0.028 : 0.012, depth) *
+                // Width of the gnawed or frayed border beyond the cut.
+                const double rim = std::min(kind == DamageKind::bite ? 0.028 : 0.012, depth) *
                                    (part == 0 ? 1.0 : 0.6);
-                // What is shallower than a texel shows by its share of it.
-                const double shown = std::min(1.0, depth * sheet.unit() / sheet.texel());
-                margin_scar(part, kind, notch.theta, notch.half_width, depth * sheet.unit(), rim,
-                            notch.id, shown);
+                // A cut shallower than a texel has the opacity of its share of the texel.
+                const double shown = std::min(1.0, depth * chart.unit() / chart.texel());
+                add_margin_mark(part, kind, notch.theta, notch.half_width, depth * chart.unit(),
+                                rim, notch.id, shown);
             }
         }
     }
 
-    void lay_tongues(double amount) {
+    void add_tongues(double amount) {
         const double most = params_.surface.scars.peel_reach;
         for (const Tongue& tongue : tongues(params_.seed)) {
             const double scale = grown(tongue.onset, amount);
             if (scale <= 0.0 || most <= 0.0) continue;
-            margin_scar(0, ScarKind::tongue, tongue.theta, tongue.half_width * (0.6 + 0.4 * scale),
-                        std::min(tongue.reach * most * scale, 0.95), 0.05, 200U + tongue.id,
-                        std::min(1.0, 4.0 * scale));
-            Scar& scar = plan_.scars.scars[0].back();
-            scar.x = single(tongue.phases[0]);
-            scar.y = single(tongue.phases[1]);
-            scar.length = single(tongue.phases[2]);
+            add_margin_mark(0, DamageKind::tongue, tongue.theta,
+                            tongue.half_width * (0.6 + 0.4 * scale),
+                            std::min(tongue.reach * most * scale, 0.95), 0.05, 200U + tongue.id,
+                            std::min(1.0, 4.0 * scale));
+            DamageMark& painted = plan_.damage.marks[0].back();
+            painted.x = single(tongue.phases[0]);
+            painted.y = single(tongue.phases[1]);
+            painted.length = single(tongue.phases[2]);
         }
     }
 
-    void margin_scar(int part, ScarKind kind, double theta, double half_width, double depth,
-                     double rim, std::uint32_t id, double strength) {
+    void add_margin_mark(int part, DamageKind kind, double theta, double half_width, double depth,
+                         double rim, std::uint32_t id, double strength) {
         const SineCosine turn = sine_cosine(theta);
         const double out = depth + 2.5 * rim;
-        Scar scar;
-        scar.shape = ScarShape::margin;
-        scar.kind = kind;
-        scar.along_x = single(turn.cosine);
-        scar.along_y = single(turn.sine);
-        scar.per_length = single(1.0 / std::max(depth, 1e-4));
-        scar.per_width = single(1.0 / half_width);
-        scar.rim = single(rim / std::max(std::min(depth, half_width), 1e-4));
-        scar.height = single(rim);
-        scar.strength = single(strength);
-        // The circle round an arc of the rim as deep as the scar.
+        DamageMark painted;
+        painted.shape = DamageShape::margin;
+        painted.kind = kind;
+        painted.along_x = single(turn.cosine);
+        painted.along_y = single(turn.sine);
+        painted.per_length = single(1.0 / std::max(depth, 1e-4));
+        painted.per_width = single(1.0 / half_width);
+        painted.rim = single(rim / std::max(std::min(depth, half_width), 1e-4));
+        painted.height = single(rim);
+        painted.strength = single(strength);
+        // Bounding circle of an arc of the rim with the depth of the mark.
         const double middle = 1.0 - 0.5 * out + 0.03;
-        scar.middle_x = single(middle * turn.cosine);
-        scar.middle_y = single(middle * turn.sine);
-        scar.reach = scar.rows =
+        painted.middle_x = single(middle * turn.cosine);
+        painted.middle_y = single(middle * turn.sine);
+        painted.reach = painted.rows =
             single(std::max(1.35 * half_width + 2.0 * rim, 0.5 * out + 0.08) + 0.06);
-        scar.seed = Random(params_.seed, purposes::scars + 7U, id).bits();
-        add(part, scar);
+        painted.seed = Random(params_.seed, purposes::scars + 7U, id).bits();
+        add(part, painted);
     }
 
     const PaintParams& params_;
@@ -360,9 +365,9 @@ class Planner {
 };
 
 void sort_into_rows(PaintPlan& plan, int part) {
-    const auto& scars = plan.scars.scars[static_cast<std::size_t>(part)];
-    auto& by_row = plan.scars.by_row[static_cast<std::size_t>(part)];
-    if (scars.empty()) return;
+    const auto& painted_marks = plan.damage.marks[static_cast<std::size_t>(part)];
+    auto& by_row = plan.damage.by_row[static_cast<std::size_t>(part)];
+    if (painted_marks.empty()) return;
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
     const double inset = frame.inset;
     const double per = part == 2 ? 1.0 - 2.0 * inset : 0.5 - inset;
@@ -371,44 +376,44 @@ void sort_into_rows(PaintPlan& plan, int part) {
         std::size_t from, to;
     };
     std::vector<Rows> crossed;
-    crossed.reserve(scars.size());
+    crossed.reserve(painted_marks.size());
     by_row.first.assign(static_cast<std::size_t>(frame.height) + 3, 0);
-    for (const Scar& scar : scars) {
-        const double middle = (part == 2 ? inset + per * static_cast<double>(scar.middle_y)
-                                         : 0.5 + per * static_cast<double>(scar.middle_y)) *
+    for (const DamageMark& painted : painted_marks) {
+        const double middle = (part == 2 ? inset + per * static_cast<double>(painted.middle_y)
+                                         : 0.5 + per * static_cast<double>(painted.middle_y)) *
                               frame.height;
-        const double half = static_cast<double>(scar.rows) * per * frame.height + 1.0;
+        const double half = static_cast<double>(painted.rows) * per * frame.height + 1.0;
         const Rows rows{static_cast<std::size_t>(std::clamp(middle - half + 1.0, 0.0, last)),
                         static_cast<std::size_t>(std::clamp(middle + half + 2.0, 0.0, last))};
         crossed.push_back(rows);
         for (std::size_t y = rows.from; y < rows.to; ++y) ++by_row.first[y + 1];
     }
     std::partial_sum(by_row.first.begin(), by_row.first.end(), by_row.first.begin());
-    by_row.scar.resize(by_row.first.back());
+    by_row.mark_index.resize(by_row.first.back());
     std::vector<std::uint32_t> next = by_row.first;
     for (std::size_t i = 0; i < crossed.size(); ++i)
         for (std::size_t y = crossed[i].from; y < crossed[i].to; ++y)
-            by_row.scar[next[y]++] = static_cast<std::uint32_t>(i);
+            by_row.mark_index[next[y]++] = static_cast<std::uint32_t>(i);
 }
 
 }  // namespace
 
-void plan_scars(const PaintParams& params, PaintPlan& plan) {
-    ScarsPlan& scars = plan.scars;
+void plan_damage(const PaintParams& params, PaintPlan& plan) {
+    DamagePlan& damage = plan.damage;
     const ScarSurface& look = params.surface.scars;
-    scars.flesh = light_of(params.surface.flesh.colour);
-    scars.bruise = light_of(look.bruise);
-    scars.faded = light_of(look.faded);
-    scars.dusty = light_of(look.dust);
-    scars.dust = single(params.weathering.dust);
-    scars.melted = single(params.weathering.deliquescence);
-    scars.seed = Random(params.seed, purposes::scar_grain).bits();
+    damage.flesh = light_of(params.surface.flesh.colour);
+    damage.bruise = light_of(look.bruise);
+    damage.faded = light_of(look.faded);
+    damage.dusty = light_of(look.dust);
+    damage.dust = single(params.weathering.dust);
+    damage.melted = single(params.weathering.deliquescence);
+    damage.seed = Random(params.seed, purposes::scar_grain).bits();
     const double gone = melted(params.weathering.deliquescence);
     const double arc = length_of_step(params.metrics.cap_arc),
                  lower = std::max(length_of_step(params.metrics.hymenium_arc), 1e-5);
-    scars.ink_front = single(1.0 - gone);
-    scars.ink_lower = single(std::max(0.0, 1.0 - gone * arc / lower));
-    Planner(params, plan).all();
+    damage.ink_front = single(1.0 - gone);
+    damage.ink_lower = single(std::max(0.0, 1.0 - gone * arc / lower));
+    DamagePlanner(params, plan).add_all();
     for (int part = 0; part < 3; ++part) sort_into_rows(plan, part);
 }
 

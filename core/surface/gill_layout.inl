@@ -1,9 +1,10 @@
-// Where a texel lies among gills or ridges that reach the stem: on the lower face, and where they run down it.
-#if defined(SPOREPRINT_CORE_SURFACE_COMB_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef SPOREPRINT_CORE_SURFACE_COMB_INL
-#undef SPOREPRINT_CORE_SURFACE_COMB_INL
+// Position of a texel among the gills or ridges that reach the stem: on the lower face, and down
+// the stem where they are decurrent.
+#if defined(SPOREPRINT_CORE_SURFACE_GILL_LAYOUT_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_GILL_LAYOUT_INL
+#undef SPOREPRINT_CORE_SURFACE_GILL_LAYOUT_INL
 #else
-#define SPOREPRINT_CORE_SURFACE_COMB_INL
+#define SPOREPRINT_CORE_SURFACE_GILL_LAYOUT_INL
 #endif
 
 #include "core/surface/texel.inl"
@@ -12,20 +13,21 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// Where a texel lies among the blades that reach the stem.
-struct Among {
-    VF x;     ///< the k-th blade stands at k
-    VF wide;  ///< width of the gap here over that of the others
+/// Position of a texel among the blades that reach the stem.
+struct GillPosition {
+    VF x;     ///< blade k is at x = k
+    VF wide;  ///< width of this gap relative to the mean
 };
 
-/// Slot of the k-th blade: the one nearest to its even place. Not quite a half, so that a place half-way between two goes one
-/// way however it is rounded.
-HWY_INLINE VF slot_of(const CombPlan& plan, VF k) {
+/// Returns the slot of blade k, the one nearest to its even place. The offset is not exactly a
+/// half, so that a tie is resolved the same way under any rounding.
+HWY_INLINE VF slot_of(const GillLayoutPlan& plan, VF k) {
     return hn::Floor(k * set(plan.slots / plan.stands) + set(0.501F));
 }
 
-/// Blades that stand evenly; or, on a comb with more of them, each on a slot.
-HWY_INLINE Among comb_of(const CombPlan& plan, VF turn, VF wander) {
+/// Returns the position among evenly spaced blades or, on a gill layout with more slots, among
+/// blades that are assigned to slots.
+HWY_INLINE GillPosition blades_at(const GillLayoutPlan& plan, VF turn, VF wander) {
     if (plan.slots == 0.0F) {
         const float n = static_cast<float>(plan.blades);
         return {turn * set(n) + wander * set(n * plan.bend), set(1.0F)};
@@ -41,8 +43,8 @@ HWY_INLINE Among comb_of(const CombPlan& plan, VF turn, VF wander) {
             wide * set(plan.stands / plan.slots)};
 }
 
-/// How far blades stray from their meridians, -1..1.
-HWY_INLINE VF wander_at(const CombPlan& plan, VF turn, VF share) {
+/// Returns the lateral displacement of blades from their meridians, -1..1.
+HWY_INLINE VF wander_at(const GillLayoutPlan& plan, VF turn, VF share) {
     VF sum = set(0.0F);
     for (const WavePlan& one : plan.wander)
         sum = sum +

@@ -1,5 +1,5 @@
-// Paints the texels of the lower face: gills with their shorter tiers, forking ridges, pores, or a
-// smooth skin.
+// Paints the texels of the lower face: gills with their shorter tiers, forking ridges, pores,
+// spines, or a smooth surface.
 #if defined(SPOREPRINT_CORE_SURFACE_HYMENIUM_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
 #undef SPOREPRINT_CORE_SURFACE_HYMENIUM_INL
@@ -14,51 +14,51 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// A slot between blades: how far a texel is from the edge of the nearest blade (0) to the middle
-/// of the slot (1).
+/// Position of a texel in the slot between two blades.
 struct Slot {
-    VF depth;    ///< 0 on an edge, 1 in the middle of the slot
+    VF depth;    ///< 0 on the edge of the nearest blade, 1 in the middle of the slot
     VF visible;  ///< 0 where slots are smaller than texels
 };
 
-/// Number in -1..1 that belongs to a whole number.
-HWY_INLINE VF lot(VF whole, std::uint32_t seed) {
+/// Returns a hash of a whole number, as a number in -1..1.
+HWY_INLINE VF signed_hash(VF whole, std::uint32_t seed) {
     const VU h = whole_bits(whole) * word(prime_x);
     return upper_part(hash(hn::Xor(hash(h), word(seed))));
 }
 
-/// x modulo `period`, for -period <= x < 2 period.
+/// Returns x modulo `period`, for -period <= x < 2 period.
 HWY_INLINE VF wrapped(VF x, float period) {
     x = x + hn::IfThenElseZero(x < set(0.0F), set(period));
     return x - hn::IfThenElseZero(x >= set(period), set(period));
 }
 
-/// Gills: `blades` that reach the stem, and tiers of shorter ones, each tier halving the gaps from
-/// its own radius outwards.
+/// Returns the slot among gills: `blades` that reach the stem, and tiers of shorter ones, each of
+/// which halves the gaps from its own radius outwards.
 HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
-    const float n = static_cast<float>(plan.comb.blades);
-    const auto [x, wide] = comb_of(plan.comb, turn, wander);
+    const float n = static_cast<float>(plan.layout.blades);
+    const auto [x, wide] = blades_at(plan.layout, turn, wander);
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
-    VF room = one;                                        // share of the gap between two blades
+    VF room = one;  // width between two blades, as a share of the gap
     float scale = 1.0F;
     for (int tier = 0; tier < plan.tiers; ++tier, scale *= 2.0F) {
         const VF fine = x * set(scale);
         const VF place = hn::Floor(fine);
         const VF chance =
-            lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
+            signed_hash(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(tier));
         const VF begin = set(static_cast<float>(tier_begin(tier))) +
                          chance * set(static_cast<float>(tier_strays));
         VF grown = unit((share - begin) * set(static_cast<float>(tier_rise)));
         if (tier + 1 == plan.tiers && plan.last_tier < 1.0F) {
-            // Steps of the golden section spread what is there as evenly as can be, whatever its share.
+            // Golden-section steps distribute the present blades as evenly as possible, for any
+            // share.
             const VF rank = wrapped(place, n * scale) * set(static_cast<float>(golden_step));
             grown = hn::IfThenElseZero(rank - hn::Floor(rank) < set(plan.last_tier), grown);
         }
         const VF here = hn::Abs(fine - place - set(0.5F)) * set(1.0F / scale);
-        // A blade that has not yet risen is far away.
+        // A blade that has not yet begun counts as far away.
         distance = hn::Min(distance, here + (one - grown) * set(0.5F / scale));
         room = room * (one - set(0.5F) * grown);
     }
@@ -71,12 +71,12 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
     return slot;
 }
 
-/// Ridges: blunt folds; from each grows a fork that swings out to the middle of the gap, and
-/// another from each half.
+/// Returns the slot among ridges: blunt folds. From each a fork swings out to the middle of the
+/// gap, and another from each half.
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
     const VF one = set(1.0F);
-    const float n = static_cast<float>(plan.comb.blades);
-    const auto [x, wide] = comb_of(plan.comb, turn, wander);
+    const float n = static_cast<float>(plan.layout.blades);
+    const auto [x, wide] = blades_at(plan.layout, turn, wander);
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
@@ -87,16 +87,17 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
         const VF fine = x * set(scale);
         const VF place = hn::Floor(fine);
         const VF within = fine - place;
-        const VF chance =
-            lot(wrapped(place, n * scale), plan.seed[2] + static_cast<std::uint32_t>(level));
-        const VF side =
-            lot(wrapped(place, n * scale), plan.seed[3] + static_cast<std::uint32_t>(level));
+        const VF chance = signed_hash(wrapped(place, n * scale),
+                                      plan.seed[2] + static_cast<std::uint32_t>(level));
+        const VF side = signed_hash(wrapped(place, n * scale),
+                                    plan.seed[3] + static_cast<std::uint32_t>(level));
         const std::size_t i = static_cast<std::size_t>(level);
         const VF begin = set(static_cast<float>(fork_begins[i] + fork_missing * hidden)) +
                          chance * set(static_cast<float>(fork_strays[i]));
         const VF swing = set(0.5F) * smooth(share - begin, 0.0F, static_cast<float>(fork_swing));
         const VF fork = hn::IfThenElse(side < set(0.0F), swing, one - swing);
-        // One that has not begun is far away: where it will grow from there may be no ridge yet.
+        // A fork that has not yet begun counts as far away: there may be no ridge where it will
+        // start.
         const VF begun = unit((share - begin) * set(40.0F));
         distance = hn::Min(distance, (hn::Abs(within - fork) + (one - begun)) * set(1.0F / scale));
         room = room * (one - swing);
@@ -104,7 +105,7 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
     const VF half = gap * room * set(0.5F);
     Slot slot;
     slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.12F, 1.15F);
-    // Cross veins, low and thin; those of the rows above and below may reach over.
+    // Low and thin cross veins; those of the rows above and below may overlap.
     if (plan.vein_rows > 0) {
         const VF ridge = hn::Floor(x);
         const VF within = x - ridge - set(0.5F);
@@ -114,10 +115,12 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
             const VF row = hn::Floor(along) + set(static_cast<float>(j));
             const VF whole = wrapped(ridge, n) + row * set(static_cast<float>(vein_rows_apart));
             const VF middle =
-                row + set(0.5F) + lot(whole, plan.seed[4]) * set(static_cast<float>(vein_stray));
-            const VF tilt = lot(whole, plan.seed[4] + 1U) * set(static_cast<float>(vein_tilt));
+                row + set(0.5F) +
+                signed_hash(whole, plan.seed[4]) * set(static_cast<float>(vein_stray));
+            const VF tilt =
+                signed_hash(whole, plan.seed[4] + 1U) * set(static_cast<float>(vein_tilt));
             const VF there =
-                unit((set(plan.veins_there) - lot(whole, plan.seed[4] + 2U) * set(0.5F)) *
+                unit((set(plan.veins_there) - signed_hash(whole, plan.seed[4] + 2U) * set(0.5F)) *
                      set(static_cast<float>(vein_steepness)));
             const VF far = hn::Abs(along - middle - tilt * within);
             const VF vein = one - smooth(far, 0.3F * static_cast<float>(vein_width),
@@ -144,7 +147,8 @@ HWY_INLINE Slot pores(const HymeniumPlan& plan, VF share, VF turn) {
     return slot;
 }
 
-/// Spines seen from their tips: a cone on each cell's point, the flesh between them deep.
+/// Returns the slot among spines seen from their tips: a cone on each cell's point, with deep flesh
+/// between them.
 HWY_INLINE Slot teeth(const HymeniumPlan& plan, VF share, VF turn) {
     const Cells cell = ring_cells(turn, share * set(plan.pore_rows), plan.pore_from, plan.pore_grow,
                                   1.0F, cell_jitter, plan.seed[5]);
@@ -154,15 +158,15 @@ HWY_INLINE Slot teeth(const HymeniumPlan& plan, VF share, VF turn) {
     return slot;
 }
 
-/// The field of a lower face that is sampled at every other texel; the first two come from the
-/// grid.
+/// Computes the field of a lower face that is sampled at every other texel; the first two come from
+/// the coarse grid.
 HWY_INLINE void hymenium_fields(const HymeniumPlan& plan, const DiscPoint& p, VF* fields) {
     if ((plan.fields & (1U << hymenium_bump)) == 0) return;
     const VF f = set(hymenium_bump_frequency[0]);
     fields[hymenium_bump] = noise2(p.x * f, p.y * f, plan.seed[0]) * set(plan.bumps[0]);
 }
 
-/// fields: those of hymenium_fields() at this texel
+/// Returns a texel of the lower face. fields: values of hymenium_fields() at this texel
 HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;
@@ -176,7 +180,7 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
         fine = fields[hymenium_bump];
         height = fine * set(0.14F / hymenium_bump_frequency[0]);
     }
-    // Gills and pores have fine detail of their own.
+    // Gills and pores have their own fine detail.
     if (plan.pattern == 0 && plan.bumps[1] > 0.0F) {
         const VF f = set(hymenium_bump_frequency[1]);
         const VF n = noise2(p.x * f, p.y * f, plan.seed[6]) * set(plan.bumps[1]);
@@ -187,7 +191,7 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
     VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.2F);
     Rgb colour = rgb(plan.colour);
     if (plan.pattern == 0) {
-        // A smooth face: clouds between its colours, and the finest grain.
+        // A smooth face has clouds between its colours, and the finest grain.
         colour = mix(colour, rgb(plan.depth),
                      unit(cloud * set(0.55F * plan.mottle) + set(0.08F * plan.mottle)));
         colour = mix(colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
@@ -195,20 +199,20 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
     } else {
         const VF turn = turn_of(p.cosine, p.sine);
         const Slot slot =
-            plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan.comb, turn, share))
-            : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan.comb, turn, share))
+            plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan.layout, turn, share))
+            : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan.layout, turn, share))
             : plan.pattern == 3 ? pores(plan, share, turn)
                                 : teeth(plan, share, turn);
         const float mean_depth = plan.pattern >= 3 ? 0.5F : 0.45F;
         VF depth = mix(set(mean_depth), slot.depth, slot.visible);
-        // Ridges run down the stem and are lost there.
+        // Ridges fade out towards the stem.
         if (plan.pattern == 2) depth = depth * smooth(share, 0.0F, 4.5F);
-        // Free gills leave the flesh round the stem bare.
+        // Free gills leave a bare ring of flesh round the stem.
         const VF carried = one - (one - smooth(share, 0.55F * plan.inner_gap, plan.bare_slope)) *
                                      set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
         depth = depth * carried;
         const VF deep = depth * depth;
-        // Edge, face, and depth of the slot; what is deep is only as dark as the relief makes it.
+        // Edge, face and bottom of the slot; the bottom is darkened by the relief.
         const VF on_edge =
             (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +
             (one - slot.visible) * set(0.2F) - (one - carried);
@@ -218,7 +222,7 @@ HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, co
             occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
         const VF period = plan.pattern >= 3
                               ? set(1.0F / plan.pore_rows)
-                              : p.radius * set(6.2831853F / static_cast<float>(plan.comb.blades));
+                              : p.radius * set(6.2831853F / static_cast<float>(plan.layout.blades));
         const VF rise = (one - deep) * slot.visible * period * carried;
         height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
     }

@@ -13,9 +13,10 @@
 namespace sporeprint {
 namespace {
 
-using Channels = std::array<double, dissolved_channels>;
+using Channels = std::array<double, blended_channels>;
 
-// Channels whose contrast is stretched by one factor, so that no hue turns and no slope: colour, slopes, occlusion, roughness.
+// Groups of channels that share one contrast gain, so that hues and directions of slopes are kept:
+// colour, slopes, occlusion, roughness.
 struct Group {
     std::size_t from, to;
 };
@@ -49,7 +50,7 @@ void check(std::span<const RawImages* const> paintings, std::span<const double> 
     }
 }
 
-// A texel as numbers that may be averaged.
+// Returns a texel as numbers that may be averaged.
 Channels channels_at(const std::array<const std::uint8_t*, 3>& images, std::size_t at) {
     const std::array<float, 256>& linear = linear_table();
     const auto number = [&](std::size_t image, std::size_t c) {
@@ -65,18 +66,18 @@ Channels channels_at(const std::array<const std::uint8_t*, 3>& images, std::size
     return out;
 }
 
-// Sums over samples: of a cell, and of how far each lies from the mean of its cell.
+// Accumulates the sums of a cell, and the scatter of samples about the means of their cells.
 struct Moments {
     Channels sum{}, squares{}, scatter{};
 
     void add(const Channels& value) {
-        for (std::size_t c = 0; c < dissolved_channels; ++c) {
+        for (std::size_t c = 0; c < blended_channels; ++c) {
             sum[c] += value[c];
             squares[c] += value[c] * value[c];
         }
     }
     void end_cell(double count) {
-        for (std::size_t c = 0; c < dissolved_channels; ++c) {
+        for (std::size_t c = 0; c < blended_channels; ++c) {
             scatter[c] += std::max(squares[c] - sum[c] * sum[c] / count, 0.0);
             sum[c] = squares[c] = 0.0;
         }
@@ -88,10 +89,10 @@ struct Moments {
     }
 };
 
-// The mean of each cell with its eight neighbours, the nearer the heavier.
+// Returns the weighted mean of each cell with its eight neighbours (binomial kernel).
 std::vector<float> smoothed(const std::vector<Channels>& cells, int columns, int rows) {
     std::vector<float> out;
-    out.reserve(cells.size() * dissolved_channels);
+    out.reserve(cells.size() * blended_channels);
     const auto cell = [&](int i, int j) -> const Channels& {
         const int x = std::clamp(i, 0, columns - 1), y = std::clamp(j, 0, rows - 1);
         return cells[static_cast<std::size_t>(y * columns + x)];
@@ -99,7 +100,7 @@ std::vector<float> smoothed(const std::vector<Channels>& cells, int columns, int
     constexpr double weights[3] = {0.25, 0.5, 0.25};
     for (int j = 0; j < rows; ++j)
         for (int i = 0; i < columns; ++i)
-            for (std::size_t c = 0; c < dissolved_channels; ++c) {
+            for (std::size_t c = 0; c < blended_channels; ++c) {
                 double sum = 0.0;
                 for (int dj = 0; dj < 3; ++dj)
                     for (int di = 0; di < 3; ++di)
@@ -109,13 +110,13 @@ std::vector<float> smoothed(const std::vector<Channels>& cells, int columns, int
     return out;
 }
 
-// Measures a chart at about 128 x 128 places of the atlas: the means of its cells, and the contrast inside of cells that plain
-// means of the paintings lose.
-ChartDissolve measured(const DissolvePlan& plan, std::size_t part) {
+// Measures a chart at about 128 x 128 samples of the atlas: the means of its cells, and the gain
+// that restores the contrast which a plain mean of the paintings loses.
+ChartBlend measured(const BlendPlan& plan, std::size_t part) {
     const Frame& frame = plan.frames[part];
-    const int cell = dissolve_cell(plan.side);
+    const int cell = blend_cell(plan.side);
     const int step = std::max(1, plan.side / 128);
-    ChartDissolve chart;
+    ChartBlend chart;
     chart.columns = std::max(1, frame.width / cell);
     chart.rows = std::max(1, frame.height / cell);
     std::array<Moments, most_paintings> own{};
@@ -135,7 +136,7 @@ ChartDissolve measured(const DissolvePlan& plan, std::size_t part) {
                     for (std::size_t k = 0; k < plan.paintings; ++k) {
                         const Channels value = channels_at(plan.images[k], at);
                         own[k].add(value);
-                        for (std::size_t c = 0; c < dissolved_channels; ++c)
+                        for (std::size_t c = 0; c < blended_channels; ++c)
                             mean[c] += static_cast<double>(plan.weights[k]) * value[c];
                     }
                     mixed.add(mean);
@@ -157,7 +158,7 @@ ChartDissolve measured(const DissolvePlan& plan, std::size_t part) {
         for (std::size_t k = 0; k < plan.paintings; ++k)
             wanted += static_cast<double>(plan.weights[k]) * own[k].deviation(group, all);
         const double found = mixed.deviation(group, all);
-        // Less than a tenth of a level is rounding, not contrast.
+        // A deviation below a tenth of a level is rounding, not contrast.
         const double gain = found > 4e-4 ? std::clamp(wanted / found, 1.0, most) : 1.0;
         for (std::size_t c = group.from; c < group.to; ++c)
             chart.surplus[c] = static_cast<float>(gain - 1.0);
@@ -165,15 +166,15 @@ ChartDissolve measured(const DissolvePlan& plan, std::size_t part) {
     return chart;
 }
 
-void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
-                 std::span<const double> weights, const Parallel& parallel,
-                 std::span<const PaintParams* const> laid) {
-    if (!laid.empty() && laid.size() != paintings.size())
+void blend_onto(Canvas& canvas, std::span<const RawImages* const> paintings,
+                std::span<const double> weights, const Parallel& parallel,
+                std::span<const PaintParams* const> patches_of) {
+    if (!patches_of.empty() && patches_of.size() != paintings.size())
         throw InvalidInput("", "patches are laid for all paintings or for none");
     PaintPlan patches;
-    DissolvePlan plan;
-    if (!laid.empty()) patches = laid_plan(laid, weights);
-    if (!patches.patches.empty()) plan.laid = &patches;
+    BlendPlan plan;
+    if (!patches_of.empty()) patches = patch_blend_plan(patches_of, weights);
+    if (!patches.patches.empty()) plan.patches = &patches;
     plan.side = canvas.side();
     plan.frames = chart_frames(plan.side);
     plan.linear = linear_table().data();
@@ -185,7 +186,7 @@ void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
         ++plan.paintings;
     }
     const PaintTarget target = canvas.target();
-    if (plan.paintings == 1 && !plan.laid) {
+    if (plan.paintings == 1 && !plan.patches) {
         std::uint8_t* const to[3] = {target.base_color, target.normal, target.orm};
         for (std::size_t image = 0; image < 3; ++image)
             std::memcpy(to[image], plan.images[0][image], canvas.size());
@@ -201,7 +202,7 @@ void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
         for (int from = 0; from < height; from += rows_per_piece) {
             const int to = std::min(from + rows_per_piece, height);
             pieces.emplace_back(
-                [&plan, &target, part, from, to] { dissolve_piece(plan, part, from, to, target); });
+                [&plan, &target, part, from, to] { blend_piece(plan, part, from, to, target); });
         }
     }
     parallel(pieces);
@@ -209,26 +210,26 @@ void dissolve_on(Canvas& canvas, std::span<const RawImages* const> paintings,
 
 }  // namespace
 
-PaintParams unlaid(PaintParams params) {
+PaintParams without_patches(PaintParams params) {
     params.warts = {};
     params.scales = {};
     params.ornaments = {};
     return params;
 }
 
-RawImages dissolve_raw(std::span<const RawImages* const> paintings, std::span<const double> weights,
-                       const Parallel& parallel, std::span<const PaintParams* const> laid) {
+RawImages blend_raw(std::span<const RawImages* const> paintings, std::span<const double> weights,
+                    const Parallel& parallel, std::span<const PaintParams* const> patches_of) {
     check(paintings, weights);
     Canvas canvas(paintings[0]->side);
-    dissolve_on(canvas, paintings, weights, parallel, laid);
+    blend_onto(canvas, paintings, weights, parallel, patches_of);
     return raw(canvas);
 }
 
-ImageSet dissolve(std::span<const RawImages* const> paintings, std::span<const double> weights,
-                  const Parallel& parallel, std::span<const PaintParams* const> laid) {
+ImageSet blend_images(std::span<const RawImages* const> paintings, std::span<const double> weights,
+                      const Parallel& parallel, std::span<const PaintParams* const> patches_of) {
     check(paintings, weights);
     Canvas canvas(paintings[0]->side);
-    dissolve_on(canvas, paintings, weights, parallel, laid);
+    blend_onto(canvas, paintings, weights, parallel, patches_of);
     return encoded(canvas, parallel);
 }
 

@@ -1,4 +1,4 @@
-// Dissolves several paintings of one atlas into one: the surface of a mushroom between species.
+// Blends several paintings of one atlas into one, for mushrooms between species.
 #pragma once
 
 #include <span>
@@ -7,32 +7,38 @@
 
 namespace sporeprint {
 
-/// Cross-dissolves paintings: colours in linear light, normals by their slopes, occlusion and roughness as they are.
+/// Blends paintings: colours in linear light, normals by their slopes, occlusion and roughness
+/// directly.
 ///
-/// A weighted mean of unlike paintings is flatter than each of them. So what stands out from the mean of its surroundings is
-/// stretched until its deviation over the chart is the weighted mean of the paintings' deviations; never by more than
-/// 1 / sqrt(sum w^2), which is right for paintings that have nothing in common. Paintings of one individual share their noise and
-/// need less; equal ones need none. No texel passes what one of the paintings has at its place: it is bent back smoothly.
+/// A weighted mean of different paintings has less contrast than each of them. So the difference
+/// from the local mean is amplified until its deviation over the chart is the weighted mean of the
+/// paintings' deviations; at most by 1 / sqrt(sum w^2), which is right for uncorrelated paintings.
+/// Paintings of one individual share their noise and need less; equal ones need none. No texel
+/// leaves the range of the paintings at its place: it approaches the limit smoothly.
 ///
-/// laid       what was painted, of which the warts and scales were left out (unlaid()): they are laid on the dissolved cap, as
-///            large as their paintings weigh, as the solid ones are; empty for none
-/// paintings  1..9, equal sides, each 3 * side * side bytes an image
-/// weights    one each, >= 0, sum 1 (within 1e-6); a weight of 1 gives that painting, byte for byte
-/// returns    the atlas; the same bytes however the work is shared and with every instruction set
-/// throws     InvalidInput if counts, sides or weights are not as stated; Cancelled
-/// cost       O(paintings * side^2)
-/// source     [Heitz2018] for the blending that keeps mean and variance; differs: the gain is measured, not assumed
-[[nodiscard]] RawImages dissolve_raw(std::span<const RawImages* const> paintings,
-                                     std::span<const double> weights,
-                                     const Parallel& parallel = in_turn,
-                                     std::span<const PaintParams* const> laid = {});
+/// paintings   1..9, equal sides, each 3 * side * side bytes per image
+/// weights     one each, >= 0, sum 1 (within 1e-6); a weight of 1 gives that painting, byte for
+///             byte
+/// patches_of  parameters whose warts and scales were left out of the paintings
+///             (without_patches()); they are added after blending, scaled by the weights as the
+///             solid ones are; empty for none
+/// returns     the atlas; the same bytes however the work is split, and with every instruction set
+/// throws      InvalidInput if counts, sides or weights are not as stated; Cancelled
+/// cost        O(paintings * side^2)
+/// source      [Heitz2018] for blending that preserves mean and variance; differs: the gain is
+///             measured, not assumed
+[[nodiscard]] RawImages blend_raw(std::span<const RawImages* const> paintings,
+                                  std::span<const double> weights,
+                                  const Parallel& parallel = in_turn,
+                                  std::span<const PaintParams* const> patches_of = {});
 
-/// The same, encoded as paint() encodes.
-[[nodiscard]] ImageSet dissolve(std::span<const RawImages* const> paintings,
-                                std::span<const double> weights, const Parallel& parallel = in_turn,
-                                std::span<const PaintParams* const> laid = {});
+/// Blends and encodes as paint() does.
+[[nodiscard]] ImageSet blend_images(std::span<const RawImages* const> paintings,
+                                    std::span<const double> weights,
+                                    const Parallel& parallel = in_turn,
+                                    std::span<const PaintParams* const> patches_of = {});
 
-/// The same painting without warts and scales.
-[[nodiscard]] PaintParams unlaid(PaintParams params);
+/// Returns the same parameters without warts and scales.
+[[nodiscard]] PaintParams without_patches(PaintParams params);
 
 }  // namespace sporeprint

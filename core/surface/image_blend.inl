@@ -1,10 +1,10 @@
-// Dissolves rows of several paintings into one: weighted means in linear light, of slopes and of
-// plain numbers, with the contrast that a mean takes away given back.
-#if defined(SPOREPRINT_CORE_SURFACE_DISSOLVE_INL) == defined(HWY_TARGET_TOGGLE)
-#ifdef SPOREPRINT_CORE_SURFACE_DISSOLVE_INL
-#undef SPOREPRINT_CORE_SURFACE_DISSOLVE_INL
+// Blends rows of several paintings: weighted means of linear colours, of slopes and of plain
+// numbers, with the lost contrast restored.
+#if defined(SPOREPRINT_CORE_SURFACE_IMAGE_BLEND_INL) == defined(HWY_TARGET_TOGGLE)
+#ifdef SPOREPRINT_CORE_SURFACE_IMAGE_BLEND_INL
+#undef SPOREPRINT_CORE_SURFACE_IMAGE_BLEND_INL
 #else
-#define SPOREPRINT_CORE_SURFACE_DISSOLVE_INL
+#define SPOREPRINT_CORE_SURFACE_IMAGE_BLEND_INL
 #endif
 
 #include "core/surface/rows.inl"
@@ -13,14 +13,14 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// One row of bytes per channel, of each painting and of what they become.
-struct DissolveBench {
+/// Buffers of one row: bytes per channel, of each painting and of the result.
+struct BlendBuffers {
     HWY_ALIGN std::uint8_t from[most_paintings][9][padded];
     HWY_ALIGN std::uint8_t to[9][padded];
-    // Of a row of the cap on which patches are laid: texels, and the slopes that they had before.
+    // For a row of the cap with patches: texels, and the slopes before patches are added.
     Row rows[3];
     HWY_ALIGN float slope[2][padded];
-    float mean[dissolved_channels][widest / 16 + 2];  // of one row: the first and the last twice
+    float mean[blended_channels][widest / 16 + 2];  // of one row, with first and last repeated
 };
 
 /// Splits a row of RGB texels into its channels.
@@ -48,8 +48,8 @@ HWY_INLINE VI whole(const std::uint8_t* at) {
 }
 HWY_INLINE VF number(const std::uint8_t* at) { return hn::ConvertTo(Floats(), whole(at)); }
 
-/// A channel of a texel: the weighted mean of the paintings, and the least and most of them.
-struct Dissolved {
+/// A channel of a texel: the weighted mean of the paintings, and their least and largest value.
+struct BlendedChannel {
     VF mean, least, most;
     HWY_INLINE void begin() {
         mean = set(0.0F);
@@ -61,8 +61,8 @@ struct Dissolved {
         least = hn::Min(least, value);
         most = hn::Max(most, value);
     }
-    /// The mean with `surplus` times its distance from what surrounds it added, bent so that it never passes what the
-    /// paintings have: a cubic that goes flat where the room ends.
+    /// Returns the mean plus `surplus` times its difference from the local mean, limited smoothly
+    /// to the range of the paintings: a cubic that is flat at the limit.
     HWY_INLINE VF restored(VF around, float surplus) const {
         const VF missing = (mean - around) * set(surplus);
         const auto lower = missing < set(0.0F);
@@ -73,8 +73,8 @@ struct Dissolved {
     }
 };
 
-// The means of cells at one row of texels.
-void mean_row(const ChartDissolve& chart, int cell, int y, DissolveBench& bench) {
+// Interpolates the means of cells at one row of texels.
+void mean_row(const ChartBlend& chart, int cell, int y, BlendBuffers& buffers) {
     const float at = (static_cast<float>(y) + 0.5F) / static_cast<float>(cell) - 0.5F;
     const int above = at < 0.0F ? 0 : static_cast<int>(at);
     const int upper = std::min(above, chart.rows - 1);
@@ -82,49 +82,50 @@ void mean_row(const ChartDissolve& chart, int cell, int y, DissolveBench& bench)
     const float weight = at < 0.0F ? 0.0F : at - static_cast<float>(above);
     const auto row = [&](int j) {
         return chart.means.data() + static_cast<std::size_t>(j) *
-                                        static_cast<std::size_t>(chart.columns) *
-                                        dissolved_channels;
+                                        static_cast<std::size_t>(chart.columns) * blended_channels;
     };
     const float* const high = row(upper);
     const float* const low = row(lower);
     const std::size_t columns = static_cast<std::size_t>(chart.columns);
-    for (std::size_t c = 0; c < dissolved_channels; ++c) {
+    for (std::size_t c = 0; c < blended_channels; ++c) {
         for (std::size_t i = 0; i < columns; ++i) {
-            const std::size_t k = i * dissolved_channels + c;
-            bench.mean[c][i + 1] = high[k] + (low[k] - high[k]) * weight;
+            const std::size_t k = i * blended_channels + c;
+            buffers.mean[c][i + 1] = high[k] + (low[k] - high[k]) * weight;
         }
-        bench.mean[c][0] = bench.mean[c][1];
-        bench.mean[c][columns + 1] = bench.mean[c][columns];
+        buffers.mean[c][0] = buffers.mean[c][1];
+        buffers.mean[c][columns + 1] = buffers.mean[c][columns];
     }
 }
 
-// The heights of the patches that cross one row of the cap, which may lie outside of it.
-void patch_heights(const PaintPlan& laid, int y, Row& row) {
-    const Frame& frame = laid.frames[0];
+// Computes the heights of the patches that cross one row of the cap; the row may lie outside of it.
+void patch_heights(const PaintPlan& patches, int y, Row& row) {
+    const Frame& frame = patches.frames[0];
     std::fill_n(row.height, frame.width + 2 * margin, 0.0F);
     if (y < 0 || y >= frame.height) return;
     const VF down = disc_place(frame, set(static_cast<float>(y)));
     HWY_ALIGN float place[8];
     hn::Store(down, Floats(), place);
-    lay_patches(laid, y, down, place[0], row);
+    add_patches_to_row(patches, y, down, place[0], row);
 }
 
-bool crossed(const PaintPlan& laid, int y) {
-    return y >= 0 && y < laid.frames[0].height &&
-           !laid.patches_by_row[static_cast<std::size_t>(y)].empty();
+bool crossed(const PaintPlan& patches, int y) {
+    return y >= 0 && y < patches.frames[0].height &&
+           !patches.patches_by_row[static_cast<std::size_t>(y)].empty();
 }
 
-// Lays patches on a row of dissolved texels: `rows` hold their heights above, here and below, the middle one also colours,
-// roughness and occlusion; bench.slope has the slopes. Writes all channels.
-void lay_on_dissolved(const PaintPlan& laid, int y, Row* const* rows, DissolveBench& bench) {
+// Adds patches to a row of blended texels. `rows` hold the heights of patches above, here and
+// below, the middle one also colours, roughness and occlusion; buffers.slope holds the slopes.
+// Writes all channels.
+void add_patches_to_blend(const PaintPlan& patches, int y, Row* const* rows,
+                          BlendBuffers& buffers) {
     const Floats f;
-    const Frame& frame = laid.frames[0];
+    const Frame& frame = patches.frames[0];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     const VF one = set(1.0F);
     const VF half = set(0.5F);
-    patch_heights(laid, y, *rows[1]);
-    const float film = 1.0F - 0.25F * laid.wetness;
-    const VF per_step = set(film * 0.5F / laid.cap.disc.per_texel);
+    patch_heights(patches, y, *rows[1]);
+    const float film = 1.0F - 0.25F * patches.wetness;
+    const VF per_step = set(film * 0.5F / patches.cap.disc.per_texel);
     const VF down_place = disc_place(frame, set(static_cast<float>(y)));
     for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
         const Texel texel = load_texel(*rows[1], x);
@@ -134,57 +135,57 @@ void lay_on_dissolved(const PaintPlan& laid, int y, Row* const* rows, DissolveBe
                          hn::Load(f, rows[0]->height + margin + x)) *
                         per_step;
         const DiscPoint p = disc_point_of(
-            laid.cap.disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))),
+            patches.cap.disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))),
             down_place);
-        const VF nx = hn::Load(f, bench.slope[0] + x) +
+        const VF nx = hn::Load(f, buffers.slope[0] + x) +
                       disc_slope_x(p.cosine, p.sine, p.widening, right, down);
-        const VF ny = hn::Load(f, bench.slope[1] + x) +
+        const VF ny = hn::Load(f, buffers.slope[1] + x) +
                       disc_slope_y(p.cosine, p.sine, p.widening, right, down);
         const VF length = half / hn::Sqrt(one + nx * nx + ny * ny);
-        store_byte(srgb(texel.colour.r), bench.to[0] + x);
-        store_byte(srgb(texel.colour.g), bench.to[1] + x);
-        store_byte(srgb(texel.colour.b), bench.to[2] + x);
-        store_byte(half + nx * length, bench.to[3] + x);
-        store_byte(half + ny * length, bench.to[4] + x);
-        store_byte(half + length, bench.to[5] + x);
-        store_byte(texel.occlusion, bench.to[6] + x);
-        store_byte(hn::Max(texel.roughness, set(0.04F)), bench.to[7] + x);
+        store_byte(srgb(texel.colour.r), buffers.to[0] + x);
+        store_byte(srgb(texel.colour.g), buffers.to[1] + x);
+        store_byte(srgb(texel.colour.b), buffers.to[2] + x);
+        store_byte(half + nx * length, buffers.to[3] + x);
+        store_byte(half + ny * length, buffers.to[4] + x);
+        store_byte(half + length, buffers.to[5] + x);
+        store_byte(texel.occlusion, buffers.to[6] + x);
+        store_byte(hn::Max(texel.roughness, set(0.04F)), buffers.to[7] + x);
     }
 }
 
-/// Dissolves rows `from` to `to` (exclusive) of a part's chart.
-void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* memory,
-                   const PaintTarget& target) {
-    DissolveBench& bench = *static_cast<DissolveBench*>(memory);
+/// Blends rows `from` to `to` (exclusive) of a part's chart.
+void blend_rows(const BlendPlan& plan, int part, int from, int to, void* memory,
+                const PaintTarget& target) {
+    BlendBuffers& buffers = *static_cast<BlendBuffers*>(memory);
     const Floats f;
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
-    const ChartDissolve& chart = plan.charts[static_cast<std::size_t>(part)];
+    const ChartBlend& chart = plan.charts[static_cast<std::size_t>(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
-    const std::size_t cell = static_cast<std::size_t>(dissolve_cell(plan.side));
+    const std::size_t cell = static_cast<std::size_t>(blend_cell(plan.side));
     const VF one = set(1.0F);
     const VF half = set(0.5F);
-    Row* rows[3] = {&bench.rows[0], &bench.rows[1], &bench.rows[2]};
-    const PaintPlan* const laid = part == 0 ? plan.laid : nullptr;
-    if (laid) {
-        std::memset(bench.rows, 0, sizeof bench.rows);  // heights are laid over some texels
-        patch_heights(*laid, from - 1, *rows[0]);
-        patch_heights(*laid, from, *rows[1]);
+    Row* rows[3] = {&buffers.rows[0], &buffers.rows[1], &buffers.rows[2]};
+    const PaintPlan* const patches = part == 0 ? plan.patches : nullptr;
+    if (patches) {
+        std::memset(buffers.rows, 0, sizeof buffers.rows);  // heights are laid over some texels
+        patch_heights(*patches, from - 1, *rows[0]);
+        patch_heights(*patches, from, *rows[1]);
     }
     for (int y = from; y < to; ++y) {
-        const bool lies =
-            laid && (crossed(*laid, y - 1) || crossed(*laid, y) || crossed(*laid, y + 1));
+        const bool has_patches = patches && (crossed(*patches, y - 1) || crossed(*patches, y) ||
+                                             crossed(*patches, y + 1));
         const std::size_t at =
             3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) +
                  static_cast<std::size_t>(frame.x));
         for (std::size_t i = 0; i < plan.paintings; ++i)
             for (std::size_t image = 0; image < 3; ++image)
-                split(plan.images[i][image] + at, width, bench.from[i] + 3 * image);
-        mean_row(chart, static_cast<int>(cell), y, bench);
+                split(plan.images[i][image] + at, width, buffers.from[i] + 3 * image);
+        mean_row(chart, static_cast<int>(cell), y, buffers);
         for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
-            Dissolved texel[dissolved_channels];
-            for (Dissolved& channel : texel) channel.begin();
+            BlendedChannel texel[blended_channels];
+            for (BlendedChannel& channel : texel) channel.begin();
             for (std::size_t i = 0; i < plan.paintings; ++i) {
-                const std::uint8_t(*const bytes)[padded] = bench.from[i];
+                const std::uint8_t(*const bytes)[padded] = buffers.from[i];
                 const VF weight = set(plan.weights[i]);
                 for (std::size_t c = 0; c < 3; ++c)
                     texel[c].add(hn::GatherIndex(f, plan.linear, whole(bytes[c] + x)), weight);
@@ -195,42 +196,42 @@ void dissolve_rows(const DissolvePlan& plan, int part, int from, int to, void* m
                 for (std::size_t c = 5; c < 7; ++c)
                     texel[c].add(number(bytes[c + 1] + x) * set(1.0F / 255.0F), weight);
             }
-            // Between the middles of two cells; all lanes lie between the same two.
+            // Between the centres of two cells; all lanes lie between the same two.
             const std::size_t left = (x + cell / 2) / cell;
             const VF share =
                 (lane_numbers() + set(static_cast<float>(x + cell / 2 - left * cell) + 0.5F)) *
                 set(1.0F / static_cast<float>(cell));
-            VF out[dissolved_channels];
-            for (std::size_t c = 0; c < dissolved_channels; ++c) {
-                const float a = bench.mean[c][left];
-                const float b = bench.mean[c][left + 1];
+            VF out[blended_channels];
+            for (std::size_t c = 0; c < blended_channels; ++c) {
+                const float a = buffers.mean[c][left];
+                const float b = buffers.mean[c][left + 1];
                 out[c] = texel[c].restored(set(a) + set(b - a) * share, chart.surplus[c]);
             }
-            if (lies) {
+            if (has_patches) {
                 store_texel({{out[0], out[1], out[2]}, set(0.0F), out[6], out[5]}, *rows[1], x);
-                hn::Store(out[3], f, bench.slope[0] + x);
-                hn::Store(out[4], f, bench.slope[1] + x);
+                hn::Store(out[3], f, buffers.slope[0] + x);
+                hn::Store(out[4], f, buffers.slope[1] + x);
                 continue;
             }
             const VF length = half / hn::Sqrt(one + out[3] * out[3] + out[4] * out[4]);
-            for (std::size_t c = 0; c < 3; ++c) store_byte(srgb(out[c]), bench.to[c] + x);
-            store_byte(half + out[3] * length, bench.to[3] + x);
-            store_byte(half + out[4] * length, bench.to[4] + x);
-            store_byte(half + length, bench.to[5] + x);
-            store_byte(out[5], bench.to[6] + x);
-            store_byte(out[6], bench.to[7] + x);
+            for (std::size_t c = 0; c < 3; ++c) store_byte(srgb(out[c]), buffers.to[c] + x);
+            store_byte(half + out[3] * length, buffers.to[3] + x);
+            store_byte(half + out[4] * length, buffers.to[4] + x);
+            store_byte(half + length, buffers.to[5] + x);
+            store_byte(out[5], buffers.to[6] + x);
+            store_byte(out[6], buffers.to[7] + x);
         }
-        if (laid) {
-            patch_heights(*laid, y + 1, *rows[2]);
-            if (lies) lay_on_dissolved(*laid, y, rows, bench);
+        if (patches) {
+            patch_heights(*patches, y + 1, *rows[2]);
+            if (has_patches) add_patches_to_blend(*patches, y, rows, buffers);
             std::swap(rows[0], rows[1]);
             std::swap(rows[1], rows[2]);
         }
-        interleave(bench.to, width, at, target);
+        interleave(buffers.to, width, at, target);
     }
 }
 
-std::size_t dissolve_bench_size() { return sizeof(DissolveBench); }
+std::size_t blend_buffers_size() { return sizeof(BlendBuffers); }
 
 }  // namespace HWY_NAMESPACE
 }  // namespace sporeprint

@@ -13,7 +13,8 @@ constexpr double shortest = 1e-5;
 }  // namespace
 
 double length_of_step(int step) {
-    // Powers by squaring: exact operations only, and the same for a step and its negative.
+    // Exponentiation by squaring uses exactly rounded operations only, and is symmetric in the sign
+    // of the step.
     double length = 1.0;
     double power = step_ratio;
     for (int left = step < 0 ? -step : step; left > 0; left /= 2) {

@@ -1,4 +1,4 @@
-// All that paint may know of a shape: a few lengths, quantised so that similar shapes share their
+// Lengths of a shape that painting may depend on, quantised so that similar shapes share their
 // images.
 #pragma once
 
@@ -6,8 +6,7 @@
 
 namespace sporeprint {
 
-/// Lengths in steps of 2 %: step n stands for 1.02^n metres. See quantised_length() and
-/// length_of_step().
+/// Lengths in steps of 2 %: step n is 1.02^n metres. See quantised_length() and length_of_step().
 struct SurfaceMetrics {
     int cap_arc = -150;
     int cap_radius = -150;
@@ -53,10 +52,10 @@ struct SurfaceMetrics {
     bool operator==(const SurfaceMetrics&) const = default;
 };
 
-/// Step nearest to `metres` (> 0; smaller than 1e-5 m counts as 1e-5 m), in -600..100.
+/// Returns the step nearest to `metres`, in -600..100; lengths below 1e-5 m count as 1e-5 m.
 [[nodiscard]] int quantised_length(double metres);
 
-/// Length in metres of a step.
+/// Returns the length of a step in metres.
 [[nodiscard]] double length_of_step(int step);
 
 }  // namespace sporeprint

@@ -26,10 +26,10 @@
 namespace sporeprint {
 
 HWY_EXPORT(paint_rows);
-HWY_EXPORT(workbench_size);
+HWY_EXPORT(row_buffers_size);
 HWY_EXPORT(fill_coarse);
-HWY_EXPORT(dissolve_rows);
-HWY_EXPORT(dissolve_bench_size);
+HWY_EXPORT(blend_rows);
+HWY_EXPORT(blend_buffers_size);
 HWY_EXPORT(weathered_light);
 
 namespace {
@@ -43,7 +43,7 @@ void fill(CoarseField& field, const DiscPlan& disc, const Frame& frame, int cell
     (disc, frame.inset, cells, frequency, seed, field.values.data());
 }
 
-PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
+PaintPlan paint_plan(const PaintParams& params, const ImageRotations& turns) {
     struct Given {
         const Upload* upload;
         const char* path;
@@ -65,8 +65,8 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
     plan.fade = single(params.weathering.fade);
     plan.wetness = single(params.weathering.wetness);
     for (std::size_t i = 0; i < 3; ++i) {
-        plan.given[i] = given_image(*uploads[i].upload, plan.frames[i], uploads[i].path);
-        turn(plan.given[i], uploads[i].turn);
+        plan.uploads[i] = uploaded_image(*uploads[i].upload, plan.frames[i], uploads[i].path);
+        rotate(plan.uploads[i], uploads[i].turn);
     }
     const auto coarse = seeds<5>(params.seed, purposes::clouds);
     plan.disc_step = plan.side >= 512 ? 2 : 1;
@@ -84,7 +84,7 @@ PaintPlan paint_plan(const PaintParams& params, const GivenTurns& turns) {
         add_patches(params.warts, 0, params.ornaments.warts, params.seed, 1.0, plan);
     }
     sort_patches_into_rows(plan);
-    plan_scars(params, plan);
+    plan_damage(params, plan);
     return plan;
 }
 
@@ -96,7 +96,7 @@ int checked_side(const PaintParams& params) {
     return side;
 }
 
-void paint_canvas(const PaintParams& params, const GivenTurns& turns, const Parallel& parallel,
+void paint_canvas(const PaintParams& params, const ImageRotations& turns, const Parallel& parallel,
                   Canvas& canvas) {
     const PaintPlan plan = paint_plan(params, turns);
     const PaintTarget target = canvas.target();
@@ -106,11 +106,11 @@ void paint_canvas(const PaintParams& params, const GivenTurns& turns, const Para
         for (int from = 0; from < height; from += rows_per_piece) {
             const int to = std::min(from + rows_per_piece, height);
             pieces.emplace_back([&plan, &target, part, from, to] {
-                thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> bench;
-                if (!bench)
-                    bench =
-                        hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(workbench_size)());
-                HWY_DYNAMIC_DISPATCH(paint_rows)(plan, part, from, to, bench.get(), target);
+                thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> buffers;
+                if (!buffers)
+                    buffers = hwy::AllocateAligned<std::uint8_t>(
+                        HWY_DYNAMIC_DISPATCH(row_buffers_size)());
+                HWY_DYNAMIC_DISPATCH(paint_rows)(plan, part, from, to, buffers.get(), target);
             });
         }
     }
@@ -123,7 +123,8 @@ void in_turn(std::span<const std::function<void()>> pieces) {
     for (const std::function<void()>& piece : pieces) piece();
 }
 
-RawImages paint_raw(const PaintParams& params, const Parallel& parallel, const GivenTurns& turns) {
+RawImages paint_raw(const PaintParams& params, const Parallel& parallel,
+                    const ImageRotations& turns) {
     Canvas canvas(checked_side(params));
     paint_canvas(params, turns, parallel, canvas);
     return raw(canvas);
@@ -135,8 +136,8 @@ ImageSet paint(const PaintParams& params, const Parallel& parallel) {
     return encoded(canvas, parallel);
 }
 
-PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
-                    std::span<const double> weights) {
+PaintPlan patch_blend_plan(std::span<const PaintParams* const> paintings,
+                           std::span<const double> weights) {
     PaintPlan plan;
     plan.side = paintings[0]->side;
     plan.frames = chart_frames(plan.side);
@@ -168,10 +169,10 @@ PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
     plan.veil.roughness = roughness;
     const auto lay = [&](int kind, PatchStyle PaintParams::*style,
                          double PaintedOrnaments::*amount) {
-        std::vector<bool> laid(paintings.size(), false);
+        std::vector<bool> done(paintings.size(), false);
         for (std::size_t i = 0; i < paintings.size(); ++i) {
             const PatchStyle& one = paintings[i]->*style;
-            if (one.count == 0 || laid[i]) continue;
+            if (one.count == 0 || done[i]) continue;
             PatchStyle all = one;
             all.size = all.height = all.lift = 0.0;
             double left = 0.0, weight = 0.0;
@@ -180,8 +181,8 @@ PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
                 if (two.count != one.count || two.from != one.from || two.to != one.to ||
                     two.elongation != one.elongation)
                     continue;
-                laid[j] = true;
-                if (!paintings[j]->surface.cap.image.empty()) continue;  // given, not painted
+                done[j] = true;
+                if (!paintings[j]->surface.cap.image.empty()) continue;  // uploaded, not painted
                 weight += weights[j];
                 all.size += weights[j] * two.size;
                 all.height += weights[j] * two.height;
@@ -201,12 +202,11 @@ PaintPlan laid_plan(std::span<const PaintParams* const> paintings,
     return plan;
 }
 
-void dissolve_piece(const DissolvePlan& plan, int part, int from, int to,
-                    const PaintTarget& target) {
-    thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> bench;
-    if (!bench)
-        bench = hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(dissolve_bench_size)());
-    HWY_DYNAMIC_DISPATCH(dissolve_rows)(plan, part, from, to, bench.get(), target);
+void blend_piece(const BlendPlan& plan, int part, int from, int to, const PaintTarget& target) {
+    thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> buffers;
+    if (!buffers)
+        buffers = hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(blend_buffers_size)());
+    HWY_DYNAMIC_DISPATCH(blend_rows)(plan, part, from, to, buffers.get(), target);
 }
 
 }  // namespace sporeprint

@@ -14,7 +14,7 @@
 
 namespace sporeprint {
 
-/// How much of what is painted is left; see OrnamentsOf.
+/// Amounts of painted ornaments, 0..1; see OrnamentsOf.
 struct PaintedOrnaments {
     double warts = 0.0, scales = 0.0;
 
@@ -26,8 +26,8 @@ struct PaintedOrnaments {
     bool operator==(const PaintedOrnaments&) const = default;
 };
 
-/// Everything that painting depends on. Equal canonical text means equal images, so its text is
-/// the key of the image cache.
+/// Everything that painting depends on. Equal canonical text means equal images, so the text is the
+/// key of the image cache.
 struct PaintParams {
     std::uint32_t seed = 1;
     double lightness = 1.0;
@@ -96,7 +96,7 @@ constexpr const char* name(ImageKind kind) {
     return nullptr;
 }
 
-/// Three encoded JPEG files, by ImageKind.
+/// Three encoded JPEG files, indexed by ImageKind.
 struct ImageSet {
     std::array<Slice, 3> files;
     [[nodiscard]] std::size_t bytes() const {
@@ -104,26 +104,26 @@ struct ImageSet {
     }
 };
 
-/// Runs independent pieces of work, perhaps at once; returns when all are done and throws what one
-/// threw. Lent from above.
+/// Runs independent tasks, possibly in parallel; returns when all are done and rethrows the
+/// exception of a failed one. Supplied by the caller.
 using Parallel = std::function<void(std::span<const std::function<void()>>)>;
 
-/// Runs them one after another.
+/// Runs the tasks one after another.
 void in_turn(std::span<const std::function<void()>> pieces);
 
 /// Paints and encodes an atlas.
 ///
-/// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images by the
-/// layout of swept_charts, bleeding beyond every chart
+/// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images with
+///          the layout of swept_charts, padded beyond every chart
 /// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 89,
-/// 4:4:4),
-///          occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
-/// throws   InvalidInput if a given image cannot be read (path /surface/<part>/image); Cancelled
+///          4:4:4), occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
+/// throws   InvalidInput if an uploaded image cannot be read (path /surface/<part>/image);
+///          Cancelled
 /// cost     O(side^2)
 /// source   [Desbenoit2004] sec. 3.3 for the maps; hymenium occlusion by view factors of slots
 [[nodiscard]] ImageSet paint(const PaintParams& params, const Parallel& parallel = in_turn);
 
-/// The three images before they are encoded, by ImageKind: `side` rows of `side` RGB texels each.
+/// The three images before encoding, indexed by ImageKind: `side` rows of `side` RGB texels each.
 struct RawImages {
     int side = 0;
     std::array<Bytes, 3> rgb;
@@ -135,14 +135,15 @@ struct RawImages {
 /// Encodes pixels as paint() does.
 [[nodiscard]] ImageSet encoded(const RawImages& images, const Parallel& parallel = in_turn);
 
-/// How far given images are turned, in turns: what a texel at an angle shows lies that much further on in the image.
-struct GivenTurns {
+/// Rotation of uploaded images about the axis, in turns: a texel shows the image at its own angle
+/// plus this.
+struct ImageRotations {
     double cap = 0.0, hymenium = 0.0, stem = 0.0;
-    bool operator==(const GivenTurns&) const = default;
+    bool operator==(const ImageRotations&) const = default;
 };
 
-/// Paints an atlas and leaves it as pixels: what a mix dissolves; else like paint().
+/// Paints an atlas without encoding it, for blending; otherwise like paint().
 [[nodiscard]] RawImages paint_raw(const PaintParams& params, const Parallel& parallel = in_turn,
-                                  const GivenTurns& turns = {});
+                                  const ImageRotations& turns = {});
 
 }  // namespace sporeprint

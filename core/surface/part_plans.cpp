@@ -15,9 +15,9 @@ namespace {
 
 constexpr float single(double value) { return static_cast<float>(value); }
 
-// How much of a noise octave with features `texels` large can be shown: none below two, all from
+// Returns the visibility of a noise octave whose features are `texels` large: 0 below two, 1 from
 // four on.
-float shown_of(double texels) { return single(std::clamp((texels - 2.0) / 2.0, 0.0, 1.0)); }
+float resolvable(double texels) { return single(std::clamp((texels - 2.0) / 2.0, 0.0, 1.0)); }
 
 double disc_texel(const Frame& frame) {
     return 1.0 / ((0.5 - static_cast<double>(frame.inset)) * frame.width);
@@ -27,7 +27,8 @@ ReliefPlan relief_plan(const PaintParams& params) {
     const ReliefStyle& style = params.relief;
     ReliefPlan plan;
     plan.seed = relief_seeds(params.seed);
-    // The normals of the mesh hold what it carries; a little more is kept, because its triangles round what is sharp.
+    // Geometry in the mesh needs no painted slopes; a quarter is kept, because its triangles smooth
+    // sharp features.
     const auto left = [](double carried) { return 1.0 - 0.75 * carried; };
     plan.folds = single(style.folds);
     plan.fold_slope = single(style.folds * left(params.carried.folds));
@@ -50,8 +51,8 @@ Stand stand_of(const PaintParams& params) {
                     params.hymenium.tiers);
 }
 
-CombPlan comb_plan(const PaintParams& params, const Stand& stand) {
-    CombPlan plan;
+GillLayoutPlan gill_layout_plan(const PaintParams& params, const Stand& stand) {
+    GillLayoutPlan plan;
     plan.blades = stand.blades;
     plan.slots = static_cast<float>(stand.slots);
     plan.stands = static_cast<float>(stand.stands);
@@ -67,24 +68,25 @@ CombPlan comb_plan(const PaintParams& params, const Stand& stand) {
     return plan;
 }
 
-// What pale walls give back to each other, as a share of the light that meets them.
-double given_back(Colour colour) {
+// Returns the share of incident light that pale walls reflect to each other.
+double interreflection(Colour colour) {
     const Light light = light_of(colour);
     return std::min(0.8, 0.8 * static_cast<double>(light.r + light.g + light.b) / 3.0);
 }
 
-// Light at the bottom of a slot between blades: one as deep as `steep` times its width sees that little of the sky, and the rest of
-// what it sees are walls. Ridges are shallow folds, spines stand apart.
+// Returns the light at the bottom of a slot between blades: a slot with depth `steep` times its
+// width sees this little of the sky, and walls otherwise. Ridges are shallow folds, and spines
+// stand apart.
 double slot_occlusion(const PaintParams& params) {
     const HymeniumSurface& face = params.surface.hymenium;
     const bool open =
         face.pattern == HymeniumPattern::ridges || face.pattern == HymeniumPattern::teeth;
     const double steep = (open ? 0.6 : 1.6) * params.hymenium.relief;
     const double sky = std::sqrt(1.0 + steep * steep) - steep;
-    return sky / (1.0 - given_back(face.colour) * (1.0 - sky));
+    return sky / (1.0 - interreflection(face.colour) * (1.0 - sky));
 }
 
-// Radius from the axis over disc radius, at share rho of the meridian.
+// Returns the radius from the axis over the disc radius, at share rho of the meridian.
 double roundness(const DiscPlan& disc, double rho) {
     if (rho < 1e-4) return 1.0;
     const double angle = std::min(rho * static_cast<double>(disc.bend), 0.5 * pi);
@@ -104,7 +106,7 @@ DiscPlan cap_disc(double arc, double radius, const Frame& frame) {
     const double ratio = std::max(arc / radius, 1.0);
     double bend = 0.5 * pi;
     if (ratio < 0.5 * pi) {
-        // Bisection of bend / sin(bend) = ratio.
+        // Solves bend / sin(bend) = ratio by bisection.
         double low = 0.01, high = 0.5 * pi;
         for (int i = 0; i < 40; ++i) {
             bend = 0.5 * (low + high);
@@ -126,12 +128,12 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.relief = relief_plan(params);
     plan.seed = seeds<12>(params.seed, purposes::cap_paint);
     plan.lightness = single(params.lightness);
-    // Slime is smooth, and fills what is uneven.
+    // Slime is smooth and fills bumps.
     plan.roughness = single(cap.roughness + params.slime * (0.12 - cap.roughness));
     for (std::size_t i = 0; i < 3; ++i)
         plan.bumps[i] = single(cap.bumps * (1.0 - 0.7 * params.slime)) *
-                        shown_of(1.0 / (static_cast<double>(cap_bump_frequency[i]) *
-                                        static_cast<double>(plan.disc.per_texel)));
+                        resolvable(1.0 / (static_cast<double>(cap_bump_frequency[i]) *
+                                          static_cast<double>(plan.disc.per_texel)));
     plan.fields = 7U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << cap_bump;
     std::vector<Colour> ramp = cap.ramp;
@@ -156,7 +158,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.patches = single(cap.patches);
     plan.patch_frequency = single(
         std::min(0.55 * arc / cap.patch_size, 0.4 / static_cast<double>(plan.disc.per_texel)));
-    // Share of the face above a threshold of the noise: a logistic stand-in for its distribution.
+    // Threshold of the noise for this share of the face; a logistic function approximates its
+    // distribution.
     const double share = std::clamp(cap.patches, 0.01, 0.99);
     plan.patch_threshold = single(-0.20 * logarithm(share / (1.0 - share)));
     plan.patch_weight = single(std::min(1.0, cap.patches * 8.0));
@@ -165,8 +168,8 @@ CapPlan cap_plan(const PaintParams& params, const Frame& frame) {
     plan.veins = single(cap.veins);
     plan.vein_rows = 7.0F;
     plan.striae = single(cap.striae);
-    // Few gills show through a thin cap one by one, with the shorter ones between; many run
-    // together.
+    // Through a thin cap few gills are visible individually, with the shorter ones between; many
+    // merge.
     plan.striae_count = std::min(2 * params.hymenium.blades, 54 + params.hymenium.blades / 2);
     if (plan.streaks > 0.0F) plan.fields |= 1U << cap_streak;
     if (plan.fibrils > 0.0F) plan.fields |= 1U << cap_fibre;
@@ -193,15 +196,15 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.roughness = single(face.roughness);
     plan.relief = single(params.hymenium.relief);
     for (std::size_t i = 0; i < 2; ++i)
-        plan.bumps[i] = 0.6F * shown_of(1.0 / (static_cast<double>(hymenium_bump_frequency[i]) *
-                                               static_cast<double>(plan.disc.per_texel)));
+        plan.bumps[i] = 0.6F * resolvable(1.0 / (static_cast<double>(hymenium_bump_frequency[i]) *
+                                                 static_cast<double>(plan.disc.per_texel)));
     plan.fields = 3U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << hymenium_bump;
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
     plan.mottle = single(face.mottle);
     const Stand stand = stand_of(params);
-    plan.comb = comb_plan(params, stand);
+    plan.layout = gill_layout_plan(params, stand);
     plan.tiers = stand.tiers;
     plan.last_tier = single(stand.last_tier);
     plan.inner_gap = single(params.hymenium.inner_gap);
@@ -212,7 +215,7 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     plan.slot_occlusion = single(slot_occlusion(params));
     plan.blade = single(0.5 * params.hymenium.thickness * 2.0 * pi * outer / unit /
                         (params.hymenium.blades * (1 << params.hymenium.tiers)));
-    // Elongated pores stand in fewer rows.
+    // Elongated pores need fewer rows.
     const double tall = face.pattern == HymeniumPattern::pores ? params.hymenium.elongation : 1.0;
     CellRows cells = params.cells;
     double rows = cells.rows;
@@ -257,7 +260,7 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.stretch = single(stretch);
     for (std::size_t i = 0; i < 3; ++i)
         plan.bumps[i] = single(stem.bumps) *
-                        shown_of(1.0 / (stem_bump_cells[i] * std::max(round, along * stretch)));
+                        resolvable(1.0 / (stem_bump_cells[i] * std::max(round, along * stretch)));
     plan.fields = 3U;
     if (plan.bumps[0] > 0.0F) plan.fields |= 1U << stem_bump;
     if (!stem.image.empty()) return plan;
@@ -267,15 +270,15 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     for (std::size_t i = 0; i < 3; ++i)
         plan.fibres[i] =
             single(weights[i]) *
-            shown_of(1.0 / (stem_fibre_cells[i] *
-                            std::max(round, along * static_cast<double>(stem_fibre_slender[i]))));
+            resolvable(1.0 / (stem_fibre_cells[i] *
+                              std::max(round, along * static_cast<double>(stem_fibre_slender[i]))));
     if (plan.fibrils > 0.0F) plan.fields |= (1U << stem_fibre) | (1U << stem_furrow);
     plan.bands = single(stem.bands);
     plan.net = single(stem.net);
     const HymeniumSurface& face = params.surface.hymenium;
     if (is_bladed(face.pattern) && params.hymenium.decurrent > 0.0) {
         const Stand stand = stand_of(params);
-        plan.comb = comb_plan(params, stand);
+        plan.layout = gill_layout_plan(params, stand);
         plan.gills = single(params.hymenium.decurrent);
         plan.gill_half = single(std::min(
             0.36, 0.5 * params.hymenium.thickness * length_of_step(params.metrics.cap_radius) *
@@ -287,9 +290,9 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
         plan.gill_edge = light_of(face.edge);
         plan.gill_depth = light_of(face.depth);
     }
-    plan.net_shown = shown_of(1.0 / (static_cast<double>(net_columns) *
-                                     std::max(round, along / static_cast<double>(net_stretch))) -
-                              1.0);
+    plan.net_shown = resolvable(1.0 / (static_cast<double>(net_columns) *
+                                       std::max(round, along / static_cast<double>(net_stretch))) -
+                                1.0);
     return plan;
 }
 
@@ -305,8 +308,8 @@ VeilPlan veil_plan(const PaintParams& params, const Frame& frame) {
     return plan;
 }
 
-// A texel's share of the wall between two neighbouring blades that sees the sky: 1 - d / sqrt(d^2 + w^2) at depth d in a slot of
-// width w; light that the walls themselves give back brightens what is pale.
+// Occlusion of the wall between two neighbouring blades: at depth d in a slot of width w it sees 1
+// - d / sqrt(d^2 + w^2) of the sky; light reflected between the walls brightens pale ones.
 BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
     const HymeniumSurface& face = params.surface.hymenium;
     BladePlan plan;
@@ -320,7 +323,7 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
     plan.depth = light_of(face.depth);
     plan.mottle = single(face.mottle);
     plan.roughness = single(face.roughness);
-    // Over the gap between two blades half-way to the margin.
+    // The gap between two blades half-way to the margin.
     const double arc = length_of_step(params.metrics.hymenium_arc);
     const double radius = 0.5 * (length_of_step(params.metrics.hymenium_inner) +
                                  length_of_step(params.metrics.cap_radius));
@@ -328,8 +331,8 @@ BladePlan blade_plan(const PaintParams& params, const Frame& frame) {
         2.0 * pi * radius /
         static_cast<double>(params.hymenium.blades << std::min(params.hymenium.tiers, 1));
     plan.steep = single(std::clamp(params.hymenium.relief * depth * arc / gap, 0.2, 6.0));
-    plan.pale = single(given_back(face.colour));
-    plan.grain = shown_of(share * frame.width / static_cast<double>(blade_grain));
+    plan.pale = single(interreflection(face.colour));
+    plan.grain = resolvable(share * frame.width / static_cast<double>(blade_grain));
     return plan;
 }
 
@@ -343,7 +346,7 @@ FleshPlan flesh_plan(const PaintParams& params, const Frame& frame) {
     plan.roughness = single(params.surface.flesh.roughness);
     for (std::size_t i = 0; i < 3; ++i)
         plan.bumps[i] =
-            shown_of(share * frame.width / static_cast<double>(flesh_bump_frequency[i]));
+            resolvable(share * frame.width / static_cast<double>(flesh_bump_frequency[i]));
     return plan;
 }
 
@@ -354,7 +357,7 @@ void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t
     for (const Patch& patch : patches(style, seed, warts ? purposes::warts : purposes::scales)) {
         const double scale = patch_scale(patch, amount);
         if (scale <= 0.0 || patch.radius <= 0.0) continue;
-        // A wart shrinks as the rain wears it; a scale is pressed flat, but stays.
+        // A wart shrinks with weathering; a scale is flattened, but stays.
         const double radius = patch.radius * weight * (kind == 0 ? scale : 0.7 + 0.3 * scale);
         const double length = std::max(radius * style.elongation, 1e-4);
         const double width =

@@ -1,4 +1,5 @@
-// The parameters of a painting turned into what the kernels of each part read. Private to core/surface.
+// Converts the parameters of a painting to the values that the kernels of each part read. Private
+// to core/surface.
 #pragma once
 
 #include <array>
@@ -10,14 +11,14 @@
 
 namespace sporeprint {
 
-/// A colour in linear light.
+/// Returns a colour in linear light.
 [[nodiscard]] Light light_of(Colour colour);
 
-/// The disc of a cap: a piece of a sphere whose meridian is `arc` long and whose rim has radius `radius`, metres; deeper caps go on
-/// as a cylinder.
+/// Returns the disc of a cap: a piece of a sphere with a meridian of length `arc` and a rim of
+/// radius `radius`, metres; deeper caps continue as a cylinder.
 [[nodiscard]] DiscPlan cap_disc(double arc, double radius, const Frame& frame);
 
-// What the kernel of each part reads; frame: its chart in texels.
+// Return what the kernel of each part reads; frame: its chart in texels.
 [[nodiscard]] CapPlan cap_plan(const PaintParams& params, const Frame& frame);
 [[nodiscard]] HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame);
 [[nodiscard]] StemPlan stem_plan(const PaintParams& params, const Frame& frame);
@@ -25,7 +26,7 @@ namespace sporeprint {
 [[nodiscard]] BladePlan blade_plan(const PaintParams& params, const Frame& frame);
 [[nodiscard]] FleshPlan flesh_plan(const PaintParams& params, const Frame& frame);
 
-/// Seeds of one purpose, as many as a part's kernels ask for.
+/// Returns N seeds of one purpose.
 template <std::size_t N>
 [[nodiscard]] std::array<std::uint32_t, N> seeds(std::uint32_t seed, std::uint32_t purpose) {
     Random stream(seed, purpose);
@@ -34,13 +35,14 @@ template <std::size_t N>
     return out;
 }
 
-/// Adds the painted warts (kind 0) or scales (kind 1) of a style to a plan whose cap's disc is known.
+/// Adds the painted warts (kind 0) or scales (kind 1) of a style to a plan whose cap disc is set.
 ///
-/// amount  how much of the veil or skin is left, 0..1; weight: factor on the size of every piece
+/// amount  how much of the veil or cuticle is left, 0..1
+/// weight  factor on the size of every piece
 void add_patches(const PatchStyle& style, int kind, double amount, std::uint32_t seed,
                  double weight, PaintPlan& plan);
 
-/// Notes for each row of the cap's chart which patches may touch it.
+/// Builds the index from rows of the cap's chart to the patches that may cross them.
 void sort_patches_into_rows(PaintPlan& plan);
 
 }  // namespace sporeprint

@@ -1,4 +1,5 @@
-// Relief of the upper face on vectors of texels: the same folds, pits and tiers that core/geometry/relief.cpp raises in the mesh.
+// Relief of the upper face on vectors of texels: the same folds, pits and tiers that
+// core/geometry/relief.cpp raises in the mesh.
 #if defined(SPOREPRINT_CORE_SURFACE_RELIEF_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_RELIEF_INL
 #undef SPOREPRINT_CORE_SURFACE_RELIEF_INL
@@ -13,7 +14,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// Cells of a honeycomb, in rows across y.
+/// Returns the cell of a texel in a honeycomb with rows across y.
 HWY_INLINE Cells pit_cells(const ReliefPlan& plan, VF turn, VF y) {
     const VF row = hn::Floor(y);
     Neighbours<9> all;
@@ -42,14 +43,14 @@ HWY_INLINE Cells pit_cells(const ReliefPlan& plan, VF turn, VF y) {
     return all.found();
 }
 
-/// How deep a crease is at a value of noise, 0..1.
+/// Returns the relative depth of a crease at a value of noise, 0..1.
 HWY_INLINE VF crease_of(VF noise) {
     const VF square = set(static_cast<float>(crease * crease));
     return square / (noise * noise + square);
 }
 
-/// Adds the relief to a texel of the cap: height, colour of the hollows, their shade.
-HWY_INLINE void lay_relief(const ReliefPlan& plan, const DiscPoint& p, Texel& texel) {
+/// Adds the relief to a texel of the cap: height, colour of hollows and their shade.
+HWY_INLINE void add_relief(const ReliefPlan& plan, const DiscPoint& p, Texel& texel) {
     const VF one = set(1.0F);
     VF height = set(0.0F);
     VF hollow = set(0.0F);

@@ -1,5 +1,5 @@
-// Paints rows of a chart into the three images: texels part by part, then normals from their
-// heights, then bytes.
+// Paints rows of a chart into the three images: first texels, then normals from their heights, then
+// bytes.
 #if defined(SPOREPRINT_CORE_SURFACE_ROWS_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_ROWS_INL
 #undef SPOREPRINT_CORE_SURFACE_ROWS_INL
@@ -13,8 +13,8 @@
 #include <span>
 
 #include "core/surface/cap.inl"
-#include "core/surface/hymenium.inl"
 #include "core/surface/damage.inl"
+#include "core/surface/hymenium.inl"
 #include "core/surface/stem.inl"
 #include "core/surface/tissue.inl"
 
@@ -22,7 +22,7 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-inline constexpr int margin = 8;  // of each row of heights, for the neighbours of its ends
+inline constexpr int margin = 8;  // padding of each row of heights, for neighbours of its ends
 
 /// One row of painted texels.
 struct Row {
@@ -38,14 +38,14 @@ struct SparseRow {
     HWY_ALIGN float field[most_fields][widest / 2 + 32];
 };
 
-/// What a worker needs besides the plan: three rows, the sparse rows above and below, and one row
-/// of bytes per channel.
-struct Workbench {
+/// Buffers of a worker: three rows of texels, the sparse rows above and below, and one row of bytes
+/// per channel.
+struct RowBuffers {
     Row rows[3];
     SparseRow sparse[2];
     HWY_ALIGN float field[most_fields][padded];
     HWY_ALIGN float spare[padded];
-    HWY_ALIGN ScarRow scars;
+    HWY_ALIGN DamageRow damage;
     HWY_ALIGN std::uint8_t bytes[9][padded];
 };
 
@@ -70,14 +70,14 @@ HWY_INLINE Texel load_texel(const Row& row, std::size_t x) {
     return texel;
 }
 
-/// 0, 1, 2, ... one lane each.
+/// Returns the lane numbers 0, 1, 2, ...
 HWY_INLINE VF lane_numbers() {
     HWY_ALIGN constexpr float numbers[8] = {0, 1, 2, 3, 4, 5, 6, 7};
     return hn::Load(Floats(), numbers);
 }
 
-// One row of a coarse field at every `step`-th texel, the first at texel 0, by bilinear
-// interpolation.
+// Interpolates one row of a coarse field at every `step`-th texel, the first at texel 0,
+// bilinearly.
 void expand(const CoarseField& field, int cells, const Frame& frame, int y, int step, int count,
             float* out) {
     const float per_texel = static_cast<float>(cells) / static_cast<float>(frame.width);
@@ -96,8 +96,8 @@ void expand(const CoarseField& field, int cells, const Frame& frame, int y, int 
     }
 }
 
-// Twice as many samples: each, and the mean of it and the next. `from` holds one more sample than
-// is doubled.
+// Doubles the number of samples: each is followed by its mean with the next. `from` holds one more
+// sample than is doubled.
 HWY_INLINE void doubled(const float* from, std::size_t count, float* to) {
     const Floats f;
     for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
@@ -107,8 +107,8 @@ HWY_INLINE void doubled(const float* from, std::size_t count, float* to) {
     }
 }
 
-// The given image instead of the painted colour, bilinear; (u, v) in the image, 0..1.
-HWY_INLINE Rgb sampled(const GivenImage& image, VF u, VF v) {
+// Returns the colour of an uploaded image, bilinearly interpolated; (u, v) are 0..1 in the image.
+HWY_INLINE Rgb sampled(const UploadedImage& image, VF u, VF v) {
     HWY_ALIGN float us[8], vs[8], rs[8], gs[8], bs[8];
     const Floats f;
     hn::Store(unit(u), f, us);
@@ -145,12 +145,13 @@ HWY_INLINE Rgb sampled(const GivenImage& image, VF u, VF v) {
     return {hn::Load(f, rs), hn::Load(f, gs), hn::Load(f, bs)};
 }
 
-/// Bleaching and water, on everything that has been painted.
+/// Applies bleaching and wetness to a painted colour.
 HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& colour,
                         VF& roughness) {
     const VF one = set(1.0F);
     if (plan.fade > 0.0F) {
-        // The strongest channel gains a little, the others follow it: red turns orange, then straw.
+        // The strongest channel increases a little and the others follow it: red turns orange, then
+        // straw.
         const VF w = unit(set(plan.fade * exposure) * (one + uneven * set(0.5F)));
         const VF most = hn::Max(hn::Max(colour.r, colour.g), colour.b);
         const VF bright = most + (set(0.82F) - most) * w * set(0.35F);
@@ -158,10 +159,11 @@ HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& c
         pale.r = mix(colour.r, bright, set(0.95F));
         pale.g = mix(colour.g, bright, set(0.50F));
         pale.b = mix(colour.b, bright, set(0.11F));
-        // What lies open to the sky goes on to the species' own faded colour, a little of its pattern left.
+        // Parts exposed to the sky continue to the species' own faded colour, with a little of the
+        // pattern left.
         const VF bleached = w * w * set(exposure * exposure * 0.75F);
         const VF light = set(0.72F) + set(0.42F) * hn::Sqrt(most);
-        pale = mix(pale, shaded(rgb(plan.scars.faded), light), bleached);
+        pale = mix(pale, shaded(rgb(plan.damage.faded), light), bleached);
         colour = mix(colour, pale, w * set(0.85F));
         roughness = roughness + w * set(0.10F);
     }
@@ -175,7 +177,7 @@ HWY_INLINE void weather(const PaintPlan& plan, float exposure, VF uneven, Rgb& c
     }
 }
 
-/// A colour and a roughness as they weather where the skin is even.
+/// Applies weathering to a colour and a roughness, without spatial variation.
 void weathered_light(const PaintPlan& plan, Light& light, float& roughness) {
     Rgb colour = rgb(light);
     VF rough = set(roughness);
@@ -190,20 +192,20 @@ void weathered_light(const PaintPlan& plan, Light& light, float& roughness) {
     roughness = lanes[3][0];
 }
 
-/// Place of texels x, x + 1, ... on a disc, in its radii from the pole.
+/// Returns the position of texels x, x + 1, ... on a disc, in its radii from the pole.
 HWY_INLINE VF disc_place(const Frame& frame, VF texel) {
     return ((texel + set(0.5F)) * set(1.0F / static_cast<float>(frame.width)) - set(0.5F)) *
            set(1.0F / (0.5F - frame.inset));
 }
 
-/// Texels `from` to `until` of a row that are painted; those outside repeat the nearest. Multiples
-/// of eight, or the whole row.
-struct Stretch {
+/// Texels `from` to `until` of a row are painted, those outside repeat the nearest. Both are
+/// multiples of eight, or the whole row.
+struct TexelRange {
     std::size_t from, until;
 };
 
-// On a disc what lies well beyond the rim is never looked at, but for the smallest mips.
-Stretch painted_stretch(const PaintPlan& plan, int part, int y) {
+// Texels far beyond the rim of a disc are not sampled, except by the smallest mipmaps.
+TexelRange painted_range(const PaintPlan& plan, int part, int y) {
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     if (part >= 2 || width < 64) return {0, width};
@@ -217,7 +219,7 @@ Stretch painted_stretch(const PaintPlan& plan, int part, int y) {
     return {first, width - first};
 }
 
-HWY_INLINE void clear(ScarRow& row, std::size_t width) {
+HWY_INLINE void clear(DamageRow& row, std::size_t width) {
     for (float* const plane : row.plane) std::memset(plane, 0, width * sizeof(float));
     std::memset(row.ragged, 0, width * sizeof(float));
 }
@@ -227,8 +229,8 @@ HWY_INLINE void clear(VF* fields) {
 }
 
 // Samples the fields of a disc along one row, at every disc_step-th texel.
-const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& bench) {
-    SparseRow& row = bench.sparse[y & 1];
+const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, RowBuffers& buffers) {
+    SparseRow& row = buffers.sparse[y & 1];
     if (row.y == y) return row;
     row.y = y;
     const Floats f;
@@ -260,16 +262,16 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, Workbench& b
     return row;
 }
 
-// The fields of a disc at every texel of a row, into bench.field.
-void disc_fields(const PaintPlan& plan, int part, int y, Workbench& bench) {
+// Interpolates the fields of a disc at every texel of a row, into buffers.field.
+void disc_fields(const PaintPlan& plan, int part, int y, RowBuffers& buffers) {
     const Floats f;
     const std::size_t width =
         static_cast<std::size_t>(plan.frames[static_cast<std::size_t>(part)].width);
     const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
     const int half = (y + 2) / 2 - 1;  // floor, for y >= -2
     const bool between = plan.disc_step == 2 && y != 2 * half;
-    const SparseRow& above = sparse_row(plan, part, plan.disc_step == 2 ? half : y, bench);
-    const SparseRow& below = between ? sparse_row(plan, part, half + 1, bench) : above;
+    const SparseRow& above = sparse_row(plan, part, plan.disc_step == 2 ? half : y, buffers);
+    const SparseRow& below = between ? sparse_row(plan, part, half + 1, buffers) : above;
     for (std::size_t k = 0; k < most_fields; ++k) {
         if ((used >> k & 1U) == 0) continue;
         const float* from = above.field[k];
@@ -277,21 +279,21 @@ void disc_fields(const PaintPlan& plan, int part, int y, Workbench& bench) {
             for (std::size_t i = 0; i < width / 2 + 1; i += hn::Lanes(f))
                 hn::Store(
                     (hn::Load(f, above.field[k] + i) + hn::Load(f, below.field[k] + i)) * set(0.5F),
-                    f, bench.spare + i);
-            from = bench.spare;
+                    f, buffers.spare + i);
+            from = buffers.spare;
         }
         if (plan.disc_step == 2) {
-            doubled(from, width / 2, bench.field[k]);
+            doubled(from, width / 2, buffers.field[k]);
         } else {
             for (std::size_t i = 0; i < width; i += hn::Lanes(f))
-                hn::Store(hn::Load(f, from + i), f, bench.field[k] + i);
+                hn::Store(hn::Load(f, from + i), f, buffers.field[k] + i);
         }
     }
 }
 
-// The fields of a strip at every texel of a row, into bench.field: sampled at every strip_step-th
-// texel, then doubled.
-void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) {
+// Computes the fields of a strip at every texel of a row, into buffers.field: sampled at every
+// strip_step-th texel, then doubled.
+void strip_fields(const PaintPlan& plan, int part, VF across, RowBuffers& buffers) {
     const Floats f;
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
     const int step = part == 2 ? plan.strip_step : plan.strip_step > 1 ? 2 : 1;
@@ -315,24 +317,24 @@ void strip_fields(const PaintPlan& plan, int part, VF across, Workbench& bench) 
         else
             flesh_fields(plan.flesh, along, across, fields);
         for (std::size_t k = 0; k < most_fields; ++k)
-            if ((used >> k & 1U) != 0) hn::Store(fields[k], f, bench.field[k] + i);
+            if ((used >> k & 1U) != 0) hn::Store(fields[k], f, buffers.field[k] + i);
     }
     for (int left = step; left > 1; left /= 2) {
         const std::size_t samples = static_cast<std::size_t>(frame.width / left);
         for (std::size_t k = 0; k < most_fields; ++k) {
             if ((used >> k & 1U) == 0) continue;
-            doubled(bench.field[k], samples, bench.spare);
-            // The sample after the last stays the last of the doubled row.
-            const float last = bench.field[k][samples];
+            doubled(buffers.field[k], samples, buffers.spare);
+            // The sample after the last one stays the last of the doubled row.
+            const float last = buffers.field[k][samples];
             for (std::size_t i = 0; i < 2 * samples; i += hn::Lanes(f))
-                hn::Store(hn::Load(f, bench.spare + i), f, bench.field[k] + i);
-            bench.field[k][2 * samples] = last;
+                hn::Store(hn::Load(f, buffers.spare + i), f, buffers.field[k] + i);
+            buffers.field[k][2 * samples] = last;
         }
     }
 }
 
-// Lays the warts and scales that cross one row over its texels.
-void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& row) {
+// Draws the warts and scales that cross one row.
+void add_patches_to_row(const PaintPlan& plan, int y, VF down_places, float down, Row& row) {
     const Frame& frame = plan.frames[0];
     const float reach = (0.5F - frame.inset) * static_cast<float>(frame.width);
     for (const int index : plan.patches_by_row[static_cast<std::size_t>(y)]) {
@@ -350,7 +352,7 @@ void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& 
         for (std::size_t x = static_cast<std::size_t>(begin) / 8 * 8; static_cast<float>(x) < end;
              x += hn::Lanes(Floats())) {
             Texel texel = load_texel(row, x);
-            lay_patch(patch, plan.veil,
+            add_patch(patch, plan.veil,
                       disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down_places,
                       texel);
             store_texel(texel, row, x);
@@ -358,18 +360,18 @@ void lay_patches(const PaintPlan& plan, int y, VF down_places, float down, Row& 
     }
 }
 
-// Place of a row on its chart, in the chart's lengths.
-float scar_row_place(const Frame& frame, int part, int y) {
+// Returns the position of a row on its chart, relative to the chart.
+float damage_row_place(const Frame& frame, int part, int y) {
     const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
     return part == 2 ? (v - frame.inset) / (1.0F - 2.0F * frame.inset)
                      : (v - 0.5F) / (0.5F - frame.inset);
 }
 
-/// How the rows of a chart lie for what is laid on them.
-struct ScarSheet {
+/// Coordinates of a chart along its rows, for drawing damage.
+struct DamageChart {
     const Frame& frame;
     bool is_disc;
-    float inner, aspect;  ///< of a strip: one over the share inside its insets, and its length
+    float inner, aspect;  ///< strip: 1 / share inside its insets, and its length
 
     [[nodiscard]] HWY_INLINE VF across(std::size_t x) const {
         const VF texel = lane_numbers() + set(static_cast<float>(x));
@@ -379,10 +381,10 @@ struct ScarSheet {
             set(inner);
         return unit(along) * set(aspect);
     }
-    [[nodiscard]] ScarSpan whole() const {
-        return is_disc ? ScarSpan{-1e9F, 1e9F} : ScarSpan{0.0F, aspect};
+    [[nodiscard]] RowSpan whole() const {
+        return is_disc ? RowSpan{-1e9F, 1e9F} : RowSpan{0.0F, aspect};
     }
-    // Texels in the chart's length, and from the first to place 0.
+    // Texels per length of the chart, and texels from the first to position 0.
     [[nodiscard]] float per_unit() const {
         return is_disc ? (0.5F - frame.inset) * static_cast<float>(frame.width)
                        : static_cast<float>(frame.width) / (inner * aspect);
@@ -392,7 +394,7 @@ struct ScarSheet {
     }
 };
 
-ScarSheet scar_sheet(const PaintPlan& plan, int part) {
+DamageChart damage_chart(const PaintPlan& plan, int part) {
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
     const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
     const float aspect = part == 2
@@ -401,152 +403,157 @@ ScarSheet scar_sheet(const PaintPlan& plan, int part) {
     return {frame, part < 2, inner, aspect};
 }
 
-// Lays a scar over texels `from` to `until` of a row; one loop for each kind, because most scars cross few texels.
-// The scar is a copy, which no texel written can change: so its numbers stay in registers.
-HWY_INLINE void lay_scar(Scar scar, VF down, const Row& row, const Stretch& stretch,
-                         ScarRow& marked) {
+// Draws a mark over texels `from` to `until` of a row. There is one loop per kind, because most
+// marks cross few texels. The mark is passed by value, so that stores to texels cannot alias it and
+// it stays in registers.
+HWY_INLINE void add_mark(DamageMark mark, VF down, const Row& row, const TexelRange& range,
+                         DamageRow& planes) {
     const Floats f;
     NoisePair noise;
-    const auto each = [&](auto lay) {
-        for (std::size_t x = stretch.from; x < stretch.until; x += hn::Lanes(f))
-            lay(hn::Load(f, marked.place + x), ScarPlace{marked, x});
+    const auto each = [&](auto add) {
+        for (std::size_t x = range.from; x < range.until; x += hn::Lanes(f))
+            add(hn::Load(f, planes.place + x), DamageTarget{planes, x});
     };
-    switch (scar.kind) {
-        case ScarKind::crack:
-            each([&](VF across, const ScarPlace& at) { lay_crack(scar, across, down, at); });
+    switch (mark.kind) {
+        case DamageKind::crack:
+            each([&](VF across, const DamageTarget& at) { add_crack(mark, across, down, at); });
             return;
-        case ScarKind::furrow:
-            each([&](VF across, const ScarPlace& at) { lay_furrow(scar, across, down, at); });
+        case DamageKind::furrow:
+            each([&](VF across, const DamageTarget& at) { add_furrow(mark, across, down, at); });
             return;
-        case ScarKind::pit:
-            each([&](VF across, const ScarPlace& at) { lay_pit(scar, across, down, at); });
+        case DamageKind::pit:
+            each([&](VF across, const DamageTarget& at) { add_pit(mark, across, down, at); });
             return;
-        case ScarKind::bruise:
+        case DamageKind::bruise:
             noise.begin();
-            each(
-                [&](VF across, const ScarPlace& at) { lay_bruise(scar, across, down, at, noise); });
+            each([&](VF across, const DamageTarget& at) {
+                add_bruise(mark, across, down, at, noise);
+            });
             return;
-        case ScarKind::drop:
-            each([&](VF across, const ScarPlace& at) { lay_drop(scar, across, down, at); });
+        case DamageKind::drop:
+            each([&](VF across, const DamageTarget& at) { add_drop(mark, across, down, at); });
             return;
-        case ScarKind::lump:
-            each([&](VF across, const ScarPlace& at) { lay_lump(scar, across, down, at); });
+        case DamageKind::lump:
+            each([&](VF across, const DamageTarget& at) { add_lump(mark, across, down, at); });
             return;
-        case ScarKind::bite:
-        case ScarKind::split:
-        case ScarKind::tongue:
-            each([&](VF across, const ScarPlace& at) {
-                lay_margin(scar, hn::Load(f, row.cosine + at.x), hn::Load(f, row.sine + at.x),
+        case DamageKind::bite:
+        case DamageKind::split:
+        case DamageKind::tongue:
+            each([&](VF across, const DamageTarget& at) {
+                add_margin(mark, hn::Load(f, row.cosine + at.x), hn::Load(f, row.sine + at.x),
                            set(1.0F) - hn::Sqrt(across * across + down * down), at);
             });
             return;
     }
 }
 
-// Lays the scars that cross one row into the planes; whether there are any.
-bool mark_scars(const PaintPlan& plan, int part, int y, const Row& row, ScarRow& marked) {
-    const ScarsPlan& scars = plan.scars;
+// Collects the damage of one row in the planes; returns false when there is none.
+bool collect_damage(const PaintPlan& plan, int part, int y, const Row& row, DamageRow& planes) {
+    const DamagePlan& damage = plan.damage;
     const std::size_t place = static_cast<std::size_t>(part);
-    if (part > 2 || scars.scars[place].empty()) return false;
-    const std::span<const std::uint32_t> crossing = scars.by_row[place].of(y);
+    if (part > 2 || damage.marks[place].empty()) return false;
+    const std::span<const std::uint32_t> crossing = damage.by_row[place].of(y);
     if (crossing.empty()) return false;
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
-    const ScarSheet sheet = scar_sheet(plan, part);
-    const Stretch painted = painted_stretch(plan, part, y);
-    const float down_place = scar_row_place(sheet.frame, part, y);
+    const DamageChart chart = damage_chart(plan, part);
+    const TexelRange painted = painted_range(plan, part, y);
+    const float down_place = damage_row_place(chart.frame, part, y);
     const VF down = set(down_place);
-    clear(marked, static_cast<std::size_t>(sheet.frame.width));
+    clear(planes, static_cast<std::size_t>(chart.frame.width));
     for (std::size_t x = painted.from; x < painted.until; x += lanes)
-        hn::Store(sheet.across(x), f, marked.place + x);
-    const ScarSpan whole = sheet.whole();
-    const float per_unit = sheet.per_unit();
-    const float first = sheet.first();
+        hn::Store(chart.across(x), f, planes.place + x);
+    const RowSpan whole = chart.whole();
+    const float per_unit = chart.per_unit();
+    const float first = chart.first();
     for (const std::uint32_t index : crossing) {
-        const Scar& scar = scars.scars[place][index];
-        const ScarSpan span = scar_span(scar, down_place, whole);
+        const DamageMark& mark = damage.marks[place][index];
+        const RowSpan span = damage_span(mark, down_place, whole);
         if (span.to <= span.from) continue;
         const float begin = first + span.from * per_unit - 1.0F;
         const float end = first + span.to * per_unit + 1.0F;
-        // Whole eights, however many texels a vector has: a stain's rim may reach a little beyond.
+        // Multiples of eight texels, whatever the vector length, because the rim of a bruise may
+        // reach slightly beyond.
         const std::size_t from = std::max(
             begin < 0.0F ? std::size_t{0} : static_cast<std::size_t>(begin) / 8 * 8, painted.from);
         const float rest = std::max(end - static_cast<float>(from), 0.0F);
         const std::size_t until =
             std::min(painted.until, from + (static_cast<std::size_t>(std::ceil(rest)) + 7) / 8 * 8);
-        lay_scar(scar, down, row, {from, until}, marked);
+        add_mark(mark, down, row, {from, until}, planes);
     }
     return true;
 }
 
-// Changes the texels of a row by what has been laid into the planes.
-void show_marked(const PaintPlan& plan, int part, int y, const ScarRow& marked, Row& row) {
+// Applies the collected planes to the texels of a row.
+void show_collected(const PaintPlan& plan, int part, int y, const DamageRow& planes, Row& row) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
-    const VF down = set(scar_row_place(plan.frames[static_cast<std::size_t>(part)], part, y));
-    const Stretch painted = painted_stretch(plan, part, y);
+    const VF down = set(damage_row_place(plan.frames[static_cast<std::size_t>(part)], part, y));
+    const TexelRange painted = painted_range(plan, part, y);
     NoisePair noise;
     noise.begin();
     for (std::size_t x = painted.from; x < painted.until; x += lanes) {
-        ScarTexel laid;
+        DamageTexel texels;
         VF most = set(0.0F);
-        for (std::size_t k = 0; k < scar_planes; ++k) {
-            laid.plane[k] = hn::Load(f, marked.plane[k] + x);
-            most = hn::Max(most, hn::Abs(laid.plane[k]));
+        for (std::size_t k = 0; k < damage_planes; ++k) {
+            texels.plane[k] = hn::Load(f, planes.plane[k] + x);
+            most = hn::Max(most, hn::Abs(texels.plane[k]));
         }
         if (hn::AllTrue(f, most <= set(0.0F))) continue;
-        if (!hn::AllTrue(f, laid.plane[scar_near] <= set(0.0F))) open_cracks(laid);
+        if (!hn::AllTrue(f, texels.plane[damage_near_crack] <= set(0.0F))) open_cracks(texels);
         Texel texel = load_texel(row, x);
-        show_scars(plan.scars, laid, hn::Load(f, marked.place + x), down, noise, texel);
+        show_damage(plan.damage, texels, hn::Load(f, planes.place + x), down, noise, texel);
         store_texel(texel, row, x);
     }
 }
 
-// Lays ink and dust over the texels of a row.
-void lay_ink_and_dust(const PaintPlan& plan, int part, int y, Row& row) {
-    const ScarsPlan& scars = plan.scars;
-    const bool inked = (part < 2 || part >= 4) && scars.melted > 0.0F;
-    const bool dusted = (part == 0 || part == 2 || part == 3) && scars.dust > 0.0F;
+// Adds ink and dust to the texels of a row.
+void add_ink_and_dust(const PaintPlan& plan, int part, int y, Row& row) {
+    const DamagePlan& damage = plan.damage;
+    const bool inked = (part < 2 || part >= 4) && damage.melted > 0.0F;
+    const bool dusted = (part == 0 || part == 2 || part == 3) && damage.dust > 0.0F;
     if (!inked && !dusted) return;
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
-    const ScarSheet sheet = scar_sheet(plan, part);
-    const VF down = set(scar_row_place(sheet.frame, part, y));
+    const DamageChart chart = damage_chart(plan, part);
+    const VF down = set(damage_row_place(chart.frame, part, y));
     const DiscPlan& shape = part == 0 ? plan.cap.disc : plan.hymenium.disc;
-    const Stretch painted = painted_stretch(plan, part, y);
+    const TexelRange painted = painted_range(plan, part, y);
     NoisePair noise;
     noise.begin();
     for (std::size_t x = painted.from; x < painted.until; x += lanes) {
         Texel texel = load_texel(row, x);
-        const VF u = sheet.across(x);
+        const VF u = chart.across(x);
         if (inked) {
-            // Flesh lies open where the margin has melted: all of it is ink.
-            VF share = part == 5 ? set(1.0F) : u * set(1.0F / sheet.aspect);
-            if (sheet.is_disc)
+            // Where the margin has deliquesced, exposed flesh is covered by ink entirely.
+            VF share = part == 5 ? set(1.0F) : u * set(1.0F / chart.aspect);
+            if (chart.is_disc)
                 share = (hn::Sqrt(u * u + down * down) - set(shape.inner)) *
                         set(1.0F / (1.0F - shape.inner));
-            show_ink(scars, part == 0 ? scars.ink_front : scars.ink_lower, share,
+            show_ink(damage, part == 0 ? damage.ink_front : damage.ink_lower, share,
                      hn::Load(f, row.uneven + x), texel);
         }
         if (dusted) {
-            // Most falls from the own gills onto the stem below them and onto the ring; the cap has what a neighbour sheds.
-            const VF exposure = part == 2   ? smooth(u * set(1.0F / sheet.aspect), 0.12F, 1.3F)
+            // Most dust falls from the mushroom's own gills onto the stem and the ring; the cap
+            // receives spores of neighbours.
+            const VF exposure = part == 2   ? smooth(u * set(1.0F / chart.aspect), 0.12F, 1.3F)
                                 : part == 3 ? set(0.8F)
                                             : set(0.30F) + hn::Load(f, row.uneven + x) * set(0.3F);
-            show_dust(scars, u, down, hn::Max(exposure, set(0.0F)), noise, texel);
+            show_dust(damage, u, down, hn::Max(exposure, set(0.0F)), noise, texel);
         }
         store_texel(texel, row, x);
     }
 }
 
-// Lays the scars that cross one row over its texels, then ink and dust.
-void lay_scars(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
-    if (mark_scars(plan, part, y, row, bench.scars)) show_marked(plan, part, y, bench.scars, row);
-    lay_ink_and_dust(plan, part, y, row);
+// Applies the damage that crosses one row, then ink and dust.
+void apply_damage(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buffers) {
+    if (collect_damage(plan, part, y, row, buffers.damage))
+        show_collected(plan, part, y, buffers.damage, row);
+    add_ink_and_dust(plan, part, y, row);
 }
 
 // Paints the texels of one row; y may lie one row outside of the chart.
-void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& bench) {
+void paint_row(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buffers) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
@@ -557,20 +564,20 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
         const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
         const VF down = disc_place(frame, set(static_cast<float>(y)));
-        disc_fields(plan, part, y, bench);
-        const GivenImage& given = plan.given[static_cast<std::size_t>(part)];
-        const Stretch stretch = painted_stretch(plan, part, y);
-        for (std::size_t x = stretch.from; x < stretch.until; x += lanes) {
+        disc_fields(plan, part, y, buffers);
+        const UploadedImage& upload = plan.uploads[static_cast<std::size_t>(part)];
+        const TexelRange range = painted_range(plan, part, y);
+        for (std::size_t x = range.from; x < range.until; x += lanes) {
             const DiscPoint p = disc_point_of(
                 disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
             for (std::size_t k = 0; k < most_fields; ++k)
-                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
+                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
             Texel texel = part == 0 ? cap_texel(plan.cap, p, fields)
                                     : hymenium_texel(plan.hymenium, p, fields);
-            if (!given.empty()) {
+            if (!upload.empty()) {
                 const VF reach = set(0.5F) * p.rho;
-                const VF c = set(given.cosine), s = set(given.sine);
-                texel.colour = sampled(given, set(0.5F) + reach * (p.cosine * c - p.sine * s),
+                const VF c = set(upload.cosine), s = set(upload.sine);
+                texel.colour = sampled(upload, set(0.5F) + reach * (p.cosine * c - p.sine * s),
                                        set(0.5F) + reach * (p.sine * c + p.cosine * s));
             }
             store_texel(texel, row, x);
@@ -582,7 +589,7 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         if (part == 0 && y >= 0 && y < frame.height) {
             HWY_ALIGN float place[8];
             hn::Store(down, f, place);
-            lay_patches(plan, y, down, place[0], row);
+            add_patches_to_row(plan, y, down, place[0], row);
         }
     } else {
         const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
@@ -591,22 +598,22 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
         const float turned = down < 0.0F ? down + 1.0F : down >= 1.0F ? down - 1.0F : down;
         const float edge = down < 0.0F ? 0.0F : down > 1.0F ? 1.0F : down;
         const VF across = set(part == 2 ? turned : edge);
-        strip_fields(plan, part, across, bench);
+        strip_fields(plan, part, across, buffers);
         const unsigned used = part == 2 ? plan.stem.fields : 3U;
-        const GivenImage& given = plan.given[2];
+        const UploadedImage& upload = plan.uploads[2];
         const float per_x = 1.0F / static_cast<float>(frame.width);
-        const float shown_turn = turned + given.turn;
-        const VF given_across = set(shown_turn >= 1.0F ? shown_turn - 1.0F : shown_turn);
+        const float shown_turn = turned + upload.turn;
+        const VF image_across = set(shown_turn >= 1.0F ? shown_turn - 1.0F : shown_turn);
         for (std::size_t x = 0; x < width; x += lanes) {
             const VF along = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) -
                               set(frame.inset)) *
                              set(inner);
             for (std::size_t k = 0; k < most_fields; ++k)
-                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, bench.field[k] + x);
+                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
             Texel texel;
             if (part == 2) {
                 texel = stem_texel(plan.stem, unit(along), across, fields);
-                if (!given.empty()) texel.colour = sampled(given, along, given_across);
+                if (!upload.empty()) texel.colour = sampled(upload, along, image_across);
             } else {
                 texel = part == 3   ? veil_texel(plan.veil, along, across, fields)
                         : part == 4 ? blade_texel(plan.blade, along, across, fields)
@@ -616,21 +623,22 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, Workbench& benc
             hn::Store(fields[1], f, row.uneven + x);
         }
     }
-    lay_scars(plan, part, y, row, bench);
-    // Slopes at the ends of the painted stretch look one texel further.
-    const Stretch painted = painted_stretch(plan, part, y);
+    apply_damage(plan, part, y, row, buffers);
+    // Slopes at the ends of the painted range use one more texel.
+    const TexelRange painted = painted_range(plan, part, y);
     row.height[margin + painted.from - 1] = row.height[margin + painted.from];
     row.height[margin + painted.until] = row.height[margin + painted.until - 1];
 }
 
-/// 0..1 to 0..255, rounded.
+/// Stores 0..1 as 0..255, rounded.
 HWY_INLINE void store_byte(VF value, std::uint8_t* to) {
     const hn::Rebind<std::uint8_t, Floats> bytes;
     const VU whole = hn::And(whole_bits(unit(value) * set(255.0F)), word(255U));
     hn::StoreU(hn::DemoteTo(bytes, hn::BitCast(Ints(), whole)), bytes, to);
 }
 
-/// The sRGB transfer function: a polynomial of the square root, within 0.0004 of the standard.
+/// Returns the sRGB transfer function as a polynomial of the square root, within 0.0004 of the
+/// standard.
 HWY_INLINE VF srgb(VF light) {
     const VF x = unit(light);
     const VF s = hn::Sqrt(x);
@@ -667,8 +675,9 @@ void interleave(const std::uint8_t (*channels)[padded], std::size_t width, std::
     }
 }
 
-// Slopes along the tangent dP/du of a disc and across it, from those along its rows and columns: by the meridian and round the
-// axis in true lengths. `widening` is that of the meridian's own unit.
+// Return slopes along the tangent dP/du of a disc and across it, from slopes along its rows and
+// columns, in true lengths along the meridian and round the axis. `widening` is relative to the
+// meridian's own unit.
 HWY_INLINE VF disc_slope_x(VF cosine, VF sine, VF widening, VF right, VF down) {
     const VF k = hn::Max(widening, set(0.02F));
     const VF meridian = right * cosine + down * sine;
@@ -686,9 +695,9 @@ HWY_INLINE VF disc_slope_y(VF cosine, VF sine, VF widening, VF right, VF down) {
     return (ks * k * meridian + cosine * round) * inverse;
 }
 
-// Turns a row of texels, and the heights above and below it, into bytes.
+// Converts a row of texels, and the heights above and below it, to bytes.
 void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const Row& row,
-                 const Row& below, Workbench& bench, const PaintTarget& target) {
+                 const Row& below, RowBuffers& buffers, const PaintTarget& target) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
     const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
@@ -696,7 +705,7 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
     const VF one = set(1.0F);
     const VF half = set(0.5F);
     const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F};
-    const float film = 1.0F - 0.25F * plan.wetness;  // water levels the relief
+    const float film = 1.0F - 0.25F * plan.wetness;  // a film of water flattens the relief
     const bool is_disc = part < 2;
     const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
     const float steps_x[part_count] = {0.0F,
@@ -713,18 +722,18 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
                                        plan.flesh.texel_across};
     const float step_x = steps_x[part];
     const float step_y = steps_y[part];
-    // A disc's lengths are those of its meridian, which begins at `inner`.
+    // Lengths on a disc are relative to its meridian, which begins at `inner`.
     const VF per_x =
         set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
     const VF per_y =
         set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
-    // The rows above and below may end a little earlier: only painted neighbours count.
-    const Stretch here = painted_stretch(plan, part, y);
-    const Stretch over = painted_stretch(plan, part, y - 1);
-    const Stretch under = painted_stretch(plan, part, y + 1);
+    // The rows above and below may have a shorter painted range: only painted neighbours count.
+    const TexelRange here = painted_range(plan, part, y);
+    const TexelRange over = painted_range(plan, part, y - 1);
+    const TexelRange under = painted_range(plan, part, y + 1);
     const std::size_t first = std::max(here.from, std::max(over.from, under.from));
-    const Stretch stretch = {first, is_disc ? width - first : width};
-    for (std::size_t x = stretch.from; x < stretch.until; x += lanes) {
+    const TexelRange range = {first, is_disc ? width - first : width};
+    for (std::size_t x = range.from; x < range.until; x += lanes) {
         const float* at = row.height + margin + x;
         const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * per_x;
         const VF down =
@@ -746,39 +755,39 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
                       hn::Load(f, row.blue + x)};
         VF roughness = hn::Load(f, row.roughness + x);
         weather(plan, exposure[part], hn::Load(f, row.uneven + x), colour, roughness);
-        store_byte(srgb(colour.r), bench.bytes[0] + x);
-        store_byte(srgb(colour.g), bench.bytes[1] + x);
-        store_byte(srgb(colour.b), bench.bytes[2] + x);
-        store_byte(half + nx * length, bench.bytes[3] + x);
-        store_byte(half + ny * length, bench.bytes[4] + x);
-        store_byte(half + length, bench.bytes[5] + x);
-        store_byte(hn::Load(f, row.occlusion + x), bench.bytes[6] + x);
-        store_byte(hn::Max(roughness, set(0.04F)), bench.bytes[7] + x);
+        store_byte(srgb(colour.r), buffers.bytes[0] + x);
+        store_byte(srgb(colour.g), buffers.bytes[1] + x);
+        store_byte(srgb(colour.b), buffers.bytes[2] + x);
+        store_byte(half + nx * length, buffers.bytes[3] + x);
+        store_byte(half + ny * length, buffers.bytes[4] + x);
+        store_byte(half + length, buffers.bytes[5] + x);
+        store_byte(hn::Load(f, row.occlusion + x), buffers.bytes[6] + x);
+        store_byte(hn::Max(roughness, set(0.04F)), buffers.bytes[7] + x);
     }
     for (std::size_t channel = 0; channel < 8; ++channel) {
-        std::uint8_t* const line = bench.bytes[channel];
-        std::memset(line, line[stretch.from], stretch.from);
-        std::memset(line + stretch.until, line[stretch.until - 1], width - stretch.until);
+        std::uint8_t* const line = buffers.bytes[channel];
+        std::memset(line, line[range.from], range.from);
+        std::memset(line + range.until, line[range.until - 1], width - range.until);
     }
     const std::size_t at =
         3 * (static_cast<std::size_t>(frame.y + y) * static_cast<std::size_t>(plan.side) +
              static_cast<std::size_t>(frame.x));
-    interleave(bench.bytes, width, at, target);
+    interleave(buffers.bytes, width, at, target);
 }
 
 /// Paints rows `from` to `to` (exclusive) of a part's chart.
 void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory,
                 const PaintTarget& target) {
-    Workbench& bench = *static_cast<Workbench*>(memory);
-    for (SparseRow& row : bench.sparse) row.y = -1000;
-    Row* above = &bench.rows[0];
-    Row* row = &bench.rows[1];
-    Row* below = &bench.rows[2];
-    paint_row(plan, part, from - 1, *above, bench);
-    paint_row(plan, part, from, *row, bench);
+    RowBuffers& buffers = *static_cast<RowBuffers*>(memory);
+    for (SparseRow& row : buffers.sparse) row.y = -1000;
+    Row* above = &buffers.rows[0];
+    Row* row = &buffers.rows[1];
+    Row* below = &buffers.rows[2];
+    paint_row(plan, part, from - 1, *above, buffers);
+    paint_row(plan, part, from, *row, buffers);
     for (int y = from; y < to; ++y) {
-        paint_row(plan, part, y + 1, *below, bench);
-        resolve_row(plan, part, y, *above, *row, *below, bench, target);
+        paint_row(plan, part, y + 1, *below, buffers);
+        resolve_row(plan, part, y, *above, *row, *below, buffers, target);
         Row* const free = above;
         above = row;
         row = below;
@@ -786,9 +795,9 @@ void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory,
     }
 }
 
-std::size_t workbench_size() { return sizeof(Workbench); }
+std::size_t row_buffers_size() { return sizeof(RowBuffers); }
 
-/// Samples noise over a chart's disc at (cells + 1)^2 points, two octaves.
+/// Samples two octaves of noise over a chart's disc at (cells + 1)^2 points.
 void fill_coarse(const DiscPlan& disc, float inset, int cells, float frequency, std::uint32_t seed,
                  float* out) {
     const Floats f;

@@ -1,5 +1,5 @@
-// Paints the texels of the stem and of the veil's strip: fibres, stain, bands, net; threads and
-// grain.
+// Paints the texels of the stem (fibres, stain, bands, net) and of the veil's strip (threads,
+// grain).
 #if defined(SPOREPRINT_CORE_SURFACE_STEM_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_STEM_INL
 #undef SPOREPRINT_CORE_SURFACE_STEM_INL
@@ -13,8 +13,8 @@ HWY_BEFORE_NAMESPACE();
 namespace sporeprint {
 namespace HWY_NAMESPACE {
 
-/// The fields of a stem that vary slowly along it: broad and middling clouds, the first bumps,
-/// fibres and the furrows they leave.
+/// Computes the fields of a stem that vary slowly along it: broad and medium clouds, the first
+/// bumps, fibres and their furrows.
 HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields) {
     const VF length = along * set(plan.aspect);
     const VF broad = periodic_noise2(turn * set(4.0F), length * set(3.0F), 4, plan.seed[0]);
@@ -28,7 +28,7 @@ HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields)
                             set(plan.bumps[0]);
     }
     if ((plan.fields & (1U << stem_fibre)) != 0) {
-        // Coarse wrinkles come only with strong fibres.
+        // Coarse wrinkles appear only with strong fibres.
         VF fibre = set(0.0F);
         VF furrow = set(0.0F);
         for (std::size_t octave = 0; octave < 3; ++octave) {
@@ -47,7 +47,8 @@ HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields)
     }
 }
 
-/// along  0 at the ground, 1 at the top; turn 0..1. Heights are in circumferences.
+/// Returns a texel of the stem. along: 0 at the ground, 1 at the top; turn: 0..1. Heights are in
+/// circumferences.
 HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* fields) {
     const VF one = set(1.0F);
     const VF zero = set(0.0F);
@@ -81,7 +82,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
         occlusion = occlusion + hn::Min(fibre, zero) * set(0.25F * plan.fibrils);
     }
     if (plan.bands > 0.0F) {
-        // Snake skin: the skin has torn into zig-zag belts.
+        // Snakeskin pattern: the cuticle has torn into zigzag belts.
         const VF zigzag =
             hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) -
             set(0.5F);
@@ -101,7 +102,7 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
                                           0.34F, plan.seed[8]);
             thread = one - smooth(mesh.border, 0.02F, 3.6F);
         }
-        // Where the texels cannot show its threads, the net is their mean.
+        // Where texels are too coarse for its threads, the net is their mean.
         thread = mix(set(0.35F), thread, set(plan.net_shown));
         const VF up = thread * strength;
         colour = mix(colour, rgb(plan.net_colour), up * set(0.9F));
@@ -110,9 +111,9 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
         shade = shade * (one - set(0.08F) * strength * (one - thread));
     }
     if (plan.gills > 0.0F) {
-        // Lower the farther down, as the solid ones are.
+        // The height decreases downwards, like that of solid gills.
         const VF up = smooth(along, 1.0F - plan.gills, 1.0F / plan.gills);
-        const VF x = comb_of(plan.comb, turn, wander_at(plan.comb, turn, zero)).x;
+        const VF x = blades_at(plan.layout, turn, wander_at(plan.layout, turn, zero)).x;
         const VF far = hn::Abs(x - hn::Floor(x + set(0.5F)));
         const VF deep =
             mix(set(0.45F), unit((far - set(plan.gill_half)) * set(1.0F / (0.5F - plan.gill_half))),
@@ -146,8 +147,8 @@ HWY_INLINE void veil_fields(const VeilPlan& plan, VF turn, VF across, VF* fields
     fields[veil_cloud] = periodic_noise2(turn * set(19.0F), across * set(2.0F), 19, plan.seed[1]);
 }
 
-/// turn 0..1 along the strip; across 0 at the attachment, 1 at the edge. Heights are in lengths of
-/// the strip.
+/// Returns a texel of the veil. turn: 0..1 along the strip; across: 0 at the attachment, 1 at the
+/// edge. Heights are in lengths of the strip.
 HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;
@@ -163,7 +164,7 @@ HWY_INLINE Texel veil_texel(const VeilPlan& plan, VF turn, VF across, const VF* 
         colour, one + thread * set(0.13F) * fade_out + cloud * set(0.05F) + grain * set(0.06F));
     out.height = thread * set(0.16F / 92.0F) * fade_out + grain * set(0.14F / 160.0F);
     out.roughness = set(plan.roughness) + grain * set(0.05F);
-    // The fold where it hangs from the stem lies in shade.
+    // The fold at the attachment is in shade.
     out.occlusion = set(0.72F) + set(0.28F) * smooth(across, 0.0F, 3.0F) +
                     hn::Min(thread, set(0.0F)) * set(0.2F);
     return out;

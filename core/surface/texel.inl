@@ -1,4 +1,4 @@
-// What all painted parts share, on vectors of texels: coordinates on discs, colours, waves and
+// Building blocks of all kernels, on vectors of texels: coordinates on discs, colours, waves and
 // cells.
 #if defined(SPOREPRINT_CORE_SURFACE_TEXEL_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_TEXEL_INL
@@ -15,8 +15,8 @@ namespace sporeprint {
 namespace HWY_NAMESPACE {
 
 inline constexpr int widest = 2048;
-inline constexpr int padded =
-    widest + 32;  // else the planes of a row would compete for the same lines of the cache
+// Padded, so that the planes of a row do not map to the same cache lines.
+inline constexpr int padded = widest + 32;
 
 struct Rgb {
     VF r, g, b;
@@ -30,21 +30,20 @@ HWY_INLINE Rgb shaded(const Rgb& colour, VF factor) {
     return {colour.r * factor, colour.g * factor, colour.b * factor};
 }
 
-/// What is known of a texel when all is painted. Height in lengths of one disc radius, or of the
-/// strip.
+/// Result of painting a texel. Height is in disc radii, or in lengths of the strip.
 struct Texel {
     Rgb colour;
     VF height, roughness, occlusion;
 };
 
-/// Where a texel of a disc lies.
+/// Position of a texel on a disc.
 struct DiscPoint {
-    VF x, y;          ///< on the disc, in its radii
+    VF x, y;          ///< on the disc, in disc radii
     VF rho;           ///< distance from the pole, at most 1
-    VF widening;      ///< length of a step round the axis over the same step on the disc
+    VF widening;      ///< length of a step round the axis over that on the disc
     VF cosine, sine;  ///< of the angle round the pole
-    VF radius;        ///< from the axis, in lengths of one disc radius
-    VF height;        ///< along the axis, likewise
+    VF radius;        ///< distance from the axis, in disc radii
+    VF height;        ///< along the axis, in disc radii
 };
 
 HWY_INLINE DiscPoint disc_point_of(const DiscPlan& plan, VF x, VF y) {
@@ -79,14 +78,15 @@ HWY_INLINE DiscPoint disc_point_of(const DiscPlan& plan, VF x, VF y) {
     return p;
 }
 
-/// Where a row crosses an ellipse: middle from the ellipse's own, and half length; 0 when it passes by.
+/// Intersection of a row with an ellipse: middle relative to the ellipse's centre, and half length,
+/// which is 0 if they do not intersect.
 struct Chord {
     float middle = 0.0F, half = 0.0F;
 };
 
-/// oval    along_x, along_y, per_length, per_width: the way of one axis, and one over the half axes
-/// dy      of the row from the oval's middle
-/// window  square of the ellipse's size, in those half axes
+/// oval    along_x, along_y, per_length, per_width: direction of one axis, and 1 / half axes
+/// dy      offset of the row from the oval's centre
+/// window  squared size of the ellipse, in those half axes
 template <class Oval>
 HWY_INLINE Chord chord_of(const Oval& oval, float dy, float window) {
     const float l = oval.per_length * oval.per_length;
@@ -103,13 +103,13 @@ HWY_INLINE Chord chord_of(const Oval& oval, float dy, float window) {
     return {0.0F - cross / square, root[0] / square};
 }
 
-/// Angle of a unit vector in turns, 0..1.
+/// Returns the angle of a unit vector in turns, 0..1.
 HWY_INLINE VF turn_of(VF cosine, VF sine) {
     const VF x = hn::Abs(cosine);
     const VF y = hn::Abs(sine);
     const VF t = hn::Min(x, y) / hn::Max(hn::Max(x, y), set(1e-9F));
     const VF q = t * t;
-    // Minimax polynomial of the arc tangent on 0..1, error 1e-5; here in turns.
+    // Minimax polynomial of the arc tangent on 0..1, error 1e-5, scaled to turns.
     VF angle = set(-0.01172120F);
     angle = angle * q + set(0.05265332F);
     angle = angle * q + set(-0.11643287F);
@@ -122,25 +122,26 @@ HWY_INLINE VF turn_of(VF cosine, VF sine) {
     return hn::IfThenElse(sine < set(0.0F), set(1.0F) - angle, angle);
 }
 
-/// Like a cosine of period 1: 1 at whole numbers, -1 half-way between.
+/// Returns a cubic approximation of a cosine of period 1: 1 at whole numbers, -1 half-way between.
 HWY_INLINE VF wave(VF t) {
     const VF u = hn::Abs(t - hn::Floor(t) - set(0.5F)) * set(2.0F);
     return u * u * (set(6.0F) - set(4.0F) * u) - set(1.0F);
 }
 
-/// How well a pattern shows whose period is `texels` long: 0 below two, 1 from `full` on.
+/// Returns the visibility of a pattern whose period is `texels` long: 0 below two, 1 from `full`
+/// on.
 HWY_INLINE VF shown(VF texels, float full) {
     return unit((texels - set(2.0F)) * set(1.0F / (full - 2.0F)));
 }
 
-/// Where a texel lies among scattered cells.
+/// Position of a texel among scattered cells.
 struct Cells {
     VF border;  ///< distance to the border with the next cell, in cells
     VF centre;  ///< distance to the cell's own point
-    VU id;      ///< of the cell
+    VU id;      ///< hash of the cell
 };
 
-// The points of nearby cells, seen from a texel.
+// Accumulates the points of nearby cells, relative to a texel.
 template <int Most>
 struct Neighbours {
     VF dx[Most];
@@ -149,7 +150,7 @@ struct Neighbours {
     VU id;
     int count;
 
-    // Not a constructor: the compiler would build that without the instruction set.
+    // Not a constructor, because the compiler would build that without the instruction set.
     HWY_INLINE void begin() {
         nearest = set(1e9F);
         near_x = set(0.0F);
@@ -170,7 +171,7 @@ struct Neighbours {
         id = hn::IfThenElse(hn::RebindMask(Words(), closer), cell, id);
     }
 
-    // Distance to the nearest bisector between the nearest point and another.
+    // Returns the distance to the nearest bisector between the nearest point and another.
     HWY_INLINE Cells found() const {
         VF border = set(1e9F);
         for (int k = 0; k < Most; ++k) {
@@ -185,15 +186,13 @@ struct Neighbours {
     }
 };
 
-/// Cells with one point each, in rows across y; row j has floor(from + grow * (j + 0.5)) of them
-/// round the turn, at least 3.
-/// So they neither stretch where a surface widens nor break where the turn closes. Cells are
-/// `tall` times as long as wide.
+/// Returns the cell of a texel among cells with one point each, in rows across y; row j has
+/// floor(from + grow * (j + 0.5)) of them round the turn, at least 3. So they neither stretch where
+/// a surface widens nor break at the seam. Cells are `tall` times as long as wide.
 ///
-/// source  [Worley1996]; the border distance is that to the bisector, true in the metric of the
-/// surface. Of each row only the
-///         two nearest points are looked at: enough for jitter below 0.4 near the borders, where
-///         it is read
+/// source  [Worley1996]; the border distance is that to the bisector, exact in the metric of the
+///         surface. Of each row only the two nearest points are examined, which is enough for
+///         jitter below 0.4 near the borders, where it is used
 HWY_INLINE Cells ring_cells(VF turn, VF y, float from, float grow, float tall, float jitter,
                             std::uint32_t seed) {
     const VF row = hn::Floor(y);
@@ -223,7 +222,7 @@ HWY_INLINE Cells ring_cells(VF turn, VF y, float from, float grow, float tall, f
     return all.found();
 }
 
-/// Cells of the plane, one unit in size.
+/// Returns the cell of a texel among cells of the plane, one unit in size.
 HWY_INLINE Cells plane_cells(VF x, VF y, float jitter, std::uint32_t seed) {
     const VF column = hn::Floor(x);
     const VF row = hn::Floor(y);

@@ -1,4 +1,4 @@
-// Paints the texels of what lies inside: the faces of gills, ridges and spines, and torn flesh.
+// Paints the texels of inner tissue: the faces of gills, ridges and spines, and torn flesh.
 #if defined(SPOREPRINT_CORE_SURFACE_TISSUE_INL) == defined(HWY_TARGET_TOGGLE)
 #ifdef SPOREPRINT_CORE_SURFACE_TISSUE_INL
 #undef SPOREPRINT_CORE_SURFACE_TISSUE_INL
@@ -17,19 +17,20 @@ HWY_INLINE void blade_fields(const BladePlan& plan, VF along, VF across, VF* fie
     fields[blade_uneven] = noise2(along * set(5.0F), across * set(1.2F), plan.seed[1]);
 }
 
-/// along 0 at the stem, 1 at the margin; across 0 at the root, 1 at the edge. Heights are in lengths of the blade.
+/// Returns a texel of a blade. along: 0 at the stem, 1 at the margin; across: 0 at the base, 1 at
+/// the edge. Heights are in lengths of the blade.
 HWY_INLINE Texel blade_texel(const BladePlan& plan, VF along, VF across, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;
     const VF down = unit(across);
     const VF cloud = fields[blade_uneven] * set(0.7F) + fields[blade_cloud] * set(0.5F);
-    // Faint lines run from the root to the edge, and are lost before they reach it.
+    // Faint lines run from the base towards the edge, and fade out before they reach it.
     const VF line = noise2(along * set(blade_grain) + fields[blade_cloud] * set(0.8F),
                            across * set(2.2F), plan.seed[2]) *
                     set(plan.grain) * (one - down * set(0.6F));
     const VF on_edge = smooth(down + fields[blade_cloud] * set(0.03F), 0.87F, 11.0F);
-    // How much of the sky a point of the wall sees, and what pale walls give back to each other.
-    // Thin pale ones let light through besides, as if they stood in shallower slots.
+    // Share of the sky that a point of the wall sees, and light reflected between pale walls. Thin
+    // pale walls also transmit light, which is modelled as a shallower slot.
     const VF d = (one - down) * set(plan.steep * (1.0F - 0.7F * plan.pale));
     const VF open = one - d / hn::Sqrt(d * d + one);
     const VF seen = open / (one - set(plan.pale) * (one - open));
@@ -45,13 +46,14 @@ HWY_INLINE Texel blade_texel(const BladePlan& plan, VF along, VF across, const V
 }
 
 HWY_INLINE void flesh_fields(const FleshPlan& plan, VF along, VF across, VF* fields) {
-    // Torn fibres run from the skin inwards.
+    // Torn fibres run inwards from the cuticle.
     fields[flesh_fibre] =
         noise2(along * set(34.0F), across * set(5.0F), plan.seed[0]) * set(plan.bumps[1]);
     fields[flesh_cloud] = noise2(along * set(7.0F), across * set(4.0F), plan.seed[1]);
 }
 
-/// along the tear; across 0 under the skin, 1 where it is deepest. Heights are in lengths of the strip.
+/// Returns a texel of torn flesh. along: along the tear; across: 0 under the cuticle, 1 where it is
+/// deepest. Heights are in lengths of the strip.
 HWY_INLINE Texel flesh_texel(const FleshPlan& plan, VF along, VF across, const VF* fields) {
     const VF one = set(1.0F);
     Texel out;

@@ -12,29 +12,29 @@
 namespace sporeprint {
 namespace {
 
-// One given image of a painting, and where its turn goes.
+// One uploaded image of a painting, and the member that holds its rotation.
 struct Place {
     const Upload& (*upload)(const PaintParams&);
-    double GivenTurns::*turn;
+    double ImageRotations::*turn;
     std::size_t part;
     const char* path;
 };
 
 constexpr std::array<Place, 3> places = {{
-    {[](const PaintParams& p) -> const Upload& { return p.surface.cap.image; }, &GivenTurns::cap, 0,
-     "/surface/cap/image"},
+    {[](const PaintParams& p) -> const Upload& { return p.surface.cap.image; },
+     &ImageRotations::cap, 0, "/surface/cap/image"},
     {[](const PaintParams& p) -> const Upload& { return p.surface.hymenium.image; },
-     &GivenTurns::hymenium, 1, "/surface/hymenium/image"},
-    {[](const PaintParams& p) -> const Upload& { return p.surface.stem.image; }, &GivenTurns::stem,
-     2, "/surface/stem/image"},
+     &ImageRotations::hymenium, 1, "/surface/hymenium/image"},
+    {[](const PaintParams& p) -> const Upload& { return p.surface.stem.image; },
+     &ImageRotations::stem, 2, "/surface/stem/image"},
 }};
 
 constexpr int profile_rows = 24;
 
 }  // namespace
 
-GivenImage given_image(const Upload& upload, const Frame& frame, const std::string& path) {
-    GivenImage image;
+UploadedImage uploaded_image(const Upload& upload, const Frame& frame, const std::string& path) {
+    UploadedImage image;
     if (upload.empty()) return image;
     const Picture picture = decoded_picture(upload.bytes, path);
     const std::array<float, 256>& table = linear_table();
@@ -45,7 +45,7 @@ GivenImage given_image(const Upload& upload, const Frame& frame, const std::stri
     while (image.width > 2 * frame.width || image.height > 2 * frame.height) {
         const int across = image.width > 2 * frame.width ? 2 : 1;
         const int down = image.height > 2 * frame.height ? 2 : 1;
-        GivenImage half;
+        UploadedImage half;
         half.width = image.width / across;
         half.height = image.height / down;
         half.light.resize(static_cast<std::size_t>(half.width) *
@@ -66,7 +66,7 @@ GivenImage given_image(const Upload& upload, const Frame& frame, const std::stri
     return image;
 }
 
-void turn(GivenImage& image, double turns) {
+void rotate(UploadedImage& image, double turns) {
     const double shown = turns - std::floor(turns);
     const SineCosine angle = sine_cosine(2.0 * pi * shown);
     image.turn = static_cast<float>(shown);
@@ -74,16 +74,16 @@ void turn(GivenImage& image, double turns) {
     image.sine = static_cast<float>(angle.sine);
 }
 
-std::vector<double> round_profile(const GivenImage& image, ChartMap map) {
+std::vector<double> angular_profile(const UploadedImage& image, ChartMap map) {
     std::vector<double> profile;
     double mean = 0.0;
-    for (int i = 0; i < profile_places; ++i) {
-        const double share = (i + 0.5) / profile_places;
+    for (int i = 0; i < profile_samples; ++i) {
+        const double share = (i + 0.5) / profile_samples;
         const SineCosine angle = sine_cosine(2.0 * pi * share);
         double sum = 0.0;
         for (int row = 0; row < profile_rows; ++row) {
             const double along = (row + 0.5) / profile_rows;
-            const double radius = 0.5 * (0.15 + 0.80 * along);  // neither the pole nor the rim
+            const double radius = 0.5 * (0.15 + 0.80 * along);  // excludes the pole and the rim
             const bool disc = map == ChartMap::disc;
             const double u = disc ? 0.5 + radius * angle.cosine : along;
             const double v = disc ? 0.5 + radius * angle.sine : share;
@@ -94,7 +94,7 @@ std::vector<double> round_profile(const GivenImage& image, ChartMap map) {
             for (int c = 0; c < 3; ++c) sum += static_cast<double>(light[c]);
         }
         profile.push_back(sum);
-        mean += sum / profile_places;
+        mean += sum / profile_samples;
     }
     for (double& value : profile) value -= mean;
     return profile;
@@ -105,13 +105,13 @@ int best_shift(std::span<const double> a, std::span<const double> b) {
     int best = 0;
     double most = 0.0;
     for (int i = 0; i < n; ++i) {
-        // 0, 1, -1, 2, -2, ...
+        // Shifts are tried in the order 0, 1, -1, 2, -2, ...
         const int shift = i % 2 == 1 ? (i + 1) / 2 : -(i / 2);
         double sum = 0.0;
         for (int k = 0; k < n; ++k)
             sum +=
                 a[static_cast<std::size_t>(k)] * b[static_cast<std::size_t>((k + shift + n) % n)];
-        // More by more than rounding.
+        // Better by more than rounding.
         if (i == 0 || sum > most + 1e-9 * std::abs(most)) {
             most = sum;
             best = shift;
@@ -120,22 +120,22 @@ int best_shift(std::span<const double> a, std::span<const double> b) {
     return best;
 }
 
-std::vector<GivenTurns> aligned_turns(std::span<const PaintParams* const> paintings,
-                                      std::span<const double> weights) {
-    std::vector<GivenTurns> turns(paintings.size());
+std::vector<ImageRotations> aligned_rotations(std::span<const PaintParams* const> paintings,
+                                              std::span<const double> weights) {
+    std::vector<ImageRotations> turns(paintings.size());
     for (const Place& place : places) {
         std::vector<double> reference;
-        std::vector<std::pair<std::size_t, double>> ahead;  // painting, turns further on
+        std::vector<std::pair<std::size_t, double>> ahead;  // painting, turns ahead
         double mean = 0.0, weight = 0.0;
         for (std::size_t i = 0; i < paintings.size(); ++i) {
             const Upload& upload = place.upload(*paintings[i]);
             if (upload.empty()) continue;
             const Frame frame = chart_frames(paintings[i]->side)[place.part];
-            const std::vector<double> profile =
-                round_profile(given_image(upload, frame, place.path), swept_charts[place.part].map);
+            const std::vector<double> profile = angular_profile(
+                uploaded_image(upload, frame, place.path), swept_charts[place.part].map);
             if (reference.empty()) reference = profile;
             ahead.emplace_back(
-                i, static_cast<double>(best_shift(reference, profile)) / profile_places);
+                i, static_cast<double>(best_shift(reference, profile)) / profile_samples);
             mean += weights[i] * ahead.back().second;
             weight += weights[i];
         }

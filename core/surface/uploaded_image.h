@@ -1,4 +1,5 @@
-// Given images: an upload instead of a painting, and how those of several species are turned onto each other.
+// Uploaded images that replace a painted part, and the rotations that align those of several
+// species.
 #pragma once
 
 #include <span>
@@ -12,33 +13,36 @@
 
 namespace sporeprint {
 
-/// The decoded upload in linear light, halved until it is no more than twice as fine as its chart; empty for none.
+/// Decodes an upload to linear light and halves it until it has at most twice the resolution of its
+/// chart; empty for no upload.
 ///
 /// throws  InvalidInput (at `path`) if it cannot be read
-[[nodiscard]] GivenImage given_image(const Upload& upload, const Frame& frame,
-                                     const std::string& path);
+[[nodiscard]] UploadedImage uploaded_image(const Upload& upload, const Frame& frame,
+                                           const std::string& path);
 
-/// Turns what is shown of an image by so many turns.
-void turn(GivenImage& image, double turns);
+/// Sets the rotation of an image, in turns.
+void rotate(UploadedImage& image, double turns);
 
-/// Places round the axis that given images are compared at.
-inline constexpr int profile_places = 256;
+/// Number of angles at which uploaded images are compared.
+inline constexpr int profile_samples = 256;
 
-/// Mean light of an image round its axis at profile_places angles: over the radii of a disc's image, along a stem's. Mean 0.
-[[nodiscard]] std::vector<double> round_profile(const GivenImage& image, ChartMap map);
+/// Returns the mean light of an image at profile_samples angles round its axis (over the radii of a
+/// disc, along a stem), shifted to mean 0.
+[[nodiscard]] std::vector<double> angular_profile(const UploadedImage& image, ChartMap map);
 
-/// Places by which `b` lies further on than `a`: the most alike of all circular shifts, the smallest of equals; in
-/// -profile_places / 2 < s <= profile_places / 2.
+/// Returns the circular shift of `b` against `a` with the largest correlation, the smallest of
+/// equals; in -profile_samples / 2 < s <= profile_samples / 2.
 [[nodiscard]] int best_shift(std::span<const double> a, std::span<const double> b);
 
-/// How far each painting's given images are turned in a mix, so that they lie on each other as well as turning can make them.
-/// Turns move with the weights, so that a species alone stands as it was given; no painting turns against none.
-/// What is painted needs none of this: all species of one individual are painted from the same streams.
+/// Returns how far the uploaded images of each painting are rotated in a mix, so that they match as
+/// well as a rotation allows. Rotations depend continuously on the weights, and are 0 for a single
+/// species. Painted parts need none, because all species of one individual are painted from the
+/// same random streams.
 ///
 /// paintings  one per species, in an order that does not depend on the weights
 /// weights    one each, sum 1
 /// throws     InvalidInput if an image cannot be read
-[[nodiscard]] std::vector<GivenTurns> aligned_turns(std::span<const PaintParams* const> paintings,
-                                                    std::span<const double> weights);
+[[nodiscard]] std::vector<ImageRotations> aligned_rotations(
+    std::span<const PaintParams* const> paintings, std::span<const double> weights);
 
 }  // namespace sporeprint

@@ -87,25 +87,25 @@ void encode_alone(benchmark::State& state) {
 BENCHMARK(encode_alone)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
 
 // Two cached paintings, cross-dissolved to the encoded set; and the dissolve alone.
-void dissolve_and_encode(benchmark::State& state) {
+void blend_and_encode(benchmark::State& state) {
     const RawImages a = paint_raw(fly_agaric(static_cast<int>(state.range(0))));
     const RawImages b = paint_raw(penny_bun(static_cast<int>(state.range(0))));
     const RawImages* const paintings[] = {&a, &b};
     const double weights[] = {0.375, 0.625};
-    for (auto _ : state) benchmark::DoNotOptimize(dissolve(paintings, weights).bytes());
+    for (auto _ : state) benchmark::DoNotOptimize(blend_images(paintings, weights).bytes());
 }
-BENCHMARK(dissolve_and_encode)->Arg(256)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
+BENCHMARK(blend_and_encode)->Arg(256)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
 
-void dissolve_pixels(benchmark::State& state) {
+void blend_pixels(benchmark::State& state) {
     const RawImages a = paint_raw(fly_agaric(512));
     const RawImages b = paint_raw(penny_bun(512));
     const std::size_t count = static_cast<std::size_t>(state.range(0));
     std::vector<const RawImages*> paintings;
     for (std::size_t i = 0; i < count; ++i) paintings.push_back(i % 2 == 0 ? &a : &b);
     const std::vector<double> weights(count, 1.0 / static_cast<double>(count));
-    for (auto _ : state) benchmark::DoNotOptimize(dissolve_raw(paintings, weights));
+    for (auto _ : state) benchmark::DoNotOptimize(blend_raw(paintings, weights));
 }
-BENCHMARK(dissolve_pixels)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
+BENCHMARK(blend_pixels)->Arg(2)->Arg(4)->Arg(8)->Unit(benchmark::kMillisecond);
 
 void paint_pixels_with(benchmark::State& state, const std::string& simd) {
     force_simd(simd);

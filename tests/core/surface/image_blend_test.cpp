@@ -50,7 +50,7 @@ RawImages dissolved(const std::vector<RawImages>& paintings, const std::vector<d
                     const Parallel& parallel = in_turn) {
     std::vector<const RawImages*> pointers;
     for (const RawImages& one : paintings) pointers.push_back(&one);
-    return dissolve_raw(pointers, weights, parallel);
+    return blend_raw(pointers, weights, parallel);
 }
 
 struct Steps {
@@ -289,13 +289,13 @@ TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
     warty.warts.count = 40;
     warty.warts.size = 0.12;
     warty.ornaments.warts = 1.0;
-    const PaintParams bare = unlaid(warty);
+    const PaintParams bare = without_patches(warty);
     const RawImages whole_size = paint_raw(warty), plain = paint_raw(bare);
     const RawImages* const paintings[] = {&plain, &plain};
     const PaintParams* const laid[] = {&warty, &bare};
     const auto at = [&](double weight) {
         const double weights[] = {weight, 1.0 - weight};
-        return dissolve_raw(paintings, weights, in_turn, laid);
+        return blend_raw(paintings, weights, in_turn, laid);
     };
     const auto white = [](const RawImages& images) {
         int count = 0;
@@ -326,10 +326,10 @@ TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
     const RawImages here = at(0.5);
     for (const std::string& name : simd_names()) {
         force_simd(name);
-        EXPECT_TRUE(dissolve_raw(paintings, halves, all_at_once, laid).rgb == here.rgb) << name;
+        EXPECT_TRUE(blend_raw(paintings, halves, all_at_once, laid).rgb == here.rgb) << name;
     }
     force_simd("auto");
-    EXPECT_THROW((void)dissolve_raw(paintings, halves, in_turn, std::span(laid, 1)), InvalidInput);
+    EXPECT_THROW((void)blend_raw(paintings, halves, in_turn, std::span(laid, 1)), InvalidInput);
 }
 
 TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
@@ -337,7 +337,7 @@ TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
     const std::vector<std::string> ids = swept_ids();
     const auto raw_of = [&](std::size_t i) {
         const MushroomOrder order = painted(order_of(ids[i % ids.size()]), 256);
-        return paint_raw(unlaid(paint_recipe(order, atlas()).at(0).painting));
+        return paint_raw(without_patches(paint_recipe(order, atlas()).at(0).painting));
     };
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const RawImages a = raw_of(i);
@@ -364,8 +364,8 @@ TEST_F(Dissolve, EncodesWhatItDissolves) {
     const std::vector<RawImages> p = unlike(64);
     const RawImages* const pointers[] = {&p[0], &p[1]};
     const double weights[] = {0.25, 0.75};
-    const ImageSet once = dissolve(pointers, weights);
-    const ImageSet again = dissolve(pointers, weights, all_at_once);
+    const ImageSet once = blend_images(pointers, weights);
+    const ImageSet again = blend_images(pointers, weights, all_at_once);
     for (std::size_t i = 0; i < 3; ++i) {
         EXPECT_GT(once.files[i].size, 200U);
         EXPECT_TRUE(*once.files[i].owner == *again.files[i].owner);
@@ -374,7 +374,7 @@ TEST_F(Dissolve, EncodesWhatItDissolves) {
     const PaintParams alone = motley(HymeniumPattern::gills, 64);
     const RawImages raw = paint_raw(alone);
     const RawImages* const other[] = {&p[1], &raw};
-    const ImageSet painted = paint(alone), found = dissolve(other, corner);
+    const ImageSet painted = paint(alone), found = blend_images(other, corner);
     for (std::size_t i = 0; i < 3; ++i)
         EXPECT_TRUE(*painted.files[i].owner == *found.files[i].owner);
 }
@@ -384,8 +384,8 @@ TEST_F(Dissolve, RefusesWhatCannotBeDissolved) {
     const RawImages small = unlike(32)[0];
     const auto refuses = [](const std::vector<const RawImages*>& paintings,
                             const std::vector<double>& weights) {
-        EXPECT_THROW((void)dissolve_raw(paintings, weights), InvalidInput);
-        EXPECT_THROW((void)dissolve(paintings, weights), InvalidInput);
+        EXPECT_THROW((void)blend_raw(paintings, weights), InvalidInput);
+        EXPECT_THROW((void)blend_images(paintings, weights), InvalidInput);
     };
     refuses({}, {});
     refuses({&p[0]}, {});

@@ -39,25 +39,25 @@ PaintParams with_cap(const Upload& image) {
     return params;
 }
 
-std::vector<GivenTurns> turns_of(const std::vector<PaintParams>& paintings,
+std::vector<ImageRotations> turns_of(const std::vector<PaintParams>& paintings,
                                  const std::vector<double>& weights) {
     std::vector<const PaintParams*> pointers;
     for (const PaintParams& one : paintings) pointers.push_back(&one);
-    return aligned_turns(pointers, weights);
+    return aligned_rotations(pointers, weights);
 }
 
 TEST(Given, TheBestShiftIsTheOneThatWasMade) {
     std::vector<double> a;
-    for (int i = 0; i < profile_places; ++i)
+    for (int i = 0; i < profile_samples; ++i)
         a.push_back(std::sin(0.1 * i) + (i % 37 == 0 ? 2.0 : 0.0) - 0.01 * i);
     for (const int shift : {0, 1, -1, 17, -100, 128}) {
         std::vector<double> b(a.size());
-        for (int i = 0; i < profile_places; ++i)
-            b[static_cast<std::size_t>((i + shift + profile_places) % profile_places)] =
+        for (int i = 0; i < profile_samples; ++i)
+            b[static_cast<std::size_t>((i + shift + profile_samples) % profile_samples)] =
                 a[static_cast<std::size_t>(i)];
         EXPECT_EQ(best_shift(a, b), shift);
     }
-    const std::vector<double> plain(profile_places, 0.0);
+    const std::vector<double> plain(profile_samples, 0.0);
     EXPECT_EQ(best_shift(plain, a), 0);
     EXPECT_EQ(best_shift(plain, plain), 0);
 }
@@ -65,14 +65,14 @@ TEST(Given, TheBestShiftIsTheOneThatWasMade) {
 TEST(Given, ProfilesOfATurnedImageAreShifted) {
     const Frame frame = chart_frames(256)[0];
     const auto profile = [&](double turns) {
-        return round_profile(given_image(rays(turns), frame, ""), ChartMap::disc);
+        return angular_profile(uploaded_image(rays(turns), frame, ""), ChartMap::disc);
     };
     for (const double turns : {0.0, 0.125, -0.25, 0.4})
-        EXPECT_NEAR(best_shift(profile(0.0), profile(turns)) / double{profile_places}, turns,
-                    1.0 / profile_places);
+        EXPECT_NEAR(best_shift(profile(0.0), profile(turns)) / double{profile_samples}, turns,
+                    1.0 / profile_samples);
     // Round the stem is from top to bottom of its image.
-    const auto stem = round_profile(given_image(rays(0.0), frame, ""), ChartMap::strip);
-    ASSERT_EQ(stem.size(), std::size_t{profile_places});
+    const auto stem = angular_profile(uploaded_image(rays(0.0), frame, ""), ChartMap::strip);
+    ASSERT_EQ(stem.size(), std::size_t{profile_samples});
     double sum = 0.0;
     for (const double value : stem) sum += value;
     EXPECT_NEAR(sum, 0.0, 1e-9);
@@ -83,13 +83,13 @@ TEST(Given, ImagesOfAMixLieOnEachOtherAndAloneAsTheyWereGiven) {
                                                 PaintParams{}};
     for (const double t : {0.0, 0.25, 0.5, 1.0}) {
         const auto turns = turns_of(paintings, {0.5 * (1.0 - t), 0.5 * t, 0.5});
-        EXPECT_NEAR(turns[1].cap - turns[0].cap, 0.125, 1.0 / profile_places);
-        EXPECT_NEAR(turns[0].cap, -0.125 * t, 1.0 / profile_places);
-        EXPECT_EQ(turns[2], GivenTurns{}) << "what is painted does not turn";
+        EXPECT_NEAR(turns[1].cap - turns[0].cap, 0.125, 1.0 / profile_samples);
+        EXPECT_NEAR(turns[0].cap, -0.125 * t, 1.0 / profile_samples);
+        EXPECT_EQ(turns[2], ImageRotations{}) << "what is painted does not turn";
         EXPECT_EQ(turns[0].cap == 0.0, t == 0.0);
         EXPECT_EQ(turns[1].cap == 0.0, t == 1.0);
     }
-    EXPECT_EQ(turns_of({with_cap(rays(0.3)), PaintParams{}}, {0.5, 0.5})[0], GivenTurns{})
+    EXPECT_EQ(turns_of({with_cap(rays(0.3)), PaintParams{}}, {0.5, 0.5})[0], ImageRotations{})
         << "against nothing else";
 }
 
@@ -97,8 +97,8 @@ TEST(Given, TurningBringsTheRaysTogether) {
     const std::vector<PaintParams> paintings = {with_cap(rays(0.0)), with_cap(rays(0.2))};
     const auto turns = turns_of(paintings, {0.5, 0.5});
     const auto apart = [&](bool turned) {
-        const RawImages a = paint_raw(paintings[0], in_turn, turned ? turns[0] : GivenTurns{});
-        const RawImages b = paint_raw(paintings[1], in_turn, turned ? turns[1] : GivenTurns{});
+        const RawImages a = paint_raw(paintings[0], in_turn, turned ? turns[0] : ImageRotations{});
+        const RawImages b = paint_raw(paintings[1], in_turn, turned ? turns[1] : ImageRotations{});
         double sum = 0.0;
         for (int y = 24; y < 104; ++y)
             for (int x = 24; x < 104; ++x)
