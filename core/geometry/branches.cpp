@@ -232,7 +232,7 @@ Plan plan_of(const Bush& graph, int lod) {
 }
 
 /// Limit of curvature of the bent axis times the reach of the graph: at 1 the segments on the inner
-/// side would meet. Chosen with a margin of a quarter.
+/// side would meet.
 constexpr double most_fold = 0.75;
 
 /// Exponent by which a tube that represents dropped ones is widened: width is a power of the number

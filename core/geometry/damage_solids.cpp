@@ -18,7 +18,7 @@ namespace {
 
 constexpr double whole_turn = 2.0 * pi;
 
-// Numbers of solids by LOD; values chosen by eye.
+// Numbers of solids by LOD.
 constexpr std::array<SolidCounts, 4> limits_by_lod = {
     {{5, 14, 22, 12}, {0, 0, 0, 6}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
 const SolidCounts& limits_at(int lod) { return limits_by_lod[static_cast<std::size_t>(lod)]; }

@@ -18,21 +18,22 @@ namespace sporeprint {
 
 namespace {
 
-/// Root nodes that a request may come to: of more, nobody sees the single ones.
+/// Largest number of root nodes of a request; with more, single ones are not discernible.
 constexpr double most_colony_nodes = 6000.0;
-/// Nodes of a stem by level of detail, at most.
+/// Largest number of nodes of a stem by level of detail.
 constexpr std::array<int, 4> stem_nodes = {16, 8, 3, 2};
-/// Quads that a node of the skeleton comes to before subdivision, about.
+/// Approximate number of quads per node of the skeleton before subdivision.
 constexpr double quads_per_node = 9.0;
 
-/// Level of detail of the caps that decide who gives way.
-constexpr int room_lod = 1;
+/// Level of detail of the meshes that placement tests use, so that all levels show the same
+/// members.
+constexpr int placement_lod = 1;
 
 int cap_lod(int lod) { return std::min(lod + 1, 3); }
 
 bool textured(const ColonyOrder& order) { return order.params.textures != Textures::none; }
 
-/// One of the individuals; the others stand for the place that they have by age.
+/// Returns the spec of one individual. `which` determines its age.
 MushroomOrder individual_order(const ColonyOrder& order, int which) {
     const ColonyParams& params = order.params;
     MushroomOrder own;
@@ -46,8 +47,8 @@ MushroomOrder individual_order(const ColonyOrder& order, int which) {
     return own;
 }
 
-/// An individual without a variation of its own: what a colony's lengths follow.
-Individual typical(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
+/// Returns an individual without variation, from which the lengths of a colony follow.
+Individual typical_individual(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
     MushroomOrder own = individual_order(order, 0);
     own.params.variation = 0.0;
     return resolve(own, atlas, memo.morphs);
@@ -55,12 +56,13 @@ Individual typical(const ColonyOrder& order, const Atlas& atlas, const Memo& mem
 
 StemFit fit_of(const Individual& individual, const ColonyNature& nature) {
     StemFit fit = stem_fit(individual);
-    // Threads bear what has no stem.
+    // Mushrooms without a stem stand on thin threads.
     if (!nature.capped) fit.radius = std::max(0.12 * fit.cap_radius, 0.0002);
     return fit;
 }
 
-/// Whole individuals need the room of the widest of their meshes, however their outline is turned: an earthstar shrinks when old.
+/// Returns the fit enlarged to the widest mesh, however its outline is turned, because an earthstar
+/// shrinks when old.
 StemFit wide_enough(StemFit fit, const Mesh& mesh, bool first) {
     const Bounds box = bounds(mesh);
     const glm::dvec3 size = glm::dvec3(box.max) - glm::dvec3(box.min);
@@ -95,13 +97,13 @@ std::uint64_t bytes_of(const ColonyOrder& order, std::uint64_t vertices, std::ui
            place * members + 700 * static_cast<std::uint64_t>(order.params.distinct);
 }
 
-/// Every control at its value.
+/// Returns the parameters with every default resolved.
 ColonyParams effective_params(ColonyParams params, const ColonyNature& nature,
                               const ColonyRoots& growth, const StemFit& fit) {
     params.habit = nature.habit;
     params.roots = nature.roots;
     if (nature.habit == Habit::tier) params.trunk_radius = trunk_radius(params, fit);
-    // Those that the habit has.
+    // Only those that the habit has.
     const bool rooted = nature.habit == Habit::rooted, stems = nature.capped;
     if (rooted) {
         params.growth.field = growth.field;
@@ -126,9 +128,9 @@ ColonyParams effective_params(ColonyParams params, const ColonyNature& nature,
     return params;
 }
 
-/// A rotation as a unit quaternion x, y, z, w.
+/// Returns a rotation as a unit quaternion x, y, z, w.
 glm::dvec4 quaternion_of(const glm::dmat3& m) {
-    // Of its four squares the largest, so that nothing is divided by little.
+    // Of the four squared components the largest is used, to avoid dividing by a small number.
     const std::array<double, 4> squares = {
         1.0 + m[0][0] - m[1][1] - m[2][2], 1.0 - m[0][0] + m[1][1] - m[2][2],
         1.0 - m[0][0] - m[1][1] + m[2][2], 1.0 + m[0][0] + m[1][1] + m[2][2]};
@@ -144,9 +146,9 @@ glm::dvec4 quaternion_of(const glm::dmat3& m) {
     return row / std::sqrt(row.x * row.x + row.y * row.y + row.z * row.z + row.w * row.w);
 }
 
-/// One node for each individual, or for each model with all its likes.
-void stand_members(GlbScene& scene, const Colony& colony, const std::string& name,
-                   const std::vector<std::size_t>& mesh_of) {
+/// Adds one node for each member, or one instanced node for each model.
+void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& name,
+                      const std::vector<std::size_t>& mesh_of) {
     const bool gpu = colony.effective.instancing == Instancing::gpu;
     std::vector<std::size_t> node_of(colony.models.size(), scene.nodes.max_size());
     for (const ColonyMember& member : colony.members) {
@@ -174,7 +176,7 @@ void stand_members(GlbScene& scene, const Colony& colony, const std::string& nam
 Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
     const ColonyParams& params = order.params;
     const ColonyNature nature = colony_nature(order, atlas);
-    const Individual individual = typical(order, atlas, memo);
+    const Individual individual = typical_individual(order, atlas, memo);
     const ColonyRoots growth = growth_of(params, nature, fit_of(individual, nature));
     const auto count = static_cast<std::uint64_t>(params.count);
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
@@ -182,7 +184,7 @@ Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo
     double nodes = 0.0;
     if (nature.roots == RootsShown::shown) nodes += 1.2 * expected_root_nodes(growth) + 20.0;
     if (nature.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
-    // Where the number of nodes is by chance, the finer skin.
+    // Where the number of nodes is random, the level of the finer skin is assumed.
     const auto least =
         static_cast<std::size_t>(nature.roots == RootsShown::shown ? 0.6 * nodes : nodes);
     const double quads =
@@ -212,7 +214,7 @@ Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop
     const ColonyParams& params = order.params;
     workshop.observer(Step::resolve);
     const ColonyNature nature = colony_nature(order, atlas);
-    const Individual individual = typical(order, atlas, workshop.memo);
+    const Individual individual = typical_individual(order, atlas, workshop.memo);
     StemFit fit = fit_of(individual, nature);
     const double painted_length = fit.length;
 
@@ -220,37 +222,39 @@ Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop
     Colony colony;
     std::vector<ColonyModel> models;
     for (int which = 0; which < params.distinct; ++which) {
-        stop_if_asked(workshop);
+        throw_if_cancelled(workshop);
         const MushroomOrder own = individual_order(order, which);
         Individual one = resolve(own, atlas, workshop.memo.morphs);
-        // All wear the images of one mushroom, so that what is drawn by its seed stands where it is painted.
+        // All members use the images of one mushroom, so features drawn by its seed are where they
+        // are painted.
         one.effective.seed = params.seed;
-        // Whoever gives way does so at every level of detail alike.
-        const auto grown = [&](int lod, bool dressed) {
+        // Placement uses one level of detail, so that members are moved or skipped alike at every
+        // level.
+        const auto grown = [&](int lod, bool with_texture) {
             if (nature.capped)
-                return cap_mesh(
-                    one,
-                    {.lod = lod, .neck = std::max(params.cap_scale, 1.0), .textured = dressed});
-            Mesh mesh = body_mesh(one, lod, {.textured = dressed});
+                return cap_mesh(one, {.lod = lod,
+                                      .neck = std::max(params.cap_scale, 1.0),
+                                      .textured = with_texture});
+            Mesh mesh = body_mesh(one, lod, {.textured = with_texture});
             order_for_vertex_cache(mesh);
             return mesh;
         };
         colony.models.push_back(grown(own.params.lod, textured(order)));
         const Mesh& own_mesh = colony.models.back();
-        const Mesh near = own.params.lod == room_lod ? Mesh() : grown(room_lod, false);
-        const Mesh& judged = own.params.lod == room_lod ? own_mesh : near;
-        if (!nature.capped) fit = wide_enough(fit, judged, which == 0);
-        models.push_back({Room(judged), nature.capped ? stem_fit(one).radius : fit.radius});
+        const Mesh near = own.params.lod == placement_lod ? Mesh() : grown(placement_lod, false);
+        const Mesh& footprint_mesh = own.params.lod == placement_lod ? own_mesh : near;
+        if (!nature.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
+        models.push_back({Room(footprint_mesh), nature.capped ? stem_fit(one).radius : fit.radius});
     }
-    stop_if_asked(workshop);
+    throw_if_cancelled(workshop);
 
     const ColonyRoots growth = growth_of(params, nature, fit);
     const ColonySite site = colony_site(params, nature, growth, fit);
     colony.members = settled(site, models, params, nature);
-    const Skeleton limbs =
+    const Skeleton skeleton =
         colony_limbs(site, colony.members, params, nature, segments_of(growth, params.lod));
-    stop_if_asked(workshop);
-    colony.skin = colony_skin(limbs, {params.lod, painted_length, textured(order)});
+    throw_if_cancelled(workshop);
+    colony.skin = colony_skin(skeleton, {params.lod, painted_length, textured(order)});
     colony.effective = effective_params(params, nature, growth, fit);
     colony.junction = fit.radius;
 
@@ -282,7 +286,7 @@ Bounds bounds(const Colony& colony) {
     return box;
 }
 
-std::uint64_t drawn_triangles(const Colony& colony) {
+std::uint64_t instanced_triangles(const Colony& colony) {
     std::uint64_t triangles = colony.skin.triangles();
     for (const ColonyMember& member : colony.members)
         triangles += colony.models[member.model].triangles();
@@ -302,7 +306,7 @@ MushroomOrder paint_order(const ColonyOrder& order) {
 
 PaintRecipe paint_recipe(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
     PaintRecipe recipe = paint_recipe(paint_order(order), atlas, memo);
-    // The images' size is that of the colony's level of detail, what is painted on them that of its caps'.
+    // The resolution is that of the colony's level of detail, the painted detail that of its caps'.
     for (PaintShare& share : recipe)
         share.painting.side = order.params.texture_size >> order.params.lod;
     return recipe;
@@ -311,16 +315,16 @@ PaintRecipe paint_recipe(const ColonyOrder& order, const Atlas& atlas, const Mem
 Grown grow_colony(const ColonyOrder& order, const Atlas& atlas, const Extras& extras,
                   const Workshop& workshop) {
     const Colony colony = colony_parts(order, atlas, workshop);
-    const Individual individual = typical(order, atlas, workshop.memo);
+    const Individual individual = typical_individual(order, atlas, workshop.memo);
     const std::string name = name_of(individual);
     GlbMaterial material{.name = name, .look = look_of(individual.model)};
-    const auto images = wear_images(
+    const auto images = attach_images(
         material, order.params.textures, extras.image_addresses, workshop,
         [&] { return painted_images(paint_recipe(order, atlas, workshop.memo), workshop); });
     workshop.observer(Step::pack);
     GlbScene scene;
     scene.extras_json =
-        extras_json(extras, write(colony.effective), bounds(colony), drawn_triangles(colony));
+        extras_json(extras, write(colony.effective), bounds(colony), instanced_triangles(colony));
     scene.materials.push_back(material);
     if (!colony.skin.positions.empty()) {
         scene.nodes.push_back({.name = "stems"});
@@ -332,7 +336,7 @@ Grown grow_colony(const ColonyOrder& order, const Atlas& atlas, const Extras& ex
         mesh_of[i] = scene.meshes.size();
         scene.meshes.push_back({name + " " + std::to_string(i + 1), {{&colony.models[i], 0, {}}}});
     }
-    stand_members(scene, colony, name, mesh_of);
+    add_member_nodes(scene, colony, name, mesh_of);
     const Estimate e = measured(order, colony);
     return {glb(scene), e.vertices, e.triangles};
 }

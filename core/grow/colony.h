@@ -1,4 +1,4 @@
-// The recipe of a colony: an order in, a GLB out.
+// Pipeline of a colony: from a request to a GLB file.
 #pragma once
 
 #include <cstdint>
@@ -12,45 +12,46 @@
 
 namespace sporeprint {
 
-/// Number of vertices and triangles in the file (about, seldom less than there will be), texels and bytes. One individual is decided,
-/// nothing is built.
+/// Returns the approximate numbers of vertices and triangles in the file (seldom too low), texels
+/// and bytes. One individual is resolved, nothing is built.
 ///
-/// throws  as colony_nature(); Impossible ("/branch_distance") for roots of too many nodes
+/// throws  as colony_nature(); Impossible ("/branch_distance") for roots with too many nodes
 [[nodiscard]] Estimate estimate(const ColonyOrder& order, const Atlas& atlas,
                                 const Memo& memo = {});
 
 /// The parts of a colony; each mesh is stored once.
 struct Colony {
-    Mesh skin;                 ///< roots and stems; empty where there are none
-    std::vector<Mesh> models;  ///< caps, or whole individuals; those that nobody shows are empty
+    Mesh skin;                          ///< roots and stems; empty where there are none
+    std::vector<Mesh> models;           ///< caps or whole individuals; unused ones are empty
     std::vector<ColonyMember> members;  ///< their postures are those of the file
-    ColonyParams effective;  ///< every control at its value; asked for again, it is the same
+    ColonyParams effective;  ///< every parameter resolved; requesting it gives the same colony
     double junction = 0.0;   ///< radius of the stem at size 1 where caps are cut off
 };
 
-/// Grows the parts: `distinct` individuals of the mix, from the oldest to those of half its age, set on stems or stood whole.
+/// Builds the parts: `distinct` individuals of the mix, from the oldest to those of half its age,
+/// placed on stems or as whole mushrooms.
 ///
 /// throws  InvalidInput, Impossible, Cancelled
 [[nodiscard]] Colony colony_parts(const ColonyOrder& order, const Atlas& atlas,
                                   const Workshop& workshop = {});
 
-/// The estimate of an order whose parts are there: vertices and triangles are exact.
+/// Returns the estimate of a built colony, with exact vertex and triangle counts.
 [[nodiscard]] Estimate measured(const ColonyOrder& order, const Colony& colony);
 
-/// Box of all that a colony shows.
+/// Returns the bounding box of all instances of a colony.
 [[nodiscard]] Bounds bounds(const Colony& colony);
 
-/// Triangles that are drawn, those of likes each time.
-[[nodiscard]] std::uint64_t drawn_triangles(const Colony& colony);
+/// Returns the number of triangles drawn, counting every instance.
+[[nodiscard]] std::uint64_t instanced_triangles(const Colony& colony);
 
-/// The mushroom whose images all of a colony wears.
+/// Returns the spec of the mushroom whose images all members of a colony use.
 [[nodiscard]] MushroomOrder paint_order(const ColonyOrder& order);
 
-/// What painting them depends on.
+/// Returns everything that painting these images depends on.
 [[nodiscard]] PaintRecipe paint_recipe(const ColonyOrder& order, const Atlas& atlas,
                                        const Memo& memo = {});
 
-/// Grows a colony: one skin, a few caps, and a node for each individual; or an instanced node for each cap.
+/// Builds a colony: one skin, a few caps, and a node per individual, or an instanced node per cap.
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled

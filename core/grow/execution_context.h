@@ -1,4 +1,5 @@
-// What a recipe borrows from whoever calls it: memory, ears, hands and the right to be stopped.
+// What a pipeline needs from its caller: caches, a progress observer, a parallel executor and a
+// stop token.
 #pragma once
 
 #include <functional>
@@ -27,13 +28,13 @@ constexpr const char* name(Step step) {
     return nullptr;
 }
 
-/// Told when a step begins; holds the clock, which core does not.
+/// Called when a step begins. The caller measures time, core has no clock.
 using Observer = std::function<void(Step)>;
 
-/// Keeps what is expensive to make again, each kind by keys of its own.
+/// Caches of expensive results, each kind with its own keys.
 struct Memo {
     Remember<ImageSet> images = make_anew<ImageSet>;
-    Remember<RawImages> paintings = make_anew<RawImages>;  ///< what a mix dissolves
+    Remember<RawImages> paintings = make_anew<RawImages>;  ///< inputs of image blending
     Remember<MorphSet> morphs = make_anew<MorphSet>;       ///< correspondence of a set of species
 };
 
@@ -44,8 +45,8 @@ struct Workshop {
     std::stop_token stop;
 };
 
-/// throws  Cancelled if the workshop was asked to stop
-inline void stop_if_asked(const Workshop& workshop) {
+/// throws  Cancelled if a stop was requested
+inline void throw_if_cancelled(const Workshop& workshop) {
     if (workshop.stop.stop_requested()) throw Cancelled();
 }
 

@@ -14,7 +14,7 @@ namespace sporeprint {
 
 namespace {
 
-/// Runs the work on one frame; a refusal says which frame it is about.
+/// Runs the work for one frame; the message of an exception names the frame.
 template <class Work>
 auto at_age(double age, const Work& work) {
     try {
@@ -28,7 +28,8 @@ auto at_age(double age, const Work& work) {
 }
 
 MorphTarget difference(const Mesh& from, const Mesh& to, double age) {
-    // Equal topology is what the clip is about: places of features are drawn once, ages only move vertices.
+    // A clip requires equal topology: places of features are drawn once, and ages only move
+    // vertices.
     if (to.positions.size() != from.positions.size() || to.indices != from.indices)
         throw GenerationError("the mesh at age " + number_text(age) + " has other triangles");
     MorphTarget target{"age " + number_text(age), {}, {}};
@@ -57,7 +58,7 @@ GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas, const Mes
     growth.targets.resize(ages.size());
     std::vector<std::exception_ptr> faults(ages.size());
     std::vector<std::function<void()>> pieces;
-    // All ages are weights of one set.
+    // All ages are weights of one set, so the correspondence is looked up once.
     std::map<std::string, std::shared_ptr<const MorphSet>> sets;
     const Remember<MorphSet> morphs = [&](const std::string& key, const auto& make) {
         std::shared_ptr<const MorphSet>& set = sets[key];
@@ -68,11 +69,11 @@ GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas, const Mes
         const double age = ages[k];
         MushroomOrder frame = order;
         frame.params.age = age;
-        frame.params.textures = Textures::none;  // its texture coordinates are the base's
+        frame.params.textures = Textures::none;  // texture coordinates are those of the base mesh
         Individual individual = at_age(age, [&] { return resolve(frame, atlas, morphs); });
         pieces.emplace_back([&, k, age, frame, individual = std::move(individual)] {
             try {
-                stop_if_asked(workshop);
+                throw_if_cancelled(workshop);
                 growth.targets[k] = difference(
                     mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }), age);
             } catch (...) {
@@ -81,7 +82,7 @@ GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas, const Mes
         });
     }
     workshop.parallel(pieces);
-    // Of several faults the youngest frame's, however many hands were lent.
+    // Of several errors the one of the youngest frame is thrown, for any number of worker threads.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);
     growth.clip.name = name(Animation::growth);

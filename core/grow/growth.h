@@ -1,4 +1,5 @@
-// Growth as a clip: the same mushroom at several ages, as morph targets of the one at the age asked for.
+// Growth as an animation clip: the same mushroom at several ages, as morph targets of the requested
+// age.
 #pragma once
 
 #include <vector>
@@ -11,25 +12,27 @@
 
 namespace sporeprint {
 
-/// How long a life takes in a clip, seconds.
+/// Duration of a clip, seconds.
 inline constexpr double growth_seconds = 8.0;
 
 struct GrowthClip {
     std::vector<MorphTarget> targets;  ///< one per frame, youngest first
-    WeightClip clip;                   ///< one key per frame: that frame alone, in whole
+    WeightClip clip;                   ///< one key per frame: weight 1 for that frame alone
 };
 
-/// Ages of a clip's frames: evenly spaced, 0 and 1 included.
+/// Returns the ages of a clip's frames: evenly spaced, 0 and 1 included.
 ///
 /// frames   at least 2
 [[nodiscard]] std::vector<double> frame_ages(int frames);
 
-/// The frames of an order's clip as differences from its mesh. Between two frames a viewer shows their weighted mean; who
-/// plays nothing sees the mesh itself. Key k is at k / (frames - 1) * growth_seconds.
+/// Returns the frames of an order's clip as differences from its mesh. Between two frames a viewer
+/// shows their weighted mean; without playback it shows the mesh itself. Key k is at k / (frames -
+/// 1) * growth_seconds.
 ///
 /// order    with animation growth
 /// mesh     mushroom_mesh() of the order
-/// throws   Impossible if the order cannot be grown at one of the ages, which is told; Cancelled
+/// throws   Impossible if the order cannot be grown at one of the ages, which the message names;
+///          Cancelled
 /// cost     that of one mesh per frame
 [[nodiscard]] GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas,
                                      const Mesh& mesh, const Workshop& workshop);

@@ -10,7 +10,8 @@ namespace sporeprint {
 
 namespace {
 
-// Leaves are smooth between their veins: a sixth of a byte a texel as JPEG, and what three files begin with.
+// Leaves are smooth between their veins: about 1/6 byte per texel as JPEG, plus the headers of
+// three files.
 std::uint64_t image_bytes(std::uint64_t texels) { return texels / 6 + 1500; }
 
 }  // namespace
@@ -60,7 +61,7 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint, const Wor
         params.shape.venation = paint.venation;
         const RawImages images = leaf_images(shape_of(params), paint.palette, paint.autumn,
                                              paint.seed, paint.texture_size, workshop.parallel);
-        stop_if_asked(workshop);
+        throw_if_cancelled(workshop);
         return std::make_shared<const ImageSet>(encoded(images, workshop.parallel));
     });
 }
@@ -69,13 +70,13 @@ Grown grow_leaf(const LeafOrder& order, const Extras& extras, const Workshop& wo
     const LeafParams& params = order.params;
     workshop.observer(Step::build);
     const Mesh mesh = leaf_mesh(order);
-    stop_if_asked(workshop);
+    throw_if_cancelled(workshop);
     GlbParts parts{.name = order.preset.empty() ? "leaf" : order.preset,
                    .images = nullptr,
                    .image_addresses = {},
                    .extras_json = extras_json(extras, write(params), mesh)};
-    const auto images = wear_images(parts, params.textures, extras, workshop,
-                                    [&] { return painted_images(paint_of(params), workshop); });
+    const auto images = attach_images(parts, params.textures, extras, workshop,
+                                      [&] { return painted_images(paint_of(params), workshop); });
     workshop.observer(Step::pack);
     return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
 }

@@ -1,4 +1,4 @@
-// The recipe of a leaf: an order in, a GLB out.
+// Pipeline of a leaf: from a request to a GLB file.
 #pragma once
 
 #include <memory>
@@ -10,27 +10,28 @@
 
 namespace sporeprint {
 
-/// Number of vertices and triangles (at most), texels and bytes; nanoseconds.
+/// Returns upper bounds of vertices and triangles, texels and bytes; takes nanoseconds.
 [[nodiscard]] Estimate estimate(const LeafOrder& order);
 
-/// The mesh alone: root of the petiole at the origin, the limb along +z, its upper face up.
+/// Returns the mesh alone: base of the petiole at the origin, the lamina along +z, its upper face
+/// up.
 ///
 /// throws  InvalidInput
 [[nodiscard]] Mesh leaf_mesh(const LeafOrder& order);
 
-/// The estimate of an order whose mesh is there: vertices and triangles are exact.
+/// Returns the estimate of an order whose mesh is built, with exact vertex and triangle counts.
 [[nodiscard]] Estimate measured(const LeafOrder& order, const Mesh& mesh);
 
-/// Key of a leaf's images: equal keys, equal images.
+/// Returns the cache key of a leaf's images: equal keys, equal images.
 [[nodiscard]] std::string image_key(const LeafPaint& paint);
 
-/// The images, as the workshop's Memo remembers them or painted now.
+/// Returns the images, cached in workshop.memo or painted now.
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
                                                              const Workshop& workshop);
 
-/// Grows a leaf.
+/// Builds a leaf.
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled

@@ -33,7 +33,8 @@ MaterialLook look_of(const Model& model) {
     for (const Colour& colour : model.surface.cap.ramp)
         skin += light(colour) / static_cast<double>(model.surface.cap.ramp.size());
     MaterialLook look;
-    // Not a whole one: viewers lose light at the rim of a coat that is rough, as it is on a matt stem.
+    // The coat is at most 0.7, because viewers lose light at the rim of a rough coat, as on a matt
+    // stem.
     look.coat = 0.7 * (1.0 - (1.0 - material.slime) * (1.0 - 0.8 * model.weathering.wetness));
     look.sheen = material.velvet * (0.25 + 0.75 * skin);
     look.glow = model.ornaments.glow * light(material.glow_colour);
@@ -53,7 +54,7 @@ Estimate estimate(const MushroomOrder& order, const Individual& individual) {
     const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
     const std::uint64_t images = textured(order) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(order));
-    // Twenty years of JPEG: noisy paint takes about a third of a byte a texel.
+    // Noisy paint takes about 1/3 byte per texel as JPEG.
     e.bytes = estimated_bytes(e.vertices, e.triangles, order.params.textures, images / 3);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(order.params.frames);
@@ -87,7 +88,7 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
     const Individual individual = resolve(order, atlas, workshop.memo.morphs);
     workshop.observer(Step::build);
     const Mesh mesh = mushroom_mesh(order, individual);
-    stop_if_asked(workshop);
+    throw_if_cancelled(workshop);
     GlbParts parts{.name = name_of(individual),
                    .images = nullptr,
                    .image_addresses = {},
@@ -99,7 +100,7 @@ Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Ext
         parts.targets = growth.targets;
         parts.clip = &growth.clip;
     }
-    const auto images = wear_images(parts, order.params.textures, extras, workshop, [&] {
+    const auto images = attach_images(parts, order.params.textures, extras, workshop, [&] {
         return painted_images(paint_recipe(order, atlas, workshop.memo), workshop);
     });
     workshop.observer(Step::pack);

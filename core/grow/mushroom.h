@@ -1,4 +1,5 @@
-// The recipe of a mushroom: an order in, a GLB out. This is how core is used as a library.
+// Pipeline of a mushroom: from a request to a GLB file. This is the entry point of core as a
+// library.
 #pragma once
 
 #include "core/atlas/atlas.h"
@@ -10,32 +11,37 @@
 
 namespace sporeprint {
 
-/// Number of vertices (exact), triangles (at most), texels and bytes; microseconds, allocates nothing large.
+/// Returns the number of vertices (exact), triangles (at most), texels and bytes. Takes
+/// microseconds and allocates nothing large.
 [[nodiscard]] Estimate estimate(const MushroomOrder& order, const Individual& individual);
 [[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas,
                                 const Memo& memo = {});
 
-/// The mesh of an individual of either family, its triangles not yet in an order of their own.
+/// Returns the mesh of a swept or branched individual, with triangles not yet reordered for the
+/// vertex cache.
 ///
 /// throws  as swept_mesh() and branched_mesh()
 [[nodiscard]] Mesh body_mesh(const Individual& individual, int lod,
                              const SweepOptions& options = {});
 
-/// What body_mesh() comes to: vertices exactly, triangles at most, and exactly for what branches.
+/// Returns the counts of body_mesh(): vertices exactly; triangles at most, and exactly for branched
+/// individuals.
 [[nodiscard]] MeshCount body_count(const Individual& individual, int lod, bool keep_absent = true);
 
-/// The mesh alone.
+/// Returns the mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
 
-/// What it is called in a file: the species with the most weight, so that the order of a mix changes nothing.
+/// Returns the name in a file: the species with the largest weight, so that the order of a mix does
+/// not matter.
 [[nodiscard]] std::string name_of(const Individual& individual);
 
-/// What the file says of light beyond its images. Slime and water are a clear coat; hairs shine in the cap's own colours.
+/// Returns the material beyond its images. Slime and water are a clear coat; velvet shines in the
+/// cap's own colours.
 [[nodiscard]] MaterialLook look_of(const Model& model);
 
 using Mushroom = Grown;
 
-/// Grows a mushroom.
+/// Builds a mushroom.
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, GenerationError, Cancelled

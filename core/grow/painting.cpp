@@ -17,7 +17,8 @@ namespace {
 
 constexpr int whole = 64;
 
-// Whole parts of `total` that the weights come to, by largest remainder; of equals the first.
+// Returns integer parts of `total` in proportion to the weights, by largest remainder; of equal
+// remainders the first wins.
 std::vector<int> apportioned(const std::vector<int>& weights, int total) {
     const int sum = std::accumulate(weights.begin(), weights.end(), 0);
     std::vector<int> parts;
@@ -41,45 +42,45 @@ std::vector<int> weights_of(const Mix& mix) {
 
 bool has_blades(const Model& model) { return is_bladed(model.surface.hymenium.pattern); }
 
-// Of a species' sixty-fourths in a mix, how many are painted with its blades where they stand when it is alone: none up to three
-// quarters, all when it is alone, without a step between.
-int with_own_comb(int part) {
+// Returns how many of a species' sixty-fourths in a mix are painted with its own gill layout: none
+// up to three quarters, all at weight 1, continuously between.
+int own_layout_share(int part) {
     constexpr int from = 48, span = whole - from;
     const int over = std::max(0, part - from);
-    // part * smooth_step in whole numbers, rounded.
+    // part * smooth_step in integers, rounded.
     const int share = over * over * (3 * span - 2 * over);
     return (part * share + span * span * span / 2) / (span * span * span);
 }
 
-// The lengths and the lightness of one species at the age and variation of an order, alone.
-struct Lone {
+// Lengths and lightness of one species alone, at the age and variation of an order.
+struct SpeciesPaint {
     SurfaceMetrics metrics;
     double lightness = 1.0;
 };
 
-Lone lone(const MushroomOrder& stepped, const std::string& id, const Atlas& atlas,
-          const Memo& memo) {
+SpeciesPaint species_paint(const MushroomOrder& stepped, const std::string& id, const Atlas& atlas,
+                           const Memo& memo) {
     MushroomOrder order;
     order.model = stepped.model;
     if (!order.model) order.mix = {{id, 1000}};
     order.params.seed = stepped.params.seed;
     order.params.age = stepped.params.age;
     order.params.variation = stepped.params.variation;
-    order.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks know strain
+    order.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks use strain
     const Individual individual = resolve(order, atlas, memo.morphs);
-    Lone found{surface_metrics(individual), individual.lightness};
-    // Steps of lengths are steps of size.
+    SpeciesPaint found{surface_metrics(individual), individual.lightness};
+    // Lengths are quantised in the same steps as size, so scaling is an addition of steps.
     const int larger = quantised_length(stepped.params.size);
     SurfaceMetrics::fields([&](auto length, const Info& info) {
         found.metrics.*length = std::clamp(found.metrics.*length + larger,
                                            static_cast<int>(info.min), static_cast<int>(info.max));
     });
-    found.metrics.radial_strain = surface_metrics(individual).radial_strain;  // no length
+    found.metrics.radial_strain = surface_metrics(individual).radial_strain;  // not a length
     return found;
 }
 
-// Limbs wear the cap's chart from their tips down: its meridian is the way from the lowest fork to the highest tip, its girth that of
-// the limb between.
+// Branches use the chart of the cap from their tips down: its meridian is the path from the lowest
+// fork to the highest tip, its girth the mean one of segments.
 SurfaceMetrics surface_metrics(const Bush& bush) {
     double girth = 0.0, weight = 0.0;
     for (const Bush::Node& node : bush.nodes) {
@@ -96,11 +97,11 @@ SurfaceMetrics surface_metrics(const Bush& bush) {
     return metrics;
 }
 
-// Clears each override of `asked` that is not set in `effective`: what the species cannot have.
+// Clears each override that is not set in `effective`, because no species can have it.
 template <class T>
-void keep_possible(T& asked, const T& effective) {
+void keep_possible(T& overrides, const T& effective) {
     T::fields([&](auto member, const Info&) {
-        if (!(effective.*member)) (asked.*member).reset();
+        if (!(effective.*member)) (overrides.*member).reset();
     });
 }
 
@@ -179,9 +180,9 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
     std::vector<std::pair<std::string, PaintShare>> shares;
     for (std::size_t i = 0; i < individual.parts.size(); ++i) {
         const Model& model = individual.parts[i].model;
-        const Lone alone = lone(stepped, individual.parts[i].id, atlas, memo);
+        const SpeciesPaint alone = species_paint(stepped, individual.parts[i].id, atlas, memo);
         PaintShare share;
-        // Parts stand by id, whatever the order of the mix.
+        // Parts are sorted by id, whatever the order of the mix.
         for (std::size_t k = 0; k < stepped.mix.size(); ++k)
             if (stepped.mix[k].id == individual.parts[i].id) share.sixty_fourths = parts[k];
         PaintParams& painting = share.painting;
@@ -191,7 +192,8 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.metrics = alone.metrics;
         painting.surface = model.surface;
         painting.hymenium = model.hymenium;
-        // What shapes blades and shows in no image copies none.
+        // Parameters that shape blades but show in no image are reset, so that they cause no other
+        // key.
         const HymeniumOf<Plain> unshaped;
         painting.hymenium.inner_depth = unshaped.inner_depth;
         painting.hymenium.notch = unshaped.notch;
@@ -204,13 +206,14 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
         painting.ornaments = {model.ornaments.warts, model.ornaments.scales};
         painting.slime = model.material.slime;
-        // Hairs do not shine by themselves.
+        // Velvet is rough: its shine is in the material.
         double& roughness = painting.surface.cap.roughness;
         roughness += model.material.velvet * (0.95 - roughness);
         painting.weathering = painted_of(model.weathering);
-        // A species on whose comb all stand is painted as if it were alone.
-        const bool elsewhere = has_blades(model) && model.hymenium.blades != comb;
-        const int own = elsewhere ? with_own_comb(share.sixty_fourths) : share.sixty_fourths;
+        // A species with the common gill layout is painted as if it were alone.
+        const bool on_common_layout = has_blades(model) && model.hymenium.blades != comb;
+        const int own =
+            on_common_layout ? own_layout_share(share.sixty_fourths) : share.sixty_fourths;
         const int common = share.sixty_fourths - own;
         if (own > 0) {
             share.sixty_fourths = own;
@@ -237,8 +240,8 @@ int atlases_held(const MushroomOrder& order) {
     const Mix mix = surface_mix(order.mix);
     if (mix.size() < 2) return 1;
     const std::vector<int> parts = apportioned(weights_of(mix), whole);
-    const bool twice = with_own_comb(*std::max_element(parts.begin(), parts.end())) > 0;
-    return static_cast<int>(mix.size()) + (twice ? 2 : 1);
+    const bool has_own_layout = own_layout_share(*std::max_element(parts.begin(), parts.end())) > 0;
+    return static_cast<int>(mix.size()) + (has_own_layout ? 2 : 1);
 }
 
 int atlases_held(const PaintRecipe& recipe) {
@@ -257,7 +260,7 @@ std::string image_key(const PaintRecipe& recipe) {
 
 std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
                                                const Workshop& workshop) {
-    const auto dissolved = [&] {
+    const auto blended = [&] {
         std::vector<const PaintParams*> params;
         std::vector<double> weights;
         for (const PaintShare& share : recipe) {
@@ -279,10 +282,11 @@ std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
             }));
             raw.push_back(paintings.back().get());
         }
-        return std::make_shared<const ImageSet>(blend_images(raw, weights, workshop.parallel, params));
+        return std::make_shared<const ImageSet>(
+            blend_images(raw, weights, workshop.parallel, params));
     };
     return workshop.memo.images(image_key(recipe), [&]() -> std::shared_ptr<const ImageSet> {
-        if (recipe.size() > 1) return dissolved();
+        if (recipe.size() > 1) return blended();
         return std::make_shared<const ImageSet>(paint(recipe.front().painting, workshop.parallel));
     });
 }

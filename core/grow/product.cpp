@@ -9,7 +9,8 @@ namespace sporeprint {
 namespace {
 
 Value corner(const glm::vec3& p) {
-    // As the float's own shortest text would read: widened, then cut to what a float holds.
+    // The value is the float widened to double, so that its text is that of the float's exact
+    // value.
     Value list = Value::array();
     for (const float x : {p.x, p.y, p.z}) list.push(Value(static_cast<double>(x)));
     return list;
@@ -41,7 +42,7 @@ std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh)
     return extras_json(extras, std::move(effective), bounds(mesh), mesh.triangles());
 }
 
-std::shared_ptr<const ImageSet> wear_images(
+std::shared_ptr<const ImageSet> attach_images(
     GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
     const Workshop& workshop, const std::function<std::shared_ptr<const ImageSet>()>& paint) {
     std::shared_ptr<const ImageSet> images;
@@ -49,7 +50,7 @@ std::shared_ptr<const ImageSet> wear_images(
         workshop.observer(Step::paint);
         images = paint();
         material.images = images.get();
-        stop_if_asked(workshop);
+        throw_if_cancelled(workshop);
     } else if (textures == Textures::linked) {
         if (addresses[0].empty())
             throw Impossible(
@@ -60,11 +61,11 @@ std::shared_ptr<const ImageSet> wear_images(
     return images;
 }
 
-std::shared_ptr<const ImageSet> wear_images(
+std::shared_ptr<const ImageSet> attach_images(
     GlbParts& parts, Textures textures, const Extras& extras, const Workshop& workshop,
     const std::function<std::shared_ptr<const ImageSet>()>& paint) {
     GlbMaterial material;
-    auto images = wear_images(material, textures, extras.image_addresses, workshop, paint);
+    auto images = attach_images(material, textures, extras.image_addresses, workshop, paint);
     parts.images = material.images;
     parts.image_addresses = material.image_addresses;
     return images;

@@ -19,31 +19,31 @@ std::vector<OutlineSample> scaled(std::vector<OutlineSample> rings, double size)
     return rings;
 }
 
-LimbShape limb_of(const Bush& bush, const Bush::Node& node) {
-    const glm::dvec3 bearer =
+LimbShape segment_of(const Bush& bush, const Bush::Node& node) {
+    const glm::dvec3 parent_end =
         node.parent == Bush::none ? glm::dvec3(0.0) : bush.nodes[node.parent].place;
-    const glm::dvec3 start = bearer + node.beside;
+    const glm::dvec3 start = parent_end + node.beside;
     return {{start.x, start.y, start.z},
             {node.place.x, node.place.y, node.place.z},
             node.radius,
             node.presence};
 }
 
-std::vector<LimbPair> limbs_of(const Bush& a, const Bush& b) {
-    std::vector<LimbPair> limbs;
-    limbs.reserve(a.nodes.size());
+std::vector<LimbPair> segment_pairs_of(const Bush& a, const Bush& b) {
+    std::vector<LimbPair> segments;
+    segments.reserve(a.nodes.size());
     for (std::uint32_t i = 0; i < a.nodes.size(); ++i) {
         const Bush::Node& node = a.nodes[i];
-        LimbPair limb;
+        LimbPair segment;
         if (node.parent != Bush::none) {
-            limb.bearer = static_cast<int>(node.parent);
-            limb.goes_on = a.nodes[node.parent].children[0] == i;
+            segment.bearer = static_cast<int>(node.parent);
+            segment.goes_on = a.nodes[node.parent].children[0] == i;
         }
-        limb.a = limb_of(a, node);
-        limb.b = limb_of(b, b.nodes[i]);
-        limbs.push_back(limb);
+        segment.a = segment_of(a, node);
+        segment.b = segment_of(b, b.nodes[i]);
+        segments.push_back(segment);
     }
-    return limbs;
+    return segments;
 }
 
 }  // namespace
@@ -56,10 +56,10 @@ SpeciesMorph species_morph(const std::array<std::string, 2>& species, double age
     order.params.age = age;
     const AtlasEntry* first = atlas.find(species[0]);
     if (first && std::holds_alternative<Branched>(first->species.stages.front().model.shape)) {
-        std::vector<Bush> bushes = species_bushes(order, atlas);
-        if (species[1] < species[0]) std::swap(bushes[0], bushes[1]);  // they stand by id
+        std::vector<Bush> graphs = species_bushes(order, atlas);
+        if (species[1] < species[0]) std::swap(graphs[0], graphs[1]);  // sorted by id
         SpeciesMorph morph;
-        morph.limbs = limbs_of(bushes[0], bushes[1]);
+        morph.limbs = segment_pairs_of(graphs[0], graphs[1]);
         return morph;
     }
     const SpeciesShapes shapes = species_shapes(order, atlas, workshop.memo.morphs);
@@ -75,7 +75,7 @@ SpeciesMorph species_morph(const std::array<std::string, 2>& species, double age
                 scaled(outline.rings(curve, 0), shapes.sizes[side]);
     }
     morph.certificate = shapes.set->certificate(shapes.weights[0], shapes.weights[1]);
-    if (species[1] < species[0]) {  // the set stands by id
+    if (species[1] < species[0]) {  // the set is sorted by id
         std::swap(morph.outlines[0], morph.outlines[1]);
         for (Arc& arc : morph.arcs) std::swap(arc.a, arc.b);
     }

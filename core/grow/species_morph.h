@@ -1,4 +1,5 @@
-// The recipe of a correspondence: what of one species becomes what of another, as a picture shows it.
+// Pipeline of a correspondence between two species, for diagrams: which parts of one become which
+// parts of the other.
 #pragma once
 
 #include <array>
@@ -13,7 +14,7 @@
 
 namespace sporeprint {
 
-/// A limb of one species.
+/// A segment of one species' branch graph.
 struct LimbShape {
     std::array<double, 3> start{}, end{};
     double radius = 0.0, presence = 0.0;
@@ -34,7 +35,7 @@ struct LimbShape {
     bool operator==(const LimbShape&) const = default;
 };
 
-/// A limb that two species have in common.
+/// A segment that two species have in common.
 struct LimbPair {
     int bearer = -1;
     bool goes_on = true;
@@ -56,7 +57,7 @@ struct LimbPair {
     bool operator==(const LimbPair&) const = default;
 };
 
-/// What is known about the bushes between two.
+/// What is known about the branch graphs between two species.
 struct LimbCertificate {
     bool matched = true;
     bool checked = false;
@@ -75,19 +76,20 @@ struct LimbCertificate {
     bool operator==(const LimbCertificate&) const = default;
 };
 
-/// Two species of one age, each as its template is: no individual's own proportions. Of what branches only the limbs are told, those of
-/// seed 1, of the others only outlines.
+/// Two species of one age, each as its template defines it, without individual variation. Branched
+/// species have only segments, those of seed 1; swept species only outlines.
 struct SpeciesMorph {
-    /// [species][CurveName] rings at LOD 0, metres: ring k of one species becomes ring k of the other.
+    /// [species][CurveName] rings at LOD 0, metres: ring k of one species corresponds to ring k of
+    /// the other.
     std::array<std::array<std::vector<OutlineSample>, 3>, 2> outlines;
-    std::vector<Arc> arcs;  ///< some of what belongs together; the ends of sub-curves do anyway
-    Certificate
-        certificate;  ///< whether an outline on the way between the two touches itself, at any level of detail
-    std::vector<LimbPair> limbs;  ///< bearers first
+    std::vector<Arc> arcs;  ///< a sample of corresponding points, besides ends of sub-curves
+    /// Whether an intermediate outline intersects itself at any level of detail.
+    Certificate certificate;
+    std::vector<LimbPair> limbs;  ///< parents first
     LimbCertificate limb_certificate;
 };
 
-/// Finds what belongs together.
+/// Computes the correspondence of two species.
 ///
 /// species  two different ids of one family, in any order
 /// throws   InvalidInput, Impossible; Cancelled

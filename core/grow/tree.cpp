@@ -16,10 +16,10 @@ namespace sporeprint {
 
 namespace {
 
-// Seed of the images of bark.
+// One seed for the images of bark, so that all trees of a style share them.
 constexpr std::uint32_t bark_seed = 1;
 
-// Bark is rough: a quarter of a byte a texel as JPEG; leaves are smooth between their veins.
+// Bark is rough: 1/4 byte per texel as JPEG; leaves are smoother. 1/5 is between both.
 std::uint64_t image_bytes(std::uint64_t texels) { return texels / 5 + 3000; }
 
 std::uint64_t texels_of(const TreeParams& params) {
@@ -37,7 +37,7 @@ void finish(Mesh& mesh, const TreeParams& params) {
     order_for_vertex_cache(mesh);
 }
 
-// Parameters that are each allowed may together carry branches beyond what a skin is made of.
+// Throws Impossible when parameters that are each in range together exceed the bounds of a skeleton.
 void refuse_beyond_bounds(const Tree& tree) {
     const std::vector<Problem> faults = faults_of(tree.skeleton);
     if (faults.empty()) return;
@@ -49,8 +49,8 @@ void refuse_beyond_bounds(const Tree& tree) {
             faults.front().message);
 }
 
-// What is left of the leaves at a level of detail. From afar a leaf stands for others about its place: it grows about its middle,
-// not away from its twig.
+// Returns the leaves that remain at a level of detail. At coarse levels a leaf represents others
+// near it: it is enlarged about its middle, not away from its twig.
 std::vector<PlacedLeaf> leaves_of(const Tree& tree, const TreeParams& params) {
     const std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
     std::vector<PlacedLeaf> left =
@@ -103,7 +103,7 @@ Estimate estimate(const TreeOrder& order) {
 TreeMeshes tree_meshes(const TreeOrder& order) {
     const TreeParams& params = order.params;
     require_valid(params);
-    static_cast<void>(estimate(order));  // refuses what is too much
+    static_cast<void>(estimate(order));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
     refuse_beyond_bounds(tree);
     TreeMeshes meshes{bark_of(tree, params.lod), {}};
@@ -131,7 +131,7 @@ std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint, const Wor
     return workshop.memo.images(image_key(paint), [&] {
         const RawImages images =
             bark_images(paint.bark, bark_seed, paint.texture_size, workshop.parallel);
-        stop_if_asked(workshop);
+        throw_if_cancelled(workshop);
         return std::make_shared<const ImageSet>(encoded(images, workshop.parallel));
     });
 }
@@ -141,7 +141,7 @@ Grown grow_tree(const TreeOrder& order, const Extras& extras, const ImageAddress
     const TreeParams& params = order.params;
     workshop.observer(Step::build);
     const TreeMeshes meshes = tree_meshes(order);
-    stop_if_asked(workshop);
+    throw_if_cancelled(workshop);
     const std::string name = order.preset.empty() ? "tree" : order.preset;
     GlbScene scene;
     scene.materials.push_back({.name = "bark", .goes_round = true});
@@ -153,13 +153,13 @@ Grown grow_tree(const TreeOrder& order, const Extras& extras, const ImageAddress
         scene.meshes[0].primitives.push_back({&meshes.leaves, 1, {}});
     }
     const auto bark_images =
-        wear_images(scene.materials[0], params.textures, extras.image_addresses, workshop,
-                    [&] { return painted_images(paint_of(params), workshop); });
+        attach_images(scene.materials[0], params.textures, extras.image_addresses, workshop,
+                      [&] { return painted_images(paint_of(params), workshop); });
     std::shared_ptr<const ImageSet> leaf_images;
     if (leafy)
         leaf_images =
-            wear_images(scene.materials[1], params.textures, leaf_addresses, workshop,
-                        [&] { return painted_images(paint_of(leaf_of(params)), workshop); });
+            attach_images(scene.materials[1], params.textures, leaf_addresses, workshop,
+                          [&] { return painted_images(paint_of(leaf_of(params)), workshop); });
     workshop.observer(Step::pack);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes), meshes.triangles());
     return {glb(scene), meshes.vertices(), meshes.triangles()};

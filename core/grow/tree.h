@@ -1,4 +1,4 @@
-// The recipe of a tree: an order in, a GLB out.
+// Pipeline of a tree: from a request to a GLB file.
 #pragma once
 
 #include <memory>
@@ -10,15 +10,16 @@
 
 namespace sporeprint {
 
-/// Number of vertices and triangles, texels and bytes, a little more than it will come to; microseconds. Of a tree that is drawn freely, about
-/// those of the mean.
+/// Returns slightly high estimates of vertices and triangles, texels and bytes; takes microseconds.
+/// For a sampled topology the expected numbers are used.
 ///
-/// order   with nothing that check() finds
-/// throws  Impossible (path "/order") naming the expected number of more than most_tips, (path "/leaves/per_tip") of more than
-///         most_leaves, (path "/twig_length") of limbs too long for their radius
+/// order   with nothing that check() reports
+/// throws  Impossible (path "/order") naming the expected number if it exceeds most_tips, (path
+///         "/leaves/per_tip") if it exceeds most_leaves, (path "/twig_length") for segments too
+///         long for their radius
 [[nodiscard]] Estimate estimate(const TreeOrder& order);
 
-/// What a tree is made of; each part is one draw call. Without leaves the second is empty.
+/// The meshes of a tree; each is one draw call. `leaves` is empty for a bare tree.
 struct TreeMeshes {
     Mesh bark, leaves;
 
@@ -28,30 +29,31 @@ struct TreeMeshes {
     [[nodiscard]] std::size_t triangles() const { return bark.triangles() + leaves.triangles(); }
 };
 
-/// The meshes alone: the foot of the trunk at the origin.
+/// Returns the meshes alone: the base of the trunk is at the origin.
 ///
 /// throws  InvalidInput, Impossible
 [[nodiscard]] TreeMeshes tree_meshes(const TreeOrder& order);
 
-/// Box of both parts.
+/// Returns the bounding box of both meshes.
 [[nodiscard]] Bounds bounds(const TreeMeshes& meshes);
 
-/// The estimate of an order whose meshes are there: vertices and triangles are exact.
+/// Returns the estimate of an order whose meshes are built, with exact vertex and triangle counts.
 [[nodiscard]] Estimate measured(const TreeOrder& order, const TreeMeshes& meshes);
 
-/// Key of the images of bark: equal keys, equal images.
+/// Returns the cache key of the images of bark: equal keys, equal images.
 [[nodiscard]] std::string image_key(const TreePaint& paint);
 
-/// The images of bark, as the workshop's Memo remembers them or painted now.
+/// Returns the images of bark, cached in workshop.memo or painted now.
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
                                                              const Workshop& workshop);
 
-/// Grows a tree: one mesh of two primitives, bark and leaves, in two materials.
+/// Builds a tree: one mesh of two primitives, bark and leaves, with two materials.
 ///
-/// leaf_addresses  of the images of its leaves, for Textures::linked; those of extras are of bark
-/// returns  the GLB as shared slices: header with JSON, geometry of bark and leaves, images of bark and leaves
+/// leaf_addresses  URLs of the images of its leaves, for Textures::linked; those of `extras` are of
+///                 the bark
+/// returns  the GLB as shared slices: header with JSON, geometry and images of bark and leaves
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
 [[nodiscard]] Grown grow_tree(const TreeOrder& order, const Extras& extras = {},
                               const ImageAddresses& leaf_addresses = {},

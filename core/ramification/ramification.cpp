@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::uint32_t none = Ramification::none;
 
-// Side branches per fork by how many orders they lie below, as measured on trees of 400,000 nodes; beyond the last a third each.
+// Side branches per fork by the number of orders between, measured on trees of 400,000 nodes;
+// beyond the last a third each.
 constexpr std::array<double, 5> increasing_sides = {0.842, 0.582, 0.268, 0.102, 0.034};
 
 RamificationMatrix self_similar(int order, const auto& sides) {
@@ -52,30 +53,33 @@ std::uint32_t appended(Ramification& tree, std::uint32_t parent, int order) {
     return node;
 }
 
-// What the deck of an order holds: segments, each of which ends in a fork, and the side branches to deal over them.
-struct Deck {
+// Numbers for one order: segments, each of which ends in a fork, and the side branches to
+// distribute over them.
+struct OrderCounts {
     double segments = 0.0;
     std::vector<double> sides;  ///< by order - 1
 };
 
-// Decks of orders 1..order, as index. Numbers are whole, but may be beyond those that fit an integer.
-std::vector<Deck> decks_of(const RamificationMatrix& matrix, int order) {
-    std::vector<Deck> decks(static_cast<std::size_t>(order) + 1);
-    decks[static_cast<std::size_t>(order)].segments = 1.0;
+// Returns the numbers for orders 1..order, as index. They are integers, but may exceed the range of
+// an integer type.
+std::vector<OrderCounts> counts_by_order(const RamificationMatrix& matrix, int order) {
+    std::vector<OrderCounts> counts(static_cast<std::size_t>(order) + 1);
+    counts[static_cast<std::size_t>(order)].segments = 1.0;
     for (int k = order; k >= 2; --k) {
-        Deck& deck = decks[static_cast<std::size_t>(k)];
-        const double nodes = deck.segments / matrix.fork(k);
-        decks[static_cast<std::size_t>(k - 1)].segments += 2.0 * deck.segments;
+        OrderCounts& count_of_order = counts[static_cast<std::size_t>(k)];
+        const double nodes = count_of_order.segments / matrix.fork(k);
+        counts[static_cast<std::size_t>(k - 1)].segments += 2.0 * count_of_order.segments;
         for (int i = 1; i < k; ++i) {
             const double side = std::floor(matrix.at(k, i) * nodes + 0.5);
-            deck.sides.push_back(side);
-            decks[static_cast<std::size_t>(i)].segments += side;
+            count_of_order.sides.push_back(side);
+            counts[static_cast<std::size_t>(i)].segments += side;
         }
     }
-    return decks;
+    return counts;
 }
 
-// Grows one tree below `root`; false as soon as there are more than `most` leaves and unfinished nodes.
+// Grows one tree below `root`; returns false as soon as there are more than `most` leaves and
+// unfinished nodes.
 bool grow(Ramification& tree, std::uint32_t root, const RamificationMatrix& matrix, Random& random,
           std::size_t most) {
     std::vector<std::uint32_t> open = {root};
@@ -193,8 +197,8 @@ double expected_leaves(const RamificationMatrix& matrix, int order) {
     return leaves.back();
 }
 
-Ramification grown_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
-                                std::size_t most) {
+Ramification sampled_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
+                                  std::size_t most) {
     refuse_faults(matrix, order);
     Random random(seed, purposes::grown_ramification);
     Ramification tree;
@@ -203,48 +207,49 @@ Ramification grown_ramification(const RamificationMatrix& matrix, int order, std
     return tree;
 }
 
-double dealt_leaves(const RamificationMatrix& matrix, int order) {
-    return decks_of(matrix, order)[1].segments;
+double exact_leaves(const RamificationMatrix& matrix, int order) {
+    return counts_by_order(matrix, order)[1].segments;
 }
 
-Ramification dealt_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
+Ramification exact_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
                                 std::size_t most) {
     refuse_faults(matrix, order);
-    const std::vector<Deck> decks = decks_of(matrix, order);
-    if (decks[1].segments > static_cast<double>(most)) refuse_size(decks[1].segments, most);
+    const std::vector<OrderCounts> counts = counts_by_order(matrix, order);
+    if (counts[1].segments > static_cast<double>(most)) refuse_size(counts[1].segments, most);
     Ramification tree;
-    // Roots of the segments of each order that are still to be dealt.
+    // Root nodes of the segments of each order that are still to be grown.
     std::vector<std::vector<std::uint32_t>> roots(static_cast<std::size_t>(order) + 1);
     roots[static_cast<std::size_t>(order)].push_back(appended(tree, none, order));
     for (int k = order; k >= 2; --k) {
         std::vector<std::uint32_t>& segments = roots[static_cast<std::size_t>(k)];
-        std::vector<int> cards;
+        std::vector<int> side_orders;
         for (int i = 1; i < k; ++i) {
             const double count =
-                decks[static_cast<std::size_t>(k)].sides[static_cast<std::size_t>(i - 1)];
-            cards.insert(cards.end(), static_cast<std::size_t>(count), i);
+                counts[static_cast<std::size_t>(k)].sides[static_cast<std::size_t>(i - 1)];
+            side_orders.insert(side_orders.end(), static_cast<std::size_t>(count), i);
         }
         Random random(seed, purposes::dealt_ramification, static_cast<std::uint32_t>(k));
-        for (std::size_t i = cards.size(); i > 1; --i) {
+        for (std::size_t i = side_orders.size(); i > 1; --i) {
             const double drawn = random.uniform();
-            std::swap(cards[i - 1],
-                      cards[static_cast<std::size_t>(drawn * static_cast<double>(i))]);
+            std::swap(side_orders[i - 1],
+                      side_orders[static_cast<std::size_t>(drawn * static_cast<double>(i))]);
         }
-        // Every way to lay the cards between the ends of the segments is equally likely: ends are dealt among the cards. Of what
-        // is left a place is an end as often as there are ends left in it, and the last place is one.
-        std::size_t segment = 0, card = 0;
+        // Every arrangement of side branches between the ends of the segments is equally likely.
+        // Ends are distributed among them: a place is an end with the probability of the remaining
+        // ends among the remaining places, and the last place is one.
+        std::size_t segment = 0, next_side = 0;
         std::uint32_t tip = segments.empty() ? none : segments.front();
         while (segment < segments.size()) {
-            const std::size_t cards_left = cards.size() - card;
+            const std::size_t sides_left = side_orders.size() - next_side;
             const std::size_t ends_left = segments.size() - segment - 1;
-            bool is_end = cards_left == 0;
+            bool is_end = sides_left == 0;
             if (!is_end && ends_left > 0) {
                 const double drawn = random.uniform();
-                is_end = drawn * static_cast<double>(cards_left + ends_left) <
+                is_end = drawn * static_cast<double>(sides_left + ends_left) <
                          static_cast<double>(ends_left);
             }
             const int greater = is_end ? k - 1 : k;
-            const int lesser = is_end ? k - 1 : cards[card];
+            const int lesser = is_end ? k - 1 : side_orders[next_side];
             const std::uint32_t first = appended(tree, tip, greater);
             const std::uint32_t second = appended(tree, tip, lesser);
             tree.nodes[tip].children = {first, second};
@@ -254,7 +259,7 @@ Ramification dealt_ramification(const RamificationMatrix& matrix, int order, std
                 if (++segment < segments.size()) tip = segments[segment];
             } else {
                 tip = first;
-                ++card;
+                ++next_side;
             }
         }
     }
@@ -277,7 +282,7 @@ Ramification with_tips(const Ramification& tree, const RamificationMatrix& tips,
             refuse_size(static_cast<double>(tree.leaves()) * mean, most);
         }
     }
-    // Orders above the tips follow from theirs; children come after their parents.
+    // Orders above the tips follow from those of the tips; children come after their parents.
     for (std::size_t i = before; i > 0; --i) {
         Ramification::Node& node = grown.nodes[i - 1];
         if (tree.leaf(static_cast<std::uint32_t>(i - 1))) continue;

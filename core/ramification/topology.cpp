@@ -67,7 +67,7 @@ RamificationMatrix matrix_of(const TreeTopology& topology) {
 double expected_tips(const TreeTopology& topology) {
     const RamificationMatrix matrix = matrix_of(topology);
     const double leaves = topology.growth == TreeGrowth::dealt
-                              ? dealt_leaves(matrix, topology.order)
+                              ? exact_leaves(matrix, topology.order)
                               : expected_leaves(matrix, topology.order);
     double mean = 0.0;
     for (int k = 1; k <= topology.tip_order; ++k)
@@ -78,8 +78,8 @@ double expected_tips(const TreeTopology& topology) {
 Ramification ramified(const TreeTopology& topology, std::uint32_t seed, std::size_t most) {
     const RamificationMatrix matrix = matrix_of(topology);
     Ramification grown = topology.growth == TreeGrowth::dealt
-                             ? dealt_ramification(matrix, topology.order, seed, most)
-                             : grown_ramification(matrix, topology.order, seed, most);
+                             ? exact_ramification(matrix, topology.order, seed, most)
+                             : sampled_ramification(matrix, topology.order, seed, most);
     if (topology.tip_order > 1)
         grown = with_tips(grown, tip_matrix(topology), topology.tip_order, seed, most);
     return grown;

@@ -1,4 +1,5 @@
-// How something branches, described: which matrices its branches obey, up to what order, and how it is grown from them.
+// Parameters of a branching structure: its ramification matrices, its order, and how it is grown
+// from them.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +11,7 @@
 
 namespace sporeprint {
 
-/// Named matrices (see ramification.h), or one's own rows.
+/// Named matrices (see ramification.h), or user-defined rows.
 enum class MatrixKind { perfect, random_binary, random_increasing, fishbone, tokunaga, own };
 
 constexpr const char* name(MatrixKind kind) {
@@ -31,7 +32,8 @@ constexpr const char* name(MatrixKind kind) {
     return nullptr;
 }
 
-/// dealt: exactly the matrix, a number of leaves known beforehand. drawn: node by node, of any size.
+/// dealt: exactly the numbers of the matrix, with a size known in advance. drawn: sampled node by
+/// node, with any size.
 enum class TreeGrowth { dealt, drawn };
 
 constexpr const char* name(TreeGrowth growth) {
@@ -44,7 +46,7 @@ constexpr const char* name(TreeGrowth growth) {
     return nullptr;
 }
 
-/// How a tree branches.
+/// Parameters of a branching structure.
 struct TreeTopology {
     MatrixKind matrix = MatrixKind::random_increasing;
     MatrixKind toward = MatrixKind::random_binary;
@@ -101,34 +103,35 @@ struct TreeTopology {
     }
     bool operator==(const TreeTopology&) const = default;
 
-    /// Whether the rows are asked for at all.
+    /// Returns true when user-defined rows are used at all.
     [[nodiscard]] bool uses_rows() const {
         return matrix == MatrixKind::own || (toward == MatrixKind::own && blend > 0.0) ||
                (tips == MatrixKind::own && tip_order > 1);
     }
-    /// The faults of the rows, rows that are asked for and not there, an order that they do not reach.
+    /// Reports errors of the rows, missing rows, and an order that they do not reach.
     void check(const std::string& path, std::vector<Problem>& problems) const;
 };
 static_assert(well_described<TreeTopology>());
 
-/// Most leaves and twigs that a tree is grown with.
+/// Largest number of leaves and twigs of a tree.
 inline constexpr std::size_t most_tips = 40'000;
 
-/// The matrix that a tree obeys, up to its order.
+/// Returns the matrix of a tree, up to its order.
 ///
-/// topology  with nothing that check() finds
+/// topology  with nothing that check() reports
 [[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
 
-/// Mean number of tips of such a tree (the number itself where it is dealt and has no small trees at its tips), before any work.
+/// Returns the expected number of tips (the exact one for TreeGrowth::dealt without small trees at
+/// the tips), before any work.
 [[nodiscard]] double expected_tips(const TreeTopology& topology);
 
-/// The matrix of the small trees at the tips.
+/// Returns the matrix of the small trees at the tips.
 [[nodiscard]] RamificationMatrix tip_matrix(const TreeTopology& topology);
 
-/// Grows the ramification that a topology describes.
+/// Grows the branching structure that a topology describes.
 ///
-/// topology  with nothing that check() finds
-/// throws    Impossible (path "/order") naming the expected number of more than `most` leaves
+/// topology  with nothing that check() reports
+/// throws    Impossible (path "/order") naming the expected number if it exceeds `most` leaves
 [[nodiscard]] Ramification ramified(const TreeTopology& topology, std::uint32_t seed,
                                     std::size_t most);
 

@@ -74,8 +74,8 @@ TEST(Ramification, ThePerfectTreeHasTwoToThePowerOfItsOrderLessOneLeaves) {
     for (int order = 1; order <= most_order; ++order) {
         const std::size_t leaves = std::size_t{1} << (order - 1);
         const RamificationMatrix matrix = perfect_matrix(std::max(order, 2));
-        EXPECT_EQ(grown_ramification(matrix, order, 3, plenty).leaves(), leaves);
-        EXPECT_EQ(dealt_ramification(matrix, order, 3, plenty).leaves(), leaves);
+        EXPECT_EQ(sampled_ramification(matrix, order, 3, plenty).leaves(), leaves);
+        EXPECT_EQ(exact_ramification(matrix, order, 3, plenty).leaves(), leaves);
         EXPECT_EQ(expected_leaves(matrix, order), static_cast<double>(leaves));
     }
 }
@@ -84,8 +84,8 @@ TEST(Ramification, TreesAreWhole) {
     for (const Named& one : catalogue(6))
         for (std::uint32_t seed = 0; seed < 20; ++seed) {
             SCOPED_TRACE(one.name);
-            expect_tree(grown_ramification(one.matrix, 6, seed, plenty));
-            expect_tree(dealt_ramification(one.matrix, 6, seed, plenty));
+            expect_tree(sampled_ramification(one.matrix, 6, seed, plenty));
+            expect_tree(exact_ramification(one.matrix, 6, seed, plenty));
         }
 }
 
@@ -97,7 +97,7 @@ TEST(Ramification, AGrownForestMeasuresBackToItsMatrix) {
         for (int k = 2; k <= 6; ++k) all.rows.emplace_back(static_cast<std::size_t>(k));
         for (std::uint32_t seed = 0; seed < effort(200, 60); ++seed) {
             const BiorderCounts found =
-                measured_biorders(grown_ramification(one.matrix, 6, seed, plenty));
+                measured_biorders(sampled_ramification(one.matrix, 6, seed, plenty));
             ASSERT_EQ(found.rows.size(), 5U);
             for (std::size_t row = 0; row < 5; ++row)
                 for (std::size_t i = 0; i < found.rows[row].size(); ++i)
@@ -120,8 +120,8 @@ TEST(Ramification, AGrownForestMeasuresBackToItsMatrix) {
 TEST(Ramification, ADealtTreeMeasuresBackExactly) {
     for (const Named& one : catalogue(7)) {
         SCOPED_TRACE(one.name);
-        const Ramification tree = dealt_ramification(one.matrix, 7, 11, plenty);
-        EXPECT_EQ(static_cast<double>(tree.leaves()), dealt_leaves(one.matrix, 7));
+        const Ramification tree = exact_ramification(one.matrix, 7, 11, plenty);
+        EXPECT_EQ(static_cast<double>(tree.leaves()), exact_leaves(one.matrix, 7));
         const BiorderCounts found = measured_biorders(tree);
         ASSERT_EQ(found.rows.size(), 6U);
         for (int k = 2; k <= 7; ++k) {
@@ -138,9 +138,9 @@ TEST(Ramification, ADealtTreeMeasuresBackExactly) {
 
 TEST(Ramification, DealtTreesDifferInArrangementAlone) {
     const RamificationMatrix matrix = random_binary_matrix(6);
-    const Ramification one = dealt_ramification(matrix, 6, 1, plenty);
-    const Ramification other = dealt_ramification(matrix, 6, 2, plenty);
-    EXPECT_EQ(one.nodes, dealt_ramification(matrix, 6, 1, plenty).nodes);
+    const Ramification one = exact_ramification(matrix, 6, 1, plenty);
+    const Ramification other = exact_ramification(matrix, 6, 2, plenty);
+    EXPECT_EQ(one.nodes, exact_ramification(matrix, 6, 1, plenty).nodes);
     EXPECT_NE(one.nodes, other.nodes);
     EXPECT_EQ(measured_biorders(one).rows, measured_biorders(other).rows);
 }
@@ -148,13 +148,13 @@ TEST(Ramification, DealtTreesDifferInArrangementAlone) {
 // A tree of order 7 of the random binary matrix has 2731 leaves in the mean.
 TEST(Ramification, MeanNumbersOfLeavesFollowTheFormula) {
     EXPECT_NEAR(expected_leaves(random_binary_matrix(7), 7), 2731.0, 1e-6);
-    EXPECT_EQ(dealt_leaves(random_binary_matrix(7), 7), 2731.0);
+    EXPECT_EQ(exact_leaves(random_binary_matrix(7), 7), 2731.0);
     for (const Named& one : catalogue(4)) {
         double sum = 0.0, squares = 0.0;
         const auto trees = static_cast<double>(effort(4000, 400));
         for (std::uint32_t seed = 0; seed < static_cast<std::uint32_t>(trees); ++seed) {
             const auto leaves =
-                static_cast<double>(grown_ramification(one.matrix, 4, seed, plenty).leaves());
+                static_cast<double>(sampled_ramification(one.matrix, 4, seed, plenty).leaves());
             sum += leaves;
             squares += leaves * leaves;
         }
@@ -165,7 +165,7 @@ TEST(Ramification, MeanNumbersOfLeavesFollowTheFormula) {
 }
 
 TEST(Ramification, TipsReplaceLeavesAndKeepOrdersRight) {
-    const Ramification tree = dealt_ramification(random_binary_matrix(5), 5, 4, plenty);
+    const Ramification tree = exact_ramification(random_binary_matrix(5), 5, 4, plenty);
     const Ramification bushy = with_tips(tree, fishbone_matrix(3, 0.3), 3, 9, plenty);
     expect_tree(bushy);
     EXPECT_GT(bushy.leaves(), tree.leaves());
@@ -175,14 +175,14 @@ TEST(Ramification, TipsReplaceLeavesAndKeepOrdersRight) {
 
 TEST(Ramification, TooManyLeavesAreRefusedWithTheirNumber) {
     const auto grown =
-        refusal([] { (void)grown_ramification(random_binary_matrix(9), 9, 1, 1000); });
+        refusal([] { (void)sampled_ramification(random_binary_matrix(9), 9, 1, 1000); });
     EXPECT_TRUE(names(grown, "/order", "about 43691 leaves; at most 1000"));
     const auto dealt =
-        refusal([] { (void)dealt_ramification(random_binary_matrix(9), 9, 1, 1000); });
+        refusal([] { (void)exact_ramification(random_binary_matrix(9), 9, 1, 1000); });
     EXPECT_TRUE(names(dealt, "/order", "about 43691 leaves; at most 1000"));
     // The least share of forks at the highest order: more leaves than an integer counts, and still an answer at once.
     const auto endless = refusal([] {
-        (void)dealt_ramification(fishbone_matrix(most_order, least_fork), most_order, 1, 1000);
+        (void)exact_ramification(fishbone_matrix(most_order, least_fork), most_order, 1, 1000);
     });
     EXPECT_TRUE(names(endless, "/order", "leaves"));
 }
@@ -196,9 +196,9 @@ TEST(Ramification, FaultsOfMatricesAreNamed) {
     EXPECT_TRUE(names(faults_of({{{1.0, 0.0}}}), "/matrix/0/1", "would hardly ever end"));
     const double nan = std::numeric_limits<double>::quiet_NaN();
     EXPECT_FALSE(faults_of({{{nan, 1.0}}}).empty());
-    EXPECT_TRUE(names(refusal([] { (void)grown_ramification(perfect_matrix(3), 4, 1, plenty); }),
+    EXPECT_TRUE(names(refusal([] { (void)sampled_ramification(perfect_matrix(3), 4, 1, plenty); }),
                       "/order", "4 is outside 1..3"));
-    EXPECT_TRUE(names(refusal([] { (void)dealt_ramification(perfect_matrix(3), 0, 1, plenty); }),
+    EXPECT_TRUE(names(refusal([] { (void)exact_ramification(perfect_matrix(3), 0, 1, plenty); }),
                       "/order", "0 is outside 1..3"));
 }
 
