@@ -13,7 +13,8 @@ namespace {
 
 using Vectors = std::vector<glm::dvec3>;
 
-/// The error of the last frame of a helix of two turns, against the exact frame, which turns against
+/// Returns the error of the last frame of a helix of two turns, against the exact frame, which
+/// rotates against
 /// Frenet's by the torsion.
 double helix_error(int steps) {
     constexpr double radius = 1.0, rise = 0.5;
@@ -196,13 +197,13 @@ TEST(Axis, AboveTheStemTheFrameIsFrozen) {
     EXPECT_EQ(above.x, top.x);
     EXPECT_EQ(frozen.height, 0.1);
     EXPECT_EQ(frozen.d_x, glm::dvec3(0.0));
-    // A cap is moved rigidly: distances survive.
+    // A cap is moved rigidly: distances are preserved.
     const glm::dvec3 p(0.03, 0.11, 0.01), q(-0.02, 0.13, 0.04);
     EXPECT_NEAR(glm::distance(frozen.point(p), frozen.point(q)), glm::distance(p, q), 1e-12);
 }
 
 TEST(Axis, ATemplateAxisIsFollowedAndScaledToTheStem) {
-    // A quarter of a circle, whatever its size, becomes an arc as long as the stem.
+    // A quarter of a circle of any size becomes an arc as long as the stem.
     std::vector<AxisPoint> controls;
     for (int i = 0; i <= 8; ++i) {
         const double angle = 0.5 * pi * i / 8.0;
@@ -214,7 +215,7 @@ TEST(Axis, ATemplateAxisIsFollowedAndScaledToTheStem) {
     EXPECT_LT(glm::distance(axis.at(0.2).origin, glm::dvec3(radius, radius, 0.0)), 2e-3);
 }
 
-TEST(Axis, APointlessTemplateAxisIsStraight) {
+TEST(Axis, ATemplateAxisWithoutPointsIsStraight) {
     for (const std::vector<AxisPoint>& controls :
          {std::vector<AxisPoint>{{0.5, 0.5, 0.5}},
           std::vector<AxisPoint>{{0.5, 0.5, 0.5}, {0.5, 0.5, 0.5}}}) {

@@ -20,7 +20,7 @@
 namespace sporeprint {
 namespace {
 
-/// Any azimuth inside its ranges.
+/// Returns a random azimuth inside its ranges.
 Azimuth arbitrary_azimuth(Random& random) {
     Azimuth azimuth;
     Azimuth::fields([&](auto member, const Info& info) {
@@ -31,7 +31,7 @@ Azimuth arbitrary_azimuth(Random& random) {
     return azimuth;
 }
 
-/// An individual of a species with an azimuth of its own.
+/// Returns an individual of a species with the given azimuth.
 Individual with(Individual individual, const Azimuth& azimuth) {
     individual.azimuth = azimuth;
     individual.lobes = {azimuth};
@@ -39,8 +39,8 @@ Individual with(Individual individual, const Azimuth& azimuth) {
     return individual;
 }
 
-/// The half-plane place (r, y) that a point of a column goes to.
-glm::dvec2 gone(const AzimuthMap& map, const AzimuthMap::Column& column, double r, double y) {
+/// Returns the image of a half-plane place (r, y) of a column.
+glm::dvec2 mapped(const AzimuthMap& map, const AzimuthMap::Column& column, double r, double y) {
     SurfacePoint point{
         {r * column.from.cosine, y, r * column.from.sine}, glm::dvec3(0.0), glm::dvec3(0.0)};
     map.apply(point, column);
@@ -74,15 +74,15 @@ TEST(Azimuth, EveryHalfPlaneIsMappedOntoOneInOrder) {
         double before = -1.0;
         for (int k = 0; k <= 60; ++k) {
             const double r = 0.0025 * k;
-            const glm::dvec2 low = gone(map, column, r, height),
-                             high = gone(map, column, r, height + 0.001);
+            const glm::dvec2 low = mapped(map, column, r, height),
+                             high = mapped(map, column, r, height + 0.001);
             EXPECT_GT(low.x, before);
             EXPECT_EQ(low.x, high.x) << "vertical lines stay vertical";
             EXPECT_GT(high.y, low.y);
             before = low.x;
         }
-        EXPECT_EQ(gone(map, column, 0.0, 0.1).x, 0.0);
-        EXPECT_EQ(gone(map, column, 0.0, 0.1).y, 0.1);
+        EXPECT_EQ(mapped(map, column, 0.0, 0.1).x, 0.0);
+        EXPECT_EQ(mapped(map, column, 0.0, 0.1).y, 0.1);
     }
 }
 
@@ -131,7 +131,7 @@ TEST(Azimuth, AnyFanAndAnyLobesAreValidMeshesAtEveryDetail) {
         }
 }
 
-TEST(Azimuth, AFanLiesBeforeItsWallAndReachesItsWidth) {
+TEST(Azimuth, AFanLiesInFrontOfItsSubstrateAndReachesItsWidth) {
     Individual fan = resolve(order_of("disciotis_venosa"), atlas());
     fan.layers.clear();
     fan.waves = 0.0;
@@ -153,7 +153,7 @@ TEST(Azimuth, AFanLiesBeforeItsWallAndReachesItsWidth) {
     EXPECT_LT(bounds(swept_mesh(fan, 0)).max.x, 0.72 * round.max.x) << "a wedge";
 }
 
-TEST(Azimuth, LobesThatColumnsCannotCarryLeaveACircleOfTheirArea) {
+TEST(Azimuth, LobesTooFineForTheColumnsBecomeACircleOfTheirArea) {
     Individual star = resolve(order_of("disciotis_venosa"), atlas());
     Azimuth form;
     form.lobes = 6;
@@ -194,7 +194,7 @@ TEST(Azimuth, LevelsOfDetailShowTheSameFanAndTheSameLobes) {
         }
 }
 
-/// A species like another, with an azimuth in all its stages.
+/// Returns a species like another, with an azimuth in all its stages.
 std::string renamed(const std::string& id, const std::string& name, const Azimuth& azimuth) {
     Species species = atlas().find(id)->species;
     species.id = Text<48>(name);
@@ -202,7 +202,7 @@ std::string renamed(const std::string& id, const std::string& name, const Azimut
     return dump(write(species));
 }
 
-TEST(Azimuth, AmountsMixByWeightAndFormsByWhatEachSpeciesBrings) {
+TEST(Azimuth, AmountsMixByWeightAndFormsStayThoseOfEachSpecies) {
     Azimuth fan;
     fan.lateral = 0.8;
     fan.fan_deg = 70.0;
@@ -254,7 +254,7 @@ TEST(Azimuth, EachSpeciesKeepsItsOwnNumberOfLobes) {
         for (int i = 0; i < 360; ++i)
             EXPECT_NEAR(reach(beside, radians(i)), reach(alone, radians(i)), 1e-3) << id << i;
     }
-    // Two maps of space, one after the other: their derivatives by the chain rule.
+    // Two maps of space are applied one after the other: derivatives follow the chain rule.
     const AzimuthMap both(resolve(mix_of({{"few", 500}, {"many", 500}}), forms), 96);
     Random random(9, 1);
     for (int i = 0; i < 200; ++i) {

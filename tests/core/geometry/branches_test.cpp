@@ -16,7 +16,7 @@
 namespace sporeprint {
 namespace {
 
-/// Mixes of two and of all branched species.
+/// Returns mixes of two and of all branched species.
 std::vector<Mix> mixes() {
     const auto ids = branched_ids();
     std::vector<Mix> all;
@@ -30,7 +30,7 @@ std::vector<Mix> mixes() {
     return all;
 }
 
-TEST(Limbs, AreSoundInEveryMixAtEveryLevelAndAge) {
+TEST(Branches, AreValidInEveryMixAtEveryLevelAndAge) {
     for (const Mix& mix : mixes())
         for (int lod = 0; lod < 4; ++lod)
             for (const double age : {0.0, 0.45, 0.6, 1.0}) {
@@ -42,7 +42,7 @@ TEST(Limbs, AreSoundInEveryMixAtEveryLevelAndAge) {
             }
 }
 
-TEST(Limbs, KeepTheTrianglesOfTheirLevelAndAreCountedBefore) {
+TEST(Branches, KeepTheTriangleLimitAndAreCountedInAdvance) {
     Random random(1, 0x6c696d62);
     std::vector<Mix> all = mixes();
     for (const std::string& id : branched_ids()) all.push_back({{id, 1000}});
@@ -65,7 +65,7 @@ TEST(Limbs, KeepTheTrianglesOfTheirLevelAndAreCountedBefore) {
         }
 }
 
-TEST(Limbs, GrowInUnitsOfSize) {
+TEST(Branches, ScaleWithSize) {
     for (const std::string& id : branched_ids()) {
         MushroomOrder order = order_of(id, 0.6, 3, 1);
         const Mesh one = mesh_of(order);
@@ -77,7 +77,7 @@ TEST(Limbs, GrowInUnitsOfSize) {
     }
 }
 
-TEST(Limbs, EveryDeformationIsSoundOrRefusedByName) {
+TEST(Branches, EveryDeformationIsValidOrRefusedByName) {
     int bent = 0;
     for (const std::string& id : branched_ids())
         for (std::uint32_t i = 0; i < effort(48); ++i) {
@@ -102,7 +102,7 @@ TEST(Limbs, EveryDeformationIsSoundOrRefusedByName) {
     EXPECT_GT(bent, 0);
 }
 
-TEST(Limbs, WhatOtherFamiliesHaveIsRefusedInWords) {
+TEST(Branches, ParametersOfOtherFamiliesAreRefusedByName) {
     const auto refused = [](auto ask) {
         MushroomOrder order = order_of("ramaria_formosa");
         ask(order.params);
@@ -117,7 +117,7 @@ TEST(Limbs, WhatOtherFamiliesHaveIsRefusedInWords) {
     EXPECT_TRUE(refused([](auto& p) { p.weathering.bites = 0.5; }).empty());
 }
 
-TEST(Limbs, FamiliesDoNotMixAndTheRefusalNamesThem) {
+TEST(Branches, FamiliesDoNotMixAndTheRefusalNamesThem) {
     const auto two = refusal([] {
         (void)resolved(mix_of({{"ramaria_formosa", 500}, {"boletus_edulis", 500}}));
     });

@@ -13,7 +13,7 @@ Budget budget_at(const Mix& mix, double age, int lod) {
     return budget_of(resolved(mix_of(mix, age, 3, lod)), lod);
 }
 
-TEST(Budget, EverySetKeepsTheTrianglesOfItsLevel) {
+TEST(Budget, EverySetKeepsTheTriangleLimitOfItsLevel) {
     const auto expect_kept = [](const Mix& mix) {
         for (int lod = 0; lod < 4; ++lod)
             EXPECT_LE(budget_at(mix, 0.6, lod).count.triangles,
@@ -29,7 +29,7 @@ TEST(Budget, EverySetKeepsTheTrianglesOfItsLevel) {
     }
 }
 
-/// Expects that a set has the patches, shells and blades which its level of detail offers.
+/// Expects that a set has the patches, shells and blades that its level of detail offers.
 void expect_nothing_given_up(const Mix& mix, int lod) {
     const Individual individual = resolved(mix_of(mix, 0.6, 3, lod));
     const Budget budget = budget_of(individual, lod);
@@ -46,12 +46,12 @@ void expect_nothing_given_up(const Mix& mix, int lod) {
     EXPECT_EQ(budget.blades.segments, blades.segments);
 }
 
-TEST(Budget, ASpeciesAloneGivesUpNothing) {
+TEST(Budget, ASingleSpeciesIsNotCoarsened) {
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) expect_nothing_given_up({{id, 1000}}, lod);
 }
 
-TEST(Budget, APairGivesUpNothingNearBy) {
+TEST(Budget, APairIsNotCoarsenedAtTheFinestLevel) {
     for (const auto& [a, b] : species_pairs()) expect_nothing_given_up({{a, 500}, {b, 500}}, 0);
 }
 
@@ -80,7 +80,7 @@ TEST(Budget, CountsWhatIsBuilt) {
         if (!refusal([&] { resolved(order); }).empty()) continue;
         const Budget budget = budget_of(resolved(order), order.params.lod);
         const Mesh mesh = mesh_of(order);
-        // What is gone keeps its vertices, and loses its triangles.
+        // Absent parts keep their vertices, and lose their triangles.
         EXPECT_LE(mesh.positions.size(), budget.count.vertices) << text_of(order.mix);
         EXPECT_GE(static_cast<double>(mesh.positions.size()),
                   0.97 * static_cast<double>(budget.count.vertices))

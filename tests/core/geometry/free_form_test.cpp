@@ -73,7 +73,7 @@ TEST(FreeForm, NoDisplacementIsTheExactIdentity) {
     EXPECT_EQ(zero.stretch_bound(), 0.0);
 }
 
-TEST(FreeForm, ManyPointsMoveAsOneByOneToTheBit) {
+TEST(FreeForm, ManyPointsAtOnceMoveBitIdentically) {
     const FreeForm a_dent = dent({0.1, 0.2, 0.3}, {1.1, 0.9, 1.3}, {0.02, -0.05, 0.03});
     const FreeForm others = random_form(5, 0.2);
     for (const FreeForm* form : {&a_dent, &others}) {
@@ -158,7 +158,7 @@ TEST(FreeForm, TheJacobianAgreesWithDifferences) {
     }
 }
 
-/// Largest stretch of a displacement's derivative in a few directions at p.
+/// Returns the largest stretch of a displacement's derivative in a few directions at p.
 double stretch(const FreeForm& form, const glm::dvec3& p, Random& random) {
     const glm::dmat3 j = jacobian(form, p) - glm::dmat3(1.0);
     double most = 0.0;
@@ -169,7 +169,7 @@ double stretch(const FreeForm& form, const glm::dvec3& p, Random& random) {
     return most;
 }
 
-TEST(FreeForm, TheStretchBoundReallyBounds) {
+TEST(FreeForm, TheStretchBoundIsAnUpperBound) {
     Random random(11, 0);
     for (std::uint32_t seed = 0; seed < 80; ++seed) {
         const FreeForm form = random_form(seed, 0.3);
@@ -194,7 +194,7 @@ TEST(FreeForm, BelowAStretchOfOneTheMapIsInjectiveAndKeepsOrientation) {
     EXPECT_GT(tried, 50);
 }
 
-TEST(FreeForm, ADentMovesItsCentreAsFarAsAsked) {
+TEST(FreeForm, ADentMovesItsCentreByThePush) {
     const FreeForm form = dent({0.3, 0.2, 0.1}, glm::dvec3(1.0), {0.0, 0.05, 0.0});
     EXPECT_LT(glm::distance(moved(form, {0.3, 0.2, 0.1}), glm::dvec3(0.3, 0.25, 0.1)), 1e-15);
 }
@@ -230,7 +230,7 @@ TEST(FreeForm, ADentIsInjectiveHoweverHardItIsPushed) {
     }
 }
 
-TEST(FreeForm, NonsenseLatticesAreRefused) {
+TEST(FreeForm, InvalidLatticesAreRefused) {
     const glm::dvec3 corner(0.0), size(1.0);
     EXPECT_THROW(FreeForm(corner, size, {0, 1, 1}, {}), std::invalid_argument);
     EXPECT_THROW(FreeForm(corner, size, {1, 8, 1}, {}), std::invalid_argument);

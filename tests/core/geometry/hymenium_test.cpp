@@ -19,7 +19,7 @@ namespace {
 constexpr const char* bladed[] = {"amanita_muscaria", "cantharellus_cibarius", "coprinus_comatus",
                                   "mycena_sanguinolenta", "russula_vinosa"};
 
-/// Pieces of a mesh that wear the chart of blades.
+/// Returns the pieces of a mesh that use the chart of blades.
 std::vector<Mesh> solids(const Mesh& mesh) {
     const Chart& chart = swept_charts[static_cast<std::size_t>(Part::blade)];
     std::vector<Mesh> found;
@@ -59,7 +59,7 @@ TEST(Hymenium, EveryBladeIsAClosedSolidThatFacesOutwards) {
         }
 }
 
-TEST(Hymenium, GillsAreAsManyAsAsked) {
+TEST(Hymenium, GillsAreAsManyAsRequested) {
     MushroomOrder order = textured(order_of("russula_vinosa"));
     order.params.hymenium.blades = 48;
     order.params.hymenium.tiers = 2;
@@ -104,7 +104,7 @@ TEST(Hymenium, EstimatesAreExactForVerticesAndUpperForTriangles) {
         }
 }
 
-TEST(Hymenium, TheRichestCombKeepsTheBudget) {
+TEST(Hymenium, TheLargestGillLayoutKeepsTheBudget) {
     for (const int blades : {8, 100, 400})
         for (const int tiers : {0, 3}) {
             MushroomOrder order = order_of("russula_vinosa");
@@ -139,7 +139,7 @@ TEST(Hymenium, SmallStepsOfAgeMoveBladesALittle) {
     }
 }
 
-TEST(Hymenium, EdgesKeepInsideTheOutlineAndRootsUnderTheCap) {
+TEST(Hymenium, EdgesStayInsideTheOutlineAndBasesUnderTheCap) {
     for (const char* id : {"amanita_muscaria", "russula_vinosa", "coprinus_comatus"})
         for (const double age : {0.0, 0.1, 0.6}) {
             MushroomOrder order = textured(order_of(id, age));
@@ -165,7 +165,7 @@ TEST(Hymenium, EdgesKeepInsideTheOutlineAndRootsUnderTheCap) {
 }
 
 TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
-    // Where a blade stands, the image of the lower face shows the edge of a gill.
+    // Under every blade the image of the lower face shows the edge of a gill.
     MushroomOrder order = order_of("russula_vinosa", 0.6, 4);
     order.params.hymenium.blades = 30;
     order.params.hymenium.tiers = 1;
@@ -195,7 +195,8 @@ TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
 }
 
 TEST(Hymenium, CrossVeinsAreSolidsBetweenRidgesAndPaintedUnderThem) {
-    // Few ridges and forks that begin far out, so that nothing else lies between two of them near the stem.
+    // Few ridges, and forks that begin far out, so that nothing else lies between two of them near
+    // the stem.
     MushroomOrder order = textured(order_of("cantharellus_cibarius", 0.6, 5));
     order.params.hymenium.blades = 12;
     order.params.hymenium.forking = 0.55;
@@ -206,7 +207,7 @@ TEST(Hymenium, CrossVeinsAreSolidsBetweenRidgesAndPaintedUnderThem) {
     EXPECT_GT(there, 20u);
     const std::size_t joined = solids(mushroom_mesh(order, individual)).size();
     order.params.hymenium.forking = 0.0;
-    // Where the face runs out at the margin a vein has no depth left.
+    // Towards the margin, where the face ends, a vein has no depth left.
     const std::size_t ridges = solids(mesh_of(order)).size();
     EXPECT_EQ(ridges, 12u);
     EXPECT_LE(joined, ridges + there + 12u) << "each ridge forks once";
@@ -244,8 +245,9 @@ TEST(Hymenium, CrossVeinsAreSolidsBetweenRidgesAndPaintedUnderThem) {
     EXPECT_GT(seen, 5);
 }
 
-TEST(Hymenium, GillsThatRunDownLeaveNoStepAtTheStem) {
-    // From the top of the stem the flesh between them falls back slowly; where gills end there, at once.
+TEST(Hymenium, DecurrentGillsLeaveNoStepAtTheStem) {
+    // From the top of the stem the flesh between decurrent gills rises gradually; otherwise at
+    // once.
     for (const char* id :
          {"infundibulicybe_geotropa", "infundibulicybe_gibba", "cantharellus_cibarius"}) {
         MushroomOrder order = order_of(id);
@@ -299,7 +301,7 @@ TEST(Hymenium, DepthZeroLeavesTheOutlineAsItIs) {
     EXPECT_TRUE(solids(mushroom_mesh(textured(order), individual)).empty());
 }
 
-TEST(Hymenium, FarLevelsOfDetailCarryNoSolids) {
+TEST(Hymenium, CoarseLevelsOfDetailHaveNoSolids) {
     for (int lod = 1; lod < 4; ++lod)
         EXPECT_TRUE(solids(mesh_of(textured(order_of("amanita_muscaria", 0.6, 1, lod)))).empty());
 }

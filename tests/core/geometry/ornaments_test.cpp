@@ -27,7 +27,7 @@ Mesh amanita(double warts, double ring, int lod = 0, std::uint32_t seed = 4) {
     return mesh;
 }
 
-/// Volumes of all pieces but the body, in cubic millimetres.
+/// Returns the volumes of all pieces but the body, in cubic millimetres.
 std::vector<double> ornament_volumes(const Mesh& mesh) {
     std::vector<double> volumes;
     for (const Mesh& piece : pieces(mesh)) volumes.push_back(1e9 * volume(piece));
@@ -44,7 +44,7 @@ TEST(Ornaments, WartsAreClosedSolidsThatFaceOutwards) {
     for (const double volume : all) EXPECT_GT(volume, 0.0);
 }
 
-TEST(Ornaments, WartsShrinkAndFallAsTheVeilGoes) {
+TEST(Ornaments, WartsShrinkAndDisappearWithTheVeil) {
     double last = 0.0;
     std::size_t pieces_before = 0;
     for (const double amount : {0.0, 0.1, 0.3, 0.6, 0.9, 1.0}) {
@@ -88,7 +88,7 @@ TEST(Ornaments, TheRingIsOneClosedShellOnTheStem) {
     EXPECT_LT(size(0.6), size(1.0));
 }
 
-TEST(Ornaments, LevelsOfDetailDropThemFromFarAway) {
+TEST(Ornaments, CoarseLevelsOfDetailDropThem) {
     EXPECT_GT(pieces(amanita(1.0, 1.0, 1)).size(), 40u);
     EXPECT_EQ(pieces(amanita(1.0, 1.0, 2)).size(), 2u) << "body and ring; warts are painted";
     EXPECT_EQ(pieces(amanita(1.0, 1.0, 3)).size(), 1u);
@@ -147,12 +147,12 @@ TEST(Ornaments, RingsOfEveryKindAreValid) {
                     }
 }
 
-/// The last closed piece of a mesh: the ring, or a sac.
+/// Returns the last closed piece of a mesh: the ring, or a sac.
 Mesh last_piece(const Individual& individual, int lod = 0) {
     return pieces(swept_mesh(individual, lod)).back();
 }
 
-/// Of the places that a piece's triangles use.
+/// Bounds of the vertices that a piece's triangles use.
 template <class Of>
 double greatest(const Mesh& piece, Of of) {
     double most = -1e9;
@@ -174,7 +174,7 @@ Individual straight_amanita() {
     return individual;
 }
 
-TEST(Ornaments, ARingHangsStandsOffSwellsAndTears) {
+TEST(Ornaments, RingStylesMakeItHangStandOffThickenAndTear) {
     Individual individual = straight_amanita();
     const auto with = [&](double RingStyle::*member, double value) {
         Individual changed = individual;
@@ -209,7 +209,7 @@ TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
     const double high = greatest(sac, [](const glm::vec3& p) { return double{p.y}; });
     EXPECT_LT(high, 0.0401);
     EXPECT_GT(high, 0.03);
-    // Above its foot no place of it is inside the stem, and its edge stands off.
+    // Above its base no place of it is inside the stem, and its edge stands off.
     for (const std::uint32_t i : sac.indices) {
         const glm::vec3& p = sac.positions[i];
         if (p.y < 0.3 * 0.04) continue;
@@ -218,7 +218,7 @@ TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
             if (individual.outline.stem.at(share + step).y < double{p.y}) share += step;
         EXPECT_GT(radius_of(p), individual.outline.stem.at(share).r - 1e-5);
     }
-    // Rents are deep, and shallower where less is torn.
+    // Tears are deep, and shallower where less is torn.
     const auto areas = [&](double tear) {
         individual.sac.tear = tear;
         return area(last_piece(individual));
@@ -227,7 +227,7 @@ TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
     EXPECT_LT(areas(0.3), areas(0.0));
 }
 
-TEST(Ornaments, ASacHoldsTheWholeBulb) {
+TEST(Ornaments, ASacEnclosesTheWholeBulb) {
     MushroomOrder order = order_of("amanita_phalloides");
     order.params.variation = 0.0;
     Individual individual = resolve(order, atlas());
@@ -249,7 +249,7 @@ TEST(Ornaments, ASacHoldsTheWholeBulb) {
     EXPECT_GT(widest, bulb);
 }
 
-TEST(Ornaments, ASacGrowsAndGoesWithoutAStepAndKeepsItsVertices) {
+TEST(Ornaments, ASacGrowsAndVanishesContinuouslyAndKeepsItsVertices) {
     Individual individual = straight_amanita();
     individual.has_sac = true;
     std::size_t vertices = 0;
@@ -267,8 +267,8 @@ TEST(Ornaments, ASacGrowsAndGoesWithoutAStepAndKeepsItsVertices) {
     }
 }
 
-TEST(Ornaments, ScalesOfTheBulbStayOnItsSkinWhileTheStemGrows) {
-    // The veil's pieces on the stem lie low on the mature one, and all over the lower half of the egg.
+TEST(Ornaments, ScalesOfTheBulbStayOnItsSurfaceWhileTheStemGrows) {
+    // Pieces of the veil are low on the mature stem, and all over the lower half of the egg.
     const auto highest = [](double age) {
         MushroomOrder order = textured(order_of("amanita_muscaria", age, 4));
         order.params.variation = 0.0;

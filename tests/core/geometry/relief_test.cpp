@@ -22,7 +22,7 @@
 namespace sporeprint {
 namespace {
 
-/// One kind of relief after another, and all at once.
+/// Returns one kind of relief after another, and all at once.
 std::vector<ReliefStyle> kinds() {
     ReliefStyle folds, pits, tiers;
     folds.folds = 0.12;
@@ -45,7 +45,7 @@ Individual cep() {
     return individual;
 }
 
-TEST(Relief, NoiseIsThatOfPaintingAndHasTheDerivativesItSays) {
+TEST(Relief, NoiseEqualsThatOfPaintingAndHasTheReportedDerivatives) {
     Random random(1, 1);
     std::vector<float> x, y, z;
     for (int i = 0; i < 500; ++i) {
@@ -70,7 +70,7 @@ TEST(Relief, NoiseIsThatOfPaintingAndHasTheDerivativesItSays) {
     }
 }
 
-TEST(Relief, HeightsHaveTheDerivativesTheySayAndFadeAtApexAndMargin) {
+TEST(Relief, HeightsHaveTheReportedDerivativesAndFadeAtApexAndMargin) {
     for (const ReliefStyle& style : kinds()) {
         const Individual individual = with(cep(), style);
         const Relief relief(individual, details[0]);
@@ -119,7 +119,7 @@ TEST(Relief, DepthsOfZeroChangeNoByte) {
         EXPECT_TRUE(same_bits(swept_mesh(flat, lod), swept_mesh(plain, lod)));
 }
 
-TEST(Relief, NormalsAgreeWithDifferencesOfTheSkin) {
+TEST(Relief, NormalsAgreeWithFiniteDifferencesOfTheSurface) {
     for (const ReliefStyle& style : kinds())
         for (const double lateral : {0.0, 1.0}) {
             Individual individual = with(cep(), style);
@@ -127,7 +127,7 @@ TEST(Relief, NormalsAgreeWithDifferencesOfTheSkin) {
             individual.lobes.emplace_back();
             individual.lobes[0].lobes = 5;
             individual.lobes[0].lobe_depth = 0.2;
-            const RestSurface skin(individual, details[0]);
+            const RestSurface rest(individual, details[0]);
             Random random(3, 1);
             double sum = 0.0;
             constexpr int count = 400;
@@ -135,11 +135,11 @@ TEST(Relief, NormalsAgreeWithDifferencesOfTheSkin) {
                 const double share = random.uniform(0.02, 0.98),
                              angle = random.uniform(0.0, 2.0 * pi);
                 constexpr double h = 1e-6;
-                const SurfacePoint at = skin.at(Part::cap, share, angle);
-                const glm::dvec3 along = skin.at(Part::cap, share + h, angle).position -
-                                         skin.at(Part::cap, share - h, angle).position;
-                const glm::dvec3 round = skin.at(Part::cap, share, angle + h).position -
-                                         skin.at(Part::cap, share, angle - h).position;
+                const SurfacePoint at = rest.at(Part::cap, share, angle);
+                const glm::dvec3 along = rest.at(Part::cap, share + h, angle).position -
+                                         rest.at(Part::cap, share - h, angle).position;
+                const glm::dvec3 round = rest.at(Part::cap, share, angle + h).position -
+                                         rest.at(Part::cap, share, angle - h).position;
                 const glm::dvec3 found = glm::normalize(glm::cross(at.meridian, at.azimuth));
                 sum += glm::length(glm::cross(found, glm::normalize(glm::cross(along, round))));
             }
@@ -165,7 +165,7 @@ TEST(Relief, MeshesAreValidAtEveryDetailAndTheFinestIsFiner) {
     EXPECT_EQ(carried_relief(kinds()[1], 16, 7).pits, 0.0);
 }
 
-TEST(Relief, EachSpeciesBringsItsOwnAsDeepAsItWeighs) {
+TEST(Relief, EachSpeciesKeepsItsOwnReliefScaledByItsWeight) {
     const auto carved = [](const char* name, double pits, int columns) {
         Species species = atlas().find("clavariadelphus_pistillaris")->species;
         species.id = Text<48>(name);
@@ -191,7 +191,7 @@ TEST(Relief, EachSpeciesBringsItsOwnAsDeepAsItWeighs) {
     EXPECT_EQ(young.indices, swept_mesh(resolve(order_of("fine", 0.6), forms), 0).indices);
 }
 
-TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
+TEST(Relief, NoSectionIntersectsItselfAtAnyDepth) {
     ReliefStyle deep;
     deep.folds = 0.3;
     deep.pits = 0.2;
@@ -200,15 +200,15 @@ TEST(Relief, NoSectionCrossesItselfHoweverDeepItIs) {
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
             const Individual individual =
                 with(resolve(order_of(id, 0.4 * seed - 0.3, seed), atlas()), deep);
-            const RestSurface skin(individual, details[0]);
+            const RestSurface rest(individual, details[0]);
             for (int j = 0; j < 12; ++j) {
-                const RestSurface::Column column = skin.column(2.0 * pi * j / 12.0);
+                const RestSurface::Column column = rest.column(2.0 * pi * j / 12.0);
                 std::vector<glm::dvec2> section;
                 for (const Part part : {Part::stem, Part::hymenium, Part::cap}) {
-                    if (skin.curve(part).empty()) continue;
+                    if (rest.curve(part).empty()) continue;
                     for (int i = section.empty() ? 0 : 1; i <= 60; ++i) {
                         const glm::dvec3 p =
-                            skin.at(part, skin.curve(part).at(i / 60.0), column).position;
+                            rest.at(part, rest.curve(part).at(i / 60.0), column).position;
                         section.emplace_back(std::sqrt(p.x * p.x + p.z * p.z), p.y);
                     }
                 }

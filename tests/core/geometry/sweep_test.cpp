@@ -46,12 +46,12 @@ Mesh swept(const Model& model, int lod, std::uint32_t seed = 1, bool with_textur
 
 std::size_t row_of(int lod) { return static_cast<std::size_t>(detail_of(lod).columns) + 1; }
 
-/// How many times the columns of the next level a level has.
+/// Returns the ratio of the columns of a level to those of the next.
 double columns_over_next(int lod) {
     return static_cast<double>(detail_of(lod).columns) / detail_of(lod + 1).columns;
 }
 
-/// Area of the polygon of an LOD's columns, over that of its circle of radius 1.
+/// Returns the area of the polygon of an LOD's columns over that of the unit circle.
 double polygon_area(int lod) {
     const int n = detail_of(lod).columns;
     return 0.5 * n * std::sin(2.0 * pi / n);
@@ -75,7 +75,7 @@ TEST(Sweep, ACylinderIsAPrismAndConvergesToPiTimesSquareTimesHeight) {
         errors[lod] = pi * 0.05 * 0.05 * 0.12 - found;
         EXPECT_GT(errors[lod], 0.0) << "inscribed";
     }
-    // Twice the columns, a quarter of the error.
+    // Twice the columns give a quarter of the error.
     for (int lod = 0; lod < 2; ++lod) {
         const double columns = columns_over_next(lod);
         EXPECT_NEAR(errors[lod + 1] / errors[lod] / (columns * columns), 1.0, 0.03);
@@ -92,7 +92,7 @@ TEST(Sweep, AConeHasTheVolumeOfACone) {
     }
 }
 
-/// A sphere: half a circle of control points, in three sub-curves.
+/// Returns a sphere: half a circle of control points, in three sub-curves.
 Silhouette sphere(double radius) {
     Silhouette s;
     s.junction = s.margin = Join::smooth;
@@ -114,7 +114,7 @@ TEST(Sweep, ASphereConvergesToSecondOrder) {
         errors[lod] = (exact - volume(swept(bare(sphere(0.1)), lod))) / exact;
     EXPECT_LT(errors[0], 2.5e-3);
     EXPECT_GT(errors[0], 0.0);
-    // By the square of what there is less of: rings, half and half again, and columns.
+    // The error is quadratic in the coarser of rings (halved twice) and columns.
     for (int lod = 0; lod < 2; ++lod) {
         const double columns = columns_over_next(lod);
         EXPECT_GT(errors[lod + 1] / errors[lod], 3.0);
@@ -130,11 +130,11 @@ TEST(Sweep, NormalsOfASpherePointAwayFromItsCentre) {
     }
 }
 
-/// A torus round the axis, its hole closed by a thin disc: twice as thick as `skin`.
-Silhouette torus(double middle, double tube, double skin) {
+/// Returns a torus round the axis, its hole closed by a thin disc, twice as thick as `skin`.
+Silhouette torus(double middle, double tube, double rest) {
     Silhouette s;
     s.junction = s.margin = Join::corner;
-    const double start = std::asin(skin / tube);
+    const double start = std::asin(rest / tube);
     const auto at = [&](int i) {
         const double angle = -start + (-2.0 * pi + 2.0 * start) * (1.0 - i / 30.0);
         return OutlinePoint{middle - tube * std::cos(angle), 0.1 + tube * std::sin(angle)};
@@ -149,18 +149,18 @@ Silhouette torus(double middle, double tube, double skin) {
 }
 
 TEST(Sweep, ATorusHasTheVolumeThatPappusGivesIt) {
-    constexpr double middle = 0.1, tube = 0.03, skin = 0.003;
-    const double start = std::asin(skin / tube);
-    // The tube less the sliver of it that the disc fills, plus the disc.
+    constexpr double middle = 0.1, tube = 0.03, rest = 0.003;
+    const double start = std::asin(rest / tube);
+    // The tube minus the sliver of it that the disc fills, plus the disc.
     const double inner = middle - tube * std::cos(start);
     const double sliver_area = tube * tube * (start - std::sin(start) * std::cos(start));
     const double sliver_radius = middle - 2.0 / 3.0 * tube * std::pow(std::sin(start), 3.0) /
                                               (start - std::sin(start) * std::cos(start));
     const double exact = 2.0 * pi * (pi * middle * tube * tube - sliver_area * sliver_radius) +
-                         pi * inner * inner * 2.0 * skin;
+                         pi * inner * inner * 2.0 * rest;
     double errors[3];
     for (int lod = 0; lod < 3; ++lod) {
-        const double found = volume(swept(bare(torus(middle, tube, skin)), lod));
+        const double found = volume(swept(bare(torus(middle, tube, rest)), lod));
         errors[lod] = std::abs(found - exact) / exact;
     }
     EXPECT_LT(errors[0], 0.025) << "18 rings round a tube: 2 pi^2 / (3 * 17^2) and the columns";
@@ -185,8 +185,8 @@ TEST(Sweep, AStraightMushroomIsTheSumOfItsFrusta) {
             }
 }
 
-/// The order's own individual as a figure of revolution, without what stands on the surface: fans, rays and relief have tests of
-/// their own.
+/// Returns the order's individual as a figure of revolution, without ornaments; fans, rays and
+/// relief have their own tests.
 Individual body_of(const MushroomOrder& order) {
     Individual individual = resolve(order, atlas());
     individual.layers.clear();
@@ -224,27 +224,27 @@ TEST(Sweep, WithoutDeformationEveryRingLiesWhereItsOutlineIs) {
 TEST(Sweep, DeformationOfAmountZeroChangesNoByte) {
     const Model model = bare(mature_silhouette("russula_vinosa"));
     Model zero = model;
-    zero.deformation.zone_from = 0.3;  // a zone of nothing, and directions that differ by seed
+    zero.deformation.zone_from = 0.3;  // an empty zone, and directions that depend on the seed
     zero.deformation.zone_to = 0.6;
     for (int lod = 0; lod < 4; ++lod)
         EXPECT_TRUE(same_bits(swept(model, lod, 1, true), swept(zero, lod, 2, true)));
 }
 
-/// The surface at a share of a sub-curve and an angle.
+/// Evaluates the surface at a share of a sub-curve and an angle.
 struct Surface3 {
-    const RestSurface& skin;
+    const RestSurface& rest;
     const Deformer& deformer;
     Part part;
 
     [[nodiscard]] SurfacePoint at(double share, double angle) const {
-        SurfacePoint point = skin.at(part, share, angle);
-        deformer.apply({&point, 1}, deformer.station(part, skin.curve(part).at(share)));
+        SurfacePoint point = rest.at(part, share, angle);
+        deformer.apply({&point, 1}, deformer.station(part, rest.curve(part).at(share)));
         return point;
     }
 
-    /// Angle between the analytic normal and that of differences, radians.
+    /// Returns the angle between the analytic normal and that of finite differences, radians.
     [[nodiscard]] double normal_error(double share, double angle) const {
-        constexpr double h = 1e-5;  // far less than the roundness of the thinnest margin
+        constexpr double h = 1e-5;  // far below the radius of curvature of the thinnest margin
         const glm::dvec3 along = at(share + h, angle).position - at(share - h, angle).position;
         const glm::dvec3 round = at(share, angle + h).position - at(share, angle - h).position;
         const SurfacePoint point = at(share, angle);
@@ -254,16 +254,16 @@ struct Surface3 {
     }
 };
 
-/// Largest and mean normal error over the three faces of an individual.
+/// Returns the largest and the mean normal error over the three faces of an individual.
 std::pair<double, double> normal_errors(const Individual& individual, std::uint32_t seed) {
     const Deformer deformer(individual);
-    const RestSurface skin(individual, details[0]);
+    const RestSurface rest(individual, details[0]);
     double worst = 0.0, sum = 0.0;
     int count = 0;
     Random random(seed, 99);
     for (const Part part : {Part::stem, Part::hymenium, Part::cap}) {
-        if (skin.curve(part).empty()) continue;
-        const Surface3 surface{skin, deformer, part};
+        if (rest.curve(part).empty()) continue;
+        const Surface3 surface{rest, deformer, part};
         for (int i = 0; i < 40; ++i) {
             const double share = random.uniform(0.02, 0.98);
             const double angle = random.uniform(0.0, 2.0 * pi);
@@ -300,7 +300,8 @@ TEST(Sweep, NormalsFollowDentsThroughTheirJacobian) {
             order.params.deformation.imperfection = 1.0;
             Individual individual = body_of(order);
             const auto [worst, mean] = normal_errors(individual, seed);
-            // On a bent stem a dent keeps the station of its undented height: a small second-order error.
+            // On a bent stem a dent keeps the station of its undented height: a small second-order
+            // error.
             EXPECT_LT(worst, 0.12) << id << ' ' << seed;
             EXPECT_LT(mean, 0.01) << id << ' ' << seed;
             individual.model.deformation.bend_deg = individual.model.deformation.lean_deg = 0.0;
@@ -347,7 +348,7 @@ std::vector<std::pair<std::string, bool>> with_and_without_solids() {
     return all;
 }
 
-TEST(Sweep, TangentsPointWhereTheTextureGoesAndHandednessUpTheImage) {
+TEST(Sweep, TangentsPointAlongTheTextureAndHandednessUpTheImage) {
     for (const auto& [id, solids] : with_and_without_solids()) {
         MushroomOrder order = textured(order_of(id, 0.6, 5));
         if (!solids) order.params.hymenium.depth = 0.0;
@@ -373,8 +374,9 @@ TEST(Sweep, TangentsPointWhereTheTextureGoesAndHandednessUpTheImage) {
                 ++count;
             }
         }
-        // The rest are corners of the coarse triangles round poles, tips and torn edges; and of gills, whose rows of long thin
-        // triangles turn where they rise at the stem and run out at the margin.
+        // The remaining ones are at corners of coarse triangles round poles, tips and torn edges,
+        // and on gills, whose rows of long thin triangles turn where they rise at the stem and end
+        // at the margin.
         EXPECT_GT(agree, (solids ? 0.88 : 0.97) * count) << id;
         EXPECT_GT(handed, 0.98 * count) << id;
     }
@@ -445,7 +447,7 @@ TEST(Sweep, StemHymeniumAndCapAreWeldedBitForBit) {
             }
 }
 
-TEST(Sweep, AStemWithoutHeightIsWeldedHoweverItIsDeformed) {
+TEST(Sweep, AStemWithoutHeightIsWeldedUnderAnyDeformation) {
     Model model = bare(frustum(0.03, 0.05, 0.04));
     for (const double depth : {0.0, 0.01}) {  // flat, and hanging below its own beginning
         std::get<Swept>(model.shape).silhouette.stem[0].y = depth;
@@ -459,7 +461,7 @@ TEST(Sweep, AStemWithoutHeightIsWeldedHoweverItIsDeformed) {
     }
 }
 
-TEST(Sweep, AClubHasNoMarginThatCouldWave) {
+TEST(Sweep, AClubHasNoMarginToWave) {
     MushroomOrder order = order_of("clavariadelphus_pistillaris");
     order.params.weathering.waves = 0.0;
     const Mesh still = mesh_of(order);
@@ -488,7 +490,7 @@ TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {
         }
 }
 
-/// Triangles of a mesh, by their indices.
+/// Returns the triangles of a mesh by their indices.
 std::set<std::array<std::uint32_t, 3>> triangles_of(const Mesh& mesh) {
     std::set<std::array<std::uint32_t, 3>> triangles;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3)
@@ -544,7 +546,7 @@ TEST(Sweep, AnotherSeedIsAnotherIndividual) {
     EXPECT_FALSE(same_bits(one, mesh_of(order)));
 }
 
-TEST(Sweep, WavesHaveTheDerivativesTheySay) {
+TEST(Sweep, WavesHaveTheReportedDerivatives) {
     const Waves waves(0.8, 0.06, 72, 9);
     Random random(1, 1);
     for (int i = 0; i < 500; ++i) {
@@ -564,7 +566,7 @@ TEST(Sweep, WavesHaveTheDerivativesTheySay) {
     EXPECT_FALSE(waves.flat());
 }
 
-TEST(Sweep, WavesThatColumnsCannotCarryAreLeftOut) {
+TEST(Sweep, WavesTooFineForTheColumnsAreLeftOut) {
     // With 8 columns a wave of three crests is not sampled finely enough to be a wave.
     double most = 0.0;
     const Waves coarse(1.0, 0.06, 8, 9);
@@ -573,7 +575,7 @@ TEST(Sweep, WavesThatColumnsCannotCarryAreLeftOut) {
     EXPECT_EQ(most, 0.0);
 }
 
-TEST(Sweep, AStemThatFoldsIsRefusedWithTheMostThatItTakes) {
+TEST(Sweep, AStemThatFoldsIsRefusedWithTheLargestPossibleBend) {
     MushroomOrder order = order_of("boletus_edulis", 0.6, 3);
     order.params.deformation.bend_deg = 90.0;
     order.params.deformation.zone_from = 0.5;

@@ -41,7 +41,8 @@ constexpr std::array<Effect, 8> shaping = {{{"bites", &W::bites},
                                             {"dew", &W::dew},
                                             {"cracks", &W::cracks}}};
 
-/// Species and levels of detail to walk through: every species at one level, the first few at all.
+/// Species and levels of detail to iterate over: every species at one level, the first few at all
+/// levels.
 struct Stop {
     std::string id;
     int lod;
@@ -66,7 +67,7 @@ bool same(const Mesh& a, const Mesh& b) {
            a.texture_coordinates == b.texture_coordinates && a.tangents == b.tangents;
 }
 
-TEST(Weathering, NothingOfItIsTheCleanMushroomToTheBit) {
+TEST(Weathering, AmountZeroIsTheUndamagedMeshBitForBit) {
     for (const auto& [id, lod] : walk(4)) {
         const MushroomOrder clean = textured(order_of(id, 0.5, 3, lod));
         const Mesh expected = mesh_of(clean);
@@ -80,7 +81,7 @@ TEST(Weathering, NothingOfItIsTheCleanMushroomToTheBit) {
     }
 }
 
-TEST(Weathering, EachEffectAloneIsClosedAndCostsAtMostTwiceTheCleanMushroom) {
+TEST(Weathering, EachEffectAloneIsClosedAndAtMostDoublesTheTriangles) {
     for (const auto& [id, lod] : walk(3)) {
         const MushroomOrder clean = textured(order_of(id, 0.6, 5, lod));
         const std::size_t triangles = mesh_of(clean).triangles();
@@ -103,7 +104,7 @@ TEST(Weathering, EachEffectAloneIsClosedAndCostsAtMostTwiceTheCleanMushroom) {
     }
 }
 
-TEST(Weathering, NothingOfAnyKindIsTheFileOfTheCleanMushroomToTheByte) {
+TEST(Weathering, AmountZeroOfAnyKindIsTheUndamagedFileByteForByte) {
     const auto file_of = [](const MushroomOrder& order) {
         Bytes file;
         for (const Slice& slice : grow_mushroom(order, atlas()).glb)
@@ -164,7 +165,7 @@ TEST(Weathering, AmountsMoveVerticesContinuously) {
             for (int i = 1; i <= 256; i += i % 64 == 1 ? 1 : 63) {
                 MushroomOrder order = order_of(id, 0.6, 11);
                 order.params.weathering.*effect.amount = i / 256.0;
-                order.params.animation = Animation::growth;  // the triangles of all that may come
+                order.params.animation = Animation::growth;  // keeps triangles of absent parts
                 const Mesh mesh = mesh_of(order);
                 if (before && i % 64 == 2) {
                     ASSERT_EQ(mesh.positions.size(), before->positions.size());
@@ -181,7 +182,7 @@ TEST(Weathering, AmountsMoveVerticesContinuously) {
         }
 }
 
-TEST(Weathering, ABiteTakesItsDepthOutOfCapAndLowerFace) {
+TEST(Weathering, ABiteRemovesItsDepthFromCapAndLowerFace) {
     MushroomOrder order = order_of("amanita_muscaria", 0.6, 4);
     order.params.weathering.bites = 1.0;
     order.params.weathering.splits = 0.0;
@@ -202,8 +203,9 @@ TEST(Weathering, ABiteTakesItsDepthOutOfCapAndLowerFace) {
     }
 }
 
-TEST(Weathering, AllEvenColumnsStandAndMoreWhereACutNeedsThem) {
-    // Of a turn. A tear beside a bite keeps all of its columns, however close: without one it would not show.
+TEST(Weathering, AllEvenColumnsExistAndMoreWhereACutNeedsThem) {
+    // Positions are in turns. A tear beside a bite keeps all of its columns, however close,
+    // otherwise it would not show.
     constexpr double apart = 0.0002;
     for (std::uint32_t seed = 0; seed < 30; ++seed)
         for (int lod = 0; lod < 4; ++lod) {
@@ -221,19 +223,20 @@ TEST(Weathering, AllEvenColumnsStandAndMoreWhereACutNeedsThem) {
                 EXPECT_TRUE(
                     std::binary_search(turns.begin(), turns.end(), static_cast<double>(j) / even))
                     << j;
-            EXPECT_EQ(turns.size(), static_cast<std::size_t>(even) + cuts.inserted_columns().size());
+            EXPECT_EQ(turns.size(),
+                      static_cast<std::size_t>(even) + cuts.inserted_columns().size());
             EXPECT_LE(turns.size(), static_cast<std::size_t>(even) * 2);
             if (lod == 3) {
                 EXPECT_TRUE(cuts.inserted_columns().empty());
             }
-            for (const MarginCuts::InsertedColumn& own : cuts.inserted_columns()) {
+            for (const MarginCuts::InsertedColumn& column : cuts.inserted_columns()) {
                 double sum = 0.0;
-                for (const MarginCuts::Chord& way : cuts.chords(own)) {
-                    const double left = turns[way.left],
-                                 right = way.right == turns.size() ? 1.0 : turns[way.right];
-                    EXPECT_NEAR(turns[own.column], left + way.share * (right - left), 1e-12);
+                for (const MarginCuts::Chord& chord : cuts.chords(column)) {
+                    const double left = turns[chord.left],
+                                 right = chord.right == turns.size() ? 1.0 : turns[chord.right];
+                    EXPECT_NEAR(turns[column.column], left + chord.share * (right - left), 1e-12);
                     EXPECT_LE(right - left, 1.0 / even + 1e-12);
-                    sum += way.weight;
+                    sum += chord.weight;
                 }
                 EXPECT_NEAR(sum, 1.0, 1e-12);
             }
@@ -244,7 +247,7 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
     for (const auto& [id, lod] : walk(3)) {
         if (lod == 3) continue;
         MushroomOrder order = textured(order_of(id, 0.8, 7, lod));
-        // What is open keeps its columns; the surface between is that of the even ones.
+        // Open cuts keep their columns; the surface between them is that of the even ones.
         order.params.weathering.bites = 0.0;
         if (can(id, shaping[1])) order.params.weathering.splits = 0.0;
         Individual individual = resolve(order, atlas());
@@ -264,17 +267,19 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
             static_cast<std::size_t>(detail.stem_rings + detail.hymenium_rings +
                                      flesh_rings(individual, lod) + detail.cap_rings);
         for (std::size_t i = 0; i < rings; ++i)
-            for (const MarginCuts::InsertedColumn& own : cuts.inserted_columns()) {
-                ASSERT_EQ(own.open, 0.0);
-                ASSERT_EQ(cuts.chords(own).size(), 1U);
-                const MarginCuts::Chord& way = cuts.chords(own).front();
-                const glm::dvec3 left(worn.positions[i * row + way.left]),
-                    right(worn.positions[i * row + way.right]);
-                EXPECT_LT(glm::distance(glm::dvec3(worn.positions[i * row + own.column]),
-                                        left + MarginCuts::collapsed_width * way.share * (right - left)),
+            for (const MarginCuts::InsertedColumn& column : cuts.inserted_columns()) {
+                ASSERT_EQ(column.open, 0.0);
+                ASSERT_EQ(cuts.chords(column).size(), 1U);
+                const MarginCuts::Chord& chord = cuts.chords(column).front();
+                const glm::dvec3 left(worn.positions[i * row + chord.left]),
+                    right(worn.positions[i * row + chord.right]);
+                EXPECT_LT(glm::distance(
+                              glm::dvec3(worn.positions[i * row + column.column]),
+                              left + MarginCuts::collapsed_width * chord.share * (right - left)),
                           1e-6 * glm::distance(box.min, box.max));
             }
-        // Between rings a twisted quad is two triangles in one mesh and more in the other: more so the coarser it is.
+        // Between rings a twisted quad is two triangles in one mesh and more in the other, which
+        // matters more at coarse levels.
         if (lod == 0) {
             EXPECT_LT(hausdorff(clean, worn), 0.001 * glm::distance(box.min, box.max));
         }
@@ -283,7 +288,7 @@ TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
     }
 }
 
-TEST(Weathering, WhateverASpeciesWearsItKeepsTheTrianglesOfItsLevel) {
+TEST(Weathering, AnyDamageKeepsTheTriangleLimitOfItsLevel) {
     constexpr std::array<std::size_t, 4> most = {60000, 6000, 1200, 200};
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
@@ -295,7 +300,7 @@ TEST(Weathering, WhateverASpeciesWearsItKeepsTheTrianglesOfItsLevel) {
         }
 }
 
-TEST(Weathering, AClipHasOneTopologyWhateverTheAgeTakes) {
+TEST(Weathering, AClipHasOneTopologyAtEveryAge) {
     for (const std::string& id : swept_ids()) {
         const auto mesh_at = [&](double age) { return mesh_of(growing(order_of(id, age, 2))); };
         const Mesh young = mesh_at(0.0), old = mesh_at(1.0);
@@ -304,7 +309,7 @@ TEST(Weathering, AClipHasOneTopologyWhateverTheAgeTakes) {
     }
 }
 
-TEST(Weathering, WhatASpeciesCannotHaveIsRefusedInWords) {
+TEST(Weathering, ImpossibleDamageIsRefusedByName) {
     const auto refused = [](const std::string& id, Amount amount) {
         MushroomOrder order = order_of(id);
         order.params.weathering.*amount = 0.5;

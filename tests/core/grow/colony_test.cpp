@@ -107,7 +107,8 @@ TEST_P(EveryColony, IsTheSameAtEveryLevelOfDetail) {
     }
 }
 
-/// How deep any individual of a colony reaches into another, in diameters of the smaller one; stems included.
+/// Returns the largest overlap of any two members of a colony, in diameters of the smaller one;
+/// stems included.
 double deepest(const Colony& colony) {
     std::vector<std::optional<Solid>> solids;
     std::vector<std::vector<glm::dvec3>> samples;
@@ -143,8 +144,8 @@ double deepest(const Colony& colony) {
     return worst;
 }
 
-// What the next tests measure with: caps set into each other are seen, and by how much.
-TEST(ColonyCaps, ThatReachIntoEachOtherAreMeasured) {
+// Tests the measure used below: overlapping caps are detected, with the right depth.
+TEST(ColonyCaps, OverlapIsMeasured) {
     Colony colony = parts_of(colony_of("lycoperdon_perlatum", 2, 1));
     ASSERT_EQ(colony.members.size(), 2U);
     EXPECT_EQ(deepest(colony), 0.0);
@@ -157,7 +158,7 @@ TEST(ColonyCaps, ThatReachIntoEachOtherAreMeasured) {
     EXPECT_GT(deepest(colony), 0.2);
 }
 
-TEST(ColonyCaps, NoneReachesIntoAnotherByMoreThanAFiftieth) {
+TEST(ColonyCaps, OverlapByAtMostAFiftieth) {
     const std::array<const char*, 5> species = {"hypholoma_fasciculare", "armillaria_mellea",
                                                 "mycena_haematopus", "macrolepiota_procera",
                                                 "cantharellus_cibarius"};
@@ -181,7 +182,7 @@ TEST(ColonyCaps, NoneReachesIntoAnotherByMoreThanAFiftieth) {
     EXPECT_GT(steps, seeds) << "and many had to give way, or nothing was tried";
 }
 
-TEST(ColonyCaps, WholeIndividualsKeepApartToo) {
+TEST(ColonyCaps, WholeIndividualsDoNotOverlapEither) {
     for (const char* id : {"lycoperdon_perlatum", "trametes_versicolor", "pleurotus_ostreatus",
                            "geastrum_triplex", "tremella_mesenterica"})
         for (const std::uint32_t seed : {1U, 2U, 3U}) {
@@ -193,8 +194,8 @@ TEST(ColonyCaps, WholeIndividualsKeepApartToo) {
         }
 }
 
-// The law of the source holds for every stem that did not have to give way.
-TEST(ColonyCaps, StandOnTheirStemsAsTheSourceSays) {
+// The law of the source holds for every stem that was not moved by placement.
+TEST(ColonyCaps, FollowTheLawOfTheSourceOnTheirStems) {
     ColonyOrder order = colony_of("hypholoma_fasciculare", 64, 1);
     order.params.habit = Habit::rooted;
     order.params.cap_scale = 0.8;
@@ -210,7 +211,8 @@ TEST(ColonyCaps, StandOnTheirStemsAsTheSourceSays) {
         const glm::dvec3 axis = member.posture.turn[1];
         EXPECT_LT(glm::length(axis - glm::normalize(member.rise + 2.0 * member.swing)), 1e-12)
             << "its frame is that of its stem";
-        // As wide as the stem at the junction, times cap_scale: height falls as exp(-decay), radius as exp(-decay / 2).
+        // As wide as the stem at the junction, times cap_scale: height falls as exp(-decay), radius
+        // as exp(-decay / 2).
         const double depth = std::log(*growth.stem_height / member.rise.y) / *growth.stem_decay;
         const double radius =
             *growth.root_radius * std::exp(-0.5 * *growth.decay * *growth.area_decay * depth);
@@ -231,7 +233,7 @@ TEST(ColonyCaps, GrowWithCapScaleAndColoniesWithSize) {
     EXPECT_LT(distance(bounds(large), {3.0F * bounds(wide).min, 3.0F * bounds(wide).max}), 1e-5);
 }
 
-TEST(ColonyFile, BytesGrowWithTheDistinctNotWithTheCount) {
+TEST(ColonyFile, BytesGrowWithDistinctNotWithCount) {
     const auto bytes = [](int count, int distinct, Instancing instancing) {
         ColonyOrder order = colony_of("lycoperdon_perlatum", count, distinct);
         order.params.instancing = instancing;
@@ -244,7 +246,7 @@ TEST(ColonyFile, BytesGrowWithTheDistinctNotWithTheCount) {
     EXPECT_GT(bytes(128, 8, Instancing::nodes), 1.8 * few);
 }
 
-TEST(ColonyFile, InstancesStandWhereNodesDo) {
+TEST(ColonyFile, InstancesHaveTheTransformsOfNodes) {
     for (const char* id : {"armillaria_mellea", "trametes_versicolor"}) {
         ColonyOrder order = colony_of(id);
         const ReadScene nodes = expect_scene(joined(grown(order).glb));
@@ -292,7 +294,7 @@ TEST(ColonyFile, ItsPosturesAreThoseOfItsNodes) {
     }
 }
 
-TEST(ColonyFile, AllWearTheImagesOfOneMushroom) {
+TEST(ColonyFile, AllMembersUseTheImagesOfOneMushroom) {
     ColonyOrder order = colony_of("armillaria_mellea", 5, 2);
     order.params.textures = Textures::embedded;
     order.params.texture_size.value = 256;
@@ -307,7 +309,7 @@ TEST(ColonyFile, AllWearTheImagesOfOneMushroom) {
     EXPECT_TRUE(names(refusal([&] { (void)grown(order); }), "/textures"));
 }
 
-TEST(ColonyFile, IsTheSameEveryTimeAndAnotherForEverySeed) {
+TEST(ColonyFile, IsDeterministicAndDependsOnTheSeed) {
     ColonyOrder order = colony_of("hypholoma_fasciculare");
     order.params.habit = Habit::rooted;
     const Bytes once = joined(grown(order).glb);
@@ -316,7 +318,7 @@ TEST(ColonyFile, IsTheSameEveryTimeAndAnotherForEverySeed) {
     EXPECT_NE(once, joined(grown(order).glb));
 }
 
-TEST(ColonyFile, MixesAreOneMushroomManyTimes) {
+TEST(ColonyFile, AMixIsOneMushroomInManyInstances) {
     ColonyOrder order = colony_of("", 8, 3);
     order.mix = {{"armillaria_mellea", 500}, {"hypholoma_fasciculare", 500}};
     (void)expect_scene(joined(grown(order).glb));
@@ -325,7 +327,7 @@ TEST(ColonyFile, MixesAreOneMushroomManyTimes) {
     (void)expect_scene(joined(grown(order).glb));
 }
 
-TEST(ColonyFile, TellsWhatWasMade) {
+TEST(ColonyFile, DescribesTheResult) {
     ColonyOrder order = colony_of("hypholoma_fasciculare", 64, 4);
     order.params.habit = Habit::rooted;
     const Colony colony = parts_of(order);
@@ -335,7 +337,7 @@ TEST(ColonyFile, TellsWhatWasMade) {
     ColonyRootsOf<Maybe>::fields([&](auto member, const Info& info) {
         EXPECT_TRUE(colony.effective.growth.*member) << info.name;
     });
-    // Asked for again, it is the same colony.
+    // Requesting the effective parameters gives the same colony.
     ColonyOrder again = order;
     again.params = colony.effective;
     const Colony second = parts_of(again);
@@ -359,7 +361,7 @@ TEST(ColonyBudget, IsCheckedBeforeAnyWork) {
                  Cancelled);
 }
 
-// Every control at both its ends makes a valid colony, or is refused for a reason.
+// Every parameter at both ends of its range makes a valid colony, or is refused for a reason.
 TEST(ColonyCorners, AreValidOrRefusedByName) {
     for (const char* id : {"hypholoma_fasciculare", "lycoperdon_perlatum", "trametes_versicolor"})
         for (const bool rooted : {true, false}) {

@@ -1,4 +1,4 @@
-// Levels of detail show the same individual: an eye that sees one replaced by the next sees no step.
+// Levels of detail show the same individual: replacing one by the next is not visible.
 #include "core/mesh/detail.h"
 
 #include <gtest/gtest.h>
@@ -18,7 +18,7 @@
 namespace sporeprint {
 namespace {
 
-// Size on the screen that each level of detail is made for, in pixels of its larger side.
+// Size on screen that each level of detail is made for, in pixels of its larger side.
 constexpr std::array<int, 4> made_for = {512, 256, 96, 32};
 
 constexpr std::array<View, 4> views = {{{20, 0}, {110, 15}, {200, 40}, {290, -25}}};
@@ -43,7 +43,8 @@ Canvas canvas_of(const Mesh& mesh, int pixels) {
     const Bounds box = bounds(mesh);
     const glm::vec3 size = box.max - box.min;
     const double larger = std::max({size.x, size.y, size.z});
-    // The picture is larger than the mushroom, so that nothing is cut off: its pixels keep their size.
+    // The canvas is larger than the mushroom, so that nothing is clipped and pixels keep their
+    // size.
     const int whole = pixels + 3 * pixels / 4;
     return {0.5F * (box.min + box.max), larger * whole / pixels, whole};
 }
@@ -55,7 +56,8 @@ INSTANTIATE_TEST_SUITE_P(Atlas, Detail, ::testing::ValuesIn(species_ids()),
 
 constexpr std::array<double, 4> ages = {0.6, 0.3, 0.85, 0.1};
 
-// At the size where the coarser of two neighbours takes over, its silhouette differs by less than a pixel along its outline.
+// At the size where the coarser of two levels takes over, its silhouette differs by less than a
+// pixel along its outline.
 TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
     for (const double age : std::span(ages).first(effort(4, 1, 4))) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
@@ -71,7 +73,8 @@ TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
     }
 }
 
-// Warts and scales count as the part that they lie on: solids at one level of detail are painted at the next.
+// Warts and scales count as the part that they lie on, because solids at one level of detail are
+// painted at the next.
 TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
     constexpr std::array<Part, 2> parts = {Part::cap, Part::stem};
     constexpr std::uint32_t body = 1U << static_cast<unsigned>(Part::cap) |
@@ -94,7 +97,8 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
             }
         for (std::size_t k = 0; k + 1 < levels.size(); ++k)
             for (std::size_t p = 0; p < parts.size(); ++p) {
-                // A part that is hardly seen, as the stem of a cup, has no colour to compare.
+                // A part that is hardly visible, such as the stem of a cup, has no colour to
+                // compare.
                 if (std::min(means[k][p].count(), means[k + 1][p].count()) < 400) continue;
                 EXPECT_LT(difference(means[k][p].mean(), means[k + 1][p].mean()), 3.0)
                     << "age " << age << ", level " << k << " and the next, "
@@ -103,7 +107,8 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
     }
 }
 
-// The measure itself: a disc has the outline of a circle, and a mushroom moved by three pixels is seen to have moved.
+// Tests the measure itself: a disc has the outline of a circle, and a mushroom moved by three
+// pixels is detected.
 TEST(Drawing, MeasuresOutlinesAndSeesSteps) {
     const Mesh mesh = mesh_of(textured(order_of(species_ids().front())));
     const Canvas canvas = canvas_of(mesh, 96);

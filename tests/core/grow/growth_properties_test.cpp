@@ -1,4 +1,4 @@
-// Properties of growth that no room can show alone: a film of any species from egg to decay has no jump.
+// Properties of growth over all modules: a film of any species from egg to decay has no jump.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +17,7 @@ class Growth : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Atlas, Growth, ::testing::ValuesIn(species_ids()),
                          [](const auto& one) { return one.param; });
 
-/// The largest jump of a film, in shares of the mature diagonal, and where it is.
+/// The largest jump of a film, relative to the mature diagonal, and its age.
 struct Worst {
     double share = 0.0, age = 0.0;
 };
@@ -47,15 +47,15 @@ TEST_P(Growth, NoVertexMovesByTwoHundredthsOfTheMatureSizeInA256thOfALife) {
     for (const One& one : {One{0, 2, 0.5}, One{1, 7, 1.0}}) {
         MushroomOrder order = order_of(GetParam(), 0.0, one.seed, one.lod);
         order.params.variation = one.variation;
-        // Under sanitizers a twentieth of a life, in steps as small.
+        // With sanitizers a twentieth of a life is tested, in equally small steps.
         const int frames = static_cast<int>(effort(256, 1, 256));
         const Worst worst = worst_jump(order, 0.0, frames / 256.0, frames);
         EXPECT_LT(worst.share, 0.02) << "lod " << one.lod << ", age " << worst.age;
     }
 }
 
-TEST_P(Growth, HasNoJumpHoweverCloseOneLooks) {
-    // Whatever moves by a jump, and not fast, moves as far in a step sixteen times as short.
+TEST_P(Growth, HasNoJumpAtAnyStepSize) {
+    // A discontinuity, unlike fast movement, does not shrink in steps sixteen times as short.
     MushroomOrder order = order_of(GetParam(), 0.0, 7, 1);
     const int frames = static_cast<int>(effort(64, 2, 128));
     for (const double age : {0.0, 0.1, 0.28, 0.45, 0.59, 0.72, 0.84, 0.95}) {

@@ -38,8 +38,8 @@ float angle_deg(const glm::vec3& a, const glm::vec3& b) {
     return std::atan2(glm::length(glm::cross(a, b)), glm::dot(a, b)) * 57.29578f;
 }
 
-/// Expects a frame to be the mesh of a static file: the same vertices, and its triangles in their order; what the static
-/// file leaves out has no width in the frame.
+/// Expects a frame to be the mesh of a static file: the same vertices, and its triangles in their
+/// order; triangles that the static file leaves out have no area in the frame.
 void expect_same_surface(const Mesh& frame, const Mesh& still) {
     ASSERT_EQ(frame.positions.size(), still.positions.size());
     float apart = 0.0f, turned = 0.0f;
@@ -61,7 +61,7 @@ void expect_same_surface(const Mesh& frame, const Mesh& still) {
         const glm::dvec3 a = frame.positions[frame.indices[i]],
                          b = frame.positions[frame.indices[i + 1]],
                          c = frame.positions[frame.indices[i + 2]];
-        // Corners are floats: a line stays one within their rounding.
+        // Vertices are floats: a degenerate triangle is a line within their rounding.
         const double longest =
             std::max({glm::distance(a, b), glm::distance(b, c), glm::distance(c, a)});
         EXPECT_LE(glm::length(glm::cross(b - a, c - a)), 3e-8 * longest) << "triangle " << i / 3;
@@ -90,7 +90,7 @@ TEST_P(EverySpeciesClip, FramesAreTheStaticMeshesAtTheirAges) {
         }
 }
 
-TEST_P(EverySpeciesClip, WhoPlaysNothingSeesTheMushroomOfTheAgeAskedFor) {
+TEST_P(EverySpeciesClip, WithoutPlaybackTheMushroomHasTheRequestedAge) {
     for (const double age : {0.0, 0.37, 0.6, 1.0}) {
         SCOPED_TRACE(age);
         const MushroomOrder order = order_of(GetParam(), age, 3, 1);
@@ -121,7 +121,7 @@ TEST_P(EverySpeciesClip, WeightsAreOneFrameAtEachKeyEvenlyOverEightSeconds) {
     }
 }
 
-TEST_P(EverySpeciesClip, HalfwayBetweenTwoFramesIsTheirMean) {
+TEST_P(EverySpeciesClip, HalfWayBetweenTwoFramesIsTheirMean) {
     const ReadBack found =
         expect_glb(joined(grow_mushroom(growing(order_of(GetParam(), 0.6, 1, 2), 5), atlas()).glb));
     for (std::size_t k = 0; k + 1 < 5; ++k) {
@@ -196,7 +196,7 @@ TEST(Clip, ImagesAreThoseOfTheAge) {
     EXPECT_EQ(linked.targets.size(), 9u);
 }
 
-TEST(Clip, AClipGivesTheRequestBackThatMadeIt) {
+TEST(Clip, AClipContainsTheRequestThatMadeIt) {
     const MushroomOrder order = growing(painted(order_of("boletus_edulis", 0.6, 7, 1)), 4);
     const Mushroom made = grow_mushroom(order, atlas(), {"/v1/canonical", {}});
     const Inspection found = inspect_glb(joined(made.glb));
@@ -210,7 +210,7 @@ TEST(Clip, AClipGivesTheRequestBackThatMadeIt) {
     EXPECT_EQ(effective.frames, 4);
 }
 
-TEST(Clip, GivesEqualBytesTwiceAndWithManyHands) {
+TEST(Clip, GivesEqualBytesTwiceAndWithManyThreads) {
     const MushroomOrder order = growing(order_of("amanita_muscaria", 0.6, 2, 1));
     const Bytes once = joined(grow_mushroom(order, atlas()).glb);
     EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), once);
@@ -219,8 +219,8 @@ TEST(Clip, GivesEqualBytesTwiceAndWithManyHands) {
     EXPECT_EQ(joined(grow_mushroom(order, atlas(), {}, threads).glb), once);
 }
 
-TEST(Clip, WhatCannotBeAtSomeAgeIsRefusedWithThatAge) {
-    // Buttons are stout: a bend that a grown stem takes folds the young one.
+TEST(Clip, AnImpossibleAgeIsRefusedByName) {
+    // Buttons are stout: a bend that a grown stem allows folds the young one.
     int refused = 0;
     for (const std::string& id : species_ids()) {
         MushroomOrder order = order_of(id, 0.6, 1, 3);
@@ -234,7 +234,7 @@ TEST(Clip, WhatCannotBeAtSomeAgeIsRefusedWithThatAge) {
     EXPECT_GT(refused, 0);
 }
 
-TEST(Clip, AModelOfOnesOwnHasNoStages) {
+TEST(Clip, AUserModelHasNoStages) {
     MushroomOrder order = growing(order_of("x"));
     order.mix.clear();
     order.model = atlas().find("russula_vinosa")->species.stages[1].model;
@@ -243,7 +243,7 @@ TEST(Clip, AModelOfOnesOwnHasNoStages) {
     EXPECT_TRUE(names(refusal([&] { (void)estimate(order, atlas()); }), "/animation", "no stages"));
 }
 
-TEST(Clip, FramesNeedAClipSoThatBytesHaveOneAddress) {
+TEST(Clip, FramesNeedAClipSoThatEqualBytesHaveOneUrl) {
     MushroomParams params;
     std::vector<Problem> problems;
     const std::vector<std::pair<std::string, std::string>> alone = {{"frames", "5"}};
@@ -263,7 +263,7 @@ TEST(Clip, FramesNeedAClipSoThatBytesHaveOneAddress) {
     EXPECT_EQ(query_text(params), "");
 }
 
-TEST(Clip, IsAbandonedWhenAskedToStop) {
+TEST(Clip, StopsWhenCancelled) {
     std::stop_source source;
     Workshop workshop;
     workshop.stop = source.get_token();

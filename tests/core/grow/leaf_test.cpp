@@ -60,8 +60,8 @@ TEST_P(EveryLeaf, HasFewerTrianglesAtEveryLevelAndOneOutline) {
         else
             EXPECT_LE(static_cast<double>(mesh.triangles()), before) << "a needle is few already";
         before = static_cast<double>(mesh.triangles());
-        // The same individual: its box stays, but for points that few triangles cannot follow. The fan of a frond is as small as
-        // its area.
+        // The same individual: its bounding box stays, except for points that few triangles cannot
+        // follow. The fan of a frond is as small as its area.
         const Bounds box = bounds(mesh);
         const double length = static_cast<double>(box.max.z - box.min.z);
         if (lod == 0) finest = length;
@@ -93,7 +93,7 @@ TEST_P(EveryLeaf, GivesEqualBytesTwiceAndWithManyThreads) {
     EXPECT_EQ(joined(grow_leaf(order).glb), once);
 }
 
-TEST(GrownLeaf, SizeScalesTheWhole) {
+TEST(GrownLeaf, SizeScalesTheMesh) {
     LeafOrder order = order_of("ivy");
     const Mesh one = leaf_mesh(order);
     order.params.size = 2.0;
@@ -112,7 +112,7 @@ TEST(GrownLeaf, SeedsAreIndividuals) {
     EXPECT_NE(joined(grow_leaf(order).glb), one);
 }
 
-TEST(GrownLeaf, AChangeOfShapePaintsNothingAndCopiesNoImage) {
+TEST(GrownLeaf, AChangeOfShapeReusesTheImages) {
     Keeper keeper;
     LeafOrder order = order_of("maple", 1);
     const Grown flat = grow_leaf(order, {}, keeper.workshop);
@@ -145,7 +145,7 @@ TEST(GrownLeaf, LinksImagesOrLeavesThemOut) {
     EXPECT_EQ(bare.textures, 0u);
 }
 
-TEST(GrownLeaf, SaysWhatItIsMadeOf) {
+TEST(GrownLeaf, DescribesItselfInExtras) {
     LeafOrder order = order_of("birch", 1);
     order.params.shape.venation.nodes = 11;
     const Value json = json_chunk(joined(grow_leaf(order, {"/v1/canonical", {}}).glb));
@@ -158,7 +158,7 @@ TEST(GrownLeaf, SaysWhatItIsMadeOf) {
     EXPECT_EQ(json.at_pointer("/extensionsUsed"), nullptr);
 }
 
-TEST(GrownLeaf, IsAbandonedWhenAskedToStop) {
+TEST(GrownLeaf, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
     Workshop workshop;
@@ -166,7 +166,7 @@ TEST(GrownLeaf, IsAbandonedWhenAskedToStop) {
     EXPECT_THROW((void)grow_leaf(order_of("fern"), {}, workshop), Cancelled);
 }
 
-TEST(GrownLeaf, StepsAreToldInTheirOrder) {
+TEST(GrownLeaf, StepsAreReportedInOrder) {
     std::vector<std::string> steps;
     Workshop workshop;
     workshop.observer = [&](Step step) { steps.emplace_back(name(step)); };
@@ -174,7 +174,7 @@ TEST(GrownLeaf, StepsAreToldInTheirOrder) {
     EXPECT_EQ(steps, (std::vector<std::string>{"build", "paint", "pack"}));
 }
 
-TEST(GrownLeaf, WhatCannotBeIsRefusedByName) {
+TEST(GrownLeaf, ImpossibleParametersAreRefusedByName) {
     LeafOrder order = order_of("maple");
     order.params.shape.venation.lobes.value = 13;
     EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(order); }), "/venation/vein_deg", "petiole"));

@@ -1,4 +1,5 @@
-// Outlines of mixes as they are swept: whatever the species, ages and weights, none touches itself and none leaves its side of the axis.
+// Outlines of mixes as they are swept: for all species, ages and weights none intersects itself or
+// crosses the axis.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -12,7 +13,7 @@
 namespace sporeprint {
 namespace {
 
-/// The set of control shapes that mixes of these species are made of.
+/// Returns the set of control shapes that mixes of these species consist of.
 std::shared_ptr<const MorphSet> set_of(const std::vector<std::string>& ids) {
     Mix mix;
     for (const std::string& id : ids) mix.push_back({id, 1});
@@ -24,7 +25,8 @@ std::shared_ptr<const MorphSet> set_of(const std::vector<std::string>& ids) {
     return found;
 }
 
-/// Weights of all control shapes: those of the species, each times the growth of its stages at its age.
+/// Returns the weights of all control shapes: those of the species, each times the growth of its
+/// stages at its age.
 std::vector<double> weights_of(const MorphSet& set, const std::vector<std::string>& ids,
                                const std::vector<double>& shares, const std::vector<double>& ages) {
     std::vector<double> weights;
@@ -37,7 +39,7 @@ std::vector<double> weights_of(const MorphSet& set, const std::vector<std::strin
     return weights;
 }
 
-/// What is wrong with an outline at any level of detail; empty when nothing is.
+/// Returns what is wrong with an outline at any level of detail; empty when nothing is.
 std::string fault_of(const MorphSet& set, const std::vector<double>& weights) {
     const Outline outline(set.nodes(weights));
     for (int lod = 0; lod < 4; ++lod) {
@@ -51,7 +53,7 @@ std::string fault_of(const MorphSet& set, const std::vector<double>& weights) {
     return "";
 }
 
-/// Work over many cases, cut into parts that run beside each other.
+/// Distributes many cases over threads.
 class Parts : public ::testing::TestWithParam<std::size_t> {
   protected:
     static constexpr std::size_t parts = 8;
@@ -64,7 +66,8 @@ INSTANTIATE_TEST_SUITE_P(Eighths, PairOutlines, ::testing::Range(std::size_t{0},
 INSTANTIATE_TEST_SUITE_P(Eighths, RandomOutlines, ::testing::Range(std::size_t{0}, std::size_t{8}));
 
 TEST_P(PairOutlines, AreRefusedForNoPairOfTheAtlas) {
-    // Individuals in proportions of their own, and as far from their templates as any: the mix of a pair is grown, never refused.
+    // Individuals with their own proportions, as far from their templates as possible: a mix of a
+    // pair is never refused.
     const auto pairs = sanitized ? some_species_pairs(8) : species_pairs();
     for (std::size_t i = GetParam(); i < pairs.size(); i += parts)
         for (const double age : {0.0, 0.25, 0.5, 0.75, 1.0})
@@ -77,8 +80,8 @@ TEST_P(PairOutlines, AreRefusedForNoPairOfTheAtlas) {
             }
 }
 
-TEST_P(PairOutlines, AreSimpleAllTheWayBetweenEveryPairOfAges) {
-    // Every pair there is: sanitizers are content with some.
+TEST_P(PairOutlines, AreSimpleBetweenEveryPairOfAges) {
+    // Every pair of the atlas; with sanitizers only some.
     const auto pairs = sanitized ? some_species_pairs(8) : species_pairs();
     constexpr std::array<double, 5> ages = {0.0, 0.25, 0.5, 0.75, 1.0};
     const int looks = static_cast<int>(effort(32, 4));
@@ -91,7 +94,7 @@ TEST_P(PairOutlines, AreSimpleAllTheWayBetweenEveryPairOfAges) {
                 const auto from = weights_of(*set, ids, {1.0, 0.0}, {a, b});
                 const auto to = weights_of(*set, ids, {0.0, 1.0}, {a, b});
                 EXPECT_TRUE(set->certificate(from, to).simple) << "ages " << a << " and " << b;
-                // The proof is believed, and looked at.
+                // The proof is checked against samples.
                 for (int look = 0; look <= looks; ++look) {
                     const double t = static_cast<double>(look) / looks;
                     EXPECT_EQ(fault_of(*set, weights_of(*set, ids, {1.0 - t, t}, {a, b})), "")
@@ -102,13 +105,14 @@ TEST_P(PairOutlines, AreSimpleAllTheWayBetweenEveryPairOfAges) {
 }
 
 TEST_P(RandomOutlines, OfAHundredThousandMixesAreSimple) {
-    // Five hundred sets of two to eight species, and two hundred mixes of each.
+    // Five hundred sets of two to eight species, with two hundred mixes each.
     for (std::size_t i = GetParam(); i < effort(500); i += parts) {
         Random random(static_cast<std::uint32_t>(i), 0x6f75746c);
         const auto ids = random_species(random);
         const auto set = set_of(ids);
         for (int draw = 0; draw < 200; ++draw) {
-            // Mostly of one age, as they are served; the proof holds for different ages, too, and for any stages at all.
+            // Mostly of one age, as they are served; the proof also holds for different ages, and
+            // for any stages.
             std::vector<double> weights;
             std::string what;
             if (draw % 10 == 0) {

@@ -1,4 +1,5 @@
-// Properties of mixes that no room can show alone: nothing folds, nothing jumps, a corner is the species itself.
+// Properties of mixes over all modules: nothing folds, nothing jumps, weight 1 reproduces the
+// single-species mesh.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 namespace sporeprint {
 namespace {
 
-/// What a deviation is compared with.
+/// Tolerance that a deviation is compared with.
 double height(const Mesh& mesh) {
     const Bounds box = bounds(mesh);
     return static_cast<double>(box.max.y - box.min.y);
@@ -23,8 +24,8 @@ double height(const Mesh& mesh) {
 /// 0.3 % of a mesh's height, metres.
 double hairs_breadth(const Mesh& mesh) { return 0.003 * height(mesh); }
 
-/// The same, or 0.13 % of its diagonal where a mesh lies so flat (a star, a bracket, an old cup) that a hair's breadth is more of its
-/// height.
+/// The same, or 0.13 % of its diagonal for flat meshes (a star, a bracket, an old cup), where a
+/// small deviation is more of the height.
 double hairs_breadth_of_flat(const Mesh& mesh) {
     return std::max(hairs_breadth(mesh), 0.0013 * diagonal(bounds(mesh)));
 }
@@ -33,13 +34,14 @@ bool has_limbs(const MushroomOrder& order) {
     return is_branched(atlas().find(order.mix.front().id)->species);
 }
 
-/// Whether a set comes to so many triangles that its patches have fewer corners than those of the lone species.
+/// Returns true when a set has so many triangles that its patches have fewer corners than those of
+/// a single species.
 bool is_crowded(const MushroomOrder& order) {
     return budget_of(resolved(order), order.params.lod).ornaments.patch_sides <
            detail_of(order.params.lod).patch_sides;
 }
 
-/// The same order without warts and scales, as far as its species can have any.
+/// Returns the same order without warts and scales, as far as its species can have any.
 MushroomOrder without_patches(MushroomOrder order) {
     const auto& has = resolved(order).effective.ornaments;
     auto& asked = order.params.ornaments;
@@ -49,15 +51,15 @@ MushroomOrder without_patches(MushroomOrder order) {
     return order;
 }
 
-/// Beside a thousandth of another a species is as near to itself as `allowance` says, without its gills; these follow in
-/// expect_solids_converge().
+/// Expects that a species mixed with a thousandth of another deviates by at most `allowance`,
+/// without its gills; these follow in expect_solids_converge().
 void expect_convergence(MushroomOrder alone, MushroomOrder beside,
                         double (*allowance)(const Mesh&)) {
     if (!has_limbs(alone)) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), allowance(pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
-    // Layers of no thickness that lie on the surface would be seen by nothing but their area.
+    // Layers of no thickness on the surface would be noticed only by their area.
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02)
         << text_of(beside.mix) << ", age " << alone.params.age;
 }
@@ -78,7 +80,7 @@ class EveryPair : public ::testing::TestWithParam<std::size_t> {
 INSTANTIATE_TEST_SUITE_P(Eighths, EveryPair, ::testing::Range(std::size_t{0}, std::size_t{8}));
 
 TEST_P(EveryPair, ConvergesToEitherSpecies) {
-    // Every pair of the atlas takes four minutes of two cores: SPOREPRINT_EFFORT=3 looks at them all.
+    // Every pair of the atlas takes four minutes on two cores: SPOREPRINT_EFFORT=3 tests all.
     const auto pairs = some_species_pairs(effort(210));
     for (std::size_t i = GetParam(); i < pairs.size(); i += parts)
         for (const auto& [corner, near] : {std::pair{0, 1}, std::pair{1000, 999}}) {
@@ -90,10 +92,10 @@ TEST_P(EveryPair, ConvergesToEitherSpecies) {
         }
 }
 
-// Meshes of a sample of pairs; outlines of every pair are looked at in morph_outlines_test.cpp.
+// Meshes of a sample of pairs; outlines of every pair are tested in morph_outlines_test.cpp.
 class SomePairs : public ::testing::TestWithParam<SpeciesPair> {
   protected:
-    /// The pair at t thousandths of the way from its first species to its second.
+    /// Returns the pair at t thousandths from its first species to its second.
     [[nodiscard]] static MushroomOrder at(int t, double age = 0.6, std::uint32_t seed = 3,
                                           int lod = 1) {
         const auto& [a, b] = GetParam();
@@ -129,11 +131,13 @@ TEST_P(SomePairs, HasNoJumpFromOneSpeciesToTheOther) {
         int where = 0;
         for (int t = 4; t <= 1000; t += 4) {  // a little more than 1/256
             Mesh now = mesh_of(at(t, age));
-            // A lone species has rings of its own: there the surfaces are compared, between mixes the vertices.
+            // A single species has its own rings: there the surfaces are compared, between mixes
+            // the vertices.
             const bool corner = t == 4 || t == 1000;
             const double share = (corner ? hausdorff(last, now) : jump(last, now)) /
                                  std::min(diagonal(bounds(last)), diagonal(bounds(now)));
-            // Of the smaller limbs a mix of bushes keeps others than either alone, seen from afar.
+            // At coarse levels a mix of branch graphs keeps other small segments than either
+            // species alone.
             if (corner && has_limbs(at(500, age)))
                 worst_corner = std::max(worst_corner, share);
             else if (share > worst) {
@@ -174,8 +178,9 @@ TEST_P(SomePairs, HasAsManyVerticesAtEveryWeightAndAge) {
     }
 }
 
-TEST_P(SomePairs, WhatIsBornIsBornSmall) {
-    // Sixteen times as close to its birth a piece is sixteen times as small: looked for along age, where amounts pass zero.
+TEST_P(SomePairs, NewPiecesBeginSmall) {
+    // Sixteen times as close to its first appearance a piece is sixteen times as small; tested
+    // along age, where amounts pass zero.
     const double size = diagonal(bounds(mesh_of(at(500))));
     for (const double age : {0.0, 0.2, 0.3, 0.55, 0.6, 0.8, 0.85, 0.97}) {
         Mesh last = mesh_of(at(500, age));
@@ -193,7 +198,7 @@ class RandomMixes : public ::testing::TestWithParam<std::uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Tenths, RandomMixes, ::testing::Range(0u, 10u));
 
 TEST_P(RandomMixes, AreValidMeshes) {
-    // Two thousand in all: twenty sets of species a tenth, and ten mixes of each.
+    // Two thousand in all: twenty sets of species per tenth, and ten mixes of each.
     int drawn = 0, refused = 0;
     for (std::uint32_t i = 0; i < effort(20); ++i) {
         Random random(GetParam() * 20 + i, 0x6d6978);
@@ -211,7 +216,7 @@ TEST_P(RandomMixes, AreValidMeshes) {
             ++drawn;
             Mesh mesh;
             const auto problems = refusal([&] { mesh = mesh_of(order); });
-            if (!problems.empty()) {  // no simple mean of these outlines: told, never served
+            if (!problems.empty()) {  // no valid outline: reported, never served
                 EXPECT_TRUE(problems.front().path.starts_with("/model/silhouette/"));
                 ++refused;
                 continue;
@@ -221,11 +226,12 @@ TEST_P(RandomMixes, AreValidMeshes) {
             if (HasFailure()) return;
         }
     }
-    // A set of eight may be too fine for the three rings of the last level of detail, at any weights: one of twenty sets at most.
+    // A set of eight may be too fine for the three rings of the last level of detail at any
+    // weights: at most one of twenty sets.
     EXPECT_LE(20 * refused, drawn);
 }
 
-TEST(Morph, TowardsACornerOfEightSpeciesTheSurfaceConverges) {
+TEST(Morph, TheSurfaceOfEightSpeciesConvergesTowardsWeightOne) {
     const auto ids = swept_ids();
     for (std::size_t corner = 0; corner < ids.size(); ++corner) {
         Mix mix;
@@ -243,7 +249,7 @@ TEST(Morph, TowardsACornerOfEightSpeciesTheSurfaceConverges) {
             beside = without_patches(beside);
         }
         const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
-        // Seven thousandths are not one: twice what one may do.
+        // Seven thousandths of others instead of one: twice the tolerance.
         EXPECT_LT(hausdorff(pure, mixed), 2 * hairs_breadth_of_flat(pure)) << id;
     }
 }

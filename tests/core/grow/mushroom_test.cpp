@@ -62,7 +62,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
         for (const Problem& problem : problems) {
             refused.insert(problem.path);
             EXPECT_FALSE(problem.message.empty());
-            // A fold is told at the bend, whatever part of the deformation made it too tight.
+            // A fold is reported at the bend, whatever part of the deformation caused it.
             EXPECT_TRUE(problem.path == path || path.starts_with("/deformation/")) << problem.path;
         }
     });
@@ -93,13 +93,13 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
     for (const std::string& path : refused) EXPECT_TRUE(known.contains(path)) << path;
 }
 
-TEST_P(EverySpecies, AsAModelOfOnesOwnIsValidOrRefusedByNameWithEachFieldAtEachEnd) {
+TEST_P(EverySpecies, AsAUserModelIsValidOrRefusedByNameWithEachFieldAtEachEnd) {
     MushroomOrder order = textured(order_of("x", 0.5, 3, 1));
     order.mix.clear();
     order.model = atlas().find(GetParam())->species.stages[2].model;
     order.model->deformation.imperfection = 0.5;
     order.model->weathering.waves = 0.5;
-    // What is attached by a patch wider than high has no stem to bend.
+    // A form attached by a patch wider than high has no stem to bend.
     if (auto* swept = std::get_if<Swept>(&order.model->shape)) {
         const auto& stem = swept->silhouette.stem;
         double widest = 0.0;
@@ -109,7 +109,7 @@ TEST_P(EverySpecies, AsAModelOfOnesOwnIsValidOrRefusedByNameWithEachFieldAtEachE
     }
     int grown = 0;
     corners(*order.model, [&](const std::string& path) {
-        if (path.starts_with("/surface/")) return;  // nothing of the shape
+        if (path.starts_with("/surface/")) return;  // does not affect the shape
         SCOPED_TRACE(path);
         const auto problems = refusal([&] {
             const Mesh mesh = mesh_of(order);
@@ -132,7 +132,7 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
         ++drawn;
         MushroomOrder order = order_of(GetParam());
         order.params = arbitrary_params();
-        // What a species cannot have is refused anyway; leave it out half of the time.
+        // Parameters that a species cannot have are refused; they are left out half of the time.
         if (*rc::gen::inRange(0, 2)) {
             order.params.hymenium = {};
             order.params.ornaments = {};
@@ -206,7 +206,7 @@ TEST_P(EverySpecies, GivesEqualBytesTwiceAndWithEightThreads) {
     for (const Bytes& mine : together) EXPECT_EQ(mine, once);
 }
 
-TEST(Mushroom, AChangeOfShapePaintsNothingAndCopiesNoImage) {
+TEST(Mushroom, AChangeOfShapeReusesTheImages) {
     Keeper keeper;
     MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 5));
     const Mushroom straight = grow_mushroom(order, atlas(), {}, keeper.workshop);
@@ -222,7 +222,7 @@ TEST(Mushroom, AChangeOfShapePaintsNothingAndCopiesNoImage) {
         EXPECT_TRUE(shares_bytes(bent.glb, file));
     }
     EXPECT_NE(joined(straight.glb), joined(bent.glb));
-    // And what was kept is what would be painted anew.
+    // The cached images equal newly painted ones.
     EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), joined(bent.glb));
 }
 
@@ -247,8 +247,9 @@ TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
     EXPECT_EQ(made_by([](MushroomParams& p) { p.lod = 2; }), 1);
 }
 
-// What a request may cost is decided by the estimate: it must not be too low for any of them, and not so high that it refuses what is cheap.
-TEST(Mushroom, IsEstimatedBeforeAnyWorkWhateverIsAskedFor) {
+// The estimate decides what a request may cost: it must not be too low for any request, and not so
+// high that it refuses cheap ones.
+TEST(Mushroom, IsEstimatedBeforeAnyWorkForAnyRequest) {
     Workshop workshop;
     workshop.memo.morphs = kept_morphs();
     for (std::uint32_t i = 0; i < effort(240, 24); ++i) {
@@ -274,7 +275,7 @@ TEST(Mushroom, IsEstimatedBeforeAnyWorkWhateverIsAskedFor) {
     }
 }
 
-TEST(Mushroom, StepsAreToldInTheirOrder) {
+TEST(Mushroom, StepsAreReportedInOrder) {
     std::vector<std::string> steps;
     Workshop workshop;
     workshop.observer = [&](Step step) { steps.emplace_back(name(step)); };
@@ -285,7 +286,7 @@ TEST(Mushroom, StepsAreToldInTheirOrder) {
     EXPECT_EQ(steps, (std::vector<std::string>{"resolve", "build", "pack"}));
 }
 
-TEST(Mushroom, IsAbandonedWhenAskedToStop) {
+TEST(Mushroom, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
     Workshop workshop;
@@ -299,7 +300,7 @@ TEST(Mushroom, IsAbandonedWhenAskedToStop) {
     EXPECT_FALSE(painted_anyway);
 }
 
-TEST(Mushroom, AFailureOfTheMemoIsPassedOn) {
+TEST(Mushroom, AFailureOfTheCacheIsRethrown) {
     Workshop workshop;
     workshop.memo.images = [](const auto&, const auto&) -> std::shared_ptr<const ImageSet> {
         throw GenerationError("no");
@@ -310,7 +311,7 @@ TEST(Mushroom, AFailureOfTheMemoIsPassedOn) {
     EXPECT_THROW(grow(), GenerationError);
 }
 
-TEST(Mushroom, LinkedTexturesNeedAddresses) {
+TEST(Mushroom, LinkedTexturesNeedUrls) {
     const MushroomOrder order = textured(order_of("boletus_edulis", 0.6, 1, 2));
     EXPECT_TRUE(
         names(refusal([&] { (void)grow_mushroom(order, atlas()); }), "/textures", "linked"));
@@ -319,7 +320,7 @@ TEST(Mushroom, LinkedTexturesNeedAddresses) {
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
 }
 
-TEST(Mushroom, SaysWhatItIsMadeOf) {
+TEST(Mushroom, DescribesItselfInExtras) {
     const MushroomOrder order = order_of("boletus_edulis", 0.6, 1, 2);
     const Bytes file = joined(grow_mushroom(order, atlas(), {"/v1/canonical", {}}).glb);
     const Value json = json_chunk(file);
@@ -334,7 +335,7 @@ TEST(Mushroom, SaysWhatItIsMadeOf) {
     EXPECT_EQ(json.at_pointer("/extensionsRequired"), nullptr);
 }
 
-TEST(Mushroom, AModelOfOnesOwnGrowsWithoutASpecies) {
+TEST(Mushroom, AUserModelNeedsNoSpecies) {
     MushroomOrder order = painted(order_of("x", 0.5, 4, 1));
     order.mix.clear();
     order.model = atlas().find("russula_vinosa")->species.stages[1].model;

@@ -22,7 +22,8 @@
 namespace sporeprint {
 namespace {
 
-/// A workshop that keeps paintings and images by their keys, and counts what was made.
+/// An execution context that caches paintings and images by their keys, and counts what was
+/// computed.
 struct Keeper {
     std::map<std::string, std::shared_ptr<const ImageSet>> images;
     std::map<std::string, std::shared_ptr<const RawImages>> paintings;
@@ -49,7 +50,7 @@ struct Keeper {
 
 PaintRecipe recipe_of(const MushroomOrder& order) { return paint_recipe(order, atlas()); }
 
-/// Two species' own paintings, painted small.
+/// Returns paintings of two species at a small size.
 PaintRecipe pair(int first) {
     const MushroomOrder a = painted(order_of("amanita_muscaria"));
     const MushroomOrder b = painted(order_of("boletus_edulis"));
@@ -86,7 +87,7 @@ RC_GTEST_PROP(SurfaceMix, is_the_nearest_in_sixty_fourths_and_stays_it, ()) {
     RC_ASSERT(surface_mix(found) == found);
 }
 
-TEST(SurfaceMix, DropsWhatRoundsToNothing) {
+TEST(SurfaceMix, DropsSpeciesThatRoundToZero) {
     EXPECT_EQ(surface_mix({{"a", 999}, {"b", 1}}), (Mix{{"a", 1000}}));
     EXPECT_EQ(surface_mix({{"a", 500}, {"b", 500}}), (Mix{{"a", 500}, {"b", 500}}));
     EXPECT_EQ(surface_mix({{"a", 984}, {"b", 16}}), (Mix{{"a", 984}, {"b", 16}}));
@@ -94,7 +95,7 @@ TEST(SurfaceMix, DropsWhatRoundsToNothing) {
     EXPECT_EQ(surface_mix({}), Mix{});
 }
 
-TEST(Painting, ALoneSpeciesIsPaintedByItsOwnRecipe) {
+TEST(Painting, ASingleSpeciesHasASinglePainting) {
     for (const std::string& id : species_ids()) {
         const MushroomOrder order = painted(order_of(id, 0.6, 3));
         const PaintRecipe recipe = recipe_of(order);
@@ -111,7 +112,7 @@ TEST(Painting, ALoneSpeciesIsPaintedByItsOwnRecipe) {
     }
 }
 
-TEST(Painting, AModelOfOnesOwnHasARecipe) {
+TEST(Painting, AUserModelHasASinglePainting) {
     MushroomOrder order = painted(order_of("x", 0.31));
     order.mix.clear();
     order.model = atlas().find("russula_vinosa")->species.stages[1].model;
@@ -142,8 +143,8 @@ TEST(Painting, EachSpeciesOfAMixIsPaintedAsItWouldBeAlone) {
     }
 }
 
-TEST(Painting, ADragOfTheWeightPaintsEachSpeciesOnce) {
-    // Whatever is asked of the pair: 64 steps dissolve, and paint what is painted of the first.
+TEST(Painting, AllWeightsOfAPairReuseItsPaintings) {
+    // Whatever the weights of the pair: 64 steps blend, and paint what the first one painted.
     for (const auto& [a, b] : {std::pair{"amanita_muscaria", "boletus_edulis"},
                                {"coprinus_comatus", "disciotis_venosa"}}) {
         std::set<std::string> keys;
@@ -182,7 +183,7 @@ TEST(Painting, SizesAreStepsOfTwoPerCent) {
 }
 
 TEST(Painting, LengthsAreThoseOfTheShapeAlone) {
-    // At a 64th of age a lone species' painting has the lengths that its outline has.
+    // At ages that are multiples of 1/64 a single species' painting has the lengths of its outline.
     for (const std::string& id : species_ids()) {
         MushroomOrder order = painted(order_of(id, 0.59375, 3));
         EXPECT_EQ(recipe_of(order).at(0).painting.metrics, surface_metrics(resolve(order, atlas())))
@@ -199,7 +200,7 @@ TEST(Painting, TheOrderOfSpeciesDoesNotMatter) {
     EXPECT_EQ(image_key(there), image_key(back));
 }
 
-TEST(Painting, EightSpeciesMakeOneRecipe) {
+TEST(Painting, EightSpeciesHaveOneRecipe) {
     Mix mix;
     for (const std::string& id : swept_ids())
         if (mix.size() < 8) mix.push_back({id, 125});
@@ -212,7 +213,7 @@ TEST(Painting, EightSpeciesMakeOneRecipe) {
 }
 
 TEST(Painting, ATraceOfASpeciesIsNotPainted) {
-    // Nor asked for what it alone could have.
+    // Nor are overrides kept that only it could have.
     MushroomOrder order = mixed({{"amanita_muscaria", 997}, {"boletus_edulis", 3}});
     order.params.hymenium.pores_per_mm = 2.0;
     order.params.ornaments.warts = 0.5;
@@ -228,7 +229,7 @@ TEST(Painting, ATraceOfASpeciesIsNotPainted) {
     EXPECT_EQ(recipe[0].painting.ornaments.warts, 0.5);
 }
 
-TEST(Painting, GillsOfAMixStandOnTheCombOfTheMost) {
+TEST(Painting, GillsOfAMixUseTheLargestGillLayout) {
     const PaintRecipe recipe = recipe_of(mixed({{"boletus_edulis", 200},
                                                 {"cantharellus_cibarius", 200},
                                                 {"coprinus_comatus", 300},
@@ -246,7 +247,7 @@ TEST(Painting, GillsOfAMixStandOnTheCombOfTheMost) {
     }
 }
 
-TEST(Painting, GillsGoOverToTheirOwnPlacesTowardsTheCorner) {
+TEST(Painting, GillsMoveToTheirOwnLayoutTowardsWeightOne) {
     const auto own_share = [](int step) {
         int own = 0, common = 0;
         const PaintRecipe recipe =
@@ -271,7 +272,7 @@ TEST(Painting, GillsGoOverToTheirOwnPlacesTowardsTheCorner) {
     }
 }
 
-TEST(Painting, AtlasesThatAreHeldAreCounted) {
+TEST(Painting, AtlasesInMemoryAreCounted) {
     EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 1000}})), 1);
     EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 997}, {"boletus_edulis", 3}})), 1);
     EXPECT_EQ(atlases_held(mixed({{"amanita_muscaria", 500}, {"boletus_edulis", 500}})), 3);
@@ -289,7 +290,7 @@ TEST(Painting, AtlasesThatAreHeldAreCounted) {
         << "one atlas is in the file";
 }
 
-TEST(Painting, WhatAPersonAsksForActsOnEverySpecies) {
+TEST(Painting, OverridesApplyToEverySpecies) {
     MushroomOrder order = mixed({{"amanita_muscaria", 500}, {"coprinus_comatus", 500}});
     order.params.weathering.fade = 0.7;
     order.params.weathering.wetness = 0.2;
@@ -303,7 +304,7 @@ TEST(Painting, WhatAPersonAsksForActsOnEverySpecies) {
     }
 }
 
-TEST(Painting, AMixedMushroomCarriesTheImagesOfItsRecipe) {
+TEST(Painting, AMixedMushroomHasTheImagesOfItsRecipe) {
     const MushroomOrder order = mixed({{"amanita_muscaria", 400}, {"russula_vinosa", 600}});
     Keeper keeper;
     const Mushroom mushroom = grow_mushroom(order, atlas(), {}, keeper.workshop);
@@ -314,14 +315,14 @@ TEST(Painting, AMixedMushroomCarriesTheImagesOfItsRecipe) {
     for (const Slice& file : images->files)
         EXPECT_TRUE(std::any_of(mushroom.glb.begin(), mushroom.glb.end(),
                                 [&](const Slice& s) { return s.owner == file.owner; }));
-    // A thousandth is less than an image knows.
+    // A thousandth is below the resolution of images.
     MushroomOrder near = order;
     near.mix[0].weight = 401;
     near.mix[1].weight = 599;
     EXPECT_EQ(recipe_of(near), recipe_of(order));
 }
 
-TEST(Painting, AMixIsDissolvedFromPaintingsThatAreKept) {
+TEST(Painting, AMixIsBlendedFromCachedPaintings) {
     Keeper keeper;
     const auto half = painted_images(pair(32), keeper.workshop);
     EXPECT_EQ(keeper.painted, 2);
@@ -333,14 +334,14 @@ TEST(Painting, AMixIsDissolvedFromPaintingsThatAreKept) {
     EXPECT_EQ(keeper.painted, 2) << "another weight paints nothing";
     EXPECT_EQ(keeper.dissolved, 2);
     EXPECT_FALSE(*other->files[0].owner == *half->files[0].owner);
-    // Kept or painted now, with one thread or many: the same bytes.
+    // Cached or painted now, with one thread or many: the same bytes.
     Workshop threads;
     threads.parallel = all_at_once;
     const auto anew = painted_images(pair(32), threads);
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(*anew->files[i].owner == *half->files[i].owner);
 }
 
-TEST(Painting, KeysTellRecipesApart) {
+TEST(Painting, KeysDistinguishRecipes) {
     std::set<std::string> keys;
     for (const int first : {1, 31, 32, 63}) keys.insert(image_key(pair(first)));
     PaintRecipe seeded = pair(32);
@@ -350,7 +351,7 @@ TEST(Painting, KeysTellRecipesApart) {
     EXPECT_EQ(keys.size(), 6U);
 }
 
-TEST(Painting, IsAbandonedWhenAskedToStop) {
+TEST(Painting, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
     Workshop workshop;

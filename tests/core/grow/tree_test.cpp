@@ -75,7 +75,7 @@ TEST_P(EveryTree, HasFewerTrianglesAtEveryLevelAndOneCrown) {
         const auto triangles = static_cast<double>(meshes.triangles());
         EXPECT_LT(triangles, 0.6 * before) << lod;
         before = triangles;
-        // The same individual: leaves keep their area, so the crown keeps its size.
+        // The same individual: leaves keep their total area, so the crown keeps its size.
         const Bounds box = bounds(meshes);
         const double leaves = area(meshes.leaves);
         if (lod == 0) {
@@ -131,7 +131,7 @@ TEST_P(EveryTree, LeavesSitOnItsTwigs) {
     }
 }
 
-TEST(GrownTree, SizeScalesTheWhole) {
+TEST(GrownTree, SizeScalesTheMeshes) {
     TreeOrder order = order_of("herb");
     const TreeMeshes one = tree_meshes(order);
     order.params.size = 2.0;
@@ -143,7 +143,7 @@ TEST(GrownTree, SizeScalesTheWhole) {
         ASSERT_EQ(2.0F * one.leaves.positions[i], twice.leaves.positions[i]);
 }
 
-TEST(GrownTree, SeedsAreIndividualsInTheSameImages) {
+TEST(GrownTree, SeedsDifferInShapeAndShareImages) {
     Keeper keeper;
     TreeOrder order = order_of("shrub", 2);
     const Bytes one = joined(grow_tree(order, {}, {}, keeper.workshop).glb);
@@ -152,7 +152,7 @@ TEST(GrownTree, SeedsAreIndividualsInTheSameImages) {
     order.params.look.shape.fork_deg = 40.0;
     EXPECT_NE(joined(grow_tree(order, {}, {}, keeper.workshop).glb), one);
     EXPECT_EQ(keeper.made, 2);
-    // The leaf alone wears what is kept.
+    // Only the leaf uses the cached images.
     LeafOrder leaf{"maple", leaf_of(order.params)};
     (void)grow_leaf(leaf, {}, keeper.workshop);
     EXPECT_EQ(keeper.made, 2);
@@ -177,7 +177,7 @@ TEST(GrownTree, LinksImagesOrLeavesThemOut) {
     EXPECT_TRUE(bare.images.empty());
 }
 
-TEST(GrownTree, WithoutLeavesIsBarkAlone) {
+TEST(GrownTree, WithoutLeavesItIsBarkAlone) {
     TreeOrder order = order_of("birch", 2);
     order.params.look.leaves.per_tip = 0;
     const Grown tree = grow_tree(order);
@@ -188,7 +188,7 @@ TEST(GrownTree, WithoutLeavesIsBarkAlone) {
     EXPECT_EQ(estimate(order).texels, 3u * 32u * 32u);
 }
 
-TEST(GrownTree, SaysWhatItIsMadeOf) {
+TEST(GrownTree, DescribesItselfInExtras) {
     TreeOrder order = order_of("birch", 2);
     order.params.look.shape.main_deg = 11.0;
     const Value json = json_chunk(joined(grow_tree(order, {"/v1/canonical", {}}).glb));
@@ -203,7 +203,7 @@ TEST(GrownTree, SaysWhatItIsMadeOf) {
     EXPECT_EQ(json.at_pointer("/extensionsUsed"), nullptr);
 }
 
-TEST(GrownTree, IsAbandonedWhenAskedToStop) {
+TEST(GrownTree, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
     Workshop workshop;
@@ -211,7 +211,7 @@ TEST(GrownTree, IsAbandonedWhenAskedToStop) {
     EXPECT_THROW((void)grow_tree(order_of("herb"), {}, {}, workshop), Cancelled);
 }
 
-TEST(GrownTree, WhatCannotBeIsRefusedByNameBeforeAnyWork) {
+TEST(GrownTree, ImpossibleParametersAreRefusedByNameBeforeAnyWork) {
     const auto refused = [](auto change) {
         TreeOrder order = order_of("broadleaf");
         change(order.params.look);

@@ -31,7 +31,8 @@ std::vector<Named> catalogue(int order) {
             {"blend", blended(perfect_matrix(order), random_binary_matrix(order), 0.5)}};
 }
 
-// Parents come first, both children know their parent, orders are those of Horton and Strahler.
+// Expects that parents come first, both children refer to their parent, and orders are those of
+// Horton and Strahler.
 void expect_tree(const Ramification& tree) {
     ASSERT_FALSE(tree.nodes.empty());
     EXPECT_EQ(tree.nodes[0].parent, Ramification::none);
@@ -80,7 +81,7 @@ TEST(Ramification, ThePerfectTreeHasTwoToThePowerOfItsOrderLessOneLeaves) {
     }
 }
 
-TEST(Ramification, TreesAreWhole) {
+TEST(Ramification, TreesAreConsistent) {
     for (const Named& one : catalogue(6))
         for (std::uint32_t seed = 0; seed < 20; ++seed) {
             SCOPED_TRACE(one.name);
@@ -89,8 +90,8 @@ TEST(Ramification, TreesAreWhole) {
         }
 }
 
-// Each entry is a mean of Bernoulli draws: within five deviations.
-TEST(Ramification, AGrownForestMeasuresBackToItsMatrix) {
+// Each entry is a mean of Bernoulli samples: within five standard deviations.
+TEST(Ramification, ASampledForestHasTheFrequenciesOfItsMatrix) {
     for (const Named& one : catalogue(6)) {
         SCOPED_TRACE(one.name);
         BiorderCounts all;
@@ -117,7 +118,7 @@ TEST(Ramification, AGrownForestMeasuresBackToItsMatrix) {
     }
 }
 
-TEST(Ramification, ADealtTreeMeasuresBackExactly) {
+TEST(Ramification, AnExactTreeHasExactlyTheFrequenciesOfItsMatrix) {
     for (const Named& one : catalogue(7)) {
         SCOPED_TRACE(one.name);
         const Ramification tree = exact_ramification(one.matrix, 7, 11, plenty);
@@ -126,7 +127,8 @@ TEST(Ramification, ADealtTreeMeasuresBackExactly) {
         ASSERT_EQ(found.rows.size(), 6U);
         for (int k = 2; k <= 7; ++k) {
             const auto& row = found.rows[static_cast<std::size_t>(k - 2)];
-            // Every segment ends in one fork; the rest of its nodes are rounded shares of segments / r(k, k).
+            // Every segment ends in one fork; the numbers of its other nodes are rounded shares of
+            // segments / r(k, k).
             const auto segments = static_cast<double>(row.back());
             for (int i = 1; i < k; ++i)
                 EXPECT_EQ(static_cast<double>(row[static_cast<std::size_t>(i - 1)]),
@@ -136,7 +138,7 @@ TEST(Ramification, ADealtTreeMeasuresBackExactly) {
     }
 }
 
-TEST(Ramification, DealtTreesDifferInArrangementAlone) {
+TEST(Ramification, ExactTreesDifferInArrangementOnly) {
     const RamificationMatrix matrix = random_binary_matrix(6);
     const Ramification one = exact_ramification(matrix, 6, 1, plenty);
     const Ramification other = exact_ramification(matrix, 6, 2, plenty);
@@ -145,7 +147,7 @@ TEST(Ramification, DealtTreesDifferInArrangementAlone) {
     EXPECT_EQ(measured_biorders(one).rows, measured_biorders(other).rows);
 }
 
-// A tree of order 7 of the random binary matrix has 2731 leaves in the mean.
+// A tree of order 7 of the random binary matrix has 2731 leaves on average.
 TEST(Ramification, MeanNumbersOfLeavesFollowTheFormula) {
     EXPECT_NEAR(expected_leaves(random_binary_matrix(7), 7), 2731.0, 1e-6);
     EXPECT_EQ(exact_leaves(random_binary_matrix(7), 7), 2731.0);
@@ -173,21 +175,22 @@ TEST(Ramification, TipsReplaceLeavesAndKeepOrdersRight) {
     EXPECT_THROW((void)with_tips(tree, fishbone_matrix(3, 0.3), 3, 9, tree.leaves()), Impossible);
 }
 
-TEST(Ramification, TooManyLeavesAreRefusedWithTheirNumber) {
+TEST(Ramification, TooManyLeavesAreRefusedWithTheExpectedNumber) {
     const auto grown =
         refusal([] { (void)sampled_ramification(random_binary_matrix(9), 9, 1, 1000); });
     EXPECT_TRUE(names(grown, "/order", "about 43691 leaves; at most 1000"));
     const auto dealt =
         refusal([] { (void)exact_ramification(random_binary_matrix(9), 9, 1, 1000); });
     EXPECT_TRUE(names(dealt, "/order", "about 43691 leaves; at most 1000"));
-    // The least share of forks at the highest order: more leaves than an integer counts, and still an answer at once.
+    // The least share of forks at the highest order: more leaves than an integer can count, still
+    // answered at once.
     const auto endless = refusal([] {
         (void)exact_ramification(fishbone_matrix(most_order, least_fork), most_order, 1, 1000);
     });
     EXPECT_TRUE(names(endless, "/order", "leaves"));
 }
 
-TEST(Ramification, FaultsOfMatricesAreNamed) {
+TEST(Ramification, ErrorsOfMatricesAreNamed) {
     EXPECT_TRUE(names(faults_of({}), "/matrix", "0 rows"));
     EXPECT_TRUE(names(faults_of({{{0.5, 0.5}, {1.0}}}), "/matrix/1",
                       "1 entries; the row of order 3 has 3"));

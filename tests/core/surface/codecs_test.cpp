@@ -13,7 +13,7 @@
 namespace sporeprint {
 namespace {
 
-// A smooth slope of colours, so that lossy codecs keep it closely.
+// A smooth gradient of colours, which lossy codecs reproduce closely.
 Bytes slope(int width, int height) {
     Bytes rgb;
     for (int y = 0; y < height; ++y)
@@ -59,7 +59,7 @@ std::string refusal(const Bytes& file) {
     return "";
 }
 
-TEST(Codecs, PngAndLosslessWebpComeBackExactly) {
+TEST(Codecs, PngAndLosslessWebpRoundTripExactly) {
     const Bytes rgb = slope(61, 40);
     for (const Bytes& file : {png_of(rgb, 61, 40, PNG_FORMAT_RGB), webp_of(rgb, 61, 40)}) {
         const Picture picture = decoded_picture(file, "/image");
@@ -69,7 +69,7 @@ TEST(Codecs, PngAndLosslessWebpComeBackExactly) {
     }
 }
 
-TEST(Codecs, JpegComesBackClosely) {
+TEST(Codecs, JpegRoundTripsClosely) {
     const Bytes rgb = slope(64, 48);
     const Picture picture = decoded_picture(jpeg(rgb, 64, 48, 92, Chroma::full), "/image");
     ASSERT_EQ(picture.rgb.size(), rgb.size());
@@ -95,7 +95,7 @@ TEST(Codecs, TransparencyIsDroppedAndItsColourKept) {
     }
 }
 
-TEST(Codecs, WhatIsNoImageIsRefused) {
+TEST(Codecs, FilesThatAreNoImagesAreRefused) {
     EXPECT_EQ(refusal({}), "neither a PNG, a JPEG nor a WebP file");
     EXPECT_EQ(refusal({'h', 'e', 'l', 'l', 'o'}), "neither a PNG, a JPEG nor a WebP file");
     EXPECT_EQ(refusal({'G', 'I', 'F', '8', '9', 'a'}), "neither a PNG, a JPEG nor a WebP file");
@@ -113,7 +113,7 @@ TEST(Codecs, BrokenFilesAreRefused) {
     }
 }
 
-TEST(Codecs, AnImageOfTheLargestSizeIsTaken) {
+TEST(Codecs, AnImageOfTheLargestSizeIsAccepted) {
     const Bytes rgb(3 * 2048 * 2048, 77);
     EXPECT_EQ(decoded_picture(png_of(rgb, 2048, 2048, PNG_FORMAT_RGB), "/image").width, 2048);
 }
@@ -126,13 +126,13 @@ TEST(Codecs, LargerImagesAreRefusedByTheirHeaderAlone) {
     EXPECT_EQ(refusal(webp_of(wide, 2049, 2)), too_wide);
 }
 
-TEST(Codecs, ABombIsRefusedBeforeItsPixelsAreDecoded) {
-    // The header promises 60000 x 60000 pixels: 10 GB that are never asked for.
+TEST(Codecs, ADecompressionBombIsRefusedBeforeItsPixelsAreDecoded) {
+    // The header declares 60000 x 60000 pixels, 10 GB that must not be allocated.
     Bytes bomb = png_of(slope(8, 8), 8, 8, PNG_FORMAT_RGB);
     const std::uint8_t side[4] = {0, 0, 0xEA, 0x60};
     std::memcpy(&bomb[16], side, 4);
     std::memcpy(&bomb[20], side, 4);
-    // The checksum of the header chunk, worked out anew.
+    // The checksum of the header chunk is recomputed.
     std::uint32_t crc = 0xFFFFFFFFU;
     for (std::size_t i = 12; i < 29; ++i) {
         crc ^= bomb[i];
@@ -145,7 +145,7 @@ TEST(Codecs, ABombIsRefusedBeforeItsPixelsAreDecoded) {
     EXPECT_EQ(refusal(bomb), "the image is 60000 x 60000 pixels; at most 2048 x 2048 are allowed");
 }
 
-TEST(Codecs, AJpegOfEndlessScansIsRefused) {
+TEST(Codecs, AJpegWithTooManyScansIsRefused) {
     Bytes file = jpeg(slope(16, 16), 16, 16, 90, Chroma::full);
     for (int i = 0; i < 100; ++i) file.insert(file.end(), {0xFF, 0xDA});
     EXPECT_EQ(refusal(file), "the JPEG file has too many scans");

@@ -34,7 +34,7 @@ constexpr std::array<Effect, 12> effects = {{{"cracks", &P::cracks},
                                              {"dew", &P::dew},
                                              {"wetness", &P::wetness}}};
 
-/// A plain mushroom whose colours are far from those of its wounds.
+/// Returns a plain mushroom whose colours differ strongly from those of its damage.
 PaintParams clean() {
     PaintParams params = motley(HymeniumPattern::gills, 256);
     params.weathering = {};
@@ -46,7 +46,7 @@ PaintParams clean() {
     return params;
 }
 
-/// Mean difference of two images over all bytes.
+/// Returns the mean difference of two images over all bytes.
 double difference(const Bytes& a, const Bytes& b) {
     double sum = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i)
@@ -54,7 +54,7 @@ double difference(const Bytes& a, const Bytes& b) {
     return sum / static_cast<double>(a.size());
 }
 
-TEST(Scars, EachEffectShowsMoreTheMoreThereIsOfIt) {
+TEST(PaintedDamage, EachEffectIsMoreVisibleWithItsAmount) {
     const RawImages before = paint_raw(clean());
     for (const Effect& effect : effects) {
         double last = 0.0;
@@ -71,7 +71,7 @@ TEST(Scars, EachEffectShowsMoreTheMoreThereIsOfIt) {
     }
 }
 
-TEST(Scars, AmountsChangeNoTexelInOneStep) {
+TEST(PaintedDamage, TexelsDependContinuouslyOnAmounts) {
     for (const Effect& effect : effects)
         for (const double amount : {0.1, 0.5, 0.9}) {
             PaintParams params = clean();
@@ -83,7 +83,7 @@ TEST(Scars, AmountsChangeNoTexelInOneStep) {
         }
 }
 
-TEST(Scars, AllAtOnceAndOnTheSmallestAtlasIsStillAnImage) {
+TEST(PaintedDamage, AllEffectsAtOnceOnTheSmallestAtlasAreAnImage) {
     for (const int side : {16, 32, 512}) {
         PaintParams params = clean();
         params.side = side;
@@ -94,8 +94,9 @@ TEST(Scars, AllAtOnceAndOnTheSmallestAtlasIsStillAnImage) {
     }
 }
 
-/// Vectors differ in how many texels they hold, so what a scar does beside another may not depend on which of them share one.
-TEST(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
+/// Instruction sets differ in texels per vector, so the result of overlapping marks must not depend
+/// on which texels share one.
+TEST(PaintedDamageOfEveryInstructionSet, IsEqualAloneAndInPairs) {
     for (std::size_t first = 0; first < effects.size(); ++first)
         for (std::size_t second = first; second < effects.size(); ++second)
             for (const int side : {32, 128}) {
@@ -103,7 +104,7 @@ TEST(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
                 params.seed = static_cast<std::uint32_t>(100 * first + second);
                 params.weathering = {};
                 params.weathering.*effects[first].amount = 0.7;
-                // Little of the second: small scars cross few texels of a vector.
+                // Little of the second kind: small marks cross few texels of a vector.
                 params.weathering.*effects[second].amount = 0.08;
                 expect_equal_with_every_instruction_set([&] { return paint_raw(params); },
                                                         std::string(effects[first].name) + ' ' +
@@ -112,8 +113,9 @@ TEST(ScarsOfEveryInstructionSet, AreEqualAloneAndTwoByTwo) {
             }
 }
 
-TEST(Scars, ACrackLeavesTheHollowsBesideItAsDeepAsTheyAre) {
-    // Normals of the cap outside of cracks: what a vector or a drop's window covers besides must not fill them.
+TEST(PaintedDamage, ACrackDoesNotChangeTheHollowsBesideIt) {
+    // Normals of the cap outside of cracks: texels that a vector or the window of a drop also
+    // covers must not change.
     PaintParams params = clean();
     params.weathering.bumps = 1.0;
     const RawImages lumpy = paint_raw(params);
@@ -144,7 +146,7 @@ TEST(Scars, ACrackLeavesTheHollowsBesideItAsDeepAsTheyAre) {
     }
 }
 
-TEST(Scars, ABiteLaysOpenFleshAtTheMarginOfBothFaces) {
+TEST(PaintedDamage, ABiteExposesFleshAtTheMarginOfBothFaces) {
     PaintParams params = clean();
     params.weathering.bites = 1.0;
     const RawImages before = paint_raw(clean()), after = paint_raw(params);
@@ -160,8 +162,8 @@ TEST(Scars, ABiteLaysOpenFleshAtTheMarginOfBothFaces) {
     EXPECT_GT(reddest(after, 0), reddest(before, 0) + 200);
 }
 
-TEST(Scars, CracksRunRadiallyWhereTheCapHasOpenedAndInANetWhereItHasNot) {
-    // The middle of the cap is cracked by the net alone.
+TEST(PaintedDamage, CracksAreRadialWhereTheCapHasOpenedAndANetElsewhere) {
+    // The centre of the cap is cracked by the net alone.
     const auto middle = [](int strain) {
         PaintParams params = clean();
         params.metrics.radial_strain = strain;

@@ -24,7 +24,7 @@
 namespace sporeprint {
 namespace {
 
-// Paintings that have little in common: other colours, patterns, patches and reliefs.
+// Returns uncorrelated paintings: other colours, patterns, patches and reliefs.
 std::vector<RawImages> unlike(int side) {
     PaintParams red = motley(HymeniumPattern::gills, side);
     PaintParams brown = motley(HymeniumPattern::pores, side);
@@ -46,8 +46,8 @@ std::vector<RawImages> unlike(int side) {
     return {paint_raw(red), paint_raw(brown), paint_raw(pale)};
 }
 
-RawImages dissolved(const std::vector<RawImages>& paintings, const std::vector<double>& weights,
-                    const Parallel& parallel = in_turn) {
+RawImages blend_of(const std::vector<RawImages>& paintings, const std::vector<double>& weights,
+                   const Parallel& parallel = in_turn) {
     std::vector<const RawImages*> pointers;
     for (const RawImages& one : paintings) pointers.push_back(&one);
     return blend_raw(pointers, weights, parallel);
@@ -69,7 +69,8 @@ Steps steps_between(const RawImages& a, const RawImages& b, std::size_t image) {
     return steps;
 }
 
-// Numbers of one chart: `channel` of `image`, colours in linear light; only what lies on a disc.
+// Returns the numbers of one chart: `channel` of `image`, colours in linear light; on a disc only
+// texels of the disc.
 std::vector<double> numbers(const RawImages& painting, std::size_t part, ImageKind kind,
                             std::size_t channel) {
     const Chart& chart = swept_charts[part];
@@ -90,7 +91,8 @@ std::vector<double> numbers(const RawImages& painting, std::size_t part, ImageKi
     return out;
 }
 
-// What the texels of a chart stand out from the mean of the 16 x 16 round them: root of the mean square, all channels.
+// Returns the RMS difference of the texels of a chart from the mean of the surrounding 16 x 16,
+// over all channels.
 double detail_of(const RawImages& painting, std::size_t part, ImageKind kind) {
     const Chart& chart = swept_charts[part];
     const int side = painting.side;
@@ -135,50 +137,50 @@ double deviation_of(const std::vector<double>& values) {
     return std::sqrt(sum / static_cast<double>(values.size()));
 }
 
-class Dissolve : public ::testing::Test {
+class ImageBlend : public ::testing::Test {
   protected:
     void TearDown() override { force_simd("auto"); }
 };
 
-TEST_F(Dissolve, AWholeWeightIsThatPaintingByteForByte) {
+TEST_F(ImageBlend, WeightOneIsThatPaintingByteForByte) {
     for (const int side : {16, 128}) {
         const std::vector<RawImages> paintings = unlike(side);
         for (std::size_t i = 0; i < 3; ++i) {
             std::vector<double> weights(3, 0.0);
             weights[i] = 1.0;
-            EXPECT_EQ(dissolved(paintings, weights).rgb, paintings[i].rgb);
-            EXPECT_EQ(dissolved({paintings[i]}, {1.0}).rgb, paintings[i].rgb);
+            EXPECT_EQ(blend_of(paintings, weights).rgb, paintings[i].rgb);
+            EXPECT_EQ(blend_of({paintings[i]}, {1.0}).rgb, paintings[i].rgb);
         }
     }
 }
 
-TEST_F(Dissolve, EqualPaintingsDissolveIntoThemselves) {
+TEST_F(ImageBlend, EqualPaintingsBlendToThemselves) {
     const RawImages painting = unlike(256)[0];
     for (const std::size_t count : {std::size_t{2}, std::size_t{9}}) {
         const std::vector<double> weights(count, 1.0 / static_cast<double>(count));
-        const RawImages same = dissolved(std::vector<RawImages>(count, painting), weights);
+        const RawImages same = blend_of(std::vector<RawImages>(count, painting), weights);
         EXPECT_EQ(same.rgb[0], painting.rgb[0]);
         EXPECT_EQ(same.rgb[2], painting.rgb[2]);
-        // Bytes of a normal are not quite a unit vector; steep ones are rounded most.
+        // Normals in bytes are not exactly unit vectors; steep ones are rounded most.
         EXPECT_LE(steps_between(same, painting, 1).most, 3);
         EXPECT_LT(steps_between(same, painting, 1).mean, 0.15);
     }
 }
 
-TEST_F(Dissolve, TheOrderOfPaintingsDoesNotMatter) {
+TEST_F(ImageBlend, TheOrderOfPaintingsDoesNotMatter) {
     const std::vector<RawImages> p = unlike(128);
-    EXPECT_EQ(dissolved({p[0], p[1]}, {0.375, 0.625}).rgb,
-              dissolved({p[1], p[0]}, {0.625, 0.375}).rgb);
-    const RawImages there = dissolved({p[0], p[1], p[2]}, {0.25, 0.5, 0.25});
-    const RawImages back = dissolved({p[2], p[1], p[0]}, {0.25, 0.5, 0.25});
+    EXPECT_EQ(blend_of({p[0], p[1]}, {0.375, 0.625}).rgb,
+              blend_of({p[1], p[0]}, {0.625, 0.375}).rgb);
+    const RawImages there = blend_of({p[0], p[1], p[2]}, {0.25, 0.5, 0.25});
+    const RawImages back = blend_of({p[2], p[1], p[0]}, {0.25, 0.5, 0.25});
     for (std::size_t image = 0; image < 3; ++image)
         EXPECT_LE(steps_between(there, back, image).most, 1);
 }
 
-TEST_F(Dissolve, KeepsTheContrastOfEveryChart) {
+TEST_F(ImageBlend, KeepsTheContrastOfEveryChart) {
     const std::vector<RawImages> p = unlike(256);
     for (std::size_t other = 1; other < 3; ++other) {
-        const RawImages half = dissolved({p[0], p[other]}, {0.5, 0.5});
+        const RawImages half = blend_of({p[0], p[other]}, {0.5, 0.5});
         for (std::size_t part = 0; part < part_count; ++part)
             for (const ImageKind kind : {ImageKind::base_color, ImageKind::normal})
                 for (std::size_t channel = 0; channel < 2; ++channel) {
@@ -191,17 +193,17 @@ TEST_F(Dissolve, KeepsTheContrastOfEveryChart) {
     }
 }
 
-TEST_F(Dissolve, MeanColoursAreLinearInTheWeights) {
+TEST_F(ImageBlend, MeanColoursAreLinearInTheWeights) {
     const std::vector<RawImages> p = unlike(256);
     for (const std::vector<double>& w : std::vector<std::vector<double>>{
              {0.5, 0.5, 0.0}, {0.25, 0.25, 0.5}, {0.125, 0.75, 0.125}, {0.015625, 0.0, 0.984375}}) {
-        const RawImages mixed = dissolved(p, w);
+        const RawImages mixed = blend_of(p, w);
         for (std::size_t part = 0; part < part_count; ++part)
             for (std::size_t channel = 0; channel < 3; ++channel) {
                 double expected = 0.0;
                 for (std::size_t i = 0; i < 3; ++i)
                     expected += w[i] * mean_of(numbers(p[i], part, ImageKind::base_color, channel));
-                // Contrast is bent back more on the side that has less room: a hundredth at most.
+                // Contrast is limited more on the side that has less room: by a hundredth at most.
                 EXPECT_NEAR(mean_of(numbers(mixed, part, ImageKind::base_color, channel)), expected,
                             0.012)
                     << part << ' ' << channel;
@@ -209,9 +211,9 @@ TEST_F(Dissolve, MeanColoursAreLinearInTheWeights) {
     }
 }
 
-TEST_F(Dissolve, NoColourIsBeyondThoseOfThePaintings) {
+TEST_F(ImageBlend, NoColourLeavesTheRangeOfThePaintings) {
     const std::vector<RawImages> p = unlike(256);
-    const RawImages mixed = dissolved(p, {0.3125, 0.4375, 0.25});
+    const RawImages mixed = blend_of(p, {0.3125, 0.4375, 0.25});
     for (const std::size_t image : {std::size_t{0}, std::size_t{2}})
         for (std::size_t k = 0; k < mixed.rgb[image].size(); ++k) {
             const auto [least, most] =
@@ -221,13 +223,13 @@ TEST_F(Dissolve, NoColourIsBeyondThoseOfThePaintings) {
         }
 }
 
-TEST_F(Dissolve, ASixtyFourthIsASmallStep) {
+TEST_F(ImageBlend, ASixtyFourthIsASmallStep) {
     const std::vector<RawImages> p = unlike(128);
     for (std::size_t other = 1; other < 3; ++other) {
-        RawImages last = dissolved({p[0], p[other]}, {1.0, 0.0});
+        RawImages last = blend_of({p[0], p[other]}, {1.0, 0.0});
         for (int k = 1; k <= 64; ++k) {
             const double t = k / 64.0;
-            RawImages next = dissolved({p[0], p[other]}, {1.0 - t, t});
+            RawImages next = blend_of({p[0], p[other]}, {1.0 - t, t});
             for (std::size_t image = 0; image < 3; ++image) {
                 const Steps steps = steps_between(last, next, image);
                 EXPECT_LT(steps.mean, 2.5) << k << ' ' << image;
@@ -239,18 +241,18 @@ TEST_F(Dissolve, ASixtyFourthIsASmallStep) {
     }
 }
 
-TEST_F(Dissolve, GivesEqualBytesWithEveryInstructionSetAndHoweverTheWorkIsShared) {
+TEST_F(ImageBlend, GivesEqualBytesWithEveryInstructionSetAndNumberOfThreads) {
     for (const int side : {16, 32, 64, 128, 512}) {
         const std::vector<RawImages> p = unlike(side);
         const std::vector<double> weights = {0.296875, 0.21875, 0.484375};
         const RawImages expected = expect_equal_with_every_instruction_set(
-            [&] { return dissolved(p, weights); }, std::to_string(side));
-        EXPECT_TRUE(dissolved(p, weights, all_at_once).rgb == expected.rgb) << side;
+            [&] { return blend_of(p, weights); }, std::to_string(side));
+        EXPECT_TRUE(blend_of(p, weights, all_at_once).rgb == expected.rgb) << side;
     }
 }
 
-TEST_F(Dissolve, NormalsAreUnitVectorsThatPointOutwards) {
-    const RawImages mixed = dissolved(unlike(256), {0.25, 0.25, 0.5});
+TEST_F(ImageBlend, NormalsAreUnitVectorsThatPointOutwards) {
+    const RawImages mixed = blend_of(unlike(256), {0.25, 0.25, 0.5});
     for (int y = 0; y < mixed.side; ++y)
         for (int x = 0; x < mixed.side; ++x) {
             const Texel n = texel(mixed, ImageKind::normal, x, y);
@@ -261,13 +263,13 @@ TEST_F(Dissolve, NormalsAreUnitVectorsThatPointOutwards) {
     for (std::size_t i = 2; i < mixed.rgb[2].size(); i += 3) ASSERT_EQ(mixed.rgb[2][i], 0);
 }
 
-TEST_F(Dissolve, ChartsDoNotBleedIntoEachOther) {
-    // Only the caps differ: the other charts stay what they are.
+TEST_F(ImageBlend, ChartsDoNotBleedIntoEachOther) {
+    // Only the caps differ; the other charts are unchanged.
     PaintParams params = motley(HymeniumPattern::gills, 128);
     const RawImages a = paint_raw(params);
     params.surface.cap.ramp = {{20, 60, 200}, {20, 60, 200}, {20, 60, 200}};
     const RawImages b = paint_raw(params);
-    const RawImages mixed = dissolved({a, b}, {0.5, 0.5});
+    const RawImages mixed = blend_of({a, b}, {0.5, 0.5});
     for (int y = 0; y < 128; ++y)
         for (int x = 0; x < 128; ++x) {
             if (x < 64 && y < 64) continue;
@@ -279,8 +281,8 @@ TEST_F(Dissolve, ChartsDoNotBleedIntoEachOther) {
         }
 }
 
-TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
-    // White warts on red, dissolved into the same cap without any.
+TEST_F(ImageBlend, WartsShrinkWithTheirWeightAndKeepTheirColour) {
+    // White warts on red, blended with the same cap without any.
     PaintParams warty;
     warty.seed = 7;
     warty.side = 256;
@@ -309,7 +311,7 @@ TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
     EXPECT_NEAR(white(at(0.5)), 0.25 * all, 0.08 * all) << "half as large, as white";
     EXPECT_NEAR(white(at(0.75)), 0.5625 * all, 0.1 * all);
     EXPECT_EQ(at(0.0).rgb, plain.rgb);
-    // Alone it is what paint paints, but for a rounding.
+    // At weight 1 it equals the result of paint(), except for rounding.
     const RawImages whole = at(1.0);
     for (std::size_t image = 0; image < 3; ++image) {
         EXPECT_LT(steps_between(whole, whole_size, image).mean, 0.3) << image;
@@ -332,8 +334,8 @@ TEST_F(Dissolve, WartsShrinkWithTheirWeightAndKeepTheirColour) {
     EXPECT_THROW((void)blend_raw(paintings, halves, in_turn, std::span(laid, 1)), InvalidInput);
 }
 
-TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
-    // Each species with the next of the atlas and with one far from it.
+TEST_F(ImageBlend, PairsOfRealSpeciesKeepTheirContrast) {
+    // Each species with the next one of the atlas, and with a distant one.
     const std::vector<std::string> ids = swept_ids();
     const auto raw_of = [&](std::size_t i) {
         const MushroomOrder order = painted(order_of(ids[i % ids.size()]), 256);
@@ -343,12 +345,12 @@ TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
         const RawImages a = raw_of(i);
         for (const std::size_t apart : {std::size_t{1}, ids.size() / 2}) {
             const RawImages b = raw_of(i + apart);
-            const RawImages half = dissolved({a, b}, {0.5, 0.5});
+            const RawImages half = blend_of({a, b}, {0.5, 0.5});
             for (std::size_t part = 0; part < 3; ++part)
                 for (const ImageKind kind : {ImageKind::base_color, ImageKind::normal}) {
                     const double own = 0.5 * (detail_of(a, part, kind) + detail_of(b, part, kind));
                     const double found = detail_of(half, part, kind);
-                    // What is next to nothing in both has no contrast to keep.
+                    // A chart that is almost uniform in both has no contrast to keep.
                     EXPECT_GE(found, 0.5 * own - 0.002)
                         << ids[i] << ' ' << ids[(i + apart) % ids.size()] << ' ' << part << ' '
                         << name(kind);
@@ -360,7 +362,7 @@ TEST_F(Dissolve, PairsOfRealSpeciesKeepTheirContrast) {
     }
 }
 
-TEST_F(Dissolve, EncodesWhatItDissolves) {
+TEST_F(ImageBlend, EncodesTheBlendedImages) {
     const std::vector<RawImages> p = unlike(64);
     const RawImages* const pointers[] = {&p[0], &p[1]};
     const double weights[] = {0.25, 0.75};
@@ -379,7 +381,7 @@ TEST_F(Dissolve, EncodesWhatItDissolves) {
         EXPECT_TRUE(*painted.files[i].owner == *found.files[i].owner);
 }
 
-TEST_F(Dissolve, RefusesWhatCannotBeDissolved) {
+TEST_F(ImageBlend, RefusesInvalidInput) {
     const std::vector<RawImages> p = unlike(64);
     const RawImages small = unlike(32)[0];
     const auto refuses = [](const std::vector<const RawImages*>& paintings,

@@ -6,7 +6,7 @@ namespace sporeprint {
 namespace {
 
 TEST(Metrics, EveryStepIsTheNearestToItsOwnLength) {
-    // Below -581 a length is shorter than the shortest that counts, 1e-5 m.
+    // Below step -581 a length is shorter than the shortest allowed, 1e-5 m.
     for (int step = -581; step <= 100; ++step)
         EXPECT_EQ(quantised_length(length_of_step(step)), step);
 }
@@ -22,7 +22,7 @@ TEST(Metrics, LengthsAreWithinOnePercent) {
         EXPECT_NEAR(length_of_step(quantised_length(length)) / length, 1.0, 0.0101);
 }
 
-TEST(Metrics, WhatIsNoLengthCountsAsTheShortest) {
+TEST(Metrics, InvalidLengthsCountAsTheShortest) {
     const int shortest = quantised_length(1e-5);
     EXPECT_EQ(quantised_length(0.0), shortest);
     EXPECT_EQ(quantised_length(-1.0), shortest);

@@ -23,7 +23,7 @@ namespace {
 constexpr HymeniumPattern all_patterns[] = {HymeniumPattern::smooth, HymeniumPattern::gills,
                                             HymeniumPattern::ridges, HymeniumPattern::pores};
 
-// Mean difference of two atlases in levels of 255, over all images.
+// Returns the mean difference of two atlases in levels of 255, over all images.
 double difference(const RawImages& a, const RawImages& b) {
     double sum = 0.0;
     std::size_t count = 0;
@@ -35,7 +35,7 @@ double difference(const RawImages& a, const RawImages& b) {
     return sum / static_cast<double>(count);
 }
 
-// Every number below a described struct: visit(path, info, number).
+// Visits every number below a described struct: visit(path, info, number).
 template <class T, class Visit>
 void for_each_number(T& value, const std::string& path, const Visit& visit) {
     T::fields([&](auto member, const Info& info) {
@@ -74,7 +74,7 @@ TEST(Paint, GivesEqualBytesWithEveryInstructionSet) {
     }
 }
 
-TEST(Paint, GivesEqualFilesHoweverTheWorkIsShared) {
+TEST(Paint, GivesEqualFilesForAnyNumberOfThreads) {
     const PaintParams params = motley(HymeniumPattern::gills);
     const ImageSet alone = paint(params);
     const ImageSet again = paint(params);
@@ -138,8 +138,8 @@ TEST(Paint, NormalsAreUnitVectorsThatPointOutwards) {
         }
 }
 
-TEST(Paint, ABumpFacesAwayFromItsMiddle) {
-    // One great wart: to its right the normal points right, above it (smaller v) the normal points
+TEST(Paint, NormalsOfABumpPointAwayFromItsCentre) {
+    // One large wart: to its right the normal points right, above it (smaller v) the normal points
     // up.
     PaintParams params;
     params.side = 512;
@@ -171,7 +171,7 @@ TEST(Paint, OrmHasNoMetal) {
     for (std::size_t i = 2; i < images.rgb[2].size(); i += 3) ASSERT_EQ(images.rgb[2][i], 0);
 }
 
-/// The same with wounds, without which their colours do not show.
+/// Returns the same with damage, without which its colours do not show.
 PaintParams worn(HymeniumPattern pattern) {
     PaintParams params = motley(pattern);
     params.metrics.radial_strain = 8;
@@ -182,7 +182,7 @@ PaintParams worn(HymeniumPattern pattern) {
     return params;
 }
 
-TEST(Paint, EveryNumberChangesThePicture) {
+TEST(Paint, EveryNumberChangesTheImages) {
     std::vector<RawImages> before;
     for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(worn(pattern)));
     PaintParams walked = worn(HymeniumPattern::smooth);
@@ -191,7 +191,7 @@ TEST(Paint, EveryNumberChangesThePicture) {
                     [&](const std::string& name, const Info&, auto&) { names.push_back(name); });
     for (const std::string& wanted : names) {
         if (wanted == "/side") continue;
-        // Shapes of blades alone, and rows of spines that this pattern does not show.
+        // Parameters that only shape blades, and rows of spines that this pattern does not show.
         const auto shapes = {"/hymenium/inner_depth", "/hymenium/notch", "/hymenium/edge_waves",
                              "/cells/rows",           "/cells/from",     "/cells/grow"};
         if (std::find(shapes.begin(), shapes.end(), wanted) != shapes.end()) continue;
@@ -218,7 +218,7 @@ TEST(Paint, EveryNumberChangesThePicture) {
     }
 }
 
-TEST(Paint, EveryColourChangesThePicture) {
+TEST(Paint, EveryColourChangesTheImages) {
     std::vector<RawImages> before;
     for (const HymeniumPattern pattern : all_patterns) before.push_back(paint_raw(worn(pattern)));
     PaintParams walked = worn(HymeniumPattern::smooth);
@@ -238,7 +238,7 @@ TEST(Paint, EveryColourChangesThePicture) {
     }
 }
 
-TEST(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
+TEST(Paint, ASmallChangeOfANumberIsASmallChangeOfTheImages) {
     for (const HymeniumPattern pattern : {HymeniumPattern::gills, HymeniumPattern::ridges}) {
         const PaintParams start = motley(pattern);
         const RawImages before = paint_raw(start);
@@ -262,7 +262,7 @@ TEST(Paint, ASmallStepOfANumberIsASmallStepOfThePicture) {
     }
 }
 
-TEST(Paint, TheAgesOfTheRampGoFromApexToMargin) {
+TEST(Paint, TheRampRunsFromApexToMargin) {
     PaintParams params;
     params.side = 512;
     params.surface.cap.ramp = {{255, 0, 0}, {0, 0, 255}};
@@ -276,7 +276,7 @@ TEST(Paint, TheAgesOfTheRampGoFromApexToMargin) {
     EXPECT_LT(margin.r, 40);
 }
 
-TEST(Paint, ABladeWearsItsFaceAndItsEdgeAndFleshItsOwnColour) {
+TEST(Paint, BladesUseFaceAndEdgeColoursAndFleshItsOwn) {
     PaintParams params;
     params.side = 256;
     params.surface.hymenium.colour = {0, 180, 0};
@@ -305,8 +305,8 @@ TEST(Paint, ABladeWearsItsFaceAndItsEdgeAndFleshItsOwnColour) {
 }
 
 TEST(Paint, TheStemClosesWithoutASeam) {
-    // Once round the stem the picture goes on as anywhere else: the step over the seam is no
-    // larger than its neighbours.
+    // The image is continuous round the stem: the step across the seam is no larger than its
+    // neighbours.
     PaintParams params = motley(HymeniumPattern::gills, 512);
     const RawImages images = paint_raw(params);
     const Chart& chart = swept_charts[2];
@@ -325,7 +325,7 @@ TEST(Paint, TheStemClosesWithoutASeam) {
     double usual = 0.0;
     for (int y = first; y < first + rows; ++y) usual = std::max(usual, step(y, y + 1));
     EXPECT_LE(step(first + rows - 1, first), 2.0 * usual);
-    // Beyond the seam the strip goes on with its other end.
+    // Beyond the seam the strip continues with its other end.
     EXPECT_LE(step(first - 2, first - 2 + rows), 2.0 * usual);
 }
 
@@ -350,9 +350,9 @@ TEST(Paint, BleedsBeyondEveryRim) {
     }
 }
 
-// A face of plain gills on a comb.
-PaintParams combed(int blades, int tiers, int comb,
-                   HymeniumPattern pattern = HymeniumPattern::gills) {
+// Returns a face of plain gills on a gill layout of `comb` blades.
+PaintParams with_layout(int blades, int tiers, int comb,
+                        HymeniumPattern pattern = HymeniumPattern::gills) {
     PaintParams params;
     params.side = 1024;
     params.metrics = motley(HymeniumPattern::gills).metrics;
@@ -362,12 +362,12 @@ PaintParams combed(int blades, int tiers, int comb,
     params.comb = comb;
     params.surface.hymenium.pattern = pattern;
     params.surface.hymenium.mottle = 0.0;
-    // Walls that give no light back: slots are as dark as their depth makes them.
+    // Walls reflect no light: slots are as dark as their depth makes them.
     params.surface.hymenium.colour = {0, 0, 0};
     return params;
 }
 
-// Occlusion once round the hymenium at a share of its disc.
+// Returns the occlusion once round the hymenium at a share of its disc.
 std::vector<int> round_occlusion(const RawImages& images, double radius) {
     std::vector<int> out;
     for (int i = 0; i < 7200; ++i) {
@@ -381,7 +381,7 @@ std::vector<int> round_occlusion(const RawImages& images, double radius) {
     return out;
 }
 
-// Dark slots between blades.
+// Returns the number of dark slots between blades.
 int slots_of(const std::vector<int>& occlusion) {
     int slots = 0;
     bool was_dark = false;
@@ -393,30 +393,30 @@ int slots_of(const std::vector<int>& occlusion) {
     return slots;
 }
 
-TEST(Paint, GillsAreAsManyAsAsked) {
-    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(40, 0, 0)), 0.8)), 40, 1);
+TEST(Paint, GillsAreAsManyAsRequested) {
+    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(with_layout(40, 0, 0)), 0.8)), 40, 1);
 }
 
-TEST(Paint, OnTheCombOfASetGillsAreAsManyAsTheirOwn) {
-    // Fewer than reach the stem in the comb; as many as fill it and half of its first tier.
-    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(40, 0, 64)), 0.8)), 40, 1);
-    const RawImages tiered = paint_raw(combed(60, 0, 40));
+TEST(Paint, OnTheGillLayoutOfASetGillsAreAsManyAsTheirOwn) {
+    // Fewer than reach the stem in the layout; as many as fill it and half of its first tier.
+    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(with_layout(40, 0, 64)), 0.8)), 40, 1);
+    const RawImages tiered = paint_raw(with_layout(60, 0, 40));
     EXPECT_NEAR(slots_of(round_occlusion(tiered, 0.95)), 60, 1);
     EXPECT_NEAR(slots_of(round_occlusion(tiered, 0.3)), 40, 1);
-    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(combed(22, 1, 60)), 0.95)), 44, 1);
+    EXPECT_NEAR(slots_of(round_occlusion(paint_raw(with_layout(22, 1, 60)), 0.95)), 44, 1);
 }
 
-TEST(Paint, BladesOfASetStandOnOneComb) {
-    // A slot is 120 places wide; the unevenness of the face moves a blade by a tenth of that.
+TEST(Paint, BladesOfASetUseOneGillLayout) {
+    // A slot is 120 samples wide; the unevenness of the face moves a blade by a tenth of that.
     const auto lightest = [](const std::vector<int>& occlusion, int slot) {
         int most = 0;
         for (int i = 7200 + 120 * slot - 15; i <= 7200 + 120 * slot + 15; ++i)
             most = std::max(most, occlusion[static_cast<std::size_t>(i % 7200)]);
         return most;
     };
-    const std::vector<int> comb = round_occlusion(paint_raw(combed(60, 0, 0)), 0.8);
+    const std::vector<int> comb = round_occlusion(paint_raw(with_layout(60, 0, 0)), 0.8);
     for (const int blades : {30, 37, 45, 59}) {
-        const std::vector<int> fewer = round_occlusion(paint_raw(combed(blades, 0, 60)), 0.8);
+        const std::vector<int> fewer = round_occlusion(paint_raw(with_layout(blades, 0, 60)), 0.8);
         int standing = 0;
         for (int slot = 0; slot < 60; ++slot) {
             EXPECT_GE(lightest(comb, slot), 240) << slot;
@@ -426,14 +426,14 @@ TEST(Paint, BladesOfASetStandOnOneComb) {
     }
 }
 
-TEST(Paint, OnItsOwnCombASpeciesIsPaintedAsIfItWereAlone) {
-    EXPECT_EQ(paint_raw(combed(60, 2, 60)).rgb, paint_raw(combed(60, 2, 0)).rgb);
-    EXPECT_EQ(paint_raw(combed(34, 1, 34, HymeniumPattern::ridges)).rgb,
-              paint_raw(combed(34, 1, 0, HymeniumPattern::ridges)).rgb);
-    EXPECT_EQ(paint_raw(combed(60, 2, 90, HymeniumPattern::pores)).rgb,
-              paint_raw(combed(60, 2, 0, HymeniumPattern::pores)).rgb);
-    EXPECT_NE(paint_raw(combed(34, 1, 72, HymeniumPattern::ridges)).rgb,
-              paint_raw(combed(34, 1, 0, HymeniumPattern::ridges)).rgb);
+TEST(Paint, OnItsOwnGillLayoutASpeciesIsPaintedAsIfItWereAlone) {
+    EXPECT_EQ(paint_raw(with_layout(60, 2, 60)).rgb, paint_raw(with_layout(60, 2, 0)).rgb);
+    EXPECT_EQ(paint_raw(with_layout(34, 1, 34, HymeniumPattern::ridges)).rgb,
+              paint_raw(with_layout(34, 1, 0, HymeniumPattern::ridges)).rgb);
+    EXPECT_EQ(paint_raw(with_layout(60, 2, 90, HymeniumPattern::pores)).rgb,
+              paint_raw(with_layout(60, 2, 0, HymeniumPattern::pores)).rgb);
+    EXPECT_NE(paint_raw(with_layout(34, 1, 72, HymeniumPattern::ridges)).rgb,
+              paint_raw(with_layout(34, 1, 0, HymeniumPattern::ridges)).rgb);
 }
 
 TEST(Paint, DeeperGillsAreDarkerBetween) {
@@ -451,7 +451,7 @@ TEST(Paint, DeeperGillsAreDarkerBetween) {
     }
 }
 
-TEST(Paint, GillsRunDownTheStemAsFarAsTheyReach) {
+TEST(Paint, DecurrentGillsCoverTheirShareOfTheStem) {
     PaintParams params = motley(HymeniumPattern::gills, 512);
     params.surface.stem.net = params.surface.stem.bands = params.surface.stem.bumps = 0.0;
     params.surface.hymenium.edge = {255, 0, 0};
@@ -460,7 +460,8 @@ TEST(Paint, GillsRunDownTheStemAsFarAsTheyReach) {
     params.hymenium.decurrent = 0.3;
     const RawImages running = paint_raw(params);
     const Chart& stem = swept_charts[static_cast<std::size_t>(Part::stem)];
-    // How often the stem goes from red to blue and back round a ring; every gill that reaches it has a flank on each side.
+    // Counts how often the stem changes from red to blue and back round a ring; every gill has a
+    // flank on each side.
     const auto flanks = [&](const RawImages& images, double along) {
         int count = 0;
         bool red = false;
@@ -500,7 +501,7 @@ TEST(Paint, WaterDarkensAndSmooths) {
     EXPECT_LT(rough, 0.0);
 }
 
-// A given picture: quarters of four colours.
+// Returns an image with quarters of four colours.
 Upload quarters(int side) {
     Bytes rgb(3 * static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
     for (int y = 0; y < side; ++y)
@@ -513,7 +514,7 @@ Upload quarters(int side) {
     return uploaded(jpeg(rgb, side, side, 95, Chroma::full));
 }
 
-TEST(Paint, AGivenImageIsMappedOnTheDiscInsteadOfThePainting) {
+TEST(Paint, AnUploadedImageReplacesThePaintingOfADisc) {
     for (const int side : {64, 2048}) {
         PaintParams params;
         params.side = 512;
@@ -529,7 +530,7 @@ TEST(Paint, AGivenImageIsMappedOnTheDiscInsteadOfThePainting) {
     }
 }
 
-TEST(Paint, AGivenImageIsStretchedOverTheStem) {
+TEST(Paint, AnUploadedImageIsMappedOverTheStem) {
     PaintParams params;
     params.side = 512;
     params.surface.stem.image = quarters(128);
@@ -542,7 +543,7 @@ TEST(Paint, AGivenImageIsStretchedOverTheStem) {
     }
 }
 
-TEST(Paint, AnUnreadableImageIsRefusedByItsPlace) {
+TEST(Paint, AnUnreadableImageIsRefusedByItsPath) {
     PaintParams params;
     params.surface.stem.image = uploaded({1, 2, 3, 4});
     try {

@@ -15,7 +15,7 @@
 namespace sporeprint {
 namespace {
 
-// A cap seen from above: nine rays of uneven width, turned by so many turns.
+// Returns a cap seen from above: nine rays of uneven width, rotated by a number of turns.
 Upload rays(double turns) {
     constexpr int side = 256;
     Bytes rgb;
@@ -40,13 +40,13 @@ PaintParams with_cap(const Upload& image) {
 }
 
 std::vector<ImageRotations> turns_of(const std::vector<PaintParams>& paintings,
-                                 const std::vector<double>& weights) {
+                                     const std::vector<double>& weights) {
     std::vector<const PaintParams*> pointers;
     for (const PaintParams& one : paintings) pointers.push_back(&one);
     return aligned_rotations(pointers, weights);
 }
 
-TEST(Given, TheBestShiftIsTheOneThatWasMade) {
+TEST(UploadedImages, TheBestShiftIsTheAppliedOne) {
     std::vector<double> a;
     for (int i = 0; i < profile_samples; ++i)
         a.push_back(std::sin(0.1 * i) + (i % 37 == 0 ? 2.0 : 0.0) - 0.01 * i);
@@ -62,7 +62,7 @@ TEST(Given, TheBestShiftIsTheOneThatWasMade) {
     EXPECT_EQ(best_shift(plain, plain), 0);
 }
 
-TEST(Given, ProfilesOfATurnedImageAreShifted) {
+TEST(UploadedImages, ProfilesOfARotatedImageAreShifted) {
     const Frame frame = chart_frames(256)[0];
     const auto profile = [&](double turns) {
         return angular_profile(uploaded_image(rays(turns), frame, ""), ChartMap::disc);
@@ -70,7 +70,7 @@ TEST(Given, ProfilesOfATurnedImageAreShifted) {
     for (const double turns : {0.0, 0.125, -0.25, 0.4})
         EXPECT_NEAR(best_shift(profile(0.0), profile(turns)) / double{profile_samples}, turns,
                     1.0 / profile_samples);
-    // Round the stem is from top to bottom of its image.
+    // Round the stem runs from top to bottom of its image.
     const auto stem = angular_profile(uploaded_image(rays(0.0), frame, ""), ChartMap::strip);
     ASSERT_EQ(stem.size(), std::size_t{profile_samples});
     double sum = 0.0;
@@ -78,7 +78,7 @@ TEST(Given, ProfilesOfATurnedImageAreShifted) {
     EXPECT_NEAR(sum, 0.0, 1e-9);
 }
 
-TEST(Given, ImagesOfAMixLieOnEachOtherAndAloneAsTheyWereGiven) {
+TEST(UploadedImages, ImagesOfAMixAreAlignedAndASingleOneIsUnchanged) {
     const std::vector<PaintParams> paintings = {with_cap(rays(0.0)), with_cap(rays(0.125)),
                                                 PaintParams{}};
     for (const double t : {0.0, 0.25, 0.5, 1.0}) {
@@ -93,7 +93,7 @@ TEST(Given, ImagesOfAMixLieOnEachOtherAndAloneAsTheyWereGiven) {
         << "against nothing else";
 }
 
-TEST(Given, TurningBringsTheRaysTogether) {
+TEST(UploadedImages, RotationAlignsTheRays) {
     const std::vector<PaintParams> paintings = {with_cap(rays(0.0)), with_cap(rays(0.2))};
     const auto turns = turns_of(paintings, {0.5, 0.5});
     const auto apart = [&](bool turned) {
@@ -109,7 +109,7 @@ TEST(Given, TurningBringsTheRaysTogether) {
     EXPECT_LT(apart(true), 0.25 * apart(false));
 }
 
-TEST(Given, AStemIsTurnedRoundItsAxis) {
+TEST(UploadedImages, AStemIsRotatedAboutItsAxis) {
     PaintParams params;
     params.side = 256;
     Bytes rgb;
@@ -125,7 +125,7 @@ TEST(Given, AStemIsTurnedRoundItsAxis) {
               plain.rgb);
 }
 
-TEST(Given, AnUnreadableImageIsRefusedByItsPlace) {
+TEST(UploadedImages, AnUnreadableImageIsRefusedByItsPath) {
     PaintParams broken = with_cap(uploaded({1, 2, 3}));
     try {
         (void)turns_of({broken, broken}, {0.5, 0.5});
