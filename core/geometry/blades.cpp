@@ -28,16 +28,36 @@ constexpr int vein_segments = 3, least_veins = 100, most_veins = 400;
 // decurrent species of the atlas have more.
 constexpr double least_decurrence = 0.01;
 
+// Heights below which a blade counts as vanishing, in lengths of the meridian: its place moves to
+// the nearest vertex, it becomes thin, short and less deeply embedded.
+constexpr double vanishing_place = 0.003, vanishing_width = 0.004, vanishing_length = 0.015,
+                 vanishing_embedding = 0.01, vanishing_vein = 0.006;
+
+// Rows of a blade are this much denser at the stem, for blades that begin before that share.
+constexpr double row_crowding = 0.65, crowding_until = 0.3;
+
+// Share of the meridian over which the part of a decurrent blade beyond the outline ends.
+constexpr double protrusion_fades = 0.25;
+
+// Share of the gap between two blades at the stem that both fill at most.
+constexpr double usable_gap = 0.62;
+
+// Amplitude of ripples for a species with full edge waves, in half thicknesses.
+constexpr double ripple_size = 0.275;
+
+// Depth of a cross vein of full height, relative to that of ridges.
+constexpr double vein_depth = 0.45;
+
 constexpr int triangles_of(int segments) { return 10 * segments - 2; }
 
 /// Returns the cross veins of one species that are built, absent ones included.
-std::vector<CrossVein> built_veins(const SpeciesShare& part, const BladeBudget& shares,
+std::vector<CrossVein> built_veins(const SpeciesShare& part, const BladeBudget& budget,
                                    std::uint32_t seed) {
     std::vector<CrossVein> built;
     if (part.model.surface.hymenium.pattern != HymeniumPattern::ridges) return built;
     const HymeniumOf<Plain>& hymenium = part.model.hymenium;
     const std::vector<CrossVein> all = cross_veins(hymenium.blades, hymenium.forking, seed);
-    for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(shares.vein_stride))
+    for (std::size_t i = 0; i < all.size(); i += static_cast<std::size_t>(budget.vein_stride))
         built.push_back(all[i]);
     return built;
 }
@@ -62,10 +82,10 @@ int tier_of(int slot, int tiers) {
 /// Visits the slots that are built. All have the same number of rows, because a blade that reaches
 /// the stem in one species may be short in another.
 template <class Work>
-void for_each_blade(const Individual& individual, const BladeBudget& shares, const Work& work) {
+void for_each_blade(const Individual& individual, const BladeBudget& budget, const Work& work) {
     const int slots = individual.comb.blades << individual.blade_tiers;
     for (int slot = 0; slot < slots; ++slot) {
-        if (tier_of(slot, individual.blade_tiers) < shares.tiers) work(slot);
+        if (tier_of(slot, individual.blade_tiers) < budget.tiers) work(slot);
     }
 }
 
@@ -113,6 +133,81 @@ struct Ripple {
     }
 };
 
+/// Values that all blades of a mesh share: means over the species by weight.
+struct BladeShape {
+    double half;      ///< half thickness, metres
+    double shoulder;  ///< height of the shoulder, as a share of the depth
+    double waist;     ///< thickness at the shoulder, as a share of that at the base
+    double crowd;     ///< number of blades that reach the stem, at least 1
+};
+
+/// Returns the shape of blades on a face with radius `rim` at the margin. Blades have the same
+/// thickness along their length, except where they are close together at the stem; those of ridges
+/// are blunter than those of gills.
+BladeShape blade_shape(const std::vector<SpeciesBlades>& all, double rim) {
+    double half_sum = 0.0, blunt = 0.0, weight = 0.0, reaching = 0.0;
+    for (const SpeciesBlades& w : all) {
+        const double gap = 2.0 * pi * rim /
+                           static_cast<double>(w.ridges ? w.hymenium->blades
+                                                        : w.hymenium->blades << w.hymenium->tiers);
+        half_sum += w.weight * 0.5 * w.hymenium->thickness * gap;
+        blunt += w.weight * (w.ridges ? 1.0 : 0.0);
+        reaching += w.weight * w.hymenium->blades;
+        weight += w.weight;
+    }
+    const double per = weight > 0.0 ? 1.0 / weight : 0.0;
+    return {half_sum * per, 0.92 - 0.34 * blunt * per, 0.62 + 0.2 * blunt * per,
+            std::max(reaching * per, 1.0)};
+}
+
+/// The blades of all species on one slot, combined by weight and presence.
+struct SlotBlend {
+    int slot = 0;
+    double even = 0.0;        ///< position of the slot, in turns
+    double present = 0.0;     ///< sum of weight times presence
+    double each = 0.0;        ///< 1 / present, or 0
+    double begin = 0.0;       ///< on the meridian, 0 at the stem
+    double down = 0.0;        ///< share of the stem's length that the blade covers
+    double protruding = 0.0;  ///< depth beyond the outline where the blade is decurrent
+    std::vector<Ripple> ripples;
+};
+
+SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slots,
+                       std::uint32_t seed) {
+    SlotBlend blend;
+    blend.slot = slot;
+    blend.even = static_cast<double>(slot) / slots;
+    blend.ripples.reserve(all.size());
+    for (const SpeciesBlades& w : all) {
+        const Blade& blade = w.on(slot);
+        const double here = w.weight * blade.presence;
+        blend.ripples.emplace_back(seed, blade.number, here * w.hymenium->edge_waves);
+        blend.present += here;
+        blend.begin += here * std::max(blade.begin, w.hymenium->inner_gap);
+        if (blade.begin > 0.0) continue;
+        blend.down += here * w.hymenium->decurrent;
+        blend.protruding += here * decurrence(*w.hymenium) * w.hymenium->depth;
+    }
+    blend.each = blend.present > 0.0 ? 1.0 / blend.present : 0.0;
+    blend.begin = blend.present > 0.0 ? std::min(blend.begin * blend.each, 0.97) : 0.5;
+    blend.down = std::min(blend.down * blend.each, 0.98);
+    return blend;
+}
+
+/// Returns the angle at which the blade of a slot crosses a share of the meridian.
+double angle_at(const std::vector<SpeciesBlades>& all, const SlotBlend& blend, double share) {
+    if (blend.present <= 0.0) return 2.0 * pi * blend.even;
+    double turn = 0.0;
+    for (const SpeciesBlades& w : all) {
+        const Blade& blade = w.on(blend.slot);
+        if (blade.presence <= 0.0) continue;
+        // The first blade stands on both sides of the seam, so its turn is taken modulo 1.
+        const double own = w.row.turn(blade, share);
+        turn += w.weight * blade.presence * (own - std::floor(own - blend.even + 0.5));
+    }
+    return 2.0 * pi * turn * blend.each;
+}
+
 class Builder {
   public:
     explicit Builder(const Attachment& attachment)
@@ -121,8 +216,8 @@ class Builder {
           face_(attachment.face),
           context_(attachment.context) {}
 
-    void blades(const BladeBudget& shares);
-    void veins(const BladeBudget& shares);
+    void blades(const BladeBudget& budget);
+    void veins(const BladeBudget& budget);
 
   private:
     /// One cross-section of a blade: its base point, with the directions of depth and thickness.
@@ -138,6 +233,13 @@ class Builder {
         double buried = 0.0;
         double angle = 0.0, height = 0.0, half = 0.0, stray = 0.0;
     };
+    void plan_stem_rows(const BladeBudget& budget, const SlotBlend& blend, double beyond);
+    void plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
+                        const SlotBlend& blend, double beyond);
+    void place_blade(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
+                     const BladeShape& shape, const SlotBlend& blend, double most);
+    void plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of);
+    void place_vein(const CrossVein& vein, double most);
     void row(const Plan& plan, double embedding);
     void append(double shoulder, double waist, bool drawn);
 
@@ -245,177 +347,163 @@ void Builder::append(double shoulder, double waist, bool drawn) {
     rows_.clear();
 }
 
-void Builder::blades(const BladeBudget& shares) {
+// Rows on the stem, up to where the blade begins on the face, for decurrent blades.
+void Builder::plan_stem_rows(const BladeBudget& budget, const SlotBlend& blend, double beyond) {
+    const double stem_length = context_.outline.stem.length();
+    for (int j = 0; j < budget.below; ++j) {
+        const double up = static_cast<double>(j) / budget.below;
+        Plan plan;
+        plan.along = blend.begin * face_.length() - blend.down * stem_length * (1.0 - up);
+        plan.height = beyond * smooth_step(0.0, 1.0, up);
+        // A blade that is hardly decurrent begins in the flesh, where it does in a species that is
+        // not.
+        plan.buried = std::max(0.0, 1.0 - blend.down / least_decurrence);
+        plans_.push_back(plan);
+    }
+}
+
+// Rows on the face, from the beginning of the blade to the margin.
+void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
+                             const SlotBlend& blend, double beyond) {
+    const double length = face_.length();
+    const double begin = blend.begin;
+    const double crowding =
+        row_crowding * smooth_step(0.0, 1.0, (crowding_until - begin) / crowding_until);
+    for (int j = 0; j <= budget.segments; ++j) {
+        const double t = static_cast<double>(j) / budget.segments;
+        const double share = begin + (1.0 - begin) * (t + crowding * (t * t - t));
+        Plan plan;
+        plan.along = share * length;
+        for (const SpeciesBlades& w : all) {
+            const Blade& blade = w.on(blend.slot);
+            if (blade.presence <= 0.0) continue;
+            const double rise =
+                blade.rise > 0.0 ? smooth_step(0.0, 1.0, 0.85 * (share - begin) / blade.rise) : 1.0;
+            plan.height += w.weight * blade.presence * rise * w.hymenium->depth *
+                           attached_depth(*w.hymenium, share) * depth_envelope(*w.hymenium, share);
+        }
+        plan.height *= length * face_.at(share).scale;
+        plan.height += beyond * (1.0 - smooth_step(0.0, 1.0, share / protrusion_fades));
+        plans_.push_back(plan);
+    }
+}
+
+// Gives the planned rows their angles, thickness and ripples, and places them. A vanishing blade,
+// of which `most` is the largest height, also becomes thin and short, and is sunk less deep into
+// the flesh.
+void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudget& budget,
+                          const BladeShape& shape, const SlotBlend& blend, double most) {
+    const double length = face_.length();
+    const SubCurve& stem = context_.outline.stem;
+    const auto left = [&](double full) { return std::min(1.0, most / (full * length + 1e-12)); };
+    const double own_middle = 0.4 * blend.begin + 0.6;
+    const Attachment::FacePoint rest =
+        attachment_.nearest_vertex(own_middle, angle_at(all, blend, own_middle));
+    const double middle = length * (rest.share + left(vanishing_place) * (own_middle - rest.share));
+    for (Plan& plan : plans_) {
+        plan.along = middle + left(vanishing_length) * (plan.along - middle);
+        const double share = std::max(plan.along, 0.0) / std::max(length, 1e-12);
+        const double r =
+            plan.along < 0.0 ? stem.at(1.0 + plan.along / stem.length()).r : face_.at(share).r;
+        const double room = usable_gap * pi * r / shape.crowd;
+        double ripple = 0.0;
+        for (const Ripple& one : blend.ripples)
+            if (one.size > 0.0) ripple += one.at(share);
+        plan.angle =
+            rest.angle + left(vanishing_place) * (angle_at(all, blend, share) - rest.angle);
+        plan.half = left(vanishing_width) * std::min(shape.half, room);
+        // A blade that is not decurrent begins on the face as sharp as in a set without decurrent
+        // species.
+        if (&plan - plans_.data() <= budget.below) plan.half *= std::min(1.0, 12.0 * blend.down);
+        plan.stray = left(vanishing_width) * ripple_size * blend.each *
+                     std::min(room, 3.0 * shape.half) * ripple *
+                     smooth_step(0.0, 1.0, share / 0.15) *
+                     smooth_step(0.0, 1.0, (1.0 - share) / 0.2);
+        row(plan, left(vanishing_embedding));
+    }
+}
+
+void Builder::blades(const BladeBudget& budget) {
     const std::vector<SpeciesBlades> all = species_blades(individual_);
     const int slots = individual_.comb.blades << individual_.blade_tiers;
     const double length = face_.length();
     const SubCurve& stem = context_.outline.stem;
-    // Blades have the same thickness along their length, except where they are close together at
-    // the stem.
-    const double rim = face_.at(1.0).r;
-    double half_sum = 0.0, blunt = 0.0, weight = 0.0, reaching = 0.0;
-    for (const SpeciesBlades& w : all) {
-        const double gap = 2.0 * pi * rim /
-                           static_cast<double>(w.ridges ? w.hymenium->blades
-                                                        : w.hymenium->blades << w.hymenium->tiers);
-        half_sum += w.weight * 0.5 * w.hymenium->thickness * gap;
-        blunt += w.weight * (w.ridges ? 1.0 : 0.0);
-        reaching += w.weight * w.hymenium->blades;
-        weight += w.weight;
-    }
-    const double per = weight > 0.0 ? 1.0 / weight : 0.0;
-    const double half_all = half_sum * per, shoulder = 0.92 - 0.34 * blunt * per,
-                 waist = 0.62 + 0.2 * blunt * per;
-    const double crowd = std::max(reaching * per, 1.0);
-    std::vector<Ripple> ripples;
-    for_each_blade(individual_, shares, [&](int slot) {
-        double present = 0.0, begin = 0.0, down = 0.0, runs = 0.0;
-        ripples.clear();
-        for (const SpeciesBlades& w : all) {
-            const Blade& blade = w.on(slot);
-            const double here = w.weight * blade.presence;
-            ripples.emplace_back(individual_.effective.seed, blade.number,
-                                 here * w.hymenium->edge_waves);
-            present += here;
-            begin += here * std::max(blade.begin, w.hymenium->inner_gap);
-            if (blade.begin > 0.0) continue;
-            down += here * w.hymenium->decurrent;
-            // Depth that stands out beyond the outline where blades are decurrent.
-            runs += here * decurrence(*w.hymenium) * w.hymenium->depth;
-        }
-        const double each = present > 0.0 ? 1.0 / present : 0.0;
-        begin = present > 0.0 ? std::min(begin * each, 0.97) : 0.5;
-        down = std::min(down * each, 0.98);
-        const double even = static_cast<double>(slot) / slots;
-        const auto angle_at = [&](double share) {
-            if (present <= 0.0) return 2.0 * pi * even;
-            double turn = 0.0;
-            for (const SpeciesBlades& w : all) {
-                const Blade& blade = w.on(slot);
-                if (blade.presence <= 0.0) continue;
-                // The first blade stands on both sides of the seam, so its turn is taken modulo 1.
-                const double own = w.row.turn(blade, share);
-                turn += w.weight * blade.presence * (own - std::floor(own - even + 0.5));
-            }
-            return 2.0 * pi * turn * each;
-        };
+    const BladeShape shape = blade_shape(all, face_.at(1.0).r);
+    for_each_blade(individual_, budget, [&](int slot) {
+        const SlotBlend blend = blended_slot(all, slot, slots, individual_.effective.seed);
         // The height of a slightly decurrent blade is limited to that of a taper.
-        const double beyond =
-            shares.below > 0 ? std::min(0.55 * length * runs, 0.3 * down * stem.length()) : 0.0;
+        const double beyond = budget.below > 0 ? std::min(0.55 * length * blend.protruding,
+                                                          0.3 * blend.down * stem.length())
+                                               : 0.0;
         plans_.clear();
+        plan_stem_rows(budget, blend, beyond);
+        plan_face_rows(all, budget, blend, beyond);
         double most = 0.0;
-        // Rows on the stem, up to where the blade begins on the face, for decurrent blades.
-        for (int j = 0; j < shares.below; ++j) {
-            const double up = static_cast<double>(j) / shares.below;
-            Plan plan;
-            plan.along = begin * length - down * stem.length() * (1.0 - up);
-            plan.height = beyond * smooth_step(0.0, 1.0, up);
-            // A blade that is hardly decurrent begins in the flesh, where it does in a species that
-            // is not.
-            plan.buried = std::max(0.0, 1.0 - down / least_decurrence);
-            plans_.push_back(plan);
-        }
-        // Rows are denser where a blade rises at the stem.
-        const double crowding = 0.65 * smooth_step(0.0, 1.0, (0.3 - begin) / 0.3);
-        for (int j = 0; j <= shares.segments; ++j) {
-            const double t = static_cast<double>(j) / shares.segments;
-            const double share = begin + (1.0 - begin) * (t + crowding * (t * t - t));
-            Plan plan;
-            plan.along = share * length;
-            for (const SpeciesBlades& w : all) {
-                const Blade& blade = w.on(slot);
-                if (blade.presence <= 0.0) continue;
-                const double rise = blade.rise > 0.0
-                                        ? smooth_step(0.0, 1.0, 0.85 * (share - begin) / blade.rise)
-                                        : 1.0;
-                plan.height += w.weight * blade.presence * rise * w.hymenium->depth *
-                               attached_depth(*w.hymenium, share) *
-                               depth_envelope(*w.hymenium, share);
-            }
-            plan.height *= length * face_.at(share).scale;
-            plan.height += beyond * (1.0 - smooth_step(0.0, 1.0, share / 0.25));
-            plans_.push_back(plan);
-        }
         for (const Plan& plan : plans_) most = std::max(most, plan.height);
-        // A vanishing blade also becomes thin and short, and is sunk less deep into the flesh.
-        const auto left = [&](double full) {
-            return std::min(1.0, most / (full * length + 1e-12));
-        };
-        const double own_middle = 0.4 * begin + 0.6;
-        const Attachment::FacePoint rest =
-            attachment_.nearest_vertex(own_middle, angle_at(own_middle));
-        const double middle = length * (rest.share + left(0.003) * (own_middle - rest.share));
-        for (Plan& plan : plans_) {
-            plan.along = middle + left(0.015) * (plan.along - middle);
-            const double share = std::max(plan.along, 0.0) / std::max(length, 1e-12);
-            const double r =
-                plan.along < 0.0 ? stem.at(1.0 + plan.along / stem.length()).r : face_.at(share).r;
-            const double room = 0.62 * pi * r / crowd;
-            double ripple = 0.0;
-            for (const Ripple& one : ripples)
-                if (one.size > 0.0) ripple += one.at(share);
-            plan.angle = rest.angle + left(0.003) * (angle_at(share) - rest.angle);
-            plan.half = left(0.004) * std::min(half_all, room);
-            // A blade that is not decurrent begins on the face as sharp as in a set without
-            // decurrent species.
-            if (&plan - plans_.data() <= shares.below) plan.half *= std::min(1.0, 12.0 * down);
-            plan.stray = left(0.004) * 0.275 * each * std::min(room, 3.0 * half_all) * ripple *
-                         smooth_step(0.0, 1.0, share / 0.15) *
-                         smooth_step(0.0, 1.0, (1.0 - share) / 0.2);
-            row(plan, left(0.01));
-        }
-        append(shoulder, waist, most > 0.0 || context_.keep_absent);
+        place_blade(all, budget, shape, blend, most);
+        append(shape.shoulder, shape.waist, most > 0.0 || context_.keep_absent);
     });
 }
 
-// A vein is a low blade across the gap: both its ends lie inside the ridges that it joins.
-void Builder::veins(const BladeBudget& shares) {
+// Plans the rows of a cross vein from one ridge to the next.
+void Builder::plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of) {
+    const HymeniumOf<Plain>& hymenium = part.model.hymenium;
     const double length = face_.length();
+    const double half = vein_width * length / cross_vein_rows(hymenium.blades);
+    const double full = part.weight * vein.height * vein_depth * length * hymenium.depth;
+    plans_.clear();
+    for (int j = 0; j <= vein_segments; ++j) {
+        const double t = vein_rows[static_cast<std::size_t>(j)];
+        const double share = vein.share + (t - 0.5) * vein.tilt;
+        const double gaps = vein.ridge + t;
+        Plan plan;
+        plan.along = share * length;
+        plan.angle = 2.0 * pi * row_of.turn({.from = gaps, .to = gaps}, share);
+        plan.height = full * attached_depth(hymenium, share) * depth_envelope(hymenium, share) *
+                      face_.at(share).scale;
+        plan.half = half;
+        plans_.push_back(plan);
+    }
+}
+
+// Places the planned rows of a vein, of which `most` is the largest height.
+void Builder::place_vein(const CrossVein& vein, double most) {
+    const double length = face_.length();
+    const auto left = [&](double whole) { return std::min(1.0, most / (whole * length + 1e-12)); };
+    const Attachment::FacePoint rest =
+        attachment_.nearest_vertex(vein.share, 0.5 * (plans_[1].angle + plans_[2].angle));
+    for (Plan& plan : plans_) {
+        plan.along =
+            length * rest.share + left(vanishing_vein) * (plan.along - length * rest.share);
+        plan.angle = rest.angle + left(vanishing_vein) * (plan.angle - rest.angle);
+        plan.half *= left(vanishing_vein);
+        row(plan, left(vanishing_embedding));
+    }
+    for (std::size_t j = 0; j < rows_.size(); ++j) {
+        const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
+                                 rows_[j == 0 ? 0 : j - 1].root.position;
+        // A vein is thick along the meridian; its texture runs along its length.
+        rows_[j].share = vein.share + 0.06 * (static_cast<double>(j) / vein_segments - 0.5);
+        rows_[j].root.azimuth =
+            unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
+    }
+}
+
+// A vein is a low blade across the gap: both its ends lie inside the ridges that it joins.
+void Builder::veins(const BladeBudget& budget) {
     const std::uint32_t seed = individual_.effective.seed;
     for (const SpeciesShare& part : individual_.parts) {
         const HymeniumOf<Plain>& hymenium = part.model.hymenium;
-        const std::vector<CrossVein> all = built_veins(part, shares, seed);
+        const std::vector<CrossVein> all = built_veins(part, budget, seed);
         if (all.empty()) continue;
         const BladeRow row_of(stand_on(0, HymeniumPattern::ridges, hymenium.blades, hymenium.tiers),
                               HymeniumPattern::ridges, hymenium.forking, seed,
                               hymenium.blades << hymenium.tiers);
-        const double half = vein_width * length / cross_vein_rows(hymenium.blades);
         for (const CrossVein& vein : all) {
-            plans_.clear();
-            const double full = part.weight * vein.height * 0.45 * length * hymenium.depth;
+            plan_vein(part, vein, row_of);
             double most = 0.0;
-            for (int j = 0; j <= vein_segments; ++j) {
-                const double t = vein_rows[static_cast<std::size_t>(j)];
-                const double share = vein.share + (t - 0.5) * vein.tilt;
-                const double gaps = vein.ridge + t;
-                Plan plan;
-                plan.along = share * length;
-                plan.angle = 2.0 * pi * row_of.turn({.from = gaps, .to = gaps}, share);
-                plan.height = full * attached_depth(hymenium, share) *
-                              depth_envelope(hymenium, share) * face_.at(share).scale;
-                plan.half = half;
-                most = std::max(most, plan.height);
-                plans_.push_back(plan);
-            }
-            const auto left = [&](double whole) {
-                return std::min(1.0, most / (whole * length + 1e-12));
-            };
-            const Attachment::FacePoint rest =
-                attachment_.nearest_vertex(vein.share, 0.5 * (plans_[1].angle + plans_[2].angle));
-            for (Plan& plan : plans_) {
-                plan.along = length * rest.share + left(0.006) * (plan.along - length * rest.share);
-                plan.angle = rest.angle + left(0.006) * (plan.angle - rest.angle);
-                plan.half *= left(0.006);
-                row(plan, left(0.01));
-            }
-            for (std::size_t j = 0; j < rows_.size(); ++j) {
-                const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
-                                         rows_[j == 0 ? 0 : j - 1].root.position;
-                // A vein is thick along the meridian; its texture runs along its length.
-                rows_[j].share = vein.share + 0.06 * (static_cast<double>(j) / vein_segments - 0.5);
-                rows_[j].root.azimuth =
-                    unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
-            }
+            for (const Plan& plan : plans_) most = std::max(most, plan.height);
+            place_vein(vein, most);
             append(0.7, 0.85, most > 0.0 || context_.keep_absent);
         }
     }
@@ -424,22 +512,22 @@ void Builder::veins(const BladeBudget& shares) {
 }  // namespace
 
 BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
-    BladeBudget shares;
-    while (built_vein_count(individual, shares.vein_stride) > most_veins) ++shares.vein_stride;
-    shares.veins = built_vein_count(individual, shares.vein_stride);
+    BladeBudget budget;
+    while (built_vein_count(individual, budget.vein_stride) > most_veins) ++budget.vein_stride;
+    budget.veins = built_vein_count(individual, budget.vein_stride);
     const Comb& comb = individual.comb;
     const int max_triangles = beside_pores ? most_blade_triangles / 6 : most_blade_triangles;
-    shares.tiers = individual.blade_tiers;
-    shares.below = individual.runs_down ? stem_segments : 0;
+    budget.tiers = individual.blade_tiers;
+    budget.below = individual.runs_down ? stem_segments : 0;
     // Rows on the stem are dropped first, then the shortest blades.
     const auto too_many = [&] {
-        return (comb.blades << shares.tiers) * triangles_of(face_segments + shares.below) >
+        return (comb.blades << budget.tiers) * triangles_of(face_segments + budget.below) >
                max_triangles;
     };
-    while (shares.below > 1 && too_many()) --shares.below;
-    while (shares.tiers > 0 && too_many()) --shares.tiers;
-    shares.segments = face_segments;
-    return shares;
+    while (budget.below > 1 && too_many()) --budget.below;
+    while (budget.tiers > 0 && too_many()) --budget.tiers;
+    budget.segments = face_segments;
+    return budget;
 }
 
 bool coarsen(const Individual& individual, BladeBudget& budget) {

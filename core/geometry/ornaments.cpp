@@ -28,12 +28,10 @@ struct Solid {
     bool loops = false;
 };
 
-/// Appends a solid. Normals are area-weighted over vertices that share a position, texture
-/// coordinates are those of the veil's strip. Without `drawn` only its vertices are appended.
-void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured, bool drawn) {
-    const std::size_t indices = mesh.indices.size();
+/// Appends the triangles of a solid's grid, whose vertices begin at `first`, and computes its
+/// normals: area-weighted over vertices that share a position.
+void append_grid_triangles(Mesh& mesh, Solid& solid, std::uint32_t first) {
     const int row = solid.columns + 1;
-    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
     const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * row + j); };
     const auto& p = solid.corners;
     const bool pointed = !solid.loops;  // its last row is one point
@@ -65,9 +63,18 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured,
         for (int j = 0; j < solid.columns; ++j) tip += normals[at(solid.rows - 1, j)];
         for (int j = 0; j <= solid.columns; ++j) normals[at(solid.rows - 1, j)] = tip;
     }
+}
+
+/// Appends the vertices of a solid's grid; texture coordinates are those of the veil's strip.
+void append_grid_vertices(Mesh& mesh, const Solid& solid, const glm::dvec3& fallback,
+                          bool textured) {
+    const int row = solid.columns + 1;
+    const auto at = [&](int i, int j) { return static_cast<std::size_t>(i * row + j); };
+    const auto& p = solid.corners;
+    const bool pointed = !solid.loops;
     for (int i = 0; i < solid.rows; ++i)
         for (int j = 0; j <= solid.columns; ++j) {
-            const glm::dvec3 normal = unit_or(normals[at(i, j)], fallback);
+            const glm::dvec3 normal = unit_or(solid.normals[at(i, j)], fallback);
             mesh.positions.emplace_back(p[at(i, j)]);
             mesh.normals.emplace_back(normal);
             if (!textured) continue;
@@ -87,25 +94,38 @@ void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured,
             mesh.tangents.emplace_back(glm::vec3(square_to(normal, tangent)),
                                        mirrored ? 1.0F : -1.0F);
         }
-    if (!drawn) mesh.indices.resize(indices);
-    if (solid.loops) return;
-    // The base, seen from below.
+}
+
+/// Appends the base of a solid, a polygon seen from below.
+void append_base(Mesh& mesh, const Solid& solid, const glm::dvec3& fallback, bool textured,
+                 bool drawn) {
+    const auto& p = solid.corners;
+    const auto at = [](int j) { return static_cast<std::size_t>(j); };
     const auto base = static_cast<std::uint32_t>(mesh.positions.size());
     glm::dvec3 below(0.0);
     for (int j = 1; j + 1 < solid.columns; ++j)
-        below += glm::cross(p[at(0, j + 1)] - p[at(0, 0)], p[at(0, j)] - p[at(0, 0)]);
+        below += glm::cross(p[at(j + 1)] - p[at(0)], p[at(j)] - p[at(0)]);
     below = unit_or(below, -fallback);
     for (int j = 0; j < solid.columns; ++j) {
-        mesh.positions.emplace_back(p[at(0, j)]);
+        mesh.positions.emplace_back(p[at(j)]);
         mesh.normals.emplace_back(below);
         if (!textured) continue;
         const TexturePoint uv = strip_point(veil, static_cast<double>(j) / solid.columns, 0.0);
         mesh.texture_coordinates.emplace_back(uv.u, uv.v);
-        mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(0, 1)] - p[at(0, 0)])), 1.0F);
+        mesh.tangents.emplace_back(glm::vec3(square_to(below, p[at(1)] - p[at(0)])), 1.0F);
     }
     for (int j = 1; drawn && j + 1 < solid.columns; ++j)
         mesh.indices.insert(mesh.indices.end(), {base, base + static_cast<std::uint32_t>(j + 1),
                                                  base + static_cast<std::uint32_t>(j)});
+}
+
+/// Appends a solid. Without `drawn` only its vertices are appended.
+void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured, bool drawn) {
+    const std::size_t indices = mesh.indices.size();
+    append_grid_triangles(mesh, solid, static_cast<std::uint32_t>(mesh.positions.size()));
+    append_grid_vertices(mesh, solid, fallback, textured);
+    if (!drawn) mesh.indices.resize(indices);
+    if (!solid.loops) append_base(mesh, solid, fallback, textured, drawn);
 }
 
 /// Returns the share of the current stem's arc length that corresponds to a share of the mature
@@ -120,92 +140,126 @@ double grown_share(const std::vector<double>& mature, const std::vector<double>&
     return now[k] + within * (now[k + 1] - now[k]);
 }
 
-/// Appends the pieces of one layer.
-void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& context) {
-    if (context.detail.patch_sides == 0) return;
-    const PatchStyle& style = layer.style;
-    // Positions run up the stem, or down from the apex.
+/// What all pieces of one layer share.
+struct LayerPlace {
+    bool on_stem;  ///< positions run up the stem, otherwise down from the apex
+    const SubCurve& curve;
+    std::vector<double> segments;      ///< shares of the stem's segments
+    std::vector<OutlineSample> rings;  ///< of the mesh of the part
+    double wider;                      ///< factor on outlines, see below
+};
+
+/// A coordinate frame on the surface, in which a piece is built: (round, outward, normal) is
+/// right-handed, so corners run counter-clockwise seen from outside.
+struct PatchFrame {
+    glm::dvec3 centre, round, outward, normal;
+    AxisStation station;
+    double share;  ///< of the sub-curve
+};
+
+LayerPlace place_of(const PatchLayer& layer, const OrnamentContext& context) {
     const bool on_stem = layer.purpose == purposes::bulb_scales;
     const SubCurve& curve = on_stem ? context.outline.stem : context.outline.cap;
-    const std::vector<double> segments = on_stem ? curve.segment_shares() : std::vector<double>{};
-    const double length = context.outline.cap.length();
-    const Part part = on_stem ? Part::stem : Part::cap;
-    const int columns = detail_of(context.lod).columns;
-    const std::vector<OutlineSample> rings =
-        context.outline.rings(on_stem ? CurveName::stem : CurveName::cap, context.lod);
-    const int sides = context.detail.patch_sides, between = context.detail.patch_rings;
+    // An outline with fewer corners is widened, so that it covers the same area.
+    const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
+    return {on_stem, curve, on_stem ? curve.segment_shares() : std::vector<double>{},
+            context.outline.rings(on_stem ? CurveName::stem : CurveName::cap, context.lod),
+            std::sqrt(covered(details[0].patch_sides) / covered(context.detail.patch_sides))};
+}
+
+PatchFrame frame_of(const Patch& patch, const PatchLayer& layer, const LayerPlace& place,
+                    const OrnamentContext& context) {
+    // A piece where the margin is cut moves inwards with the surface.
+    const OutlineSample at =
+        place.curve.at(place.on_stem ? grown_share(layer.segments, place.segments, patch.sigma)
+                                     : 1.0 - context.cuts.cap(patch.sigma, patch.theta));
+    // The base lies on the mesh itself, whose chords lie off the surface: otherwise a vanishing
+    // piece would be hidden under it, or float above.
+    const SurfacePoint point =
+        context.rest_surface.meshed(place.on_stem ? Part::stem : Part::cap, place.rings,
+                                    detail_of(context.lod).columns, at.share, patch.theta);
+    glm::dvec3 normal = glm::cross(point.meridian, point.azimuth), meridian = point.meridian;
+    if (!context.rest_surface.plain()) {
+        normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));
+        meridian = square_to(normal, meridian);
+    }
+    const glm::dvec3 outward = place.on_stem ? meridian : -meridian;
+    const glm::dvec3 round = glm::cross(outward, normal);
+    glm::dvec3 centre = point.position;
+    if (!place.on_stem) centre += context.dents.cap(patch.sigma, patch.theta) * normal;
+    const AxisStation station = context.deformer.frozen_station(
+        place.on_stem ? std::min(at.y, context.deformer.top()) : context.deformer.top());
+    return {centre, round, outward, normal, station, at.share};
+}
+
+/// Builds the corners of a piece with this radius, in its frame at rest.
+void build_patch(Solid& solid, const Patch& patch, const PatchLayer& layer, double radius,
+                 const PatchFrame& frame, double wider, const OrnamentContext& context) {
+    const PatchStyle& style = layer.style;
+    const int sides = context.detail.patch_sides;
     // Low pieces are cushions, tall ones spines.
     const double pointed = smooth_step(0.9, 1.5, style.height);
-    const auto covered = [](int corners) { return corners * sine(2.0 * pi / corners); };
-    // An outline with fewer corners is widened, so that it covers the same area.
-    const double wider = std::sqrt(covered(details[0].patch_sides) / covered(sides));
-    Solid solid;
-    std::vector<Patch> built = patches(style, context.seed, layer.purpose);
+    const double height = patch.height * radius;
+    solid.rows = context.detail.patch_rings + 2;
+    solid.columns = sides;
+    solid.corners.clear();
+    Random random(context.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
+    // Seven numbers are drawn at every level of detail; a coarser outline uses some of them.
+    std::array<double, 7> reach{};
+    for (double& r : reach) r = random.uniform(0.78, 1.12);
+    const double tip_round = 0.25 * random.symmetric();
+    const double tip_outward = 0.25 * random.symmetric() + 1.1 * style.lift;
+    std::array<glm::dvec3, 7> rim{};
+    for (int j = 0; j < sides; ++j) {
+        const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
+        rim[static_cast<std::size_t>(j)] =
+            wider * radius * reach[static_cast<std::size_t>(j * 7 / sides)] *
+            (turn.cosine * frame.round + turn.sine * style.elongation * frame.outward);
+    }
+    const glm::dvec3 tip =
+        radius * (tip_round * frame.round + tip_outward * style.elongation * frame.outward);
+    for (int i = 0; i < solid.rows; ++i) {
+        const double up = static_cast<double>(i) / (solid.rows - 1);
+        const double narrowing = (1.0 - up) * (1.0 + 0.55 * up * (1.0 - 2.2 * pointed));
+        const glm::dvec3 middle =
+            frame.centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * frame.normal;
+        for (int j = 0; j < sides; ++j)
+            solid.corners.push_back(middle + narrowing * rim[static_cast<std::size_t>(j)]);
+        solid.corners.push_back(
+            solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
+    }
+}
+
+/// Returns the pieces of a layer that a level of detail builds: the largest ones.
+std::vector<Patch> built_patches(const PatchLayer& layer, const OrnamentContext& context) {
+    std::vector<Patch> built = patches(layer.style, context.seed, layer.purpose);
     if (context.detail.patches < 1.0) {
         std::stable_sort(built.begin(), built.end(),
                          [](const Patch& a, const Patch& b) { return a.drawn > b.drawn; });
         built.resize(
             std::min(built.size(), static_cast<std::size_t>(piece_count(layer, context.detail))));
     }
-    for (const Patch& patch : built) {
+    return built;
+}
+
+/// Appends the pieces of one layer.
+void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& context) {
+    if (context.detail.patch_sides == 0) return;
+    const LayerPlace place = place_of(layer, context);
+    const double length = context.outline.cap.length();
+    Solid solid;
+    for (const Patch& patch : built_patches(layer, context)) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
-        // A piece where the margin is cut moves inwards with the surface.
-        const OutlineSample at =
-            curve.at(on_stem ? grown_share(layer.segments, segments, patch.sigma)
-                             : 1.0 - context.cuts.cap(patch.sigma, patch.theta));
-        // The base lies on the mesh itself, whose chords lie off the surface: otherwise a vanishing
-        // piece would be hidden under it, or float above.
-        const SurfacePoint place =
-            context.rest_surface.meshed(part, rings, columns, at.share, patch.theta);
-        glm::dvec3 normal = glm::cross(place.meridian, place.azimuth), meridian = place.meridian;
-        if (!context.rest_surface.plain()) {
-            normal = unit_or(normal, glm::dvec3(0.0, 1.0, 0.0));
-            meridian = square_to(normal, meridian);
-        }
-        const glm::dvec3 outward = on_stem ? meridian : -meridian;
-        // (round, outward, normal) is right-handed, so corners run counter-clockwise seen from
-        // outside.
-        const glm::dvec3 round = glm::cross(outward, normal);
-        const double radius = patch.radius * scale * length, height = patch.height * radius;
-        glm::dvec3 centre = place.position;
-        if (!on_stem) centre += context.dents.cap(patch.sigma, patch.theta) * normal;
-        const AxisStation station = context.deformer.frozen_station(
-            on_stem ? std::min(at.y, context.deformer.top()) : context.deformer.top());
-        solid.rows = between + 2;
-        solid.columns = sides;
-        solid.corners.clear();
-        Random random(context.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
-        // Seven numbers are drawn at every level of detail; a coarser outline uses some of them.
-        std::array<double, 7> reach{};
-        for (double& r : reach) r = random.uniform(0.78, 1.12);
-        const double tip_round = 0.25 * random.symmetric();
-        const double tip_outward = 0.25 * random.symmetric() + 1.1 * style.lift;
-        std::array<glm::dvec3, 7> rim{};
-        for (int j = 0; j < sides; ++j) {
-            const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
-            rim[static_cast<std::size_t>(j)] =
-                wider * radius * reach[static_cast<std::size_t>(j * 7 / sides)] *
-                (turn.cosine * round + turn.sine * style.elongation * outward);
-        }
-        const glm::dvec3 tip =
-            radius * (tip_round * round + tip_outward * style.elongation * outward);
-        for (int i = 0; i < solid.rows; ++i) {
-            const double up = static_cast<double>(i) / (solid.rows - 1);
-            const double narrowing = (1.0 - up) * (1.0 + 0.55 * up * (1.0 - 2.2 * pointed));
-            const glm::dvec3 middle =
-                centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * normal;
-            for (int j = 0; j < sides; ++j)
-                solid.corners.push_back(middle + narrowing * rim[static_cast<std::size_t>(j)]);
-            solid.corners.push_back(
-                solid.corners[solid.corners.size() - static_cast<std::size_t>(sides)]);
-        }
-        context.deformer.apply(solid.corners, station);
-        if (!on_stem && !context.curl.none()) {
-            const glm::dvec3 by = context.curl.moved(true, 1.0 - at.share, patch.theta);
+        const double radius = patch.radius * scale * length;
+        const PatchFrame frame = frame_of(patch, layer, place, context);
+        build_patch(solid, patch, layer, radius, frame, place.wider, context);
+        context.deformer.apply(solid.corners, frame.station);
+        if (!place.on_stem && !context.curl.none()) {
+            const glm::dvec3 by = context.curl.moved(true, 1.0 - frame.share, patch.theta);
             for (glm::dvec3& corner : solid.corners) corner += by;
         }
         const glm::dvec3 fallback =
-            unit_or(station.direction(centre, normal), glm::dvec3(0.0, 1.0, 0.0));
+            unit_or(frame.station.direction(frame.centre, frame.normal), glm::dvec3(0.0, 1.0, 0.0));
         append(mesh, solid, fallback, context.textured, radius > 0.0 || context.keep_absent);
     }
 }
@@ -264,6 +318,166 @@ class Rents {
     std::array<double, 3> phases_{};
 };
 
+/// A point of the centre line of a ring's cross-section.
+struct RingStation {
+    double r, y, normal_r, normal_y, share;
+
+    [[nodiscard]] RingStation towards(const RingStation& to, double t) const {
+        return {r + t * (to.r - r), y + t * (to.y - y), normal_r + t * (to.normal_r - normal_r),
+                normal_y + t * (to.normal_y - normal_y), share + t * (to.share - share)};
+    }
+};
+
+/// Returns the centre line, which leaves the stem at the flare angle and hangs down towards its
+/// edge.
+std::vector<RingStation> ring_line(const RingStyle& style, const OutlineSample& attachment,
+                                   double thickness, int rings) {
+    const double width = style.width;
+    // The ring begins slightly inside the stem; a vanishing ring no deeper than it is wide.
+    const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
+    const double clear = style.gap * std::min(attachment.r, width);
+    double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = attachment.y;
+    std::vector<RingStation> line;
+    for (int i = 0; i <= rings; ++i) {
+        const double share = static_cast<double>(i) / rings;
+        const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - style.hang * share));
+        line.push_back({r, y, turn.cosine, turn.sine, share});
+        r += width / rings * turn.sine;
+        y -= width / rings * turn.cosine;
+    }
+    return line;
+}
+
+/// Everything of a ring that depends on the angle alone.
+struct RingColumn {
+    SineCosine turn;
+    double ruffle, groove;
+    double reach;  ///< share of the line that is left where the edge is torn
+    double dent;   ///< height of the stem's surface that the ring follows, metres
+};
+
+std::vector<RingColumn> ring_columns(const RingStyle& style, const OutlineSample& attachment,
+                                     const OrnamentContext& context) {
+    Random groove_stream(context.seed, purposes::ring_grooves),
+        tear_stream(context.seed, purposes::ring_tear);
+    const int groove_count = 15 + static_cast<int>(groove_stream.bits() % 5);
+    const Rents rents(tear_stream, 9, 13);
+    Random random(context.seed, purposes::ring_ruffle);
+    const int waves = 5 + static_cast<int>(random.bits() % 4);
+    const double phase = random.uniform(0.0, 2.0 * pi);
+    const double other = random.uniform(0.0, 2.0 * pi);
+    // A vanishing ring follows the furrows and lumps of the stem; a full one spans them.
+    const double conforms = conforming(style.width, attachment.r);
+    const int count = context.detail.columns;
+    std::vector<RingColumn> columns;
+    for (int j = 0; j <= count; ++j) {
+        const double angle = -2.0 * pi * (j % count) / count;  // counter-clockwise seen from above
+        // Grooves too fine for the columns of the mesh would alias.
+        columns.push_back(
+            {sine_cosine(angle),
+             sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
+             3 * groove_count > count ? 0.0 : sine(groove_count * angle + other),
+             1.0 - 0.8 * style.tear * rents.at(angle),
+             conforms > 0.0 ? conforms * context.dents.stem(attachment.share, angle) : 0.0});
+    }
+    return columns;
+}
+
+/// Factors on the width of a ring: amplitudes of a full ruffle and of full grooves.
+constexpr double ruffle_size = 0.16, groove_size = 0.04;
+
+/// Profile of a sac: along the stem up to its widest place, and freely upwards from there.
+class SacProfile {
+  public:
+    struct Point {
+        double r, y, normal_r, normal_y;
+        double clear;  ///< distance from the stem
+        double above;  ///< 0 at the ground, 1 at the highest lobe
+        double share;  ///< of the stem
+    };
+
+    SacProfile(const SacStyle& style, const SubCurve& stem, double base) {
+        const double height = style.height;
+        // The sac begins under the bulb, or at the end of a stem that grows from a vertical
+        // substrate. A low sac includes only as much of the bulb as it is high; otherwise it would
+        // extend under a flat base faster than it grows.
+        const double level = std::min(std::max(base, 0.0), std::max(base, stem.at(1.0).y));
+        const double buried = std::min(std::max(level - base, 0.0), 0.6 * height);
+        const Rise stem_rise(stem, 0.2);
+        for (int i = 0; i <= samples; ++i) {
+            // Rows are denser under the bulb, where the stem turns.
+            const double share = static_cast<double>(i) / samples;
+            const double climb = share * (0.12 + 0.88 * share);
+            const double y = level - buried + (buried + height) * climb;
+            const OutlineSample at = stem_rise.at(y - base);
+            const double above = height > 0.0 ? std::clamp((y - level) / height, 0.0, 1.0) : 0.0;
+            widest_ = std::max(widest_, at.r);
+            const double held = style.hold * (widest_ - at.r);
+            const double off = held + style.gap * height * above * above;
+            const bool free = at.r < widest_;
+            points_[static_cast<std::size_t>(i)] = {
+                at.r + off, at.y,    free ? 1.0 : at.tangent_y, free ? 0.0 : -at.tangent_r, off,
+                above,      at.share};
+        }
+        for (std::size_t i = 1; i <= samples; ++i) {
+            const double dr = points_[i].r - points_[i - 1].r, dy = points_[i].y - points_[i - 1].y;
+            arcs_[i] = arcs_[i - 1] + std::sqrt(dr * dr + dy * dy);
+        }
+    }
+
+    /// Returns the largest radius of the stem inside the sac.
+    [[nodiscard]] double widest() const { return widest_; }
+
+    /// Returns the point at a share of the arc length, so that rows are equally spaced under the
+    /// bulb and above it.
+    [[nodiscard]] Point at(double share) const {
+        const double arc = share * arcs_.back();
+        std::size_t k = 0;
+        while (k + 1 < samples && arcs_[k + 1] < arc) ++k;
+        const double step = arcs_[k + 1] - arcs_[k];
+        const double t = step > 0.0 ? std::clamp((arc - arcs_[k]) / step, 0.0, 1.0) : share;
+        const Point &a = points_[k], &b = points_[k + 1];
+        const auto mix = [t](double x, double y) { return x + t * (y - x); };
+        return {mix(a.r, b.r),
+                mix(a.y, b.y),
+                mix(a.normal_r, b.normal_r),
+                mix(a.normal_y, b.normal_y),
+                mix(a.clear, b.clear),
+                mix(a.above, b.above),
+                mix(a.share, b.share)};
+    }
+
+  private:
+    static constexpr int samples = 48;
+    std::array<Point, samples + 1> points_{};
+    std::array<double, samples + 1> arcs_{};
+    double widest_ = 0.0;
+};
+
+/// Folds of a sac's wall, -1..1, by angle and height.
+class SacFolds {
+  public:
+    SacFolds(std::uint32_t seed, int columns) {
+        Random random(seed, purposes::sac_folds);
+        count_ = 5 + static_cast<int>(random.bits() % 3);
+        for (double& phase : phases_) phase = random.uniform(0.0, 2.0 * pi);
+        lean_ = random.uniform(-1.5, 1.5);
+        // Folds too fine for the columns of the mesh would alias.
+        fine_ = 4 * (2 * count_ + 1) <= columns;
+    }
+    [[nodiscard]] double at(double angle, double share) const {
+        const double coarse = sine(count_ * angle + phases_[0] + lean_ * share);
+        return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases_[1]) +
+               (fine_ ? 0.2 * sine((2 * count_ + 1) * angle + phases_[2] - lean_ * share) : 0.0);
+    }
+
+  private:
+    int count_ = 0;
+    std::array<double, 3> phases_{};
+    double lean_ = 0.0;
+    bool fine_ = false;
+};
+
 }  // namespace
 
 int shell_rings(const Individual& individual, const Detail& detail) {
@@ -288,54 +502,11 @@ void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& c
     if (rings == 0 || !individual.has_ring) return;
     const Rise stem_rise(context.outline.stem, 0.2);
     const OutlineSample attachment = stem_rise.at(style.height * stem_rise.whole());
-    const double height = attachment.y;
     const double width = style.width;
     const double thickness = std::min(style.thickness, 0.3 * width);
-    Random groove_stream(context.seed, purposes::ring_grooves),
-        tear_stream(context.seed, purposes::ring_tear);
-    const int groove_count = 15 + static_cast<int>(groove_stream.bits() % 5);
-    const Rents rents(tear_stream, 9, 13);
-    Random random(context.seed, purposes::ring_ruffle);
-    const int waves = 5 + static_cast<int>(random.bits() % 4);
-    const double phase = random.uniform(0.0, 2.0 * pi);
-    const double other = random.uniform(0.0, 2.0 * pi);
-    const AxisStation station = context.deformer.frozen_station(height);
-
-    // Centre line of the cross-section: it leaves the stem at the flare angle and hangs down
-    // towards its edge.
-    struct Station {
-        double r, y, normal_r, normal_y, share;
-    };
-    std::vector<Station> line;
-    // The ring begins slightly inside the stem; a vanishing ring no deeper than it is wide.
-    const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
-    const double clear = style.gap * std::min(attachment.r, width);
-    double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = attachment.y;
-    for (int i = 0; i <= rings; ++i) {
-        const double share = static_cast<double>(i) / rings;
-        const auto turn = sine_cosine(radians(style.flare_deg) * (1.0 - style.hang * share));
-        line.push_back({r, y, turn.cosine, turn.sine, share});
-        r += width / rings * turn.sine;
-        y -= width / rings * turn.cosine;
-    }
-    struct Column {
-        SineCosine turn;
-        double ruffle, groove, reach, dent;
-    };
-    // A vanishing ring follows the furrows and lumps of the stem; a full one spans them.
-    const double conforms = conforming(width, attachment.r);
-    std::vector<Column> columns;
-    for (int j = 0; j <= context.detail.columns; ++j) {
-        const double angle = -2.0 * pi * (j % context.detail.columns) /
-                             context.detail.columns;  // counter-clockwise seen from above
-        // Grooves too fine for the columns of the mesh would alias.
-        columns.push_back(
-            {sine_cosine(angle),
-             sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
-             3 * groove_count > context.detail.columns ? 0.0 : sine(groove_count * angle + other),
-             1.0 - 0.8 * style.tear * rents.at(angle),
-             conforms > 0.0 ? conforms * context.dents.stem(attachment.share, angle) : 0.0});
-    }
+    const AxisStation station = context.deformer.frozen_station(attachment.y);
+    const std::vector<RingStation> line = ring_line(style, attachment, thickness, rings);
+    const std::vector<RingColumn> columns = ring_columns(style, attachment, context);
     // The tears end level with the edge, which is thicker.
     Solid solid{{}, {}, 2 * (rings + 1), context.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
@@ -346,20 +517,16 @@ void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& c
         const double half =
             (lower ? -0.5 : 0.5) * thickness *
             (0.6 + 0.8 * whole_share + 5.0 * style.edge * smooth_step(0.45, 1.0, whole_share));
-        for (const Column& column : columns) {
+        for (const RingColumn& column : columns) {
             // Where the edge is torn, the line ends sooner.
             const double place = row * column.reach;
             const auto before =
                 static_cast<std::size_t>(std::min<int>(static_cast<int>(place), rings - 1));
-            const double beyond = place - static_cast<double>(before);
-            const Station &from = line[before], &to = line[before + 1];
-            const Station at{from.r + beyond * (to.r - from.r), from.y + beyond * (to.y - from.y),
-                             from.normal_r + beyond * (to.normal_r - from.normal_r),
-                             from.normal_y + beyond * (to.normal_y - from.normal_y),
-                             from.share + beyond * (to.share - from.share)};
-            const double off = half +
-                               style.ruffle * 0.16 * width * at.share * at.share * column.ruffle +
-                               style.grooves * 0.04 * width * at.share * column.groove;
+            const RingStation at =
+                line[before].towards(line[before + 1], place - static_cast<double>(before));
+            const double off =
+                half + style.ruffle * ruffle_size * width * at.share * at.share * column.ruffle +
+                style.grooves * groove_size * width * at.share * column.groove;
             const double rr = std::max(at.r + off * at.normal_r + column.dent, 0.0),
                          yy = at.y + off * at.normal_y;
             solid.corners.push_back(context.rest_surface.azimuth().moved(
@@ -377,96 +544,29 @@ void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& co
     if (rings == 0 || !individual.has_sac) return;
     const double height = style.height;
     const double thickness = std::min(style.thickness, 0.2 * height);
-    // The sac begins under the bulb, or at the end of a stem that grows from a vertical substrate.
-    // A low sac includes only as much of the bulb as it is high; otherwise it would extend under a
-    // flat base faster than it grows.
-    const double base = context.deformer.base();
-    const double level =
-        std::min(std::max(base, 0.0), std::max(base, context.outline.stem.at(1.0).y));
-    const double buried = std::min(std::max(level - base, 0.0), 0.6 * height);
+    const int count = context.detail.columns;
     Random random(context.seed, purposes::sac);
     const Rents rents(random, 3, 5);
-    Random fold_stream(context.seed, purposes::sac_folds);
-    const int folds = 5 + static_cast<int>(fold_stream.bits() % 3);
-    std::array<double, 3> phases{};
-    for (double& phase : phases) phase = fold_stream.uniform(0.0, 2.0 * pi);
-    const double lean = fold_stream.uniform(-1.5, 1.5);
-
-    // Profile of the sac: along the stem up to its widest place, and freely upwards from there.
-    constexpr int samples = 48;
-    const Rise stem_rise(context.outline.stem, 0.2);
-    struct ProfilePoint {
-        double r, y, normal_r, normal_y;
-        double clear;  // distance from the stem
-        double above;  // 0 at the ground, 1 at the highest lobe
-        double share;  // of the stem
-    };
-    std::array<ProfilePoint, samples + 1> profile{};
-    double widest = 0.0;
-    for (int i = 0; i <= samples; ++i) {
-        // Rows are denser under the bulb, where the stem turns.
-        const double share = static_cast<double>(i) / samples;
-        const double climb = share * (0.12 + 0.88 * share);
-        const double y = level - buried + (buried + height) * climb;
-        const OutlineSample stem = stem_rise.at(y - base);
-        const double above = height > 0.0 ? std::clamp((y - level) / height, 0.0, 1.0) : 0.0;
-        widest = std::max(widest, stem.r);
-        const double held = style.hold * (widest - stem.r);
-        const double off = held + style.gap * height * above * above;
-        const bool free = stem.r < widest;
-        profile[static_cast<std::size_t>(i)] = {
-            stem.r + off, stem.y,    free ? 1.0 : stem.tangent_y, free ? 0.0 : -stem.tangent_r, off,
-            above,        stem.share};
-    }
-    // Resampled by arc length, so that rows are equally spaced under the bulb and above it.
-    std::array<double, samples + 1> arcs{};
-    for (std::size_t i = 1; i <= samples; ++i) {
-        const double dr = profile[i].r - profile[i - 1].r, dy = profile[i].y - profile[i - 1].y;
-        arcs[i] = arcs[i - 1] + std::sqrt(dr * dr + dy * dy);
-    }
-    const auto profile_at = [&](double share) {
-        const double arc = share * arcs.back();
-        std::size_t k = 0;
-        while (k + 1 < samples && arcs[k + 1] < arc) ++k;
-        const double step = arcs[k + 1] - arcs[k];
-        const double t = step > 0.0 ? std::clamp((arc - arcs[k]) / step, 0.0, 1.0) : share;
-        const ProfilePoint &a = profile[k], &b = profile[k + 1];
-        const auto mix = [t](double x, double y) { return x + t * (y - x); };
-        return ProfilePoint{mix(a.r, b.r),
-                            mix(a.y, b.y),
-                            mix(a.normal_r, b.normal_r),
-                            mix(a.normal_y, b.normal_y),
-                            mix(a.clear, b.clear),
-                            mix(a.above, b.above),
-                            mix(a.share, b.share)};
-    };
-    // Folds too fine for the columns of the mesh would alias.
-    const bool fine = 4 * (2 * folds + 1) <= context.detail.columns;
-    const auto fold_at = [&](double angle, double share) {
-        const double coarse = sine(folds * angle + phases[0] + lean * share);
-        return 0.5 * coarse + 0.3 * sine(2.0 * angle + phases[1]) +
-               (fine ? 0.2 * sine((2 * folds + 1) * angle + phases[2] - lean * share) : 0.0);
-    };
-    const double conforms = conforming(height, widest);
+    const SacFolds folds(context.seed, count);
+    const SacProfile profile(style, context.outline.stem, context.deformer.base());
+    const double conforms = conforming(height, profile.widest());
     // The sac begins inside the stem and comes out of it soon after.
-    const double sunk = std::min(0.02 * widest, 0.25 * height);
+    const double sunk = std::min(0.02 * profile.widest(), 0.25 * height);
     // A single band would cut through the bulb; at coarse levels only the wall is built.
     const double first = rings > 1 ? 0.01 : 0.6;
-    Solid solid{{}, {}, 2 * (rings + 1), context.detail.columns, true};
+    Solid solid{{}, {}, 2 * (rings + 1), count, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
         const double share = static_cast<double>(outside ? i : solid.rows - 1 - i) / rings;
-        for (int j = 0; j <= context.detail.columns; ++j) {
-            const double angle =
-                -2.0 * pi * (j % context.detail.columns) / context.detail.columns;  // as for rings
+        for (int j = 0; j <= count; ++j) {
+            const double angle = -2.0 * pi * (j % count) / count;  // as for rings
             const double up =
                 first + (1.0 - first) * share * (1.0 - 0.62 * style.tear * rents.at(angle));
-            const ProfilePoint at = profile_at(up);
+            const SacProfile::Point at = profile.at(up);
             // The wall thins towards its edge and is folded where it is loose; its lobes bend
             // outwards or inwards.
             const double half = (outside ? 0.5 : -0.5) * thickness * (1.2 - 0.6 * share);
-            const double fold = fold_at(angle, up);
-            const double loose = at.clear * (0.5 * fold - 0.12 * at.above);
+            const double loose = at.clear * (0.5 * folds.at(angle, up) - 0.12 * at.above);
             const double rise = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.16, share) - sunk;
             const double off = half + rise + std::max(loose, -0.8 * at.clear);
             double r = std::max(at.r + off * at.normal_r, thickness + half);
