@@ -20,6 +20,19 @@ struct Chart {
 
 enum class Part { cap, hymenium, stem, veil, blade, flesh };
 inline constexpr std::size_t part_count = 6;
+inline constexpr std::array<Part, part_count> all_parts = {Part::cap,  Part::hymenium, Part::stem,
+                                                           Part::veil, Part::blade,    Part::flesh};
+
+/// Returns the position of a part in tables of all parts.
+[[nodiscard]] constexpr std::size_t index_of(Part part) { return static_cast<std::size_t>(part); }
+
+/// Returns true when the chart of a part is a disc; the others are strips.
+[[nodiscard]] constexpr bool is_disc(Part part) {
+    return part == Part::cap || part == Part::hymenium;
+}
+
+/// Returns true when damage is painted on a part.
+[[nodiscard]] constexpr bool has_damage(Part part) { return is_disc(part) || part == Part::stem; }
 
 /// Layout for mushrooms of swept outlines.
 ///
@@ -40,6 +53,12 @@ inline constexpr std::array<Chart, part_count> swept_charts = {{
     {ChartMap::strip, 0.5, 0.875, 0.25, 0.125, 0.12},
     {ChartMap::strip, 0.75, 0.875, 0.25, 0.125, 0.12},
 }};
+
+static_assert([] {
+    for (const Part part : all_parts)
+        if (is_disc(part) != (swept_charts[index_of(part)].map == ChartMap::disc)) return false;
+    return true;
+}());
 
 /// Radius of the stem's edge in the hymenium's disc.
 inline constexpr double hymenium_inner_share = 0.15;

@@ -28,9 +28,9 @@ std::array<float, 3> light_of(Colour colour) {
 /// Coordinate system of one chart, in which damage is placed.
 class ChartSpace {
   public:
-    ChartSpace(const PaintPlan& plan, int part) : plan_(plan), part_(part) {}
+    ChartSpace(const PaintPlan& plan, Part part) : plan_(plan), part_(part) {}
 
-    [[nodiscard]] bool strip() const { return part_ == 2; }
+    [[nodiscard]] bool strip() const { return part_ == Part::stem; }
 
     /// Position on the chart of a point of the meridian at an angle.
     struct Place {
@@ -75,10 +75,10 @@ class ChartSpace {
 
   private:
     [[nodiscard]] const DiscPlan& disc() const {
-        return part_ == 0 ? plan_.cap.disc : plan_.hymenium.disc;
+        return part_ == Part::cap ? plan_.cap.disc : plan_.hymenium.disc;
     }
     const PaintPlan& plan_;
-    int part_;
+    Part part_;
 };
 
 class DamagePlanner {
@@ -90,31 +90,31 @@ class DamagePlanner {
         const bool has_margin = params_.metrics.hymenium_arc > quantised_length(0.0);
         if (w.creases > 0.0) add_furrows(w.creases);
         if (w.bumps > 0.0) {
-            add_ovals(DamageKind::lump, MarkKind::lump, 0, w.bumps);
-            add_ovals(DamageKind::lump, MarkKind::lump, 2, w.bumps);
+            add_ovals(DamageKind::lump, MarkKind::lump, Part::cap, w.bumps);
+            add_ovals(DamageKind::lump, MarkKind::lump, Part::stem, w.bumps);
         }
         if (w.bruise > 0.0)
-            for (int part = 0; part < 3; ++part)
+            for (const Part part : {Part::cap, Part::hymenium, Part::stem})
                 add_ovals(DamageKind::bruise, MarkKind::bruise, part, w.bruise);
         if (w.peel > 0.0 && has_margin) add_tongues(w.peel);
         if (w.cracks > 0.0) add_cracks(w.cracks);
         if (w.bites > 0.0) {
-            add_ovals(DamageKind::pit, MarkKind::pit, 0, w.bites);
-            add_ovals(DamageKind::pit, MarkKind::pit, 2, w.bites);
+            add_ovals(DamageKind::pit, MarkKind::pit, Part::cap, w.bites);
+            add_ovals(DamageKind::pit, MarkKind::pit, Part::stem, w.bites);
             if (has_margin) add_notches(bites(params_.seed), DamageKind::bite, w.bites);
         }
         if (w.splits > 0.0 && has_margin)
             add_notches(splits(params_.seed), DamageKind::split, w.splits);
         if (w.dew > 0.0) {
-            add_ovals(DamageKind::drop, MarkKind::dew, 0, w.dew);
-            add_ovals(DamageKind::drop, MarkKind::dew, 2, w.dew);
+            add_ovals(DamageKind::drop, MarkKind::dew, Part::cap, w.dew);
+            add_ovals(DamageKind::drop, MarkKind::dew, Part::stem, w.dew);
         }
     }
 
   private:
-    void add(int part, DamageMark painted) {
-        plan_.damage.marks[static_cast<std::size_t>(part)].push_back(painted);
-        if (part != 2) return;
+    void add(Part part, DamageMark painted) {
+        plan_.damage.marks[index_of(part)].push_back(painted);
+        if (part != Part::stem) return;
         // A copy on the other side of the seam.
         const float turn = painted.middle_y < 0.5F ? 1.0F : -1.0F;
         painted.y += turn;
@@ -122,11 +122,11 @@ class DamagePlanner {
         plan_.damage.marks[2].push_back(painted);
     }
 
-    void add_ovals(DamageKind kind, MarkKind marked, int part, double amount) {
+    void add_ovals(DamageKind kind, MarkKind marked, Part part, double amount) {
         const ChartSpace chart(plan_, part);
-        const CurveName curve = part == 0   ? CurveName::cap
-                                : part == 1 ? CurveName::hymenium
-                                            : CurveName::stem;
+        const CurveName curve = part == Part::cap        ? CurveName::cap
+                                : part == Part::hymenium ? CurveName::hymenium
+                                                         : CurveName::stem;
         for (const Mark& mark : marks(marked, curve, params_.seed)) {
             const double scale = grown(mark.onset, amount);
             if (scale <= 0.0) continue;
@@ -177,7 +177,7 @@ class DamagePlanner {
 
     // Adds a piece of a crack or furrow from one point to the next; half widths are relative to the
     // chart.
-    void add_line(int part, DamageKind kind, double ax, double ay, double bx, double by,
+    void add_line(Part part, DamageKind kind, double ax, double ay, double bx, double by,
                   double width_a, double width_b, double strength, std::uint32_t seed) {
         if (width_a <= 0.0 && width_b <= 0.0) return;
         const ChartSpace chart(plan_, part);
@@ -235,8 +235,8 @@ class DamagePlanner {
         const auto pieces = [&](const Crack& crack, auto width_at) {
             for (std::size_t i = 0; i + 1 < crack.points.size(); ++i) {
                 const CrackPoint &a = crack.points[i], &b = crack.points[i + 1];
-                add_line(0, DamageKind::crack, a.x, a.y, b.x, b.y, width_at(a), width_at(b), 1.0,
-                         seed);
+                add_line(Part::cap, DamageKind::crack, a.x, a.y, b.x, b.y, width_at(a), width_at(b),
+                         1.0, seed);
             }
         };
         if (net_share > 0.0)
@@ -282,7 +282,7 @@ class DamagePlanner {
                              b = static_cast<double>(k + 1) / steps;
                 const double wa = furrow_depth(furrow, a) * scale,
                              wb = furrow_depth(furrow, b) * scale;
-                add_line(2, DamageKind::furrow, a * aspect, place(a), b * aspect, place(b),
+                add_line(Part::stem, DamageKind::furrow, a * aspect, place(a), b * aspect, place(b),
                          0.020 * wa, 0.020 * wb, 0.35 + 0.65 * scale, seed);
                 // The deepest furrows split when they are dry.
                 const double torn =
@@ -293,8 +293,8 @@ class DamagePlanner {
                     return t <= 0.0 || t >= 1.0 ? 0.0 : 0.022 * torn * 4.0 * t * (1.0 - t);
                 };
                 if (torn > 0.0)
-                    add_line(2, DamageKind::crack, a * aspect, place(a), b * aspect, place(b),
-                             open(a), open(b), 1.0, seed);
+                    add_line(Part::stem, DamageKind::crack, a * aspect, place(a), b * aspect,
+                             place(b), open(a), open(b), 1.0, seed);
             }
         }
     }
@@ -304,14 +304,14 @@ class DamagePlanner {
         for (const Notch& notch : notches) {
             const double scale = grown(notch.onset, amount);
             if (scale <= 0.0) continue;
-            for (int part = 0; part < 2; ++part) {
-                const double arc = length_of_step(part == 0 ? params_.metrics.cap_arc
-                                                            : params_.metrics.hymenium_arc);
+            for (const Part part : {Part::cap, Part::hymenium}) {
+                const double arc = length_of_step(part == Part::cap ? params_.metrics.cap_arc
+                                                                    : params_.metrics.hymenium_arc);
                 const ChartSpace chart(plan_, part);
                 const double depth = std::min(notch.depth * scale * radius / arc, 0.9);
                 // Width of the gnawed or frayed border beyond the cut.
                 const double rim = std::min(kind == DamageKind::bite ? 0.028 : 0.012, depth) *
-                                   (part == 0 ? 1.0 : 0.6);
+                                   (part == Part::cap ? 1.0 : 0.6);
                 // A cut shallower than a texel has the opacity of its share of the texel.
                 const double shown = std::min(1.0, depth * chart.unit() / chart.texel());
                 add_margin_mark(part, kind, notch.theta, notch.half_width, depth * chart.unit(),
@@ -325,7 +325,7 @@ class DamagePlanner {
         for (const Tongue& tongue : tongues(params_.seed)) {
             const double scale = grown(tongue.onset, amount);
             if (scale <= 0.0 || most <= 0.0) continue;
-            add_margin_mark(0, DamageKind::tongue, tongue.theta,
+            add_margin_mark(Part::cap, DamageKind::tongue, tongue.theta,
                             tongue.half_width * (0.6 + 0.4 * scale),
                             std::min(tongue.reach * most * scale, 0.95), 0.05, 200U + tongue.id,
                             std::min(1.0, 4.0 * scale));
@@ -336,7 +336,7 @@ class DamagePlanner {
         }
     }
 
-    void add_margin_mark(int part, DamageKind kind, double theta, double half_width, double depth,
+    void add_margin_mark(Part part, DamageKind kind, double theta, double half_width, double depth,
                          double rim, std::uint32_t id, double strength) {
         const SineCosine turn = sine_cosine(theta);
         const double out = depth + 2.5 * rim;
@@ -364,13 +364,13 @@ class DamagePlanner {
     PaintPlan& plan_;
 };
 
-void sort_into_rows(PaintPlan& plan, int part) {
-    const auto& painted_marks = plan.damage.marks[static_cast<std::size_t>(part)];
-    auto& by_row = plan.damage.by_row[static_cast<std::size_t>(part)];
+void sort_into_rows(PaintPlan& plan, Part part) {
+    const auto& painted_marks = plan.damage.marks[index_of(part)];
+    auto& by_row = plan.damage.by_row[index_of(part)];
     if (painted_marks.empty()) return;
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const Frame& frame = plan.frames[index_of(part)];
     const double inset = frame.inset;
-    const double per = part == 2 ? 1.0 - 2.0 * inset : 0.5 - inset;
+    const double per = part == Part::stem ? 1.0 - 2.0 * inset : 0.5 - inset;
     const double last = frame.height + 1.0;
     struct Rows {
         std::size_t from, to;
@@ -379,9 +379,10 @@ void sort_into_rows(PaintPlan& plan, int part) {
     crossed.reserve(painted_marks.size());
     by_row.first.assign(static_cast<std::size_t>(frame.height) + 3, 0);
     for (const DamageMark& painted : painted_marks) {
-        const double middle = (part == 2 ? inset + per * static_cast<double>(painted.middle_y)
-                                         : 0.5 + per * static_cast<double>(painted.middle_y)) *
-                              frame.height;
+        const double middle =
+            (part == Part::stem ? inset + per * static_cast<double>(painted.middle_y)
+                                : 0.5 + per * static_cast<double>(painted.middle_y)) *
+            frame.height;
         const double half = static_cast<double>(painted.rows) * per * frame.height + 1.0;
         const Rows rows{static_cast<std::size_t>(std::clamp(middle - half + 1.0, 0.0, last)),
                         static_cast<std::size_t>(std::clamp(middle + half + 2.0, 0.0, last))};
@@ -414,7 +415,7 @@ void plan_damage(const PaintParams& params, PaintPlan& plan) {
     damage.ink_front = single(1.0 - gone);
     damage.ink_lower = single(std::max(0.0, 1.0 - gone * arc / lower));
     DamagePlanner(params, plan).add_all();
-    for (int part = 0; part < 3; ++part) sort_into_rows(plan, part);
+    for (const Part part : {Part::cap, Part::hymenium, Part::stem}) sort_into_rows(plan, part);
 }
 
 }  // namespace sporeprint

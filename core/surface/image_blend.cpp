@@ -112,8 +112,8 @@ std::vector<float> smoothed(const std::vector<Channels>& cells, int columns, int
 
 // Measures a chart at about 128 x 128 samples of the atlas: the means of its cells, and the gain
 // that restores the contrast which a plain mean of the paintings loses.
-ChartBlend measured(const BlendPlan& plan, std::size_t part) {
-    const Frame& frame = plan.frames[part];
+ChartBlend measured(const BlendPlan& plan, Part part) {
+    const Frame& frame = plan.frames[index_of(part)];
     const int cell = blend_cell(plan.side);
     const int step = std::max(1, plan.side / 128);
     ChartBlend chart;
@@ -193,12 +193,12 @@ void blend_onto(Canvas& canvas, std::span<const RawImages* const> paintings,
         return;
     }
     std::vector<std::function<void()>> pieces;
-    for (std::size_t part = 0; part < part_count; ++part)
-        pieces.emplace_back([&plan, part] { plan.charts[part] = measured(plan, part); });
+    for (const Part part : all_parts)
+        pieces.emplace_back([&plan, part] { plan.charts[index_of(part)] = measured(plan, part); });
     parallel(pieces);
     pieces.clear();
-    for (int part = 0; part < static_cast<int>(part_count); ++part) {
-        const int height = plan.frames[static_cast<std::size_t>(part)].height;
+    for (const Part part : all_parts) {
+        const int height = plan.frames[index_of(part)].height;
         for (int from = 0; from < height; from += rows_per_piece) {
             const int to = std::min(from + rows_per_piece, height);
             pieces.emplace_back(

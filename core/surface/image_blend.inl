@@ -154,20 +154,20 @@ void add_patches_to_blend(const PaintPlan& patches, int y, Row* const* rows,
 }
 
 /// Blends rows `from` to `to` (exclusive) of a part's chart.
-void blend_rows(const BlendPlan& plan, int part, int from, int to, void* memory,
+void blend_rows(const BlendPlan& plan, Part part, int from, int to, void* memory,
                 const PaintTarget& target) {
     BlendBuffers& buffers = *static_cast<BlendBuffers*>(memory);
     const Floats f;
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
-    const ChartBlend& chart = plan.charts[static_cast<std::size_t>(part)];
+    const Frame& frame = plan.frames[index_of(part)];
+    const ChartBlend& chart = plan.charts[index_of(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     const std::size_t cell = static_cast<std::size_t>(blend_cell(plan.side));
     const VF one = set(1.0F);
     const VF half = set(0.5F);
     Row* rows[3] = {&buffers.rows[0], &buffers.rows[1], &buffers.rows[2]};
-    const PaintPlan* const patches = part == 0 ? plan.patches : nullptr;
+    const PaintPlan* const patches = part == Part::cap ? plan.patches : nullptr;
     if (patches) {
-        std::memset(buffers.rows, 0, sizeof buffers.rows);  // heights are laid over some texels
+        std::memset(buffers.rows, 0, sizeof buffers.rows);  // not all heights are written
         patch_heights(*patches, from - 1, *rows[0]);
         patch_heights(*patches, from, *rows[1]);
     }

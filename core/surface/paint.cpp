@@ -101,8 +101,8 @@ void paint_canvas(const PaintParams& params, const ImageRotations& turns, const 
     const PaintPlan plan = paint_plan(params, turns);
     const PaintTarget target = canvas.target();
     std::vector<std::function<void()>> pieces;
-    for (int part = 0; part < static_cast<int>(part_count); ++part) {
-        const int height = plan.frames[static_cast<std::size_t>(part)].height;
+    for (const Part part : all_parts) {
+        const int height = plan.frames[index_of(part)].height;
         for (int from = 0; from < height; from += rows_per_piece) {
             const int to = std::min(from + rows_per_piece, height);
             pieces.emplace_back([&plan, &target, part, from, to] {
@@ -202,7 +202,7 @@ PaintPlan patch_blend_plan(std::span<const PaintParams* const> paintings,
     return plan;
 }
 
-void blend_piece(const BlendPlan& plan, int part, int from, int to, const PaintTarget& target) {
+void blend_piece(const BlendPlan& plan, Part part, int from, int to, const PaintTarget& target) {
     thread_local hwy::AlignedFreeUniquePtr<std::uint8_t[]> buffers;
     if (!buffers)
         buffers = hwy::AllocateAligned<std::uint8_t>(HWY_DYNAMIC_DISPATCH(blend_buffers_size)());

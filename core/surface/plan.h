@@ -317,7 +317,7 @@ struct BlendPlan {
 
 /// Blends rows `from` to `to` (exclusive) of a part's chart, with the best available instruction
 /// set.
-void blend_piece(const BlendPlan& plan, int part, int from, int to, const PaintTarget& target);
+void blend_piece(const BlendPlan& plan, Part part, int from, int to, const PaintTarget& target);
 
 /// Least z component of a normal. It bounds slopes, because normals are stored as bytes and a slope
 /// is a quotient of two.

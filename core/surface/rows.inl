@@ -205,10 +205,10 @@ struct TexelRange {
 };
 
 // Texels far beyond the rim of a disc are not sampled, except by the smallest mipmaps.
-TexelRange painted_range(const PaintPlan& plan, int part, int y) {
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+TexelRange painted_range(const PaintPlan& plan, Part part, int y) {
+    const Frame& frame = plan.frames[index_of(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
-    if (part >= 2 || width < 64) return {0, width};
+    if (!is_disc(part) || width < 64) return {0, width};
     const float radius = (0.5F - frame.inset) * static_cast<float>(frame.width) * 1.03F + 3.0F;
     const float dy = static_cast<float>(y) + 0.5F - 0.5F * static_cast<float>(frame.height);
     const float square = radius * radius - dy * dy;
@@ -229,21 +229,21 @@ HWY_INLINE void clear(VF* fields) {
 }
 
 // Samples the fields of a disc along one row, at every disc_step-th texel.
-const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, RowBuffers& buffers) {
+const SparseRow& sparse_row(const PaintPlan& plan, Part part, int y, RowBuffers& buffers) {
     SparseRow& row = buffers.sparse[y & 1];
     if (row.y == y) return row;
     row.y = y;
     const Floats f;
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const Frame& frame = plan.frames[index_of(part)];
     const int step = plan.disc_step;
     const int count = frame.width / step + 1;
-    const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
-    const std::size_t grids = part == 0 ? 3 : 2;
+    const unsigned used = part == Part::cap ? plan.cap.fields : plan.hymenium.fields;
+    const std::size_t grids = part == Part::cap ? 3 : 2;
     for (std::size_t i = 0; i < grids; ++i)
-        expand(part == 0 ? plan.cap_fields[i] : plan.hymenium_fields[i], plan.coarse_cells, frame,
-               y * step, step, count, row.field[i]);
+        expand(part == Part::cap ? plan.cap_fields[i] : plan.hymenium_fields[i], plan.coarse_cells,
+               frame, y * step, step, count, row.field[i]);
     if (used >> grids == 0) return row;
-    const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+    const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
     const VF down = disc_place(frame, set(static_cast<float>(y * step)));
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); i += hn::Lanes(f)) {
         VF fields[most_fields];
@@ -252,7 +252,7 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, RowBuffers& 
         const VF texel =
             (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step));
         const DiscPoint p = disc_point_of(disc, disc_place(frame, texel), down);
-        if (part == 0)
+        if (part == Part::cap)
             cap_fields(plan.cap, p, fields);
         else
             hymenium_fields(plan.hymenium, p, fields);
@@ -263,11 +263,10 @@ const SparseRow& sparse_row(const PaintPlan& plan, int part, int y, RowBuffers& 
 }
 
 // Interpolates the fields of a disc at every texel of a row, into buffers.field.
-void disc_fields(const PaintPlan& plan, int part, int y, RowBuffers& buffers) {
+void disc_fields(const PaintPlan& plan, Part part, int y, RowBuffers& buffers) {
     const Floats f;
-    const std::size_t width =
-        static_cast<std::size_t>(plan.frames[static_cast<std::size_t>(part)].width);
-    const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
+    const std::size_t width = static_cast<std::size_t>(plan.frames[index_of(part)].width);
+    const unsigned used = part == Part::cap ? plan.cap.fields : plan.hymenium.fields;
     const int half = (y + 2) / 2 - 1;  // floor, for y >= -2
     const bool between = plan.disc_step == 2 && y != 2 * half;
     const SparseRow& above = sparse_row(plan, part, plan.disc_step == 2 ? half : y, buffers);
@@ -293,11 +292,11 @@ void disc_fields(const PaintPlan& plan, int part, int y, RowBuffers& buffers) {
 
 // Computes the fields of a strip at every texel of a row, into buffers.field: sampled at every
 // strip_step-th texel, then doubled.
-void strip_fields(const PaintPlan& plan, int part, VF across, RowBuffers& buffers) {
+void strip_fields(const PaintPlan& plan, Part part, VF across, RowBuffers& buffers) {
     const Floats f;
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
-    const int step = part == 2 ? plan.strip_step : plan.strip_step > 1 ? 2 : 1;
-    const unsigned used = part == 2 ? plan.stem.fields : 3U;
+    const Frame& frame = plan.frames[index_of(part)];
+    const int step = part == Part::stem ? plan.strip_step : plan.strip_step > 1 ? 2 : 1;
+    const unsigned used = part == Part::stem ? plan.stem.fields : 3U;
     const std::size_t count = static_cast<std::size_t>(frame.width / step) + 1;
     const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
     for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
@@ -308,11 +307,11 @@ void strip_fields(const PaintPlan& plan, int part, VF across, RowBuffers& buffer
             set(0.5F);
         const VF along =
             (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
-        if (part == 2)
+        if (part == Part::stem)
             stem_fields(plan.stem, unit(along), across, fields);
-        else if (part == 3)
+        else if (part == Part::veil)
             veil_fields(plan.veil, along, across, fields);
-        else if (part == 4)
+        else if (part == Part::blade)
             blade_fields(plan.blade, along, across, fields);
         else
             flesh_fields(plan.flesh, along, across, fields);
@@ -361,10 +360,10 @@ void add_patches_to_row(const PaintPlan& plan, int y, VF down_places, float down
 }
 
 // Returns the position of a row on its chart, relative to the chart.
-float damage_row_place(const Frame& frame, int part, int y) {
+float damage_row_place(const Frame& frame, Part part, int y) {
     const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
-    return part == 2 ? (v - frame.inset) / (1.0F - 2.0F * frame.inset)
-                     : (v - 0.5F) / (0.5F - frame.inset);
+    return part == Part::stem ? (v - frame.inset) / (1.0F - 2.0F * frame.inset)
+                              : (v - 0.5F) / (0.5F - frame.inset);
 }
 
 /// Coordinates of a chart along its rows, for drawing damage.
@@ -394,13 +393,13 @@ struct DamageChart {
     }
 };
 
-DamageChart damage_chart(const PaintPlan& plan, int part) {
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+DamageChart damage_chart(const PaintPlan& plan, Part part) {
+    const Frame& frame = plan.frames[index_of(part)];
     const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
-    const float aspect = part == 2
+    const float aspect = part == Part::stem
                              ? plan.stem.aspect
                              : 1.0F / plan.veil.texel / static_cast<float>(frame.width) * inner;
-    return {frame, part < 2, inner, aspect};
+    return {frame, is_disc(part), inner, aspect};
 }
 
 // Draws a mark over texels `from` to `until` of a row. There is one loop per kind, because most
@@ -448,10 +447,10 @@ HWY_INLINE void add_mark(DamageMark mark, VF down, const Row& row, const TexelRa
 }
 
 // Collects the damage of one row in the planes; returns false when there is none.
-bool collect_damage(const PaintPlan& plan, int part, int y, const Row& row, DamageRow& planes) {
+bool collect_damage(const PaintPlan& plan, Part part, int y, const Row& row, DamageRow& planes) {
     const DamagePlan& damage = plan.damage;
-    const std::size_t place = static_cast<std::size_t>(part);
-    if (part > 2 || damage.marks[place].empty()) return false;
+    const std::size_t place = index_of(part);
+    if (!has_damage(part) || damage.marks[place].empty()) return false;
     const std::span<const std::uint32_t> crossing = damage.by_row[place].of(y);
     if (crossing.empty()) return false;
     const Floats f;
@@ -485,10 +484,10 @@ bool collect_damage(const PaintPlan& plan, int part, int y, const Row& row, Dama
 }
 
 // Applies the collected planes to the texels of a row.
-void show_collected(const PaintPlan& plan, int part, int y, const DamageRow& planes, Row& row) {
+void show_collected(const PaintPlan& plan, Part part, int y, const DamageRow& planes, Row& row) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
-    const VF down = set(damage_row_place(plan.frames[static_cast<std::size_t>(part)], part, y));
+    const VF down = set(damage_row_place(plan.frames[index_of(part)], part, y));
     const TexelRange painted = painted_range(plan, part, y);
     NoisePair noise;
     noise.begin();
@@ -508,16 +507,17 @@ void show_collected(const PaintPlan& plan, int part, int y, const DamageRow& pla
 }
 
 // Adds ink and dust to the texels of a row.
-void add_ink_and_dust(const PaintPlan& plan, int part, int y, Row& row) {
+void add_ink_and_dust(const PaintPlan& plan, Part part, int y, Row& row) {
     const DamagePlan& damage = plan.damage;
-    const bool inked = (part < 2 || part >= 4) && damage.melted > 0.0F;
-    const bool dusted = (part == 0 || part == 2 || part == 3) && damage.dust > 0.0F;
+    const bool inked = part != Part::stem && part != Part::veil && damage.melted > 0.0F;
+    const bool dusted =
+        (part == Part::cap || part == Part::stem || part == Part::veil) && damage.dust > 0.0F;
     if (!inked && !dusted) return;
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
     const DamageChart chart = damage_chart(plan, part);
     const VF down = set(damage_row_place(chart.frame, part, y));
-    const DiscPlan& shape = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+    const DiscPlan& shape = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
     const TexelRange painted = painted_range(plan, part, y);
     NoisePair noise;
     noise.begin();
@@ -526,19 +526,20 @@ void add_ink_and_dust(const PaintPlan& plan, int part, int y, Row& row) {
         const VF u = chart.across(x);
         if (inked) {
             // Where the margin has deliquesced, exposed flesh is covered by ink entirely.
-            VF share = part == 5 ? set(1.0F) : u * set(1.0F / chart.aspect);
+            VF share = part == Part::flesh ? set(1.0F) : u * set(1.0F / chart.aspect);
             if (chart.is_disc)
                 share = (hn::Sqrt(u * u + down * down) - set(shape.inner)) *
                         set(1.0F / (1.0F - shape.inner));
-            show_ink(damage, part == 0 ? damage.ink_front : damage.ink_lower, share,
+            show_ink(damage, part == Part::cap ? damage.ink_front : damage.ink_lower, share,
                      hn::Load(f, row.uneven + x), texel);
         }
         if (dusted) {
             // Most dust falls from the mushroom's own gills onto the stem and the ring; the cap
             // receives spores of neighbours.
-            const VF exposure = part == 2   ? smooth(u * set(1.0F / chart.aspect), 0.12F, 1.3F)
-                                : part == 3 ? set(0.8F)
-                                            : set(0.30F) + hn::Load(f, row.uneven + x) * set(0.3F);
+            const VF exposure =
+                part == Part::stem   ? smooth(u * set(1.0F / chart.aspect), 0.12F, 1.3F)
+                : part == Part::veil ? set(0.8F)
+                                     : set(0.30F) + hn::Load(f, row.uneven + x) * set(0.3F);
             show_dust(damage, u, down, hn::Max(exposure, set(0.0F)), noise, texel);
         }
         store_texel(texel, row, x);
@@ -546,34 +547,34 @@ void add_ink_and_dust(const PaintPlan& plan, int part, int y, Row& row) {
 }
 
 // Applies the damage that crosses one row, then ink and dust.
-void apply_damage(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buffers) {
+void apply_damage(const PaintPlan& plan, Part part, int y, Row& row, RowBuffers& buffers) {
     if (collect_damage(plan, part, y, row, buffers.damage))
         show_collected(plan, part, y, buffers.damage, row);
     add_ink_and_dust(plan, part, y, row);
 }
 
 // Paints the texels of one row; y may lie one row outside of the chart.
-void paint_row(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buffers) {
+void paint_row(const PaintPlan& plan, Part part, int y, Row& row, RowBuffers& buffers) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const Frame& frame = plan.frames[index_of(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     VF fields[most_fields];
     clear(fields);
-    if (part < 2) {
-        const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
-        const unsigned used = part == 0 ? plan.cap.fields : plan.hymenium.fields;
+    if (is_disc(part)) {
+        const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
+        const unsigned used = part == Part::cap ? plan.cap.fields : plan.hymenium.fields;
         const VF down = disc_place(frame, set(static_cast<float>(y)));
         disc_fields(plan, part, y, buffers);
-        const UploadedImage& upload = plan.uploads[static_cast<std::size_t>(part)];
+        const UploadedImage& upload = plan.uploads[index_of(part)];
         const TexelRange range = painted_range(plan, part, y);
         for (std::size_t x = range.from; x < range.until; x += lanes) {
             const DiscPoint p = disc_point_of(
                 disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
             for (std::size_t k = 0; k < most_fields; ++k)
                 if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
-            Texel texel = part == 0 ? cap_texel(plan.cap, p, fields)
-                                    : hymenium_texel(plan.hymenium, p, fields);
+            Texel texel = part == Part::cap ? cap_texel(plan.cap, p, fields)
+                                            : hymenium_texel(plan.hymenium, p, fields);
             if (!upload.empty()) {
                 const VF reach = set(0.5F) * p.rho;
                 const VF c = set(upload.cosine), s = set(upload.sine);
@@ -586,7 +587,7 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buf
             hn::Store(p.widening, f, row.widening + x);
             hn::Store(fields[1], f, row.uneven + x);
         }
-        if (part == 0 && y >= 0 && y < frame.height) {
+        if (part == Part::cap && y >= 0 && y < frame.height) {
             HWY_ALIGN float place[8];
             hn::Store(down, f, place);
             add_patches_to_row(plan, y, down, place[0], row);
@@ -597,9 +598,9 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buf
         const float down = (v - frame.inset) * inner;
         const float turned = down < 0.0F ? down + 1.0F : down >= 1.0F ? down - 1.0F : down;
         const float edge = down < 0.0F ? 0.0F : down > 1.0F ? 1.0F : down;
-        const VF across = set(part == 2 ? turned : edge);
+        const VF across = set(part == Part::stem ? turned : edge);
         strip_fields(plan, part, across, buffers);
-        const unsigned used = part == 2 ? plan.stem.fields : 3U;
+        const unsigned used = part == Part::stem ? plan.stem.fields : 3U;
         const UploadedImage& upload = plan.uploads[2];
         const float per_x = 1.0F / static_cast<float>(frame.width);
         const float shown_turn = turned + upload.turn;
@@ -611,13 +612,13 @@ void paint_row(const PaintPlan& plan, int part, int y, Row& row, RowBuffers& buf
             for (std::size_t k = 0; k < most_fields; ++k)
                 if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
             Texel texel;
-            if (part == 2) {
+            if (part == Part::stem) {
                 texel = stem_texel(plan.stem, unit(along), across, fields);
                 if (!upload.empty()) texel.colour = sampled(upload, along, image_across);
             } else {
-                texel = part == 3   ? veil_texel(plan.veil, along, across, fields)
-                        : part == 4 ? blade_texel(plan.blade, along, across, fields)
-                                    : flesh_texel(plan.flesh, along, across, fields);
+                texel = part == Part::veil    ? veil_texel(plan.veil, along, across, fields)
+                        : part == Part::blade ? blade_texel(plan.blade, along, across, fields)
+                                              : flesh_texel(plan.flesh, along, across, fields);
             }
             store_texel(texel, row, x);
             hn::Store(fields[1], f, row.uneven + x);
@@ -696,18 +697,18 @@ HWY_INLINE VF disc_slope_y(VF cosine, VF sine, VF widening, VF right, VF down) {
 }
 
 // Converts a row of texels, and the heights above and below it, to bytes.
-void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const Row& row,
+void resolve_row(const PaintPlan& plan, Part part, int y, const Row& above, const Row& row,
                  const Row& below, RowBuffers& buffers, const PaintTarget& target) {
     const Floats f;
     const std::size_t lanes = hn::Lanes(f);
-    const Frame& frame = plan.frames[static_cast<std::size_t>(part)];
+    const Frame& frame = plan.frames[index_of(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     const VF one = set(1.0F);
     const VF half = set(0.5F);
     const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F};
     const float film = 1.0F - 0.25F * plan.wetness;  // a film of water flattens the relief
-    const bool is_disc = part < 2;
-    const DiscPlan& disc = part == 0 ? plan.cap.disc : plan.hymenium.disc;
+    const bool on_disc = is_disc(part);
+    const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
     const float steps_x[part_count] = {0.0F,
                                        0.0F,
                                        plan.stem.texel_along,
@@ -720,19 +721,19 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
                                        plan.veil.texel,
                                        plan.blade.texel_across,
                                        plan.flesh.texel_across};
-    const float step_x = steps_x[part];
-    const float step_y = steps_y[part];
+    const float step_x = steps_x[index_of(part)];
+    const float step_y = steps_y[index_of(part)];
     // Lengths on a disc are relative to its meridian, which begins at `inner`.
     const VF per_x =
-        set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
+        set(film * (on_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
     const VF per_y =
-        set(film * (is_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
+        set(film * (on_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
     // The rows above and below may have a shorter painted range: only painted neighbours count.
     const TexelRange here = painted_range(plan, part, y);
     const TexelRange over = painted_range(plan, part, y - 1);
     const TexelRange under = painted_range(plan, part, y + 1);
     const std::size_t first = std::max(here.from, std::max(over.from, under.from));
-    const TexelRange range = {first, is_disc ? width - first : width};
+    const TexelRange range = {first, on_disc ? width - first : width};
     for (std::size_t x = range.from; x < range.until; x += lanes) {
         const float* at = row.height + margin + x;
         const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * per_x;
@@ -740,7 +741,7 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
             (hn::Load(f, below.height + margin + x) - hn::Load(f, above.height + margin + x)) *
             per_y;
         VF nx, ny;
-        if (is_disc) {
+        if (on_disc) {
             const VF cosine = hn::Load(f, row.cosine + x);
             const VF sine = hn::Load(f, row.sine + x);
             const VF widening = hn::Load(f, row.widening + x) * set(1.0F - disc.inner);
@@ -754,7 +755,7 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
         Rgb colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x),
                       hn::Load(f, row.blue + x)};
         VF roughness = hn::Load(f, row.roughness + x);
-        weather(plan, exposure[part], hn::Load(f, row.uneven + x), colour, roughness);
+        weather(plan, exposure[index_of(part)], hn::Load(f, row.uneven + x), colour, roughness);
         store_byte(srgb(colour.r), buffers.bytes[0] + x);
         store_byte(srgb(colour.g), buffers.bytes[1] + x);
         store_byte(srgb(colour.b), buffers.bytes[2] + x);
@@ -776,7 +777,7 @@ void resolve_row(const PaintPlan& plan, int part, int y, const Row& above, const
 }
 
 /// Paints rows `from` to `to` (exclusive) of a part's chart.
-void paint_rows(const PaintPlan& plan, int part, int from, int to, void* memory,
+void paint_rows(const PaintPlan& plan, Part part, int from, int to, void* memory,
                 const PaintTarget& target) {
     RowBuffers& buffers = *static_cast<RowBuffers*>(memory);
     for (SparseRow& row : buffers.sparse) row.y = -1000;
