@@ -9,7 +9,7 @@
 #include <numeric>
 #include <utility>
 
-#include "core/geometry/budget.h"
+#include "core/geometry/branch_plan.h"
 #include "core/math/direction.h"
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
@@ -24,212 +24,6 @@ namespace sporeprint {
 namespace {
 
 constexpr std::uint32_t none = Bush::none;
-
-/// Resolution of the tubes.
-struct TubeDetail {
-    int trunk_sides;  ///< of a trunk and its continuation
-    int thick_sides;  ///< of other tubes with many tips
-    int sides;        ///< of the remaining tubes
-    int twig_sides;   ///< of last branches
-    int steps;        ///< rings from fork to fork
-    int tip_rings;    ///< rings of a last branch before its end
-    int trunk_rings;  ///< of a trunk below its lowest fork, at least 2
-    /// How much further down the colour of tips reaches when all other tubes are dropped.
-    double tips_shown;
-    /// 0..1: how far a segment turns to the centre of the tips that it represents.
-    double lean;
-    // For segments of a mix that belong to a species of few, long segments: factor on sides, and
-    // numbers of rings; 0: as for all other segments.
-    int few_sides = 1, few_steps = 0, few_tip_rings = 0, few_trunk_rings = 0;
-};
-constexpr std::array<TubeDetail, 9> detail_steps = {{{28, 28, 20, 18, 6, 12, 11, 0.3, 0.0},
-                                                     {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
-                                                     {24, 8, 8, 8, 2, 3, 6, 0.3, 0.0, 2, 6, 12, 11},
-                                                     {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
-                                                     {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
-                                                     {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
-                                                     {12, 6, 3, 3, 1, 1, 3, 0.3, 0.0},
-                                                     {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
-                                                     {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6}}};
-/// Index of the finest and of the coarsest resolution by level of detail; if the coarsest exceeds
-/// the limit, the smallest tubes are dropped.
-constexpr std::array<std::size_t, 4> first_step = {0, 3, 7, 8};
-constexpr std::array<std::size_t, 4> last_step = {6, 6, 7, 8};
-/// Share of tubes that must be kept at a resolution before a coarser one is tried. A round tube of
-/// four sides is more visible than a missing twig.
-constexpr std::array<double, 4> sufficient_share = {0.9, 0.5, 0.0, 0.0};
-/// Number of tips from which on a tube counts as thick.
-constexpr int thick_tube_tips = 12;
-
-/// A segment and its continuation through first children, up to a tip: one tube.
-struct Chain {
-    std::vector<std::uint32_t> nodes;
-    /// Indices in `nodes` of forks where other drawn tubes begin; each has its rings.
-    std::vector<std::size_t> forks;
-    int tips = 1;
-    int fork_tips = 1;  ///< tips of the fork where it begins
-    bool root = false;
-
-    /// Returns true when it passes forks without a ring.
-    [[nodiscard]] bool skips_forks() const { return forks.size() + (root ? 2 : 1) < nodes.size(); }
-};
-
-std::vector<Chain> chains_of(const Bush& graph) {
-    std::vector<Chain> chains;
-    for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
-        const Bush::Node& node = graph.nodes[i];
-        if (node.parent != none && graph.nodes[node.parent].children[0] == i) continue;
-        Chain chain;
-        chain.tips = node.tips;
-        chain.root = node.parent == none;
-        chain.fork_tips = chain.root ? node.tips : graph.nodes[node.parent].tips;
-        for (std::uint32_t at = i; at != none; at = graph.nodes[at].children[0])
-            chain.nodes.push_back(at);
-        chains.push_back(std::move(chain));
-    }
-    // Tubes with most tips are kept first, then isolated ones. Ties are broken by scattered
-    // numbers, so that some of them are kept on every side.
-    const auto scattered = [](const Chain& chain) { return chain.nodes.front() * 0x9e3779b1U; };
-    std::stable_sort(chains.begin(), chains.end(), [&](const Chain& a, const Chain& b) {
-        if (a.root != b.root) return a.root;
-        if (a.tips != b.tips) return a.tips > b.tips;
-        return a.fork_tips != b.fork_tips ? a.fork_tips > b.fork_tips : scattered(a) < scattered(b);
-    });
-    return chains;
-}
-
-/// Returns the sides of a tube as species of many segments draw it.
-int sides_of(const Chain& chain, const TubeDetail& detail) {
-    if (chain.root) return detail.trunk_sides;
-    if (chain.tips >= thick_tube_tips) return detail.thick_sides;
-    return chain.tips > 1 ? detail.sides : detail.twig_sides;
-}
-
-/// Returns the sides of a tube as it is drawn.
-int columns_of(const Bush& graph, const Chain& chain, const TubeDetail& detail) {
-    const bool few = !chain.root && graph.nodes[chain.nodes.front()].few > 0.0;
-    return sides_of(chain, detail) * (few ? detail.few_sides : 1);
-}
-
-/// Returns the rings of a segment, whatever its end. Where only some species of a mix have a tip it
-/// has as many rings as a tip needs, so that weight 1 reproduces the single-species mesh.
-int rings_of(const Bush::Node& end, const TubeDetail& detail) {
-    if (end.children[0] == none) return detail.tip_rings;
-    const bool few = end.few > 0.0;
-    const int steps = few ? std::max(detail.steps, detail.few_steps) : detail.steps;
-    if (!end.may_end) return steps;
-    return std::max({steps, detail.tip_rings, few ? detail.few_tip_rings : 0});
-}
-
-int trunk_rings_of(const Bush::Node& top, const TubeDetail& detail) {
-    return top.few > 0.0 ? std::max(detail.trunk_rings, detail.few_trunk_rings)
-                         : detail.trunk_rings;
-}
-
-/// Returns the triangles of a tube, without the trunk below it.
-std::uint64_t tube_triangles(const Bush& graph, const Chain& chain, const TubeDetail& detail) {
-    // One ring is at the fork where it begins, or at the top of the trunk.
-    int rings = 1 + rings_of(graph.nodes[chain.nodes.back()], detail);
-    for (const std::size_t fork : chain.forks)
-        rings += rings_of(graph.nodes[chain.nodes[fork]], detail);
-    return 2 * static_cast<std::uint64_t>(rings) *
-           static_cast<std::uint64_t>(columns_of(graph, chain, detail));
-}
-
-/// Returns the triangles of a trunk from the ground to its lowest fork; it is closed below.
-std::uint64_t trunk_triangles(const Bush& graph, const Chain& chain, const TubeDetail& detail) {
-    return 2 *
-           static_cast<std::uint64_t>(trunk_rings_of(graph.nodes[chain.nodes.front()], detail) -
-                                      1) *
-           static_cast<std::uint64_t>(detail.trunk_sides);
-}
-
-/// Returns the counts of a tube on which no other begins.
-MeshCount count_of(const Bush& graph, const Chain& chain, const TubeDetail& detail) {
-    const auto sides = static_cast<std::uint64_t>(columns_of(graph, chain, detail));
-    const auto rings = static_cast<std::uint64_t>(1 + detail.tip_rings);
-    // One row at the beginning, one point at the tip.
-    MeshCount count{(chain.root ? rings : rings + 1) * sides + 1,
-                    tube_triangles(graph, chain, detail)};
-    if (chain.root) {
-        const auto trunk =
-            static_cast<std::uint64_t>(trunk_rings_of(graph.nodes[chain.nodes.front()], detail));
-        count.vertices += (trunk + 1) * (sides + 1);
-        count.triangles += trunk_triangles(graph, chain, detail);
-    }
-    return count;
-}
-
-/// Segments with less presence have no triangles.
-constexpr double least_presence = 0.004;
-
-/// Returns true when a tube has triangles: its first segment has begun to exist.
-bool is_there(const Bush& graph, const Chain& chain) {
-    return graph.nodes[chain.nodes.front()].presence >= least_presence;
-}
-
-/// Returns the counts of the additional rings that a tube has where another one begins on it.
-MeshCount fork_count(const Bush& graph, const Chain& parent_node, std::size_t at,
-                     const TubeDetail& detail) {
-    const auto rings =
-        static_cast<std::uint64_t>(rings_of(graph.nodes[parent_node.nodes[at]], detail)) *
-        static_cast<std::uint64_t>(columns_of(graph, parent_node, detail));
-    return {rings, 2 * rings};
-}
-
-/// The tubes of a branch graph that are drawn at a level of detail.
-struct Plan {
-    TubeDetail detail{};
-    std::vector<Chain> chains;
-    MeshCount count;
-};
-
-Plan plan_of(const Bush& graph, int lod) {
-    const auto level = static_cast<std::size_t>(lod);
-    Plan plan;
-    plan.chains = chains_of(graph);
-    // For each node its chain, and its index there.
-    struct Place {
-        std::size_t chain = 0, at = 0;
-    };
-    std::vector<Place> places(graph.nodes.size());
-    for (std::size_t c = 0; c < plan.chains.size(); ++c)
-        for (std::size_t k = 0; k < plan.chains[c].nodes.size(); ++k)
-            places[plan.chains[c].nodes[k]] = {c, k};
-    // Returns the fork at which a chain begins; none for the lowest one, which is the top of a
-    // trunk and has its ring.
-    const auto fork_of = [&](const Chain& chain) -> const Place* {
-        if (chain.root) return nullptr;
-        const std::uint32_t fork = graph.nodes[chain.nodes.front()].parent;
-        return graph.nodes[fork].parent == none ? nullptr : &places[fork];
-    };
-    std::size_t kept = 0;
-    for (std::size_t step = first_step[level]; step <= last_step[level]; ++step) {
-        plan.detail = detail_steps[step];
-        plan.count = {};
-        for (kept = 0; kept < plan.chains.size(); ++kept) {
-            MeshCount one = count_of(graph, plan.chains[kept], plan.detail);
-            // A parent has more tips than its branches, so it came before.
-            if (const Place* fork = fork_of(plan.chains[kept])) {
-                const MeshCount rings =
-                    fork_count(graph, plan.chains[fork->chain], fork->at, plan.detail);
-                one.vertices += rings.vertices;
-                one.triangles += rings.triangles;
-            }
-            if (plan.count.triangles + one.triangles > most_triangles[level]) break;
-            plan.count.vertices += one.vertices;
-            plan.count.triangles += one.triangles;
-        }
-        if (static_cast<double>(kept) >=
-            sufficient_share[level] * static_cast<double>(plan.chains.size()))
-            break;
-    }
-    plan.chains.resize(kept);
-    for (const Chain& chain : plan.chains)
-        if (const Place* fork = fork_of(chain)) plan.chains[fork->chain].forks.push_back(fork->at);
-    for (Chain& chain : plan.chains) std::sort(chain.forks.begin(), chain.forks.end());
-    return plan;
-}
 
 /// Limit of curvature of the bent axis times the reach of the graph: at 1 the segments on the inner
 /// side would meet.
@@ -315,7 +109,7 @@ class TubeBuilder {
   public:
     TubeBuilder(const Individual& individual, int lod, const SweepOptions& options)
         : graph_(deformed(individual)),
-          plan_(plan_of(graph_, lod)),
+          plan_(branch_plan(graph_, lod)),
           seed_(individual.effective.seed),
           full_disc_(lod < 2),
           options_(options),
@@ -331,7 +125,7 @@ class TubeBuilder {
         mesh_.normals.reserve(vertices);
         mesh_.texture_coordinates.reserve(vertices);
         mesh_.indices.reserve(3 * static_cast<std::size_t>(plan_.count.triangles));
-        for (const Chain& chain : plan_.chains) add_chain(chain);
+        for (const TubeChain& chain : plan_.chains) add_chain(chain);
         if (options_.textured)
             add_tangents(mesh_);
         else
@@ -348,7 +142,7 @@ class TubeBuilder {
     void count_dropped_tips() {
         std::vector<bool> kept(graph_.nodes.size(), false);
         double left = 0.0, all_left = 0.0;
-        for (const Chain& chain : plan_.chains) {
+        for (const TubeChain& chain : plan_.chains) {
             for (const std::uint32_t i : chain.nodes) kept[i] = true;
             left += node(chain.nodes.back()).presence;
         }
@@ -375,7 +169,7 @@ class TubeBuilder {
         std::vector<Represented> represented(plan_.chains.size());
         std::vector<std::size_t> representative(graph_.nodes.size(), plan_.chains.size());
         for (std::size_t c = 0; c < plan_.chains.size(); ++c) {
-            const Chain& chain = plan_.chains[c];
+            const TubeChain& chain = plan_.chains[c];
             for (const std::uint32_t i : chain.nodes) representative[i] = c;
             const std::uint32_t first = chain.nodes.front();
             represented[c].base = node(chain.root ? first : node(first).parent).place;
@@ -391,7 +185,7 @@ class TubeBuilder {
             one_tube.reach = std::max(one_tube.reach, glm::distance(one.place, one_tube.base));
         }
         for (std::size_t c = 0; c < plan_.chains.size(); ++c) {
-            const Chain& chain = plan_.chains[c];
+            const TubeChain& chain = plan_.chains[c];
             const Represented& one_tube = represented[c];
             if (one_tube.weight < 1e-9) continue;
             Node& tip = graph_.nodes[chain.nodes.back()];
@@ -447,7 +241,7 @@ class TubeBuilder {
     void add_segment(std::vector<Station>& stations, const Station& from, std::uint32_t i,
                      bool skips_forks) const {
         const TubeDetail& detail = plan_.detail;
-        const auto rings = static_cast<std::size_t>(rings_of(node(i), detail));
+        const auto rings = static_cast<std::size_t>(segment_rings(node(i), detail));
         const auto drawn = [&](const auto& as, int own, int of_few) {
             std::vector<Station> segment = subdivided(from, as(own), rings);
             if (of_few > own && node(i).few > 0.0)
@@ -572,8 +366,8 @@ class TubeBuilder {
         return stations;
     }
 
-    void add_chain(const Chain& chain) {
-        const int sides = columns_of(graph_, chain, plan_.detail);
+    void add_chain(const TubeChain& chain) {
+        const int sides = tube_columns(graph_, chain, plan_.detail);
         Station begin;
         std::vector<Station> stations;
         const std::uint32_t first = chain.nodes.front();
@@ -583,9 +377,9 @@ class TubeBuilder {
         } else {
             // A tube begins inside its parent: a twig at its side, one of two equal branches as
             // wide as the parent.
-            const Node& parent_node = node(parent);
+            const Node& parent_end = node(parent);
             const Station& fork = built_[parent];
-            const double sibling = std::max(widened_radius(parent_node.children[0]), 1e-12);
+            const double sibling = std::max(widened_radius(parent_end.children[0]), 1e-12);
             const double equal = std::min(1.0, widened_radius(first) / sibling);
             begin.at = fork.at + (1.0 - equal) * node(first).beside;
             // The direction is half-way between both paths, so that the tube never begins
@@ -596,7 +390,7 @@ class TubeBuilder {
                 chain.skips_forks() ? unit_or(node(next).place - begin.at, node(first).heading)
                                     : node(first).heading;
             begin.along = unit_or(fork.along + onwards, fork.along);
-            begin.flat = square_of(parent_node.across);
+            begin.flat = square_of(parent_end.across);
             // Where one species of a mix ends, the continuation is as thin as its presence is
             // small.
             const double wide =
@@ -657,7 +451,7 @@ class TubeBuilder {
     Station add_trunk(std::uint32_t root, int sides) {
         const Node& top = node(root);
         const TubeDetail& detail = plan_.detail;
-        const auto rings = static_cast<std::size_t>(trunk_rings_of(top, detail));
+        const auto rings = static_cast<std::size_t>(trunk_ring_count(top, detail));
         std::vector<Station> stations = trunk_stations(root, detail.trunk_rings, rings);
         if (rings > static_cast<std::size_t>(detail.trunk_rings))
             mix(stations, trunk_stations(root, detail.few_trunk_rings, rings), top.few);
@@ -680,7 +474,7 @@ class TubeBuilder {
     }
 
     // Appends one tube: its rows, and the point at its tip.
-    void add_tube(const Chain& chain, const std::vector<Station>& stations, int sides) {
+    void add_tube(const TubeChain& chain, const std::vector<Station>& stations, int sides) {
         const auto row = static_cast<std::uint32_t>(sides);
         const Node& tip = node(chain.nodes.back());
         const std::uint32_t start = node(chain.nodes.front()).parent;
@@ -691,15 +485,15 @@ class TubeBuilder {
         // The tube above a trunk begins with the very ring in which the trunk ends.
         if (!chain.root) side_ = square_to(stations.front().along, node(start).across);
         const std::uint32_t base =
-            add_rows(stations, sides, sides / sides_of(chain, plan_.detail), false, turn);
+            add_rows(stations, sides, sides / tube_sides(chain, plan_.detail), false, turn);
         const auto end = static_cast<std::uint32_t>(mesh_.positions.size());
         const double colour = colour_of(tip.from_tip);
         const auto [s, c] = sine_cosine(turn);
-        const auto at = disc_point(swept_charts[0], colour, c, s);
+        const auto at = disc_point(swept_charts[index_of(Part::cap)], colour, c, s);
         mesh_.positions.emplace_back(tip.place);
         mesh_.normals.emplace_back(tip.heading);
         mesh_.texture_coordinates.emplace_back(at.u, at.v);
-        if (!options_.keep_absent && !is_there(graph_, chain)) return;
+        if (!options_.keep_absent && !is_present(graph_, chain)) return;
         const auto count = static_cast<std::uint32_t>(stations.size());
         for (std::uint32_t i = 0; i + 1 < count; ++i)
             for (std::uint32_t j = 0; j < row; ++j) {
@@ -797,7 +591,7 @@ class TubeBuilder {
     void texture(const Station& station, int sides, bool strip, double round, double turn) {
         TexturePoint at{};
         if (strip) {
-            at = strip_point(swept_charts[2], station.colour, round);
+            at = strip_point(swept_charts[index_of(Part::stem)], station.colour, round);
         } else {
             // A polygon cuts the rings of the disc short: tubes of few sides use a piece of a ring,
             // there and back.
@@ -805,13 +599,13 @@ class TubeBuilder {
                                              ? 2.0 * pi * round
                                              : 0.7 * (1.0 - std::abs(2.0 * round - 1.0)));
             const auto [s, c] = sine_cosine(angle);
-            at = disc_point(swept_charts[0], colour_of(station.colour), c, s);
+            at = disc_point(swept_charts[index_of(Part::cap)], colour_of(station.colour), c, s);
         }
         mesh_.texture_coordinates.emplace_back(at.u, at.v);
     }
 
     Bush graph_;
-    Plan plan_;
+    BranchPlan plan_;
     std::uint32_t seed_;
     bool full_disc_;
     SweepOptions options_;
@@ -823,18 +617,6 @@ class TubeBuilder {
 };
 
 }  // namespace
-
-MeshCount branched_mesh_count(const Bush& graph, int lod, bool keep_absent) {
-    const Plan plan = plan_of(graph, lod);
-    MeshCount count = plan.count;
-    if (keep_absent) return count;
-    for (const Chain& chain : plan.chains)
-        if (!is_there(graph, chain)) {
-            count.triangles -= tube_triangles(graph, chain, plan.detail);
-            if (chain.root) count.triangles -= trunk_triangles(graph, chain, plan.detail);
-        }
-    return count;
-}
 
 Mesh branched_mesh(const Individual& individual, int lod, const SweepOptions& options) {
     return TubeBuilder(individual, lod, options).build();
