@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -261,19 +262,54 @@ int serve(const Options& options, const Environment& environment) {
     return fine;
 }
 
-/// Prints an address with the signature of the first key.
+/// What --sign and the flags beside it ask for.
+struct SigningRequest {
+    std::string target;
+    std::string method = "GET";
+    std::string body;          ///< file of the body of a POST, "-" for standard input
+    std::int64_t seconds = 0;  ///< that the URL is good for from now on; 0 for ever
+};
+
+/// All that can be read from standard input.
 ///
-/// seconds  that it is good for from now on; 0 for ever
-int sign(const Options& options, const std::string& target, std::int64_t seconds) {
+/// throws  std::runtime_error when it cannot be read
+std::string standard_input() {
+    std::string text;
+    std::array<char, 65536> piece{};
+    while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), stdin))
+        text.append(piece.data(), got);
+    if (std::ferror(stdin) != 0)
+        throw std::runtime_error("--sign-body: cannot read standard input");
+    return text;
+}
+
+/// Prints a URL with the signature of the first key.
+int sign(const Options& options, const SigningRequest& asked) {
+    const std::string& target = asked.target;
     if (options.sign_keys.empty())
         return complain("--sign needs --sign-keys, the file of keys", wrong_usage);
     if (!target.starts_with('/'))
         return complain("--sign takes path and query, all of an address after its host",
                         wrong_usage);
+    const bool is_post = asked.method == "POST";
+    if (is_post && asked.body.empty())
+        return complain("--sign-method POST needs --sign-body, as the signature covers the body",
+                        wrong_usage);
+    if (!is_post && !asked.body.empty())
+        return complain("--sign-body needs --sign-method POST; no other method has a body",
+                        wrong_usage);
+    std::string body;
+    if (asked.body == "-") {
+        body = standard_input();
+    } else if (is_post) {
+        std::optional<std::string> text = read_text(asked.body);
+        if (!text) return complain("--sign-body: " + asked.body + " cannot be read", failed);
+        body = *std::move(text);
+    }
     std::optional<std::int64_t> expires;
-    if (seconds > 0) expires = seconds_since_1970() + seconds;
+    if (asked.seconds > 0) expires = seconds_since_1970() + asked.seconds;
     const auto signatures = Signatures::from_file(options.sign_keys.string());
-    std::printf("%s\n", signatures.signed_target("GET", target, {}, expires).c_str());
+    std::printf("%s\n", signatures.signed_target(asked.method, target, body, expires).c_str());
     return fine;
 }
 
@@ -285,8 +321,8 @@ int run(int argc, char** argv) {
     std::vector<std::string> texts(lines.size());
     for (std::size_t i = 0; i < lines.size(); ++i)
         app.add_option(lines[i].flag, texts[i], lines[i].help)->type_name("");
-    std::string config, health, to_sign;
-    std::int64_t sign_for = 0;
+    std::string config, health;
+    SigningRequest to_sign;
     bool print_config = false;
     app.add_option(
            "--config", config,
@@ -297,11 +333,19 @@ int run(int argc, char** argv) {
     app.add_option("--health", health,
                    "Ask a running server: 0 if this address answers 200, else 1")
         ->type_name("URL");
-    app.add_option("--sign", to_sign,
+    app.add_option("--sign", to_sign.target,
                    "Print this path and query with the signature of the first of --sign-keys, "
                    "and end")
         ->type_name("TARGET");
-    app.add_option("--sign-for", sign_for, "Seconds for which it is good; for ever by itself")
+    app.add_option("--sign-method", to_sign.method,
+                   "Method that it is good for: GET, which is also good for HEAD, or POST")
+        ->type_name("METHOD")
+        ->check(CLI::IsMember({"GET", "POST"}));
+    app.add_option("--sign-body", to_sign.body,
+                   "File with the body of the POST, byte for byte; - reads standard input")
+        ->type_name("FILE");
+    app.add_option("--sign-for", to_sign.seconds,
+                   "Seconds for which it is good; for ever by itself")
         ->type_name("SECONDS")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
     app.footer(
@@ -343,7 +387,10 @@ int run(int argc, char** argv) {
         return fine;
     }
     try {
-        return to_sign.empty() ? serve(options, environment) : sign(options, to_sign, sign_for);
+        if (to_sign.target.empty() && (app.count("--sign-method") > 0 || !to_sign.body.empty()))
+            return complain("--sign-method and --sign-body need --sign, the URL to sign",
+                            wrong_usage);
+        return to_sign.target.empty() ? serve(options, environment) : sign(options, to_sign);
     } catch (const InvalidInput& invalid) {  // an instruction set or a template that is no good
         for (const Problem& problem : invalid.problems())
             complain((problem.path == "simd" ? "--simd" : problem.path) + ": " + problem.message,
