@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "api/conditions.h"
 #include "api/encoding.h"
+#include "api/ranges.h"
 #include "api/text.h"
 
 namespace sporeprint::api {
@@ -11,7 +13,8 @@ namespace sporeprint::api {
 namespace {
 
 constexpr const char* exposed_headers =
-    "Cache-Status, Content-Disposition, Content-Length, Content-Location, ETag, Retry-After, "
+    "Accept-Ranges, Cache-Status, Content-Disposition, Content-Encoding, Content-Length, "
+    "Content-Location, Content-Range, ETag, Retry-After, "
     "Server-Timing, X-Request-Id";
 
 /// What a page of ours may do: its own scripts and styles, pictures that it makes itself, no frame round it. The pages say the
@@ -71,11 +74,10 @@ std::string cache_control(bool versioned) {
     return versioned ? immutable_for_a_year : cached_for_an_hour;
 }
 
-std::string selected_etag(const Request& request, const std::string& etag,
-                          std::string_view content_type) {
-    return compressible(content_type) && accepts_gzip(request.header("Accept-Encoding"))
-               ? gzip_etag(etag)
-               : etag;
+std::vector<std::string> current_etags(const Request& request, const std::string& etag,
+                                       std::string_view content_type) {
+    if (compressible(content_type) && accepts_gzip(request)) return {gzip_etag(etag), etag};
+    return {etag};
 }
 
 void Answers::add_common_headers(const Request& request, Answer& answer) const {
@@ -104,27 +106,60 @@ void Answers::represent(const Request& request, Answer& answer, const Document* 
     const std::string type(header_of(answer, "Content-Type"));
     if (compressible(type)) {
         set_header(answer, "Vary", "Accept-Encoding");
-        if (accepts_gzip(request.header("Accept-Encoding"))) {
+        if (accepts_gzip(request)) {
             const std::string etag(header_of(answer, "ETag"));
             if (!etag.empty()) set_header(answer, "ETag", gzip_etag(etag));
             set_header(answer, "Content-Encoding", "gzip");
             answer.body = {ready ? ready->gzipped : gzip(answer.body)};
         }
+    } else if (answer.status == 200 && request.method != "POST") {
+        set_header(answer, "Accept-Ranges", "bytes");
     }
     add_common_headers(request, answer);
 }
 
-Answer Answers::not_modified(const Request& request, Answer answer) const {
+Answer Answers::not_modified(const Request& request, Answer answer, const std::string& etag) const {
     const std::string type = take_header(answer, "Content-Type");
     take_header(answer, "Content-Disposition");
-    const std::string etag(header_of(answer, "ETag"));
-    set_header(answer, "ETag", selected_etag(request, etag, type));
+    set_header(answer, "ETag", etag);
     if (compressible(type)) set_header(answer, "Vary", "Accept-Encoding");
     answer.status = 304;
     answer.body.clear();
     answer.has_body = false;
     add_common_headers(request, answer);
     return answer;
+}
+
+Answer Answers::precondition_failed(const Request& request, std::string_view header,
+                                    std::span<const std::string> etags) const {
+    std::string current;
+    for (const std::string& etag : etags) (current += current.empty() ? "" : " and ") += etag;
+    return problem(request, 412,
+                   std::string(header) + " does not hold: the current entity tag is " + current);
+}
+
+void Answers::select_range(const Request& request, Answer& answer) const {
+    if (request.method != "GET" || answer.status != 200 || !answer.has_body ||
+        compressible(header_of(answer, "Content-Type")))
+        return;
+    const std::optional<std::string> given = header_list(request, "Range");
+    if (!given || !if_range_matches(request, header_of(answer, "ETag"))) return;
+    const std::size_t size = size_of(answer.body);
+    const std::optional<ByteRange> range = byte_range(*given, size);
+    if (!range) return;
+    const std::string length = '/' + std::to_string(size);
+    if (range->size == 0) {
+        answer = problem(request, 416, "the body has " + std::to_string(size) + " bytes");
+        set_header(answer, "Accept-Ranges", "bytes");
+        set_header(answer, "Content-Range", "bytes *" + length);
+        return;
+    }
+    answer.status = 206;
+    answer.repeatable = false;
+    answer.body = part_of(answer.body, *range);
+    set_header(answer, "Content-Range",
+               "bytes " + std::to_string(range->first) + '-' +
+                   std::to_string(range->first + range->size - 1) + length);
 }
 
 Answer Answers::document(const Request& request, const Document& document) const {
@@ -134,13 +169,17 @@ Answer Answers::document(const Request& request, const Document& document) const
                       {"ETag", document.etag}};
     if (document.content_type.starts_with("text/html"))
         for (const auto& [name, value] : page_headers) answer.headers.emplace_back(name, value);
-    const std::string_view condition = request.header("If-None-Match");
-    if (names_any(condition) ||
-        names_etag(condition, selected_etag(request, document.etag, document.content_type)))
-        return not_modified(request, std::move(answer));
+    const Conditions conditions(request);
+    const std::vector<std::string> etags =
+        current_etags(request, document.etag, document.content_type);
+    if (conditions.match_fails(etags)) return precondition_failed(request, "If-Match", etags);
+    if (const std::string* etag = conditions.unchanged(etags))
+        return not_modified(request, std::move(answer), *etag);
+    if (conditions.none_match_any()) return not_modified(request, std::move(answer), etags.front());
     answer.body = {document.body};
     answer.repeatable = true;
     represent(request, answer, &document);
+    select_range(request, answer);
     return answer;
 }
 
@@ -152,7 +191,8 @@ Answer Answers::options(const Request& request, const std::string& allow) const 
     if (!allow_origin_.empty()) {
         set_header(answer, "Access-Control-Allow-Methods", allow);
         set_header(answer, "Access-Control-Allow-Headers",
-                   "Cache-Control, Content-Type, If-None-Match, X-Request-Id");
+                   "Cache-Control, Content-Type, If-Match, If-None-Match, If-Range, Range, "
+                   "X-Request-Id");
         set_header(answer, "Access-Control-Max-Age", "86400");
     }
     add_common_headers(request, answer);

@@ -4,6 +4,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "api/documents.h"
 #include "api/errors.h"
@@ -26,9 +27,11 @@ std::string take_header(Answer& answer, std::string_view name);
 /// Cache-Control of an answer whose address carries today's version token, or none.
 [[nodiscard]] std::string cache_control(bool versioned);
 
-/// The tag of the representation that `request` would get: that of the gzip variant if it is sent so.
-[[nodiscard]] std::string selected_etag(const Request& request, const std::string& etag,
-                                        std::string_view content_type);
+/// The entity tags of which either is current for `request`, that of the representation which it gets first. The gzip variant
+/// counts for clients that accept gzip, and the identity for all: a client that has it need not fetch the variant.
+[[nodiscard]] std::vector<std::string> current_etags(const Request& request,
+                                                     const std::string& etag,
+                                                     std::string_view content_type);
 
 /// Finishes answers: what is left is only to send them.
 class Answers {
@@ -50,9 +53,23 @@ class Answers {
     void represent(const Request& request, Answer& answer, const Document* ready = nullptr) const;
 
     /// Makes 304 of an answer, with the headers that its 200 would carry.
-    [[nodiscard]] Answer not_modified(const Request& request, Answer answer) const;
+    ///
+    /// etag  of the representation that the client has
+    [[nodiscard]] Answer not_modified(const Request& request, Answer answer,
+                                      const std::string& etag) const;
 
-    /// A document, or 304.
+    /// 412: a condition of the request is false.
+    ///
+    /// header  that says the condition
+    /// etags   those that are current
+    [[nodiscard]] Answer precondition_failed(const Request& request, std::string_view header,
+                                             std::span<const std::string> etags) const;
+
+    /// Makes 206 or 416 of a 200 to GET where the request has one byte range that If-Range lets through. The body is not
+    /// copied. Types that are sent as gzip by demand have no ranges.
+    void select_range(const Request& request, Answer& answer) const;
+
+    /// A document, 304, 412, or a range of it.
     [[nodiscard]] Answer document(const Request& request, const Document& document) const;
 
     /// 204 to OPTIONS.

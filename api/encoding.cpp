@@ -3,6 +3,7 @@
 #include <xxhash.h>
 #include <zlib.h>
 
+#include <algorithm>
 #include <memory>
 #include <new>
 
@@ -45,35 +46,46 @@ std::string gzip_etag(std::string_view etag) {
                            : std::string(etag.substr(0, etag.size() - 1)) + "-gz\"";
 }
 
-bool names_any(std::string_view if_none_match) { return trimmed(if_none_match) == "*"; }
+bool names_any(std::string_view list) { return trimmed(list) == "*"; }
 
-bool names_etag(std::string_view if_none_match, std::string_view etag) {
+bool names_etag(std::string_view list, std::string_view etag, Comparison comparison) {
     // Walked by hand: a quoted tag may hold commas.
-    std::string_view rest = if_none_match;
+    std::string_view rest = list;
     for (;;) {
         while (!rest.empty() &&
                (rest.front() == ' ' || rest.front() == '\t' || rest.front() == ','))
             rest.remove_prefix(1);
-        if (rest.starts_with("W/")) rest.remove_prefix(2);
+        const bool is_weak = rest.starts_with("W/");
+        if (is_weak) rest.remove_prefix(2);
         if (!rest.starts_with('"')) return false;
         const std::size_t end = rest.find('"', 1);
         if (end == std::string_view::npos) return false;
-        if (rest.substr(0, end + 1) == etag) return true;
+        if (rest.substr(0, end + 1) == etag && !(is_weak && comparison == Comparison::strong))
+            return true;
         rest.remove_prefix(end + 1);
     }
 }
 
 bool accepts_gzip(std::string_view accept_encoding) {
+    // The hot table asks this for each request, so nothing is allocated here.
     int named = -1, any = -1;  // -1 not mentioned, 0 refused, 1 allowed
-    for (const std::string_view item : split(accept_encoding, ',')) {
-        const std::vector<std::string_view> parts = split(item, ';');
+    const auto next = [](std::string_view& rest, char separator) {
+        const std::size_t end = std::min(rest.find(separator), rest.size());
+        const std::string_view piece = trimmed(rest.substr(0, end));
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+        return piece;
+    };
+    while (!accept_encoding.empty()) {
+        std::string_view item = next(accept_encoding, ',');
+        const std::string_view coding = next(item, ';');
         bool allowed = true;
-        for (std::size_t i = 1; i < parts.size(); ++i) {
-            if (parts[i].size() < 2 || lower(parts[i][0]) != 'q' || parts[i][1] != '=') continue;
-            allowed = parts[i].find_first_of("123456789", 2) != std::string_view::npos;
+        while (!item.empty()) {
+            const std::string_view parameter = next(item, ';');
+            if (parameter.size() < 2 || lower(parameter[0]) != 'q' || parameter[1] != '=') continue;
+            allowed = parameter.find_first_of("123456789", 2) != std::string_view::npos;
         }
-        if (same_word(parts[0], "gzip") || same_word(parts[0], "x-gzip")) named = allowed;
-        if (parts[0] == "*") any = allowed;
+        if (same_word(coding, "gzip") || same_word(coding, "x-gzip")) named = allowed ? 1 : 0;
+        if (coding == "*") any = allowed ? 1 : 0;
     }
     return named >= 0 ? named == 1 : any == 1;
 }

@@ -18,11 +18,15 @@ namespace sporeprint::api {
 /// The tag of the gzip variant: "…" becomes "…-gz".
 [[nodiscard]] std::string gzip_etag(std::string_view etag);
 
-/// Whether an If-None-Match header names `etag`: lists and weak tags (compared weakly), not '*'.
-[[nodiscard]] bool names_etag(std::string_view if_none_match, std::string_view etag);
+/// How entity tags are compared: weak tags are equal to nothing strongly, and to the strong tag of the same text weakly.
+enum class Comparison { weak, strong };
 
-/// Whether an If-None-Match header is '*'.
-[[nodiscard]] bool names_any(std::string_view if_none_match);
+/// Whether a list of entity tags, as If-None-Match and If-Match have it, names the strong tag `etag`; '*' names none.
+[[nodiscard]] bool names_etag(std::string_view list, std::string_view etag,
+                              Comparison comparison = Comparison::weak);
+
+/// Whether a list of entity tags is '*'.
+[[nodiscard]] bool names_any(std::string_view list);
 
 /// Whether an Accept-Encoding header allows gzip (by name, "x-gzip" or '*') with a quality above 0.
 [[nodiscard]] bool accepts_gzip(std::string_view accept_encoding);

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "api/conditions.h"
 #include "api/encoding.h"
 #include "api/endpoints.h"
 #include "core/params/messages.h"
@@ -16,11 +17,14 @@ constexpr const char* missed = "sporeprint; fwd=miss";
 Answer unmade(const Context& context, const Request& request, Answer head) {
     const std::string type(header_of(head, "Content-Type"));
     head.has_body = false;
-    set_header(head, "ETag", selected_etag(request, std::string(header_of(head, "ETag")), type));
     if (compressible(type)) {
         set_header(head, "Vary", "Accept-Encoding");
-        if (accepts_gzip(request.header("Accept-Encoding")))
+        if (accepts_gzip(request)) {
             set_header(head, "Content-Encoding", "gzip");
+            set_header(head, "ETag", gzip_etag(header_of(head, "ETag")));
+        }
+    } else {
+        set_header(head, "Accept-Ranges", "bytes");
     }
     set_header(head, "Cache-Status", missed);
     context.answers.add_common_headers(request, head);
@@ -119,23 +123,33 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
     if (!resource.address.empty() && !context.options.signed_addresses)
         head.headers.emplace_back("Content-Location",
                                   with_version(resource.address, resource.version));
-    const auto not_modified = [&] {
+    const std::optional<Kept> kept = store.answers.find(resource.key);
+    const std::vector<std::string> etags = current_etags(request, etag, resource.type);
+
+    // In the order of RFC 9110 section 13.2.2: If-Match leads to 412, then If-None-Match to 304, or to 412 of a POST.
+    const Conditions conditions(request);
+    const auto unchanged = [&](const std::string& current) {
+        if (request.method == "POST")
+            return context.answers.precondition_failed(request, "If-None-Match", etags);
         ++store.counters.glb_not_modified;
         set_header(head, "Cache-Status", hit_not_modified);
-        return context.answers.not_modified(request, std::move(head));
+        return context.answers.not_modified(request, std::move(head), current);
     };
-
-    const std::string_view condition = request.header("If-None-Match");
-    if (names_etag(condition, selected_etag(request, etag, resource.type)) ||
-        (names_any(condition) && store.answers.holds(resource.key)))
-        return not_modified();
-    if (const std::optional<Kept> kept = store.answers.find(resource.key)) {
+    const bool match_fails = conditions.match_fails(etags);
+    const bool any = conditions.none_match_any();
+    if (const std::string* current = conditions.unchanged(etags); current && !match_fails)
+        return unchanged(*current);
+    if (kept && match_fails)
+        return context.answers.precondition_failed(request, "If-Match", etags);
+    if (kept && any) return unchanged(etags.front());
+    if (kept) {
         ++store.counters.glb_hits;
         Answer answer = **kept;
         set_header(answer, "Cache-Control", cache_control(versioned));
         set_header(answer, "Cache-Status", hit);
         answer.repeatable = true;
         context.answers.represent(request, answer);
+        context.answers.select_range(request, answer);
         return answer;
     }
     // A correspondence that is not kept takes milliseconds: the job that makes the body finds it, if there is to be one.
@@ -143,10 +157,11 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
     try {
         cost = weighed(request, resource, context.memo, faults);
     } catch (const NotKept&) {
-        if (request.method == "HEAD" || names_any(condition)) throw;
+        if (request.method == "HEAD" || any || match_fails) throw;
     }
     if (!faults.empty()) return context.answers.problem(request, faults);
-    if (names_any(condition)) return not_modified();
+    if (match_fails) return context.answers.precondition_failed(request, "If-Match", etags);
+    if (any) return unchanged(etags.front());
     if (request.method == "HEAD") return unmade(context, request, std::move(head));
 
     ++store.counters.glb_misses;

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "api/conditions.h"
 #include "api/encoding.h"
 #include "api/endpoints.h"
 #include "api/mix.h"
@@ -63,10 +64,13 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
 
     const std::string digest = digest_of(work.key);
     Answer head = image_head(image, digest);
-    const std::string_view condition = request.header("If-None-Match");
-    if (names_any(condition) || names_etag(condition, header_of(head, "ETag"))) {
+    const Conditions conditions(request);
+    const std::vector<std::string> etags{std::string(header_of(head, "ETag"))};
+    if (conditions.match_fails(etags))
+        return answers.precondition_failed(request, "If-Match", etags);
+    if (conditions.none_match_any() || conditions.unchanged(etags)) {
         set_header(head, "Cache-Status", "sporeprint-images; hit; detail=not-modified");
-        return answers.not_modified(request, std::move(head));
+        return answers.not_modified(request, std::move(head), etags.front());
     }
     if (const std::optional<Painted> kept = store.images.cache().find(work.key)) {
         ++store.counters.image_hits;
@@ -74,11 +78,13 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
         set_header(head, "Cache-Status", "sporeprint-images; hit");
         head.repeatable = true;
         answers.represent(request, head);
+        answers.select_range(request, head);
         return head;
     }
     if (request.method == "HEAD") {
         head.has_body = false;
         set_header(head, "Cache-Status", "sporeprint-images; fwd=miss");
+        set_header(head, "Accept-Ranges", "bytes");
         answers.add_common_headers(request, head);
         return head;
     }

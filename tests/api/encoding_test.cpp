@@ -37,6 +37,8 @@ TEST(IfNoneMatch, lists_and_weak_tags_match) {
     for (const char* header :
          {"", "*", "ab", "\"a\"", "\"AB\"", "w/\"ab\"", "\"ab", "\"x\" ab", "\"ab-gz\""})
         EXPECT_FALSE(names_etag(header, tag)) << header;
+    EXPECT_FALSE(names_etag("W/\"ab\"", tag, Comparison::strong));
+    EXPECT_TRUE(names_etag("W/\"ab\", \"ab\"", tag, Comparison::strong));
     EXPECT_TRUE(names_any(" * "));
     EXPECT_FALSE(names_any("\"*\""));
 }
