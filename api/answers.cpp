@@ -1,6 +1,7 @@
 #include "api/answers.h"
 
 #include <algorithm>
+#include <charconv>
 #include <utility>
 
 #include "api/conditions.h"
@@ -72,6 +73,22 @@ std::size_t weight_of(const Answer& answer) {
 
 std::string cache_control(bool versioned) {
     return versioned ? immutable_for_a_year : cached_for_an_hour;
+}
+
+void bound_freshness(Answer& answer, std::int64_t seconds_left) {
+    constexpr std::string_view age = "max-age=";
+    const std::string_view given = header_of(answer, "Cache-Control");
+    const std::size_t at = given.find(age);
+    if (at == std::string_view::npos) return;
+    std::int64_t seconds = 0;
+    std::from_chars(given.data() + at + age.size(), given.data() + given.size(), seconds);
+    seconds = std::clamp<std::int64_t>(seconds_left, 0, seconds);
+    // `public` and not `private`: the signature is part of the URL and so of every cache's key, hence a shared cache gives the
+    // answer only to clients that have the signed URL. `s-maxage` would repeat max-age. `must-revalidate` forbids what
+    // RFC 9111 section 4.2.4 else allows, a stale answer when the server cannot be reached, and `immutable` and
+    // `stale-while-revalidate` are left out, so that no cache serves the answer after the URL has expired.
+    set_header(answer, "Cache-Control",
+               "public, max-age=" + std::to_string(seconds) + ", must-revalidate");
 }
 
 std::vector<std::string> current_etags(const Request& request, const std::string& etag,

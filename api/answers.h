@@ -1,6 +1,7 @@
 // How answers look: the headers that all carry, problems, encodings, documents, 304.
 #pragma once
 
+#include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
@@ -26,6 +27,12 @@ std::string take_header(Answer& answer, std::string_view name);
 
 /// Cache-Control of an answer whose address carries today's version token, or none.
 [[nodiscard]] std::string cache_control(bool versioned);
+
+/// Bounds how long an answer to a URL that expires may be cached: max-age is at most what is left of the life of the URL, and
+/// nothing lets a cache serve it afterwards. An answer that must not be cached anyway is left as it is.
+///
+/// seconds_left  of the life of the URL; negative counts as 0
+void bound_freshness(Answer& answer, std::int64_t seconds_left);
 
 /// The entity tags of which either is current for `request`, that of the representation which it gets first. The gzip variant
 /// counts for clients that accept gzip, and the identity for all: a client that has it need not fetch the variant.

@@ -6,6 +6,7 @@
 #include <utility>
 #include <variant>
 
+#include "api/answers.h"
 #include "api/query.h"
 #include "api/routes.h"
 #include "api/stopwatch.h"
@@ -143,16 +144,14 @@ void Reception::answer(const std::shared_ptr<Visit>& visit) {
     answer(means, visit, asked, false);
 }
 
-void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, const Asked& asked,
+void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, Asked asked,
                        bool prepared) {
     api::Service& service = *means->service;
     const api::Request& request = *asked.request;
     std::optional<Answers::Glance> glance(std::in_place, flights_);
     std::variant<api::Answer, api::Job> planned = service.plan(request, prepared);
-    if (api::Answer* answer = std::get_if<api::Answer>(&planned)) {
-        if (asked.expires) answer->repeatable = false;
-        return visit->reply(std::move(*answer));
-    }
+    if (api::Answer* answer = std::get_if<api::Answer>(&planned))
+        return reply(visit, asked, std::move(*answer));
 
     auto& job = std::get<api::Job>(planned);
     std::uint64_t work = job.cost.work();
@@ -174,9 +173,7 @@ void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, 
     const auto landed = [=, this](const Answers::Landing& landing) {
         if (prepares && !landing.error) return go_on();
         visit->resume([=, this] {
-            api::Answer answer = delivered(*means->service, *asked.request, landing);
-            if (asked.expires) answer.repeatable = false;
-            visit->reply(std::move(answer));
+            reply(visit, asked, delivered(*means->service, *asked.request, landing));
         });
     };
     const std::optional<Answers::Seat> seat = board(means, std::move(job), landed);
@@ -187,7 +184,7 @@ void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, 
         return visit->reply(service.problem(
             request, 503, "too much is being made; try again in a moment", {{"Retry-After", "1"}}));
     }
-    visit->wait([this, means, visit, seat = *seat](Visit::Over why) {
+    visit->wait([this, means, visit, asked, seat = *seat](Visit::Over why) {
         if (!flights_.leave(seat)) return;  // it has landed
         const bool left = why == Visit::Over::left;
         metrics_.rejected(left ? "left" : "deadline");
@@ -196,10 +193,20 @@ void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, 
             nobody.status = client_left;
             return visit->reply(std::move(nobody));
         }
-        visit->reply(
+        reply(
+            visit, asked,
             means->service->problem(visit->request(), 504, "this took longer than a request may"));
     });
     if (prepares) go_on();
+}
+
+void Reception::reply(const std::shared_ptr<Visit>& visit, const Asked& asked,
+                      api::Answer answer) const {
+    if (asked.expires) {
+        answer.repeatable = false;  // The next client must not get it without a look at the clock.
+        api::bound_freshness(answer, *asked.expires - seconds_since_1970());
+    }
+    visit->reply(std::move(answer));
 }
 
 std::chrono::microseconds Reception::charge(const Address& client, const api::Key& key,
@@ -213,7 +220,7 @@ std::chrono::microseconds Reception::charge(const Address& client, const api::Ke
 
 Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visit>& visit) const {
     const api::Request& whole = visit->request();
-    Asked asked{{visit, &whole}, false, {}};
+    Asked asked{{visit, &whole}, std::nullopt, {}};
     if (!means.signatures || whole.method == "OPTIONS") return asked;
     std::vector<Problem> ignored;
     const api::Match match =

@@ -90,15 +90,17 @@ class Reception {
     /// What a visit asks for: its own request, or what is left of that without its signature.
     struct Asked {
         std::shared_ptr<const api::Request> request;
-        bool expires = false;  ///< so that another may not be given the answer without a look
-        std::string why_not;   ///< why it is refused; empty if it is not
+        std::optional<std::int64_t> expires;  ///< seconds since 1970 after which it is refused
+        std::string why_not;                  ///< why it is refused; empty if it is not
     };
     [[nodiscard]] Asked asked(const Means& means, const std::shared_ptr<Visit>& visit) const;
 
     void answer(const std::shared_ptr<Visit>& visit);
     /// prepared  whether a job that `prepares` is behind it
-    void answer(const Using& means, const std::shared_ptr<Visit>& visit, const Asked& asked,
+    void answer(const Using& means, const std::shared_ptr<Visit>& visit, Asked asked,
                 bool prepared);
+    /// Replies with what the service answers, made fit for this client and its URL.
+    void reply(const std::shared_ptr<Visit>& visit, const Asked& asked, api::Answer answer) const;
     [[nodiscard]] Made made(api::Service& service, const api::Job& job, std::stop_token stop,
                             double queue);
     std::optional<Answers::Seat> board(const Using& means, api::Job job, Answers::Then then);

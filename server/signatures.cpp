@@ -154,7 +154,7 @@ Signatures Signatures::from_file(const std::filesystem::path& file) {
 Checked Signatures::check(std::string_view method, std::string_view target, std::string_view body,
                           std::int64_t now) const {
     const auto refused = [&](std::string why) {
-        return Checked{false, false, std::string(target), std::move(why)};
+        return Checked{false, std::nullopt, std::string(target), std::move(why)};
     };
     std::string_view rest = api::origin_form(target);
     const std::optional<std::string_view> given = take_last(rest, "sig");
@@ -172,6 +172,7 @@ Checked Signatures::check(std::string_view method, std::string_view target, std:
     if (given->size() != wanted.size() ||
         CRYPTO_memcmp(given->data(), wanted.data(), wanted.size()) != 0)
         return refused("the signature is not that of this address");
+    std::optional<std::int64_t> good_until;
     if (expires) {
         std::int64_t until = 0;
         const auto [end, error] =
@@ -180,8 +181,9 @@ Checked Signatures::check(std::string_view method, std::string_view target, std:
             return refused("expires is " + in_quotes(*expires) +
                            "; it has to be seconds since 1970");
         if (now >= until) return refused("the address was good until " + std::to_string(until));
+        good_until = until;
     }
-    return {true, expires.has_value(), std::string(rest), {}};
+    return {true, good_until, std::string(rest), {}};
 }
 
 std::string Signatures::signed_target(std::string_view method, std::string_view target,

@@ -18,7 +18,7 @@ struct SigningKey {
 /// A target whose signature was looked at. What the signature adds never reaches those who give the target its meaning.
 struct Checked {
     bool good = false;
-    bool expires = false;
+    std::optional<std::int64_t> expires;  ///< seconds since 1970; nothing if it never does
     std::string target;  ///< without key, expires and sig; as it came if it is not good
     std::string why;     ///< a sentence for the client if it is not good
 };

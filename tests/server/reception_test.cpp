@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "core/atlas/atlas.h"
+#include "server/machine.h"
 #include "tests/server/raw_client.h"
 
 namespace sporeprint::server {
@@ -69,18 +70,20 @@ class Guest final : public Visit {
 
 /// The real service behind a reception, asked without sockets.
 struct House {
-    explicit House(ReceptionOptions options = {})
-        : reception({service, nullptr}, metrics, log, options) {
+    explicit House(ReceptionOptions options = {},
+                   std::shared_ptr<const Signatures> signatures = nullptr)
+        : reception({service, std::move(signatures)}, metrics, log, options) {
         handlers = reception.handlers();
         reception.open();
     }
 
     api::Answer ask(const std::string& target, const std::string& method = "GET",
-                    std::chrono::milliseconds patience = 5min,
-                    Visit::Over then = Visit::Over::late) {
+                    std::chrono::milliseconds patience = 5min, Visit::Over then = Visit::Over::late,
+                    std::vector<api::Header> headers = {}) {
         api::Request request;
         request.method = method;
         request.target = target;
+        request.headers = std::move(headers);
         request.id = "test";
         const auto guest = std::make_shared<Guest>(std::move(request));
         handlers.answer(guest);
@@ -350,6 +353,49 @@ TEST(Reception, FindsCorrespondencesInSlotsAndChargesThem) {
     EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, Visit::Over::left).status, client_left);
     crowd.clear();
     EXPECT_EQ(slow.service->counters().morph_misses, 1u) << "that of the crowd alone";
+}
+
+TEST(Reception, LetsNoCacheKeepWhatOutlivesItsUrl) {
+    const auto signatures =
+        std::make_shared<const Signatures>(std::vector<SigningKey>{{"a", std::string(32, 's')}});
+    House house({}, signatures);
+    const auto max_age = [&](const std::string& target, std::int64_t seconds,
+                             const std::string& method, std::vector<api::Header> headers = {}) {
+        const std::string url =
+            signatures->signed_target("GET", target, "", seconds_since_1970() + seconds);
+        const api::Answer answer = house.ask(url, method, 5min, Visit::Over::late, headers);
+        EXPECT_EQ(answer.status, headers.empty() ? 200 : 304);
+        EXPECT_FALSE(answer.repeatable);
+        const std::string given = header(answer, "Cache-Control");
+        const std::string begin = "public, max-age=", end = ", must-revalidate";
+        EXPECT_TRUE(given.starts_with(begin) && given.ends_with(end)) << given;
+        return std::stoll(given.substr(begin.size()));
+    };
+    const std::string image =
+        "/v1/surfaces/mushrooms/amanita_muscaria/orm.jpg?texture_size=64&seed=";
+    int seed = 0;
+    for (const std::string& target : {small, image}) {
+        for (const char* method : {"HEAD", "GET", "GET", "HEAD"})  // made, and kept
+            EXPECT_LE(max_age(target + std::to_string(seed), 100, method), 100);
+        const auto left =
+            max_age(target + std::to_string(seed), 100, "GET", {{"If-None-Match", "*"}});
+        EXPECT_LE(left, 100);
+        EXPECT_GT(left, 50);
+        EXPECT_EQ(max_age(target + std::to_string(seed), 100'000, "GET"), 3600);
+        ++seed;
+    }
+    // With `v` it would be a year.
+    const std::string versioned = small + "1&v=" + [&] {
+        House open;
+        const std::string where = header(open.ask(small + "1", "HEAD"), "Content-Location");
+        return where.substr(where.find("v=") + 2);
+    }();
+    EXPECT_LE(max_age(versioned, 7200, "GET"), 7200);
+    EXPECT_GT(max_age(versioned, 7200, "GET"), 3600);
+    EXPECT_EQ(header(house.ask(signatures->signed_target("GET", versioned, "", std::nullopt)),
+                     "Cache-Control"),
+              "public, max-age=31536000, immutable")
+        << "this URL does not expire";
 }
 
 TEST(Reception, RefusesWithProblems) {
