@@ -15,7 +15,7 @@ namespace {
 
 constexpr const char* exposed_headers =
     "Accept-Ranges, Cache-Status, Content-Disposition, Content-Encoding, Content-Length, "
-    "Content-Location, Content-Range, ETag, Retry-After, "
+    "Content-Location, Content-Range, ETag, RateLimit, RateLimit-Policy, Retry-After, "
     "Server-Timing, X-Request-Id";
 
 /// What a page of ours may do: its own scripts and styles, pictures that it makes itself, no frame round it. The pages say the

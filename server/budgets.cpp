@@ -56,6 +56,17 @@ void Budgets::give_back(const Address& client, std::uint64_t work, Time time) {
     keep(found);
 }
 
+Budgets::Level Budgets::level(const Address& client, Time time) const {
+    using std::chrono::floor, std::chrono::microseconds;
+    const std::lock_guard lock(mutex_);
+    const std::int64_t now = std::max(now_, floor<microseconds>(time.time_since_epoch()).count());
+    Bucket bucket{capacity_, now, now};
+    if (const auto found = buckets_.find(client); found != buckets_.end())
+        fill(bucket = found->second, now);
+    return {static_cast<std::uint64_t>(std::max<std::int64_t>(bucket.level, 0) / millionths),
+            microseconds(quotient(capacity_ - bucket.level, rate_))};
+}
+
 std::size_t Budgets::clients() const {
     const std::lock_guard lock(mutex_);
     return buckets_.size();

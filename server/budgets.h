@@ -47,6 +47,13 @@ class Budgets {
     /// Gives back what was spent on work that was not begun.
     void give_back(const Address& client, std::uint64_t work, Time now);
 
+    /// What a client may spend at once, and how long until its bucket is full.
+    struct Level {
+        std::uint64_t work = 0;  ///< 0 when it owes
+        std::chrono::microseconds until_full{0};
+    };
+    [[nodiscard]] Level level(const Address& client, Time now) const;
+
     [[nodiscard]] std::size_t clients() const;  ///< remembered
 
   private:

@@ -158,10 +158,13 @@ void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, 
     if (const auto missing = charge(visit->client(), job.key, work); missing > missing.zero()) {
         metrics_.rejected("budget");
         const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
-        return visit->reply(service.problem(
+        api::Answer refusal = service.problem(
             request, 429, "this client has had much made; there is room for more in a while",
-            {{"Retry-After", std::to_string(seconds)}}));
+            {{"Retry-After", std::to_string(seconds)}});
+        tell_budget(visit->client(), refusal);
+        return visit->reply(std::move(refusal));
     }
+    asked.is_charged = asked.is_charged || (budgets_ && work > 0);
     // Delivered by a worker of the transport: a slot is for making. After what only prepares it goes on when that has landed
     // and its own wait is known, or the next would be taken for that.
     const bool prepares = job.prepares;
@@ -206,7 +209,22 @@ void Reception::reply(const std::shared_ptr<Visit>& visit, const Asked& asked,
         answer.repeatable = false;  // The next client must not get it without a look at the clock.
         api::bound_freshness(answer, *asked.expires - seconds_since_1970());
     }
+    if (asked.is_charged) tell_budget(visit->client(), answer);
     visit->reply(std::move(answer));
+}
+
+void Reception::tell_budget(const Address& client, api::Answer& answer) const {
+    // The unit is a millisecond of work; budgets count microseconds.
+    const std::uint64_t rate = options_.budget.rate, burst = options_.budget.burst;
+    const Budgets::Level level = budgets_->level(client_of(client), Clock::now());
+    const auto seconds = std::chrono::ceil<std::chrono::seconds>(level.until_full).count();
+    api::set_header(answer, "RateLimit-Policy",
+                    "\"work\";q=" + std::to_string(burst / 1000) +
+                        ";w=" + std::to_string((burst + rate - 1) / rate));
+    api::set_header(
+        answer, "RateLimit",
+        "\"work\";r=" + std::to_string(level.work / 1000) + ";t=" + std::to_string(seconds));
+    answer.repeatable = false;
 }
 
 std::chrono::microseconds Reception::charge(const Address& client, const api::Key& key,
@@ -220,7 +238,7 @@ std::chrono::microseconds Reception::charge(const Address& client, const api::Ke
 
 Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visit>& visit) const {
     const api::Request& whole = visit->request();
-    Asked asked{{visit, &whole}, std::nullopt, {}};
+    Asked asked{{visit, &whole}, std::nullopt, {}, false};
     if (!means.signatures || whole.method == "OPTIONS") return asked;
     std::vector<Problem> ignored;
     const api::Match match =

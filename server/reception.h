@@ -92,6 +92,7 @@ class Reception {
         std::shared_ptr<const api::Request> request;
         std::optional<std::int64_t> expires;  ///< seconds since 1970 after which it is refused
         std::string why_not;                  ///< why it is refused; empty if it is not
+        bool is_charged = false;              ///< whether its work was taken from a budget
     };
     [[nodiscard]] Asked asked(const Means& means, const std::shared_ptr<Visit>& visit) const;
 
@@ -109,6 +110,8 @@ class Reception {
     /// returns  how long until there is enough; zero if there is
     [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
                                                    std::uint64_t& work);
+    /// Tells a client what is left of its budget of work; such an answer is for this client alone.
+    void tell_budget(const Address& client, api::Answer& answer) const;
     api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);
     api::Answer delivered(const api::Service& service, const api::Request& request,
                           const Answers::Landing& landing);

@@ -48,6 +48,22 @@ TEST(Budgets, LetALargePieceThroughFullAndHaveItOwed) {
     EXPECT_GT(budgets.spend(client(2), 1, at(1000h)), 1000h);
 }
 
+TEST(Budgets, TellWhatIsLeftAndWhenTheyAreFull) {
+    Budgets budgets({.rate = 10, .burst = 100});
+    EXPECT_EQ(budgets.level(client(1), at(0s)).work, 100u);
+    EXPECT_EQ(budgets.level(client(1), at(0s)).until_full, 0us);
+    EXPECT_EQ(budgets.spend(client(1), 60, at(0s)), 0us);
+    EXPECT_EQ(budgets.level(client(1), at(0s)).work, 40u);
+    EXPECT_EQ(budgets.level(client(1), at(0s)).until_full, 6s);
+    EXPECT_EQ(budgets.level(client(1), at(2s)).work, 60u);
+    EXPECT_EQ(budgets.level(client(1), at(2s)).until_full, 4s);
+    EXPECT_EQ(budgets.level(client(1), at(60s)).work, 100u);
+    EXPECT_EQ(budgets.level(client(2), at(60s)).work, 100u) << "to each his own";
+    EXPECT_EQ(budgets.spend(client(1), 1000, at(60s)), 0us);
+    EXPECT_EQ(budgets.level(client(1), at(60s)).work, 0u) << "it owes";
+    EXPECT_EQ(budgets.level(client(1), at(60s)).until_full, 100s);
+}
+
 TEST(Budgets, GiveBackWhatWasNotBegunAndNoMore) {
     Budgets budgets({.rate = 10, .burst = 100});
     EXPECT_EQ(budgets.spend(client(1), 70, at(0s)), 0us);

@@ -398,6 +398,48 @@ TEST(Reception, LetsNoCacheKeepWhatOutlivesItsUrl) {
         << "this URL does not expire";
 }
 
+TEST(Reception, TellsAClientWhatIsLeftOfItsBudget) {
+    ReceptionOptions options;
+    options.budget = {.rate = 1000, .burst = 4'000'000};  // four seconds, a millisecond a second
+    House house(options);
+    const std::string policy = "\"work\";q=4000;w=4000";
+    const auto left = [&](const api::Answer& answer) {
+        EXPECT_EQ(header(answer, "RateLimit-Policy"), policy);
+        EXPECT_FALSE(answer.repeatable);
+        const std::string given = header(answer, "RateLimit"), begin = "\"work\";r=";
+        EXPECT_TRUE(given.starts_with(begin)) << given;
+        const std::size_t until = given.find(";t=");
+        EXPECT_NE(until, std::string::npos) << given;
+        const std::int64_t remaining = std::stoll(given.substr(begin.size())),
+                           seconds = std::stoll(given.substr(until + 3));
+        EXPECT_GE(seconds, 4000 - remaining - 1) << "until the bucket is full";
+        EXPECT_LE(seconds, 4000 - remaining);
+        return remaining;
+    };
+    const std::int64_t first = left(house.ask(heavy + "1"));
+    EXPECT_LT(first, 4000);
+    EXPECT_GT(first, 3000);
+    EXPECT_LT(left(house.ask(heavy + "2")), first);
+    for (const api::Answer& uncharged :
+         {house.ask(heavy + "1"), house.ask("/v1/species"), house.ask(heavy + "1&age=7"),
+          house.ask(heavy + "1", "HEAD")}) {
+        EXPECT_EQ(header(uncharged, "RateLimit"), "") << uncharged.status;
+        EXPECT_EQ(header(uncharged, "RateLimit-Policy"), "");
+    }
+    EXPECT_TRUE(house.ask(heavy + "1").repeatable);
+
+    options.budget = {.rate = 1000, .burst = 1000};
+    House poor(options);
+    EXPECT_EQ(header(poor.ask(heavy + "1"), "RateLimit").substr(0, 12), "\"work\";r=0;t")
+        << "it owes";
+    const api::Answer refused = poor.ask(heavy + "2");
+    EXPECT_EQ(refused.status, 429);
+    EXPECT_EQ(header(refused, "RateLimit-Policy"), "\"work\";q=1;w=1");
+    EXPECT_TRUE(header(refused, "RateLimit").starts_with("\"work\";r=0;t="));
+    House unlimited;
+    EXPECT_EQ(header(unlimited.ask(heavy + "1"), "RateLimit"), "");
+}
+
 TEST(Reception, RefusesWithProblems) {
     House house;
     api::Request request;
