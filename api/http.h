@@ -32,6 +32,7 @@ struct Answer {
     int status = 200;
     std::vector<Header> headers;
     Body body;
+    Body gzipped;  ///< of a job's shared answer: the gzip variant, beside the body or alone
     bool has_body =
         true;  ///< false: no body and no Content-Length (304, HEAD of something not generated)
     /// Whether every GET of the same target, whatever else its head says, gets this again: same body, same headers but for

@@ -1,5 +1,6 @@
 #include <utility>
 
+#include "api/compression.h"
 #include "api/conditions.h"
 #include "api/encoding.h"
 #include "api/endpoints.h"
@@ -13,7 +14,8 @@ constexpr const char* hit = "sporeprint; hit";
 constexpr const char* hit_not_modified = "sporeprint; hit; detail=not-modified";
 constexpr const char* missed = "sporeprint; fwd=miss";
 
-/// The answer to HEAD of what is not made yet: every header that GET would carry but the length.
+/// The answer to HEAD of what is not made yet: every header that GET would carry but the length. Whether a GLB has a gzip variant
+/// is known once it is made, so these are the headers of the identity.
 Answer unmade(const Context& context, const Request& request, Answer head) {
     const std::string type(header_of(head, "Content-Type"));
     head.has_body = false;
@@ -24,11 +26,61 @@ Answer unmade(const Context& context, const Request& request, Answer head) {
             set_header(head, "ETag", gzip_etag(header_of(head, "ETag")));
         }
     } else {
+        set_header(head, "Vary", "Accept-Encoding");
         set_header(head, "Accept-Ranges", "bytes");
     }
     set_header(head, "Cache-Status", missed);
     context.answers.add_common_headers(request, head);
     return head;
+}
+
+/// Whether the answer may be the gzip variant of a GLB. A range is one of the identity unless If-Range names the variant, so
+/// that ranges which a client puts together are of one representation.
+bool takes_gzip_of_glb(const Request& request, std::string_view type, const std::string& etag) {
+    if (type != glb_type || !accepts_gzip(request)) return false;
+    return request.method != "GET" || !header_list(request, "Range") ||
+           (header_list(request, "If-Range") && if_range_matches(request, gzip_etag(etag)));
+}
+
+/// What is cached of a resource that may have a gzip variant.
+struct Found {
+    std::optional<Kept> kept;  ///< the variant to be sent if it is cached, else the identity
+    bool has_variants = false;
+    bool is_chosen = false;  ///< whether it is the variant to be sent
+};
+
+Found find_cached(Store& store, const Key& key, bool takes_gzip) {
+    Found found;
+    if (takes_gzip && (found.kept = store.answers.find(gzip_key(key)))) {
+        found.has_variants = found.is_chosen = true;
+    } else if ((found.kept = store.answers.find(key))) {
+        found.has_variants = !header_of(**found.kept, "Vary").empty();
+        found.is_chosen = !takes_gzip || !found.has_variants;
+    }
+    return found;
+}
+
+/// Whether the cache takes the gzip variant of a job's answer.
+bool stores_gzip(const Store& store, Answer answer, const Key& key) {
+    select_gzip(answer);
+    return store.answers.fits(weight_of(answer) + key.size() + entry_overhead);
+}
+
+/// The job that makes the gzip variant of a cached GLB.
+Job gzip_job(Store& store, Kept kept, const Key& key) {
+    const Cost cost = gzip_cost(size_of(kept->body));
+    auto run = [&store, kept = std::move(kept), key = gzip_key(key)](
+                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
+        observer(Step::pack);
+        Answer answer;
+        answer.headers = kept->headers;
+        answer.gzipped = gzip_glb(kept->body, stop, parallel);
+        const bool stored = stores_gzip(store, answer, key);
+        set_header(answer, "Cache-Status",
+                   cache_member("sporeprint-gzip", false, stored) + ", " + hit);
+        return answer;
+    };
+    return Job{gzip_key(key), cost, std::move(run)};
 }
 
 /// What `resource` costs; what of it is impossible goes to the faults, named as the client wrote it.
@@ -123,8 +175,10 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
     if (!resource.address.empty() && !context.options.signed_addresses)
         head.headers.emplace_back("Content-Location",
                                   with_version(resource.address, resource.version));
-    const std::optional<Kept> kept = store.answers.find(resource.key);
-    const std::vector<std::string> etags = current_etags(request, etag, resource.type);
+    const bool takes_gzip = takes_gzip_of_glb(request, resource.type, etag);
+    const Found found = find_cached(store, resource.key, takes_gzip);
+    std::vector<std::string> etags = current_etags(request, etag, resource.type);
+    if (resource.type == glb_type && accepts_gzip(request)) etags.push_back(gzip_etag(etag));
 
     // In the order of RFC 9110 section 13.2.2: If-Match leads to 412, then If-None-Match to 304, or to 412 of a POST.
     const Conditions conditions(request);
@@ -133,20 +187,29 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
             return context.answers.precondition_failed(request, "If-None-Match", etags);
         ++store.counters.glb_not_modified;
         set_header(head, "Cache-Status", hit_not_modified);
+        if (resource.type == glb_type && (!found.kept || found.has_variants))
+            set_header(head, "Vary", "Accept-Encoding");
         return context.answers.not_modified(request, std::move(head), current);
     };
     const bool match_fails = conditions.match_fails(etags);
     const bool any = conditions.none_match_any();
     if (const std::string* current = conditions.unchanged(etags); current && !match_fails)
         return unchanged(*current);
-    if (kept && match_fails)
+    if (found.kept && match_fails)
         return context.answers.precondition_failed(request, "If-Match", etags);
-    if (kept && any) return unchanged(etags.front());
-    if (kept) {
+    if (found.kept && any)
+        return unchanged(takes_gzip && found.has_variants ? gzip_etag(etag) : etags.front());
+    if (found.kept) {
         ++store.counters.glb_hits;
-        Answer answer = **kept;
+        if (!found.is_chosen && request.method != "HEAD")
+            return gzip_job(store, *found.kept, resource.key);
+        Answer answer = **found.kept;
         set_header(answer, "Cache-Control", cache_control(versioned));
         set_header(answer, "Cache-Status", hit);
+        if (!found.is_chosen) {
+            select_gzip(answer);
+            answer.has_body = false;
+        }
         answer.repeatable = true;
         context.answers.represent(request, answer);
         context.answers.select_range(request, answer);
@@ -166,11 +229,17 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
 
     ++store.counters.glb_misses;
     take_header(head, "Cache-Control");
-    auto run = [&store, weigh = cost ? nullptr : std::move(resource.weigh),
+    const Cost estimate = cost.value_or(resource.guess);
+    const Cost compressing = takes_gzip ? gzip_cost_of_glb(estimate) : Cost{};
+    auto run = [&store, takes_gzip, weigh = cost ? nullptr : std::move(resource.weigh),
                 make = std::move(resource.make), head = std::move(head), key = resource.key](
                    std::stop_token stop, const Observer& observer, const Parallel& parallel) {
         Answer answer = head;
         const auto finished = [&](std::string status) {
+            if (header_of(answer, "Content-Type") == glb_type && is_worth_gzip(answer.body)) {
+                set_header(answer, "Vary", "Accept-Encoding");
+                if (takes_gzip) answer.gzipped = gzip_glb(answer.body, stop, parallel);
+            }
             if (!status.empty()) status += ", ";
             const bool stored = store.answers.fits(weight_of(answer) + key.size() + entry_overhead);
             set_header(answer, "Cache-Status", status + cache_member("sporeprint", false, stored));
@@ -182,7 +251,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
                 answer.body = {*std::move(written)};
                 return finished(cache_member("sporeprint-store", true, false));
             }
-        Loan loan(store, std::move(stop), observer, parallel);
+        Loan loan(store, stop, observer, parallel);
         if (weigh) {
             observer(Step::resolve);
             static_cast<void>(weigh(loan.workshop().memo));
@@ -192,7 +261,9 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
         if (store.directory) store.directory->insert(key, answer.body);
         return finished(loan.cache_status());
     };
-    return Job{std::move(resource.key), cost.value_or(resource.guess), std::move(run)};
+    Cost charged = estimate;
+    charged.bytes += compressing.bytes;
+    return Job{std::move(resource.key), charged, std::move(run)};
 }
 
 }  // namespace sporeprint::api

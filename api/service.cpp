@@ -5,6 +5,8 @@
 #include <string>
 #include <utility>
 
+#include "api/compression.h"
+#include "api/conditions.h"
 #include "api/endpoints.h"
 #include "api/query.h"
 #include "api/routes.h"
@@ -290,15 +292,29 @@ std::variant<Answer, Job> Service::plan(const Request& request, bool prepared) {
 
 void Service::finish(const Key& key, const Answer& answer) {
     if (answer.status != 200 || !kept_by_key(key)) return;
+    Cache<Kept>& answers = parts_->context.store.answers;
     auto kept = std::make_shared<Answer>(answer);
     take_header(*kept, "Cache-Status");
-    parts_->context.store.answers.insert(key, std::move(kept));
+    if (!kept->gzipped.empty()) {
+        auto variant = std::make_shared<Answer>(*kept);
+        select_gzip(*variant);
+        kept->gzipped.clear();
+        if (kept->body.empty()) {  // of a job that made the variant alone
+            answers.insert(key, std::move(variant));
+            return;
+        }
+        answers.insert(gzip_key(key), std::move(variant));
+    }
+    answers.insert(key, std::move(kept));
 }
 
 Answer Service::deliver(const Request& request, const Answer& shared, Outcome outcome,
                         const Timing& timing) const {
     const Context& context = parts_->context;
     Answer answer = shared;
+    if (!answer.gzipped.empty() && (answer.body.empty() || accepts_gzip(request)))
+        select_gzip(answer);
+    answer.gzipped.clear();
     std::string status = take_header(answer, "Cache-Status");
     if (outcome == Outcome::collapsed && !status.ends_with("; hit")) {
         if (status.ends_with("; stored"))

@@ -304,9 +304,16 @@ bool Connection::answer_at_once(const Head& head) {
     const HotQuestion question = hot_question(head);
     if (!question.simple || (limited_ && !hall_.hot.stands(head.target))) return false;
     hall_.keep_up();
-    const auto* const found = hall_.hot.find(head.target);
+    const auto* const found = hall_.hot.find(head.target, question.accept_encoding);
     if (!found) return false;
     const HotAnswer& hot = **found;
+    const std::string_view condition = question.if_none_match();
+    const bool fresh = !hot.etag.empty() && !condition.empty() &&
+                       (api::names_etag(condition, hot.etag) || api::names_any(condition));
+    // A client that has the identity is told so behind, with the tag of that.
+    if (!fresh && !condition.empty() && !hot.identity_etag.empty() &&
+        api::names_etag(condition, hot.identity_etag))
+        return false;
     ready_ = Clock::now();
     closing_ = !head.keep_alive || limited_ || served_ + 1 >= hall_.options.most_requests ||
                hall_.back.draining.load(std::memory_order_relaxed);
@@ -314,9 +321,6 @@ bool Connection::answer_at_once(const Head& head) {
     target_ = head.target;
     id_ = is_proper_id(question.id) ? std::string(question.id) : hall_.new_id();
     label_ = hot.label;
-    const bool fresh = !hot.etag.empty() && !question.if_none_match.empty() &&
-                       (api::names_etag(question.if_none_match, hot.etag) ||
-                        api::names_any(question.if_none_match));
     status_ = fresh ? 304 : 200;
     cache_ = fresh ? hot.cache_not_modified : hot.cache;
     text_.assign("Date: ").append(http_date());

@@ -8,6 +8,8 @@
 #include <iterator>
 #include <utility>
 
+#include "api/encoding.h"
+
 namespace sporeprint::server {
 
 namespace {
@@ -77,7 +79,11 @@ std::shared_ptr<const HotAnswer> hot_answer(std::string_view target, const Sendi
         const std::string_view line = next_line();
         const std::string_view name = line.substr(0, line.find(':'));
         const std::string_view value = line.substr(name.size() + 2, line.size() - name.size() - 4);
-        if (same_token(name, "Vary")) return nullptr;
+        if (same_token(name, "Vary")) {
+            if (!same_token(value, "Accept-Encoding")) return nullptr;
+            if (hot->coding == Coding::any) hot->coding = Coding::identity;
+        }
+        if (same_token(name, "Content-Encoding")) hot->coding = Coding::gzip;
         if (same_token(name, "X-Request-Id")) {
             hot->tells_id = true;
         } else if (same_token(name, "Keep-Alive")) {
@@ -90,12 +96,15 @@ std::shared_ptr<const HotAnswer> hot_answer(std::string_view target, const Sendi
                 hot->cache_not_modified = hot->cache + "; detail=not-modified";
                 ((hot->not_modified += "Cache-Status: ") += hot->cache_not_modified) += "\r\n";
             } else if (!is_one_of(name, {"Content-Type", "Content-Disposition", "Content-Encoding",
-                                         "Content-Length"})) {
+                                         "Content-Length", "Accept-Ranges"})) {
                 hot->not_modified += line;
             }
         }
     }
     if (hot->etag.empty()) hot->not_modified.clear();
+    constexpr std::string_view of_gzip = "-gz\"";
+    if (hot->coding == Coding::gzip && hot->etag.ends_with(of_gzip))
+        hot->identity_etag = hot->etag.substr(0, hot->etag.size() - of_gzip.size()) + '"';
     hot->size = size_of(answer.body);
     if (hot->size >= worth_a_file) hot->file = file_of(answer.body);
     if (hot->file < 0) hot->body = answer.body;
@@ -106,19 +115,28 @@ HotQuestion hot_question(const Head& head) {
     HotQuestion question;
     if ((head.method != "GET" && head.method != "HEAD") || head.content_length.value_or(0) > 0)
         return question;
-    bool conditional = false;
     for (const auto& [name, value] : head.headers) {
         switch (name[0] | 0x20) {  // in lower case
-            case 'c':              // whoever insists on a fresh answer is heard behind
+            case 'a':
+                if (same_token(name, "Accept-Encoding")) {
+                    if (!question.accept_encoding.empty()) return question;
+                    question.accept_encoding = value;
+                }
+                break;
+            case 'c':  // whoever insists on a fresh answer is heard behind
                 if (same_token(name, "Cache-Control")) return question;
                 break;
             case 'e':
                 if (same_token(name, "Expect")) return question;
                 break;
             case 'i':
-                if (same_token(name, "If-None-Match") && !conditional) {
-                    conditional = true;
-                    question.if_none_match = value;
+                if (same_token(name, "If-None-Match")) {
+                    if (question.line.empty()) {
+                        question.line = value;
+                    } else {
+                        if (question.lines.empty()) question.lines = question.line;
+                        (question.lines += ", ") += value;
+                    }
                 } else if (same_token(std::string_view(name).substr(0, 3), "If-")) {
                     return question;
                 }
@@ -140,10 +158,16 @@ HotQuestion hot_question(const Head& head) {
     return question;
 }
 
-const std::shared_ptr<const HotAnswer>* HotTable::find(std::string_view target) {
+const std::shared_ptr<const HotAnswer>* HotTable::find(std::string_view target,
+                                                       std::string_view accept_encoding) {
     const auto found = map_.find(target);
     if (found == map_.end()) return nullptr;
-    Entry& entry = *found->second;
+    const Variants& variants = found->second;
+    // Most answers are for all clients, and what those accept is not looked at.
+    const bool gzip = variants.identity != variants.gzip && api::accepts_gzip(accept_encoding);
+    const std::optional<List::iterator>& variant = gzip ? variants.gzip : variants.identity;
+    if (!variant) return nullptr;
+    Entry& entry = **variant;
     entry.visited = true;
     if (!entry.pinned && ++entry.uses % long_way_every == 0) return nullptr;
     return &entry.answer;
@@ -151,15 +175,17 @@ const std::shared_ptr<const HotAnswer>* HotTable::find(std::string_view target) 
 
 bool HotTable::stands(std::string_view target) const {
     const auto found = map_.find(target);
-    return found != map_.end() && found->second->pinned;
+    return found != map_.end() && found->second.identity && (*found->second.identity)->pinned;
 }
 
 void HotTable::insert(std::shared_ptr<const HotAnswer> answer) {
-    const auto found = map_.find(answer->target);
-    if (found != map_.end()) {
-        if (found->second->pinned) return;
-        drop(found->second);
-    }
+    if (stands(answer->target)) return;
+    const auto replaced = [&](std::optional<List::iterator> Variants::*variant) {
+        const auto found = map_.find(answer->target);
+        if (found != map_.end() && found->second.*variant) drop(*(found->second.*variant));
+    };
+    if (answer->coding != Coding::gzip) replaced(&Variants::identity);
+    if (answer->coding != Coding::identity) replaced(&Variants::gzip);
     const std::size_t weight = answer->weight();
     if (weight > budget_ / 8) return;
     while (stats_.bytes + weight > budget_) evict();
@@ -175,14 +201,25 @@ void HotTable::clear() {
 void HotTable::add(std::shared_ptr<const HotAnswer> answer, std::size_t weight, bool pinned) {
     List& list = pinned ? pinned_ : list_;
     list.push_front({std::move(answer), weight, 0, false, pinned});
-    map_.emplace(list.front().answer->target, list.begin());
+    const HotAnswer& added = *list.front().answer;
+    Variants& variants = map_[added.target];
+    if (added.coding != Coding::gzip) variants.identity = list.begin();
+    if (added.coding != Coding::identity) variants.gzip = list.begin();
     stats_.bytes += weight;
     stats_.entries += pinned ? 0 : 1;
 }
 
 void HotTable::drop(List::iterator entry) {
     if (hand_ == entry) hand_ = entry == list_.begin() ? list_.end() : std::prev(entry);
-    map_.erase(entry->answer->target);
+    // The key may be the text of the answer that goes; that of the one which stays is put in its place.
+    auto node = map_.extract(entry->answer->target);
+    Variants& variants = node.mapped();
+    if (variants.identity == entry) variants.identity.reset();
+    if (variants.gzip == entry) variants.gzip.reset();
+    if (const auto& other = variants.identity ? variants.identity : variants.gzip) {
+        node.key() = (*other)->answer->target;
+        map_.insert(std::move(node));
+    }
     stats_.bytes -= entry->weight;
     --stats_.entries;
     list_.erase(entry);

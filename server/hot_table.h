@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <list>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <unordered_map>
@@ -18,6 +19,9 @@
 
 namespace sporeprint::server {
 
+/// Which clients an answer is for: all, those that accept no gzip, or those that do.
+enum class Coding { any, identity, gzip };
+
 /// A 200 in pieces. Its head lacks what changes with each request: Date, X-Request-Id, Connection.
 struct HotAnswer {
     std::string target;
@@ -25,6 +29,8 @@ struct HotAnswer {
     std::string not_modified;  ///< the head of a 304 likewise; empty when there is no ETag
     std::string keep_alive;    ///< the line that says so
     std::string etag, cache, cache_not_modified, label;
+    std::string identity_etag;  ///< of the same without gzip, when this is gzip; else empty
+    Coding coding = Coding::any;
     bool tells_id = false;  ///< whether it carries X-Request-Id
     Body body;              ///< or, when it is large,
     int file = -1;          ///< a copy of it in a file in memory, which goes out without another
@@ -39,7 +45,8 @@ struct HotAnswer {
 };
 
 /// What of the answer to GET `target` may be given again; nullptr when it may not: when nobody has
-/// said so, the status is another than 200, it varies by a header, or the connection ends with it.
+/// said so, the status is another than 200, it varies by another header than Accept-Encoding, or the
+/// connection ends with it.
 [[nodiscard]] std::shared_ptr<const HotAnswer> hot_answer(std::string_view target,
                                                           const Sending& sending,
                                                           std::string_view label);
@@ -47,11 +54,19 @@ struct HotAnswer {
 /// What a request's head asks of the table.
 struct HotQuestion {
     bool simple = false;  ///< GET or HEAD, and nothing in the head could change the answer
-    std::string_view if_none_match, id;  ///< empty when not given
+    std::string_view accept_encoding, id;  ///< empty when not given
+
+    /// The list of If-None-Match, all its lines together; empty when not given.
+    [[nodiscard]] std::string_view if_none_match() const {
+        return lines.empty() ? std::string_view(line) : std::string_view(lines);
+    }
+    std::string_view line;  ///< the first of them
+    std::string lines;      ///< all, when there are several
 };
 [[nodiscard]] HotQuestion hot_question(const Head& head);
 
-/// A table bounded by bytes. Small bodies are shared with caches behind it, but counted here in full
+/// A table bounded by bytes. A target has one answer for all clients, or one for those that accept
+/// gzip and one for the others. Small bodies are shared with caches behind it, but counted here in full
 /// like the copies of large ones, as what those have dropped is kept by this table alone.
 ///
 /// source  [Zhang2024] SIEVE: one queue, a bit for those in use, a hand that passes over them once
@@ -65,9 +80,10 @@ class HotTable {
 
     explicit HotTable(std::size_t budget) : budget_(budget) {}
 
-    /// The answer for a target, or nullptr. Now and then it has none for one that it holds, so that
-    /// the caches behind it learn what is in use.
-    [[nodiscard]] const std::shared_ptr<const HotAnswer>* find(std::string_view target);
+    /// The answer for a target and a client with this Accept-Encoding, or nullptr. Now and then it
+    /// has none for one that it holds, so that the caches behind it learn what is in use.
+    [[nodiscard]] const std::shared_ptr<const HotAnswer>* find(
+        std::string_view target, std::string_view accept_encoding = {});
 
     /// Whether a target's answer is pinned.
     [[nodiscard]] bool stands(std::string_view target) const;
@@ -95,6 +111,11 @@ class HotTable {
     };
     using List = std::list<Entry>;
 
+    /// The answers of one target: the same twice if it is for all clients.
+    struct Variants {
+        std::optional<List::iterator> identity, gzip;
+    };
+
     void add(std::shared_ptr<const HotAnswer> answer, std::size_t weight, bool pinned);
     void drop(List::iterator entry);
     void evict();
@@ -103,7 +124,7 @@ class HotTable {
     List list_;    ///< newest first
     List pinned_;  ///< never evicted
     List::iterator hand_ = list_.end();
-    std::unordered_map<std::string_view, List::iterator> map_;  ///< keys live in the answers
+    std::unordered_map<std::string_view, Variants> map_;  ///< keys live in the answers
     Stats stats_;
 };
 

@@ -21,6 +21,12 @@ Sending sending_of(std::size_t body, std::string more = {}) {
     return sending;
 }
 
+std::shared_ptr<const HotAnswer> gzip_of(const std::string& target, std::size_t size) {
+    Sending sending = sending_of(size, "Content-Encoding: gzip\r\nVary: Accept-Encoding\r\n");
+    sending.head.replace(sending.head.find("\"t\""), 3, "\"t-gz\"");
+    return hot_answer(target, sending, "");
+}
+
 Head head_of(std::string method, std::vector<api::Header> headers = {}) {
     Head head;
     head.method = std::move(method);
@@ -51,7 +57,8 @@ TEST(HotAnswer, LacksWhatChangesWithEachRequest) {
 }
 
 TEST(HotAnswer, IsNotMadeOfWhatMayDiffer) {
-    EXPECT_FALSE(hot_answer("/a", sending_of(10, "Vary: Accept-Encoding\r\n"), ""));
+    EXPECT_FALSE(hot_answer("/a", sending_of(10, "Vary: Cookie\r\n"), ""));
+    EXPECT_FALSE(hot_answer("/a", sending_of(10, "Vary: Accept-Encoding, Origin\r\n"), ""));
     Sending sending = sending_of(10);
     sending.answer.repeatable = false;
     EXPECT_FALSE(hot_answer("/a", sending, ""));
@@ -61,6 +68,21 @@ TEST(HotAnswer, IsNotMadeOfWhatMayDiffer) {
     sending = sending_of(10);
     sending.closing = true;
     EXPECT_FALSE(hot_answer("/a", sending, ""));
+}
+
+TEST(HotAnswer, IsForThoseThatAcceptItsEncoding) {
+    EXPECT_EQ(hot_answer("/a", sending_of(10), "")->coding, Coding::any);
+    const auto identity = hot_answer("/a", sending_of(10, "Vary: Accept-Encoding\r\n"), "");
+    ASSERT_TRUE(identity);
+    EXPECT_EQ(identity->coding, Coding::identity);
+    EXPECT_NE(identity->not_modified.find("Vary: Accept-Encoding\r\n"), std::string::npos);
+    const auto gzip = gzip_of("/a", 10);
+    ASSERT_TRUE(gzip);
+    EXPECT_EQ(gzip->coding, Coding::gzip);
+    EXPECT_EQ(gzip->etag, "\"t-gz\"");
+    EXPECT_EQ(gzip->identity_etag, "\"t\"");
+    EXPECT_NE(gzip->head.find("Content-Encoding: gzip\r\n"), std::string::npos);
+    EXPECT_EQ(gzip->not_modified.find("Content-Encoding"), std::string::npos);
 }
 
 TEST(HotQuestion, IsSimpleWhenNothingCouldChangeTheAnswer) {
@@ -74,13 +96,22 @@ TEST(HotQuestion, IsSimpleWhenNothingCouldChangeTheAnswer) {
         head_of("GET", {{"if-none-match", "\"a\", \"b\""}, {"x-request-id", "7"}});
     const HotQuestion question = hot_question(conditional);
     EXPECT_TRUE(question.simple);
-    EXPECT_EQ(question.if_none_match, "\"a\", \"b\"");
+    EXPECT_EQ(question.if_none_match(), "\"a\", \"b\"");
     EXPECT_EQ(question.id, "7");
     for (const char* name : {"Range", "If-Match", "If-Modified-Since", "if-unmodified-since",
                              "If-Range", "If-", "Cache-Control", "Pragma", "Expect"})
         EXPECT_FALSE(hot_question(head_of("GET", {{name, "x"}})).simple) << name;
+    const Head lines = head_of(
+        "GET", {{"If-None-Match", "\"a\""}, {"If-None-Match", "\"b\""}, {"if-none-match", "*"}});
+    EXPECT_TRUE(hot_question(lines).simple);
+    EXPECT_EQ(hot_question(lines).if_none_match(), "\"a\", \"b\", *");
+    EXPECT_EQ(hot_question(head_of("GET")).if_none_match(), "");
+    const Head accepting = head_of("GET", {{"Accept-Encoding", "gzip, br"}});
+    EXPECT_EQ(hot_question(accepting).accept_encoding, "gzip, br");
     EXPECT_FALSE(
-        hot_question(head_of("GET", {{"If-None-Match", "a"}, {"If-None-Match", "b"}})).simple);
+        hot_question(head_of("GET", {{"Accept-Encoding", "br"}, {"accept-encoding", "gzip"}}))
+            .simple)
+        << "they are one list";
     EXPECT_FALSE(hot_question(head_of("POST")).simple);
     Head with_body = head_of("GET");
     with_body.content_length = 1;
@@ -94,20 +125,69 @@ TEST(HotTable, KeepsWithinItsBudgetAndGivesOnlyWhatItWasGiven) {
     std::map<std::string, std::shared_ptr<const HotAnswer>> given;
     std::size_t found = 0;
     for (int step = 0; step < 5000; ++step) {
-        const std::string target = "/" + std::to_string(random() % 100);
-        if (const auto* answer = table.find(target)) {
+        const std::string target = "/" + std::to_string(random() % 60);
+        // A fifth of the requests is for targets that vary by encoding.
+        const bool varies = random() % 5 == 0, gzip = random() % 2 == 0;
+        const std::string key = varies ? target + (gzip ? "-gzip" : "-identity") : target;
+        const std::string asked = varies ? target + "-varies" : target;
+        if (const auto* answer = table.find(asked, gzip ? "gzip" : "")) {
             ++found;
-            EXPECT_EQ(*answer, given[target]);
-            EXPECT_EQ((*answer)->target, target);
+            EXPECT_EQ(*answer, given[key]);
+            EXPECT_EQ((*answer)->target, asked);
         } else {
-            given[target] = hot_answer(target, sending_of(random() % 30'000), "");
-            table.insert(given[target]);
+            const std::size_t size = random() % 30'000;
+            given[key] =
+                varies && gzip
+                    ? gzip_of(asked, size)
+                    : hot_answer(asked, sending_of(size, varies ? "Vary: Accept-Encoding\r\n" : ""),
+                                 "");
+            table.insert(given[key]);
         }
         EXPECT_LE(table.stats().bytes, budget);
     }
     EXPECT_GT(found, 500u);
     EXPECT_GT(table.stats().evictions, 100u);
     EXPECT_GE(table.stats().entries, 4u);
+}
+
+TEST(HotTable, HasOneAnswerForEachEncodingWhereTheyDiffer) {
+    HotTable table(100'000);
+    const auto any = hot_answer("/any", sending_of(10), "");
+    table.insert(any);
+    for (const char* accepted : {"", "gzip", "br"}) {
+        ASSERT_TRUE(table.find("/any", accepted));
+        EXPECT_EQ(*table.find("/any", accepted), any);
+    }
+    const auto identity_of = [](const std::string& target) {
+        return hot_answer(target, sending_of(10, "Vary: Accept-Encoding\r\n"), "");
+    };
+    for (const bool identity_first : {true, false}) {
+        const std::string target = identity_first ? "/a" : "/b";
+        const auto identity = identity_of(target), gzip = gzip_of(target, 10);
+        table.insert(identity_first ? identity : gzip);
+        EXPECT_FALSE(table.find(target, identity_first ? "gzip" : ""));
+        table.insert(identity_first ? gzip : identity);
+        for (const char* refusing : {"", "br", "gzip;q=0"}) {
+            ASSERT_TRUE(table.find(target, refusing)) << refusing;
+            EXPECT_EQ(*table.find(target, refusing), identity);
+        }
+        ASSERT_TRUE(table.find(target, "br, gzip"));
+        EXPECT_EQ(*table.find(target, "br, gzip"), gzip);
+        EXPECT_FALSE(table.stands(target));
+    }
+    EXPECT_EQ(table.stats().entries, 5u);
+    const auto again = gzip_of("/a", 20);
+    table.insert(again);
+    EXPECT_EQ(*table.find("/a", "gzip"), again);
+    EXPECT_TRUE(table.find("/a")) << "the other stays, though its key was the text of what went";
+    EXPECT_EQ(table.stats().entries, 5u);
+    table.insert(hot_answer("/a", sending_of(30), ""));
+    EXPECT_EQ(*table.find("/a"), *table.find("/a", "gzip")) << "one for all in the place of both";
+    EXPECT_EQ(table.stats().entries, 4u);
+    table.clear();
+    EXPECT_EQ(table.stats().entries, 0u);
+    EXPECT_EQ(table.stats().bytes, 0u);
+    EXPECT_FALSE(table.find("/a"));
 }
 
 TEST(HotTable, KeepsWhatIsAskedForBesideAStreamOfOthers) {

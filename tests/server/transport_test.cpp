@@ -781,9 +781,9 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
                 answer.headers.end(),
                 {{"ETag", "\"tag\""}, {"Cache-Status", "here; hit"}, {"X-Request-Id", request.id}});
             answer.repeatable = request.target == "/again";
-            if (request.target == "/varies") {
+            if (request.target == "/differs") {
                 answer.repeatable = true;
-                answer.headers.emplace_back("Vary", "Accept-Encoding");
+                answer.headers.emplace_back("Vary", "Cookie");
             }
             return answer;
         });
@@ -804,6 +804,12 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
         EXPECT_EQ(fresh.header("Cache-Status"), "here; hit; detail=not-modified");
         EXPECT_EQ(fresh.header("ETag"), "\"tag\"");
         EXPECT_EQ(fresh.count("Content-Type") + fresh.count("Content-Length"), 0u);
+        EXPECT_EQ(client
+                      .ask("GET /again HTTP/1.1\r\nIf-None-Match: \"other\"\r\n"
+                           "If-None-Match: \"tag\"\r\n\r\n")
+                      .status,
+                  304)
+            << "lines are one list";
         EXPECT_TRUE(client.ask("GET /again HTTP/1.1\r\nIf-None-Match: \"other\"\r\n\r\n").body ==
                     text);
         EXPECT_EQ(asked, 1);
@@ -819,7 +825,7 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
                 200);
         EXPECT_EQ(client.ask("POST /again HTTP/1.1\r\n\r\n").status, 200);
         EXPECT_EQ(asked, 5);
-        for (const char* target : {"/varies", "/never", "/varies", "/never"})
+        for (const char* target : {"/differs", "/never", "/differs", "/never"})
             EXPECT_EQ(client.ask("GET " + std::string(target) + " HTTP/1.1\r\n\r\n").status, 200);
         EXPECT_EQ(asked, 9);
         const auto last = client.ask("GET /again HTTP/1.1\r\nConnection: close\r\n\r\n");
@@ -830,7 +836,7 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
 
         const auto load = server.transport->load();
         EXPECT_EQ(load.hot_hits, 7u);
-        EXPECT_EQ(load.hot_not_modified, 1u);
+        EXPECT_EQ(load.hot_not_modified, 2u);
         EXPECT_EQ(load.hot_entries, 1u);
         const Served served = server.wait_for_served(2);
         EXPECT_EQ(served.id, "mine");
@@ -839,6 +845,38 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
         EXPECT_EQ(served.bytes, again.head.size() + 2 + size);
         EXPECT_EQ(server.wait_for_served(4).status, 304);
     }
+}
+
+TEST(Transport, GivesEachEncodingAgainToThoseThatAcceptIt) {
+    std::atomic<int> asked{0};
+    Fixture server([&](const api::Request& request, const Gone&) {
+        ++asked;
+        const bool gzip = request.header("Accept-Encoding") == "gzip";
+        api::Answer answer = text_answer(gzip ? "zipped" : "plain");
+        answer.repeatable = true;
+        answer.headers.emplace_back("ETag", gzip ? "\"tag-gz\"" : "\"tag\"");
+        answer.headers.emplace_back("Vary", "Accept-Encoding");
+        if (gzip) answer.headers.emplace_back("Content-Encoding", "gzip");
+        return answer;
+    });
+    RawClient client(server.port());
+    const auto ask = [&](const std::string& headers) {
+        return client.ask("GET /a HTTP/1.1\r\n" + headers + "\r\n");
+    };
+    const std::string gzip = "Accept-Encoding: gzip\r\n";
+    for (int i = 0; i < 3; ++i) {
+        EXPECT_EQ(ask("").body, "plain");
+        EXPECT_EQ(ask(gzip).body, "zipped");
+        EXPECT_EQ(ask("Accept-Encoding: br\r\n").header("Content-Encoding"), "");
+    }
+    EXPECT_EQ(asked, 2) << "once for each";
+    EXPECT_EQ(ask(gzip + "If-None-Match: \"tag-gz\"\r\n").status, 304);
+    EXPECT_EQ(ask("If-None-Match: \"tag\"\r\n").status, 304);
+    EXPECT_EQ(ask("If-None-Match: \"tag-gz\"\r\n").body, "plain");
+    EXPECT_EQ(asked, 2);
+    ask(gzip + "If-None-Match: \"tag\"\r\n");
+    EXPECT_EQ(asked, 3) << "what a client with the plain one is told is not known here";
+    EXPECT_EQ(server.transport->load().hot_entries, 2u);
 }
 
 TEST(Transport, AnswersWhatStandsWhileAllWorkersAreBusy) {
