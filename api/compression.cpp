@@ -12,7 +12,7 @@
 #include "api/answers.h"
 #include "api/encoding.h"
 #include "api/ranges.h"
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "core/params/value.h"
 
 namespace sporeprint::api {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <thread>
 
-#include "core/params/problems.h"
+#include "core/problems.h"
 #include "tests/api/support.h"
 
 namespace sporeprint::api {
