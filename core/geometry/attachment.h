@@ -1,5 +1,5 @@
-// Where solids of the lower face (gills, ridges, spines, tubes) attach to the flesh, and how deep
-// they may be there.
+// Attachment of solids of the lower face (gills, ridges, spines, tubes) to the flesh, and limits of
+// their depth.
 #pragma once
 
 #include <glm/vec3.hpp>

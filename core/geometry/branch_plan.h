@@ -19,7 +19,7 @@ struct TubeDetail {
     int steps;        ///< rings from fork to fork
     int tip_rings;    ///< rings of a last branch before its end
     int trunk_rings;  ///< of a trunk below its lowest fork, at least 2
-    /// How much further down the colour of tips reaches when all other tubes are dropped.
+    /// Increase of the exponent of tip colours when all other tubes are dropped.
     double tips_shown;
     /// 0..1: how far a segment turns to the centre of the tips that it represents.
     double lean;

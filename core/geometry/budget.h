@@ -1,4 +1,4 @@
-// How the parts of a mushroom share the triangle limit of a level of detail.
+// Distribution of the triangle limit of a level of detail over the parts of a mushroom.
 #pragma once
 
 #include <array>

@@ -24,7 +24,7 @@ struct Solid {
     std::vector<glm::dvec3> corners;  ///< [row][column]
     std::vector<glm::dvec3> normals;  ///< computed by append()
     int rows = 0, columns = 0;        ///< columns without the repeated one
-    /// Whether the last row meets the first (a ring); otherwise the base is closed by a polygon.
+    /// True if the last row meets the first (a ring); otherwise a polygon closes the base.
     bool loops = false;
 };
 
@@ -140,7 +140,7 @@ double grown_share(const std::vector<double>& mature, const std::vector<double>&
     return now[k] + within * (now[k + 1] - now[k]);
 }
 
-/// What all pieces of one layer share.
+/// Values that all pieces of one layer share.
 struct LayerPlace {
     bool on_stem;  ///< positions run up the stem, otherwise down from the apex
     const SubCurve& curve;

@@ -46,10 +46,9 @@ class Deformer {
 
 /// Options of swept_mesh() and branched_mesh().
 struct SweepOptions {
-    /// Whether texture coordinates and tangents are made.
+    /// Makes texture coordinates and tangents.
     bool textured = true;
-    /// Whether triangles of absent parts are kept, with zero area; then all ages have the same
-    /// triangles.
+    /// Keeps triangles of absent parts, with zero area; then all ages have the same triangles.
     bool keep_absent = false;
     /// Rings swept in place of the stem's own, from the axis to its end (share 1); empty: its own.
     std::span<const OutlineSample> stem = {};

@@ -1,4 +1,4 @@
-// What a pipeline needs from its caller: caches, a progress observer, a parallel executor and a
+// Services that a pipeline gets from its caller: caches, a progress observer, an executor and a
 // stop token.
 #pragma once
 

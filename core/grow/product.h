@@ -1,4 +1,4 @@
-// What all pipelines share: estimates, metadata of a file, and the images of its materials.
+// Code that all pipelines share: estimates, metadata of a file, and the images of its materials.
 #pragma once
 
 #include <array>

@@ -57,7 +57,7 @@ struct LimbPair {
     bool operator==(const LimbPair&) const = default;
 };
 
-/// What is known about the branch graphs between two species.
+/// Properties of the branch graphs between two species, and whether they were checked.
 struct LimbCertificate {
     bool matched = true;
     bool checked = false;
@@ -83,7 +83,7 @@ struct SpeciesMorph {
     /// the other.
     std::array<std::array<std::vector<OutlineSample>, 3>, 2> outlines;
     std::vector<Arc> arcs;  ///< a sample of corresponding points, besides ends of sub-curves
-    /// Whether an intermediate outline intersects itself at any level of detail.
+    /// Result of the proof that no intermediate outline intersects itself.
     Certificate certificate;
     std::vector<LimbPair> limbs;  ///< parents first
     LimbCertificate limb_certificate;
