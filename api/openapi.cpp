@@ -245,9 +245,12 @@ bool is_health(Endpoint endpoint) {
            endpoint == Endpoint::metrics;
 }
 
-bool is_binary(const Route& route) {
+/// Whether a range of the body may be asked for: of files that are not sent as gzip by demand. Of a POST no part is sent.
+bool has_ranges(const Route& route) {
     const std::string_view type = route.answers;
-    return type == "model/gltf-binary" || type == "image/jpeg";
+    return std::string_view(route.method) == "GET" &&
+           (type == "model/gltf-binary" || type == "image/jpeg" ||
+            route.endpoint == Endpoint::asset);
 }
 
 Value success_headers(const Route& route, bool is_signed) {
@@ -265,6 +268,7 @@ Value success_headers(const Route& route, bool is_signed) {
     if (makes(route.endpoint)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
     if (route.endpoint == Endpoint::inspect) return headers;
     add({"ETag"});
+    if (has_ranges(route)) add({"Accept-Ranges?"});
     if (!is_kept(route.endpoint)) return headers;
     add({"Cache-Status", "Content-Disposition"});
     if (!is_signed) {
@@ -272,7 +276,6 @@ Value success_headers(const Route& route, bool is_signed) {
         const bool has_address = std::string_view(route.method) == "GET";
         add({has_address ? "Content-Location" : "Content-Location?"});
     }
-    if (is_binary(route)) add({"Accept-Ranges?"});
     return headers;
 }
 
@@ -321,7 +324,7 @@ Value operation(const Route& route, const Atlas& atlas, bool is_head, bool is_si
         object({{"description", is_head ? "It is there; these are its headers." : route.summary},
                 {"headers", success_headers(route, is_signed)}});
     if (!is_head) success.set("content", success_content(route));
-    if (is_get && !is_head && is_binary(route)) {
+    if (!is_head && has_ranges(route)) {
         Value part = success;
         part.set("description", "The range of bytes that was asked for.");
         part.find("headers")->set("Content-Range", reference("headers/always-Content-Range"));
@@ -331,7 +334,7 @@ Value operation(const Route& route, const Atlas& atlas, bool is_head, bool is_si
     std::set<int> problems = problems_of(route.endpoint, is_signed);
     if (is_get && !is_health(route.endpoint))
         responses.set("304", reference("responses/not-modified"));
-    if (is_get && !is_head && is_binary(route)) problems.insert(416);
+    if (!is_head && has_ranges(route)) problems.insert(416);
     for (const int status : problems)
         responses.set(std::to_string(status),
                       reference("responses/" + std::string(problem_type(status).slug)));
@@ -358,7 +361,7 @@ Value component_responses(bool is_signed) {
         if (type.status == 405) add("Allow", true);
         if (type.status == 416) add("Content-Range", true);
         if (type.status == 429 || type.status == 503) add("Retry-After", true);
-        if (type.status == 429)
+        if (type.status == 422 || type.status == 429 || type.status == 503 || type.status == 504)
             for (const char* name : {"RateLimit", "RateLimit-Policy"}) add(name, false);
         responses.set(
             type.slug,

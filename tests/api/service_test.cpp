@@ -318,7 +318,7 @@ TEST_F(ServiceTest, every_type_of_problem_leads_to_a_page_that_tells_of_it) {
         ASSERT_EQ(page.status, 200) << type.slug;
         EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
         EXPECT_FALSE(header(page, "ETag").empty());
-        for (const std::string words :
+        for (const std::string& words :
              {std::to_string(type.status) + ' ' + type.title, std::string(type.remedy)})
             EXPECT_NE(text_of(page).find(words), std::string::npos) << type.slug << words;
     }
