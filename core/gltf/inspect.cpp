@@ -1,9 +1,8 @@
 #include "core/gltf/inspect.h"
 
-#include <tiny_gltf.h>
-
 #include <cstring>
 
+#include "core/params/messages.h"
 #include "core/params/value.h"
 #include "core/problems.h"
 
@@ -19,37 +18,54 @@ std::uint32_t word(std::span<const std::uint8_t> file, std::size_t at) {
 
 InvalidInput refusal(std::string why) { return {"", std::move(why)}; }
 
-/// The JSON chunk without what would make a reader open files, decode images or follow offsets.
-std::string structure_of(const Value& document) {
-    Value bare = document;
-    for (const char* key :
-         {"buffers", "bufferViews", "images", "textures", "samplers", "materials", "animations",
-          "extensions", "extensionsUsed", "extensionsRequired", "extras"})
-        bare.erase(key);
-    if (Value* accessors = bare.find("accessors"); accessors && accessors->is_array())
-        for (Value& accessor : accessors->items()) {
-            if (!accessor.is_object()) continue;
-            accessor.set("bufferView", Value(0));
-            accessor.erase("sparse");
-        }
-    // The reader wants every accessor to have a view; of a buffer it is told nothing.
-    Value view = Value::object();
-    view.set("buffer", Value(0));
-    view.set("byteLength", Value(1));
-    Value views = Value::array();
-    views.push(std::move(view));
-    bare.set("bufferViews", std::move(views));
-    return dump(bare);
-}
-
 std::uint64_t count_of(const Value& document, const char* key) {
     const Value* list = document.find(key);
     return list && list->is_array() ? list->items().size() : 0;
 }
 
+/// The item of the document's list of that name that `index` names, where there is one.
+const Value* item_of(const Value& document, const char* list, const Value* index) {
+    const Value* items = document.find(list);
+    if (!items || !items->is_array() || !index || !index->is_number()) return nullptr;
+    const double at = index->as_number();
+    return at >= 0.0 && at < static_cast<double>(items->items().size())
+               ? &items->items()[static_cast<std::size_t>(at)]
+               : nullptr;
+}
+
+/// `count` of the accessor that `index` names; 0 where there is none, or one that no file of ours
+/// has.
+std::uint64_t elements_of(const Value& document, const Value* index) {
+    constexpr double most = 4294967295.0;
+    const Value* accessor = item_of(document, "accessors", index);
+    const Value* count = accessor ? accessor->find("count") : nullptr;
+    return count && count->is_number() && count->as_number() >= 0.0 && count->as_number() <= most
+               ? static_cast<std::uint64_t>(count->as_number())
+               : 0;
+}
+
+void count_meshes(const Value& document, Inspection& found) {
+    const Value* meshes = document.find("meshes");
+    if (!meshes) return;
+    if (!meshes->is_array()) throw refusal("the glTF cannot be read: /meshes is no list");
+    found.meshes = meshes->items().size();
+    for (const Value& mesh : meshes->items()) {
+        const Value* primitives = mesh.find("primitives");
+        if (!primitives || !primitives->is_array())
+            throw refusal("the glTF cannot be read: a mesh has no list of primitives");
+        for (const Value& primitive : primitives->items()) {
+            const Value* attributes = primitive.find("attributes");
+            if (attributes) found.vertices += elements_of(document, attributes->find("POSITION"));
+            found.triangles += elements_of(document, primitive.find("indices")) / 3;
+            if (const Value* targets = primitive.find("targets"); targets && targets->is_array())
+                found.morph_targets += targets->items().size();
+        }
+    }
+}
+
 }  // namespace
 
-Inspection inspect_glb(std::span<const std::uint8_t> file) {
+std::string_view json_chunk(std::span<const std::uint8_t> file) {
     if (file.size() < 20 || word(file, 0) != 0x46546C67)
         throw refusal("not a GLB file: it does not begin with a glTF header");
     if (word(file, 4) != 2)
@@ -60,10 +76,20 @@ Inspection inspect_glb(std::span<const std::uint8_t> file) {
     const std::size_t size = word(file, 12);
     if (word(file, 16) != 0x4E4F534A || size > file.size() - 20)
         throw refusal("the JSON chunk is missing or cut short");
+    return {reinterpret_cast<const char*>(file.data()) + 20, size};
+}
 
+Inspection inspect_json(std::string_view json, const std::stop_token& stop) {
+    if (json.size() > most_inspected_json)
+        throw refusal("the JSON chunk has " + std::to_string(json.size()) + " bytes; at most " +
+                      std::to_string(most_inspected_json) + " are read");
+    const auto stop_if_asked = [&] {
+        if (stop.stop_requested()) throw Cancelled();
+    };
+    stop_if_asked();
     std::vector<Problem> problems;
-    const Value document =
-        parse(std::string_view(reinterpret_cast<const char*>(file.data()) + 20, size), problems);
+    const Value document = parse(json, problems);
+    stop_if_asked();
     if (!problems.empty())
         throw refusal("the JSON chunk cannot be read: " + problems.front().message);
     const Value* generator = document.at_pointer("/asset/generator");
@@ -74,36 +100,24 @@ Inspection inspect_glb(std::span<const std::uint8_t> file) {
     if (!canonical || !canonical->is_string() || !effective || !effective->is_object())
         throw refusal("this file does not carry the request that made it (asset.extras)");
 
-    tinygltf::TinyGLTF reader;
-    tinygltf::Model model;
-    std::string error, warning;
-    const std::string text = structure_of(document);
-    if (!reader.LoadASCIIFromString(&model, &error, &warning, text.data(),
-                                    static_cast<unsigned>(text.size()), ""))
-        throw refusal("the glTF cannot be read: " + error.substr(0, error.find('\n')));
-
     Inspection found;
-    found.generator = generator->as_string();
+    found.generator = printable(generator->as_string());
     found.canonical = canonical->as_string();
     found.effective_json = dump(*effective);
-    found.bytes = file.size();
-    found.meshes = model.meshes.size();
+    if (found.effective_json.size() > most_effective_json)
+        throw refusal("the effective parameters in this file have " +
+                      std::to_string(found.effective_json.size()) + " bytes; at most " +
+                      std::to_string(most_effective_json) + " are given back");
+    count_meshes(document, found);
     found.materials = count_of(document, "materials");
     found.images = count_of(document, "images");
     found.animations = count_of(document, "animations");
-    const auto items = [&](int accessor) -> std::uint64_t {
-        return accessor >= 0 && static_cast<std::size_t>(accessor) < model.accessors.size()
-                   ? model.accessors[static_cast<std::size_t>(accessor)].count
-                   : 0;
-    };
-    for (const auto& mesh : model.meshes)
-        for (const auto& primitive : mesh.primitives) {
-            if (const auto position = primitive.attributes.find("POSITION");
-                position != primitive.attributes.end())
-                found.vertices += items(position->second);
-            found.triangles += items(primitive.indices) / 3;
-            found.morph_targets += primitive.targets.size();
-        }
+    return found;
+}
+
+Inspection inspect_glb(std::span<const std::uint8_t> file) {
+    Inspection found = inspect_json(json_chunk(file));
+    found.bytes = file.size();
     return found;
 }
 

@@ -179,6 +179,26 @@ TEST(Inspect, WildReferencesInsideAFileDoNoHarm) {
     EXPECT_EQ(inspect_glb(glb_of("{" + head + "}")).vertices, 0u);
 }
 
+TEST(Inspect, LongChunksAreRefusedUnread) {
+    expect_refused(glb_of(std::string(most_inspected_json + 1, '[')), "at most 1048576 are read");
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)inspect_json("{}", stop.get_token()), Cancelled);
+}
+
+TEST(Inspect, WhatIsGivenBackIsBounded) {
+    const auto with = [](const std::string& generator, const std::string& effective) {
+        return glb_of(R"({"asset":{"generator":")" + generator +
+                      R"(","extras":{"canonical":"x","effective":)" + effective + "}}}");
+    };
+    const std::string text(most_effective_json, 'x');
+    expect_refused(with("Sporeprint 1", "{\"a\":\"" + text + "\"}"),
+                   "at most 65536 are given back");
+    const Inspection found = inspect_glb(with("Sporeprint 1\\n" + text, "{}"));
+    EXPECT_LT(found.generator.size(), 200u);
+    EXPECT_EQ(found.generator.find('\n'), std::string::npos);
+}
+
 TEST(Inspect, RandomBytesAreRefused) {
     EXPECT_TRUE(
         rc::check("random bytes", [](const Bytes& file) { RC_ASSERT(!why(file).empty()); }));
