@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <utility>
 
 #include "api/endpoints.h"
@@ -10,12 +11,44 @@ namespace sporeprint::api {
 
 namespace {
 
-/// About what an order comes to, before its individuals are known.
+/// Vertices of the mesh that tells what room an individual needs, about: its cap at lod=1.
+constexpr std::uint64_t room_vertices = 3000;
+
+/// What making an order costs that comes to `estimated`, beside finding its correspondence.
+Cost cost_of(const ColonyOrder& order, const Estimate& estimated, Product product,
+             const Atlas& atlas) {
+    const auto distinct = static_cast<std::uint64_t>(order.params.distinct);
+    Cost cost = cost_of_individuals(order.mix, is_branched(order.mix, atlas), 1 + distinct);
+    cost.base = 300;
+    cost.vertices = distinct * room_vertices;
+    cost.placed_vertices = estimated.vertices;
+    cost.members = static_cast<std::uint64_t>(order.params.count);
+    if (product == Product::json) return cost;
+    cost.bytes = estimated.bytes;
+    if (order.params.textures != Textures::embedded) return cost;
+    cost.atlases = static_cast<std::uint64_t>(atlases_held(paint_order(order)));
+    cost.texels = estimated.texels;
+    return cost;
+}
+
+bool shows_roots(const ColonyOrder& order, const Atlas& atlas) {
+    try {
+        return colony_nature(order, atlas).roots == RootsShown::shown;
+    } catch (const InvalidInput&) {
+        return false;  // what is wrong is told when the order is weighed
+    }
+}
+
+/// About what an order comes to, before its individuals are known. Of roots nothing can be told.
 Estimate guessed(const ColonyOrder& order) {
     const ColonyParams& params = order.params;
     const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
     Estimate guess;
-    guess.vertices = (static_cast<std::uint64_t>(params.distinct) * 4000 + 60'000) >> params.lod;
+    // Caps are those of the next level; a stem has about six nodes of nine quads, each parted in
+    // sixteen near by.
+    guess.vertices = (static_cast<std::uint64_t>(params.distinct) * 1000 +
+                      static_cast<std::uint64_t>(params.count) * 400) >>
+                     (2 * std::min(params.lod, 2));
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_order(order)));
     guess.bytes = 60 * guess.vertices + images / 3;
@@ -76,11 +109,13 @@ Plan plan_colony(Context& context, const Request& request, ColonyRequest asked, 
     resource.asked_version = std::move(asked.version);
     resource.is_linked = product == Product::glb && order->params.textures == Textures::linked;
     resource.weigh = [&context, order, product](const Memo& memo) {
-        const Estimate cost = estimate(*order, *context.atlas, memo);
-        refuse_over_budget(context.options, cost, order->mix.size() > 1);
-        return cost_of(cost, product);
+        const Estimate estimated = estimate(*order, *context.atlas, memo);
+        refuse_over_budget(context.options, estimated, order->mix.size() > 1);
+        return cost_of(*order, estimated, product, *context.atlas);
     };
-    resource.guess = cost_of(guessed(*order), product);
+    resource.search = cost_of_search(order->mix, *context.atlas);
+    if (!shows_roots(*order, *context.atlas))
+        resource.guess = cost_of(*order, guessed(*order), product, *context.atlas);
     resource.make = [&context, order, product, address = resource.address,
                      version = resource.version](Loan& loan) {
         return product == Product::glb ? grown(context, *order, address, loan)

@@ -12,8 +12,8 @@
 #include "api/answers.h"
 #include "api/encoding.h"
 #include "api/ranges.h"
-#include "core/problems.h"
 #include "core/params/value.h"
+#include "core/problems.h"
 
 namespace sporeprint::api {
 
@@ -27,9 +27,6 @@ constexpr std::size_t chunk_begins = 20;    ///< after the headers of a GLB and 
 /// A tree of 8.6 MB takes 126 ms at level 1 and comes to 56.0 %, 171 ms at level 4 and 55.2 %, 285 ms at level 6 and 55.5 %;
 /// a mushroom without images of 0.9 MB takes 18, 22 and 22 ms and comes to 70.5, 69.9 and 69.9 %.
 constexpr int level = 1;
-
-/// A byte takes about 17 nanoseconds, and Cost::work() counts 1,024 bytes as a microsecond.
-constexpr std::uint64_t bytes_of_work = 17;
 
 /// `size` bytes of a body from `begin` on, fewer where it ends.
 std::string text_at(const Body& body, std::size_t begin, std::size_t size) {
@@ -100,11 +97,12 @@ bool is_worth_gzip(const Body& glb) {
     return size >= least_bytes && image_bytes(glb) < size / 2;
 }
 
-Cost gzip_cost(std::uint64_t bytes) { return {.bytes = bytes * bytes_of_work}; }
+Cost gzip_cost(std::uint64_t bytes) { return {.gzip_bytes = bytes}; }
 
 Cost gzip_cost_of_glb(const Cost& estimate) {
     constexpr std::uint64_t bytes_of_a_vertex = 60;
-    const bool is_mostly_mesh = 2 * bytes_of_a_vertex * estimate.vertices > estimate.bytes;
+    const bool is_mostly_mesh =
+        2 * bytes_of_a_vertex * (estimate.vertices + estimate.placed_vertices) > estimate.bytes;
     return estimate.bytes >= least_bytes && is_mostly_mesh ? gzip_cost(estimate.bytes) : Cost{};
 }
 

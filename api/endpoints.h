@@ -43,8 +43,12 @@ struct Resource {
     /// making it; asks only `morphs` of the Memo.
     std::function<Cost(const Memo&)> weigh;
 
-    /// About what making it costs, where its correspondence is not kept: then the job weighs it.
-    Cost guess;
+    /// What finding its correspondence costs; nothing where it needs none.
+    Cost search;
+
+    /// About what making it costs beside that, where its correspondence is not kept: then the job
+    /// weighs it. Where there is no guess, a job that `prepares` comes before.
+    std::optional<Cost> guess;
 
     /// Makes the body. Called on any thread, at most once at a time.
     std::function<Body(Loan&)> make;
@@ -88,7 +92,7 @@ struct ImageResource {
 /// What painting an atlas takes.
 struct PaintWork {
     Key key;  ///< equal keys, equal images
-    std::uint64_t texels = 0;
+    Cost cost;
     std::function<Images(const Workshop&)> paint;
 };
 
@@ -122,8 +126,21 @@ void refuse_over_budget(const ServiceOptions& options, const Estimate& cost,
 void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,
                    Faults& faults);
 
-/// What the HTTP side is told of an estimate.
-[[nodiscard]] Cost cost_of(const Estimate& estimated, Product product);
+/// What finding the correspondence of a mix, or of a model of one's own, costs; branched species
+/// need none.
+[[nodiscard]] Cost cost_of_search(const Mix& mix, const Atlas& atlas);
+
+/// What deciding that many individuals of a mix, or of a model of one's own, costs.
+///
+/// branches  of which family they are
+[[nodiscard]] Cost cost_of_individuals(const Mix& mix, bool branches, std::uint64_t count);
+
+/// Whether the species of a mix branch.
+[[nodiscard]] bool is_branched(const Mix& mix, const Atlas& atlas);
+
+/// What painting the images of a leaf, or of bark, costs, where they are embedded.
+[[nodiscard]] Cost cost_of_paint(const LeafPaint& paint);
+[[nodiscard]] Cost cost_of_paint(const TreePaint& paint);
 
 /// What a GLB tells about itself.
 [[nodiscard]] Plan plan_inspection(Context& context, const Request& request, Faults& faults);

@@ -40,18 +40,38 @@ struct Answer {
     bool repeatable = false;
 };
 
-/// What a piece of work will cost; admission charges it.
+/// What a piece of work will cost, counted before any of it is done; admission charges work(). What
+/// is counted apart takes another time each.
 struct Cost {
-    std::uint64_t vertices = 0;
-    std::uint64_t texels = 0;
-    std::uint64_t bytes = 0;
+    std::uint64_t base = 0;         ///< microseconds that any request of its kind takes
+    std::uint64_t outlines = 0;     ///< species of a correspondence that is to be found
+    std::uint64_t pairs = 0;        ///< pairs of these species
+    std::uint64_t individuals = 0;  ///< swept individuals that are decided, those of each frame too
+    std::uint64_t bushes = 0;       ///< branched individuals that are decided
+    std::uint64_t vertices = 0;     ///< of mushrooms
+    std::uint64_t placed_vertices = 0;  ///< of leaves, trees and the skins of colonies
+    std::uint64_t twigs = 0;            ///< of a tree, whatever of it is shown
+    std::uint64_t members = 0;          ///< individuals of a colony that room is found for
+    std::uint64_t atlases = 0;          ///< of mushrooms: painted, or dissolved from others
+    std::uint64_t texels = 0;           ///< of these atlases, in all of their images
+    std::uint64_t leaf_atlases = 0, leaf_rows = 0, leaf_texels = 0;  ///< of leaves
+    std::uint64_t bark_atlases = 0, bark_texels = 0;                 ///< of bark
+    std::uint64_t pixels = 0;       ///< of uploaded images that are decoded
+    std::uint64_t json_bytes = 0;   ///< JSON of the client's that is read
+    std::uint64_t json_values = 0;  ///< about how many values are in it
+    std::uint64_t bytes = 0;        ///< of the file that is put together
+    std::uint64_t gzip_bytes = 0;   ///< of that, compressed by gzip
 
-    /// All of it as one number: about microseconds of one processor of 2020. A vertex took a quarter of one, a texel 1/32,
-    /// a byte 1/1024; nothing is free.
-    [[nodiscard]] std::uint64_t work() const {
-        return 100 + vertices / 4 + texels / 32 + bytes / 1024;
-    }
+    /// All of it as one number: about microseconds of one processor of 2020. http.cpp has what each
+    /// count takes.
+    [[nodiscard]] std::uint64_t work() const;
+
+    Cost& operator+=(const Cost& other);
+    friend Cost operator+(Cost a, const Cost& b) { return a += b; }
 };
+
+/// What reading JSON takes, by its length and its commas.
+[[nodiscard]] Cost cost_of_json(std::string_view text);
 
 /// Full canonical text of what is to be made: equal keys, equal bytes.
 using Key = std::string;

@@ -20,14 +20,24 @@ bool is_address(std::string_view text) {
 
 Plan plan_inspection(Context& context, const Request& request, Faults& faults) {
     if (!faults.empty()) return context.answers.problem(request, faults);
-    auto file = std::make_shared<const std::string>(request.body);
-    const std::size_t bytes = file->size();
-    auto run = [file](std::stop_token, const Observer& observer, const Parallel&) {
+    const std::size_t bytes = request.body.size();
+    const std::string_view json =
+        json_chunk({reinterpret_cast<const std::uint8_t*>(request.body.data()), bytes});
+    if (json.size() > most_inspected_json)
+        return context.answers.problem(request, 413,
+                                       "the JSON chunk of this file has " +
+                                           std::to_string(json.size()) + " bytes; at most " +
+                                           std::to_string(most_inspected_json) + " are read");
+    Cost cost = cost_of_json(json);
+    cost.base = 20;
+    // The job holds the JSON chunk alone: of an upload of 64 MB the rest is never copied.
+    auto run = [json = std::make_shared<const std::string>(json), bytes](
+                   const std::stop_token& stop, const Observer& observer, const Parallel&) {
         observer(Step::resolve);
-        const Inspection found =
-            inspect_glb({reinterpret_cast<const std::uint8_t*>(file->data()), file->size()});
+        const Inspection found = inspect_json(*json, stop);
         // A model of one's own, or arcs, have no address.
-        if (!found.canonical.empty() && !is_address(found.canonical))
+        if (!found.canonical.empty() &&
+            (found.canonical.size() > longest_target || !is_address(found.canonical)))
             throw InvalidInput(
                 "", "the canonical request in this file is not an address of Sporeprint");
         std::vector<Problem> problems;
@@ -43,7 +53,7 @@ Plan plan_inspection(Context& context, const Request& request, Faults& faults) {
             .set("images", found.images)
             .set("morph_targets", found.morph_targets)
             .set("animations", found.animations)
-            .set("bytes", found.bytes);
+            .set("bytes", bytes);
         Value body = Value::object();
         body.set("generator", found.generator);
         body.set("canonical", found.canonical.empty() ? Value() : Value(found.canonical));
@@ -55,8 +65,7 @@ Plan plan_inspection(Context& context, const Request& request, Faults& faults) {
         return answer;
     };
     // Each upload is its own piece of work: a number makes the key, not a hash of up to 64 MB.
-    return Job{"inspection " + std::to_string(context.store.inspections++), Cost{0, 0, bytes},
-               std::move(run)};
+    return Job{"inspection " + std::to_string(context.store.inspections++), cost, std::move(run)};
 }
 
 }  // namespace sporeprint::api

@@ -10,6 +10,10 @@ struct Recipe {
         return grow_leaf(order, extras, workshop);
     }
 
+    static Cost cost(const LeafOrder&) { return {.base = 150}; }
+
+    static Cost paint_cost(const LeafOrder& order) { return cost_of_paint(paint_of(order.params)); }
+
     static std::pair<Estimate, Bounds> measure(const LeafOrder& order, const Workshop& workshop) {
         workshop.observer(Step::build);
         const Mesh mesh = leaf_mesh(order);
@@ -19,6 +23,11 @@ struct Recipe {
 };
 
 }  // namespace
+
+Cost cost_of_paint(const LeafPaint& paint) {
+    const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
+    return {.leaf_atlases = 1, .leaf_rows = side, .leaf_texels = 3 * side * side};
+}
 
 Plan plan_leaf(Context& context, const Request& request, PresetRequest<Leaves> asked,
                Faults& faults) {

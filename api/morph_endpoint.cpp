@@ -61,9 +61,11 @@ Plan plan_morph(Context& context, const Request& request, const MorphRequest& as
     resource.asked_version = asked.version;
     const bool has_limbs =
         family_of(context.atlas->find(asked.species[0])->species) == Family::branched;
-    resource.weigh = [has_limbs](const Memo&) {
-        return Cost{4000, 0, has_limbs ? 512u << 10 : 64u << 10};
-    };
+    const Mix both = {{asked.species[0], 500}, {asked.species[1], 500}};
+    const Cost cost = Cost{.base = has_limbs ? 1000u : 500u, .bytes = 64u << 10} +
+                      cost_of_individuals(both, has_limbs, 1) +
+                      cost_of_search(both, *context.atlas);
+    resource.weigh = [cost](const Memo&) { return cost; };
     resource.make = [&context, asked, version = resource.version](Loan& loan) {
         return told(context, asked, version, loan);
     };

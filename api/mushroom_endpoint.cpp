@@ -1,10 +1,14 @@
+#include <algorithm>
 #include <utility>
+#include <variant>
 
+#include "api/catalogue.h"
 #include "api/endpoints.h"
 #include "api/mix.h"
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
+#include "core/surface/codecs.h"
 
 namespace sporeprint::api {
 
@@ -24,6 +28,35 @@ Estimate weighed(const Context& context, const MushroomOrder& order, const Memo&
     return cost;
 }
 
+/// Frames of an order's clip.
+std::uint64_t frames_of(const MushroomOrder& order) {
+    return order.params.animation == Animation::none
+               ? 0
+               : static_cast<std::uint64_t>(order.params.frames);
+}
+
+/// What making an order costs that comes to `estimated`, beside finding its correspondence.
+Cost cost_of(const MushroomOrder& order, const Estimate& estimated, Product product,
+             const Atlas& atlas) {
+    const bool branches = order.model ? std::holds_alternative<Branched>(order.model->shape)
+                                      : is_branched(order.mix, atlas);
+    Cost cost = cost_of_individuals(order.mix, branches,
+                                    product == Product::glb ? 1 + frames_of(order) : 1);
+    cost.base = 300;
+    cost.vertices = estimated.vertices;
+    if (product == Product::json) return cost;
+    cost.bytes = estimated.bytes;
+    if (order.params.textures != Textures::embedded) return cost;
+    cost.atlases = static_cast<std::uint64_t>(atlases_held(order));
+    cost.texels = estimated.texels;
+    if (order.model)
+        for (const Upload* upload :
+             {&order.model->surface.cap.image, &order.model->surface.hymenium.image,
+              &order.model->surface.stem.image})
+            cost.pixels += declared_pixels(upload->bytes);
+    return cost;
+}
+
 /// About what an order comes to, before its individual is known.
 Estimate guessed(const MushroomOrder& order) {
     const MushroomParams& params = order.params;
@@ -33,6 +66,9 @@ Estimate guessed(const MushroomOrder& order) {
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(order));
     guess.bytes = 60 * guess.vertices + images / 3;
+    const std::uint64_t frames = frames_of(order);
+    guess.bytes += guess.vertices * 24 * frames;
+    guess.vertices += guess.vertices * frames;
     return guess;
 }
 
@@ -93,6 +129,23 @@ Body described(const Context& context, const MushroomOrder& order, const std::st
 
 }  // namespace
 
+bool is_branched(const Mix& mix, const Atlas& atlas) {
+    const AtlasEntry* const first = mix.empty() ? nullptr : atlas.find(mix.front().id);
+    return first && family_of(first->species) == Family::branched;
+}
+
+Cost cost_of_individuals(const Mix& mix, bool branches, std::uint64_t count) {
+    // Bushes are laid over each other, outlines only blended.
+    return branches ? Cost{.bushes = std::max<std::uint64_t>(mix.size(), 1) * count}
+                    : Cost{.individuals = count};
+}
+
+Cost cost_of_search(const Mix& mix, const Atlas& atlas) {
+    if (is_branched(mix, atlas)) return {};
+    const std::uint64_t species = std::max<std::uint64_t>(mix.size(), 1);
+    return {.outlines = species, .pairs = species * (species - 1) / 2};
+}
+
 Plan plan_mushroom(Context& context, const Request& request, MushroomRequest asked,
                    Faults& faults) {
     if (!faults.empty()) return context.answers.problem(request, faults);
@@ -108,9 +161,10 @@ Plan plan_mushroom(Context& context, const Request& request, MushroomRequest ask
     resource.asked_version = std::move(asked.version);
     resource.is_linked = product == Product::glb && order->params.textures == Textures::linked;
     resource.weigh = [&context, order, product](const Memo& memo) {
-        return cost_of(weighed(context, *order, memo), product);
+        return cost_of(*order, weighed(context, *order, memo), product, *context.atlas);
     };
-    resource.guess = cost_of(guessed(*order), product);
+    resource.search = cost_of_search(order->mix, *context.atlas);
+    resource.guess = cost_of(*order, guessed(*order), product, *context.atlas);
     resource.make = [&context, order, product, address = resource.address,
                      version = resource.version](Loan& loan) {
         return product == Product::glb ? grown(context, *order, address, loan)

@@ -12,6 +12,8 @@ namespace sporeprint::api {
 /// A product as GLB or JSON, by address or by body. What `Recipe` tells of an order:
 ///   grow(order, extras, workshop)  the file
 ///   measure(order, workshop)       what it comes to, exactly, and where it lies
+///   cost(order)                    what growing it costs beside its vertices, bytes and images
+///   paint_cost(order)              what painting all of its images costs
 ///   tell(order, body)              what else its JSON tells; none of it where there is no such function
 template <class Kind, class Recipe>
 Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> asked,
@@ -28,9 +30,14 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> a
     resource.asked_version = std::move(asked.version);
     resource.is_linked = product == Product::glb && order->params.textures == Textures::linked;
     resource.weigh = [&context, order, product](const Memo&) {
-        const Estimate cost = estimate(*order);
-        refuse_over_budget(context.options, cost);
-        return cost_of(cost, product);
+        const Estimate estimated = estimate(*order);
+        refuse_over_budget(context.options, estimated);
+        Cost cost = Recipe::cost(*order);
+        cost.placed_vertices = estimated.vertices;
+        if (product == Product::json) return cost;
+        cost.bytes = estimated.bytes;
+        if (order->params.textures == Textures::embedded) cost += Recipe::paint_cost(*order);
+        return cost;
     };
     resource.make = [order, product, address = resource.address,
                      version = resource.version](Loan& loan) -> Body {
@@ -79,9 +86,9 @@ Plan plan_preset_surface(Context& context, const Request& request, const PresetS
         const auto side = static_cast<std::uint64_t>(paint->texture_size.value);
         const std::uint64_t texels = 3 * side * side;
         refuse_texels(context.options, texels, false, found);
-        return PaintWork{image_key(*paint), texels, [paint](const Workshop& workshop) {
-                             return painted_images(*paint, workshop);
-                         }};
+        return PaintWork{
+            image_key(*paint), cost_of_paint(*paint),
+            [paint](const Workshop& workshop) { return painted_images(*paint, workshop); }};
     };
     return plan_image(context, request, image_of(asked), decide, faults);
 }

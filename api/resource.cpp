@@ -92,6 +92,9 @@ Cost weighed(const Request& request, const Resource& resource, const Memo& memo,
         faults.add(422, named(impossible, posted));
     } catch (const InvalidInput& invalid) {
         faults.add(400, named(invalid, posted));
+    } catch (NotKept& missing) {
+        missing.cost = resource.search;
+        throw;
     }
     return {};
 }
@@ -142,11 +145,6 @@ void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_
                    Faults& faults) {
     if (texels > options.most_texels)
         faults.add(422, "texture_size", too_many_texels(options, texels, of_every_species));
-}
-
-Cost cost_of(const Estimate& estimated, Product product) {
-    return product == Product::glb ? Cost{estimated.vertices, estimated.texels, estimated.bytes}
-                                   : Cost{estimated.vertices, 0, estimated.vertices * 32};
 }
 
 std::vector<Problem> named(const InvalidInput& input, bool posted) {
@@ -220,7 +218,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
     try {
         cost = weighed(request, resource, context.memo, faults);
     } catch (const NotKept&) {
-        if (request.method == "HEAD" || any || match_fails) throw;
+        if (request.method == "HEAD" || any || match_fails || !resource.guess) throw;
     }
     if (!faults.empty()) return context.answers.problem(request, faults);
     if (match_fails) return context.answers.precondition_failed(request, "If-Match", etags);
@@ -229,7 +227,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
 
     ++store.counters.glb_misses;
     take_header(head, "Cache-Control");
-    const Cost estimate = cost.value_or(resource.guess);
+    const Cost estimate = cost ? *cost : *resource.guess + resource.search;
     const Cost compressing = takes_gzip ? gzip_cost_of_glb(estimate) : Cost{};
     auto run = [&store, takes_gzip, weigh = cost ? nullptr : std::move(resource.weigh),
                 make = std::move(resource.make), head = std::move(head), key = resource.key](
@@ -261,9 +259,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
         if (store.directory) store.directory->insert(key, answer.body);
         return finished(loan.cache_status());
     };
-    Cost charged = estimate;
-    charged.bytes += compressing.bytes;
-    return Job{std::move(resource.key), charged, std::move(run)};
+    return Job{std::move(resource.key), estimate + compressing, std::move(run)};
 }
 
 }  // namespace sporeprint::api

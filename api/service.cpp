@@ -20,9 +20,6 @@ namespace sporeprint::api {
 
 namespace {
 
-/// Of eight species, the dearest: 28 pairs at a millisecond and a half, as vertices.
-constexpr Cost most_of_correspondence{.vertices = 168'000};
-
 bool kept_by_key(const Key& key) {
     return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.") ||
            key.starts_with("tree.") || key.starts_with("colony.");
@@ -284,7 +281,8 @@ std::variant<Answer, Job> Service::plan(const Request& request, bool prepared) {
             static_cast<void>(plan(request, true));
             return Answer();
         };
-        return Job{"correspondence\n" + missing.key, most_of_correspondence, std::move(run), true};
+        return Job{"correspondence\n" + missing.key, Cost{.base = 300} + missing.cost,
+                   std::move(run), true};
     } catch (...) {
         return problem(request, std::current_exception());
     }
@@ -369,6 +367,17 @@ bool Service::self_test() {
     } catch (...) {
         return false;
     }
+}
+
+Cost Service::cost_of_reading(const Request& request) const {
+    std::vector<Problem> ignored;
+    const Match match = match_route(
+        request.method, split_target(request.target.substr(0, longest_target), ignored).segments);
+    // Other bodies are not looked at; of an upload to /v1/inspect its job is charged.
+    if (!match.route || std::string_view(match.route->takes) != "application/json" ||
+        request.body.size() > longest_body(*match.route))
+        return {};
+    return cost_of_json(request.body);
 }
 
 std::size_t Service::most_body(std::string_view method, std::string_view target) const {

@@ -90,6 +90,10 @@ class Service {
     /// The final answer to a request whose body has not come yet, if its head alone decides: 400, 404, 405, 413, 414, 415.
     [[nodiscard]] std::optional<Answer> answer_to_head(const Request& request) const;
 
+    /// What plan() takes to read the body of a request, whether it is refused, kept or to be made;
+    /// nothing for most.
+    [[nodiscard]] Cost cost_of_reading(const Request& request) const;
+
     /// Whether a body of this size may come to this target (413), in bytes.
     [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view target) const;
 

@@ -76,7 +76,7 @@ Memo kept_only(Store& store) {
     Memo memo;
     memo.morphs = [&store](const std::string& key, const std::function<Morph()>&) {
         if (std::optional<Morph> kept = store.morphs.cache().find(key)) return *std::move(kept);
-        throw NotKept{key};
+        throw NotKept{key, {}};
     };
     return memo;
 }

@@ -47,6 +47,7 @@ struct Store {
 /// Thrown by `kept_only` for what is not kept.
 struct NotKept {
     std::string key;
+    Cost cost;  ///< of finding it; told by whoever knows what was asked for
 };
 
 /// A Memo for plan(): finds what is kept, throws NotKept where something would have to be made. Counts nothing.

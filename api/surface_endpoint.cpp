@@ -40,6 +40,11 @@ PaintRecipe painted(Context& context, const SurfaceRequest& asked, Faults& fault
         faults.add(422, named(impossible, false));
     } catch (const InvalidInput& invalid) {
         faults.add(400, named(invalid, false));
+    } catch (NotKept& missing) {
+        // Its images are those of each species alone, too.
+        missing.cost = cost_of_search(asked.mix, *context.atlas);
+        if (asked.mix.size() > 1) missing.cost.outlines *= 2;
+        throw;
     }
     return {};
 }
@@ -99,7 +104,7 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
         answer.body.assign(set->files.begin(), set->files.end());
         return answer;
     };
-    return Job{std::move(work.key), Cost{0, work.texels, work.texels}, std::move(run)};
+    return Job{std::move(work.key), work.cost, std::move(run)};
 }
 
 ImageResource image_of(const Context& context, const SurfaceRequest& asked) {
@@ -114,9 +119,12 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
     const auto decide = [&](Faults& found) {
         const auto recipe = std::make_shared<const PaintRecipe>(painted(context, asked, found));
         if (recipe->empty()) return PaintWork{};
-        return PaintWork{
-            image_key(*recipe), texels_held(*recipe),
-            [recipe](const Workshop& workshop) { return painted_images(*recipe, workshop); }};
+        const Cost cost{.base = 300,
+                        .atlases = static_cast<std::uint64_t>(atlases_held(*recipe)),
+                        .texels = texels_held(*recipe)};
+        return PaintWork{image_key(*recipe), cost, [recipe](const Workshop& workshop) {
+                             return painted_images(*recipe, workshop);
+                         }};
     };
     return plan_image(context, request, image_of(context, asked), decide, faults);
 }

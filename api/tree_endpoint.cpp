@@ -20,6 +20,18 @@ struct Recipe {
         return grow_tree(order, extras, of_leaves, workshop);
     }
 
+    static Cost cost(const TreeOrder& order) {
+        const double twigs = expected_tips(order.params.look.shape.topology);
+        return {.base = 100, .twigs = static_cast<std::uint64_t>(twigs)};
+    }
+
+    static Cost paint_cost(const TreeOrder& order) {
+        Cost cost = cost_of_paint(paint_of(order.params));
+        if (order.params.look.leaves.per_tip > 0)
+            cost += cost_of_paint(paint_of(leaf_of(order.params)));
+        return cost;
+    }
+
     static std::pair<Estimate, Bounds> measure(const TreeOrder& order, const Workshop& workshop) {
         workshop.observer(Step::build);
         const TreeMeshes meshes = tree_meshes(order);
@@ -36,6 +48,11 @@ struct Recipe {
 };
 
 }  // namespace
+
+Cost cost_of_paint(const TreePaint& paint) {
+    const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
+    return {.bark_atlases = 1, .bark_texels = 3 * side * side};
+}
 
 Plan plan_tree(Context& context, const Request& request, PresetRequest<Trees> asked,
                Faults& faults) {

@@ -122,6 +122,39 @@ Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality
     return Bytes(out, out + size);
 }
 
+std::uint64_t declared_pixels(std::span<const std::uint8_t> file) {
+    long long width = 0, height = 0;
+    if (starts_with(file, "\x89PNG\r\n\x1A\n", 8)) {
+        // Signature, length and name of the first chunk, then width and height, the highest byte
+        // first.
+        if (!starts_with(file, "IHDR", 4, 12) || file.size() < 24) return 0;
+        const auto word = [&](std::size_t at) {
+            long long value = 0;
+            for (std::size_t i = at; i < at + 4; ++i) value = value << 8 | file[i];
+            return value;
+        };
+        width = word(16);
+        height = word(20);
+    } else if (starts_with(file, "\xFF\xD8\xFF", 3)) {
+        const TurboHandle handle(tjInitDecompress());
+        int columns = 0, rows = 0, subsampling = 0, colours = 0;
+        if (!handle ||
+            tjDecompressHeader3(handle.get(), file.data(), static_cast<unsigned long>(file.size()),
+                                &columns, &rows, &subsampling, &colours) != 0)
+            return 0;
+        width = columns;
+        height = rows;
+    } else if (starts_with(file, "RIFF", 4) && starts_with(file, "WEBP", 4, 8)) {
+        WebPBitstreamFeatures features;
+        if (WebPGetFeatures(file.data(), file.size(), &features) != VP8_STATUS_OK) return 0;
+        width = features.width;
+        height = features.height;
+    }
+    if (width < 1 || height < 1 || width > largest_upload_side || height > largest_upload_side)
+        return 0;
+    return static_cast<std::uint64_t>(width * height);
+}
+
 Picture decoded_picture(std::span<const std::uint8_t> file, const std::string& path) {
     if (starts_with(file, "\x89PNG\r\n\x1A\n", 8)) return decoded_png(file, path);
     if (starts_with(file, "\xFF\xD8\xFF", 3)) return decoded_jpeg(file, path);

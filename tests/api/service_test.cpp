@@ -5,6 +5,7 @@
 #include <zlib.h>
 
 #include <atomic>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <thread>
@@ -12,6 +13,7 @@
 #include "api/encoding.h"
 #include "api/errors.h"
 #include "api/mushrooms.h"
+#include "core/gltf/inspect.h"
 #include "core/grow/mushroom.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
@@ -928,6 +930,90 @@ TEST_F(ServiceTest, what_is_no_glb_of_ours_is_400) {
          {std::string(), std::string("glTF"), glb.substr(0, 100), glb.substr(0, glb.size() - 1),
           std::string(1000, '\0'), another})
         expect_problem(ask(post(file, "/v1/inspect", "model/gltf-binary")), 400);
+}
+
+/// A GLB of a JSON chunk, and of a binary one of that many zeros.
+std::string glb_of(std::string json, std::size_t binary) {
+    while (json.size() % 4) json += ' ';
+    const auto word = [](std::size_t number) {
+        std::string out;
+        for (int shift = 0; shift < 32; shift += 8) out += static_cast<char>(number >> shift);
+        return out;
+    };
+    return "glTF" + word(2) + word(28 + json.size() + binary) + word(json.size()) + "JSON" + json +
+           word(binary) + std::string("BIN\0", 4) + std::string(binary, '\0');
+}
+
+std::string json_of_ours(const std::string& effective, const std::string& more = "") {
+    return R"({"asset":{"version":"2.0","generator":"Sporeprint 1","extras":{"canonical":"",)"
+           R"("effective":)" +
+           effective + "}}" + more + "}";
+}
+
+Request inspection_of(std::string file) {
+    return post(std::move(file), "/v1/inspect", "model/gltf-binary");
+}
+
+TEST_F(ServiceTest, a_json_chunk_that_is_too_long_to_inspect_is_413_before_it_is_read) {
+    const std::string space(most_inspected_json - json_of_ours("{}").size(), ' ');
+    EXPECT_EQ(ask(inspection_of(glb_of(json_of_ours("{}") + space, 8))).status, 200);
+    const Request longer = inspection_of(glb_of(json_of_ours("{}") + space + "    ", 8));
+    const auto planned = service_.plan(longer);
+    ASSERT_TRUE(std::holds_alternative<Answer>(planned)) << "no job is made of it";
+    expect_problem(std::get<Answer>(planned), 413);
+    const std::string detail = json_of(std::get<Answer>(planned)).find("detail")->as_string();
+    EXPECT_NE(detail.find("the JSON chunk"), std::string::npos) << detail;
+    EXPECT_NE(detail.find(std::to_string(most_inspected_json + 4)), std::string::npos) << detail;
+    EXPECT_NE(detail.find(std::to_string(most_inspected_json)), std::string::npos) << detail;
+}
+
+TEST_F(ServiceTest, an_inspection_holds_the_json_chunk_and_not_the_upload) {
+    auto planned = service_.plan(inspection_of(glb_of(json_of_ours("{}"), 60u << 20)));
+    ASSERT_TRUE(std::holds_alternative<Job>(planned));
+    const Job& job = std::get<Job>(planned);  // the upload is gone
+    EXPECT_LT(job.cost.work(), 200u) << "nor is it charged by the length of what is not read";
+    const Answer answer = job.run(
+        {}, [](Step) {}, in_turn);
+    EXPECT_EQ(json_of(answer).at_pointer("/counts/bytes")->as_number(),
+              static_cast<double>(glb_of(json_of_ours("{}"), 60u << 20).size()));
+    std::stop_source stop;
+    stop.request_stop();
+    EXPECT_THROW((void)job.run(
+                     stop.get_token(), [](Step) {}, in_turn),
+                 Cancelled);
+}
+
+TEST_F(ServiceTest, an_inspection_gives_no_more_back_than_files_of_ours_hold) {
+    const std::string text(most_effective_json, 'x');
+    const Answer large = ask(inspection_of(glb_of(json_of_ours("{\"a\":\"" + text + "\"}"), 0)));
+    expect_problem(large, 400);
+    EXPECT_LT(text_of(large).size(), 1000u);
+    std::string named = json_of_ours("{}");
+    named.replace(named.find("Sporeprint 1"), 12, "Sporeprint 1 " + text);
+    const Answer answer = ask(inspection_of(glb_of(named, 0)));
+    ASSERT_EQ(answer.status, 200);
+    EXPECT_LT(text_of(answer).size(), 1000u);
+    std::string addressed = json_of_ours("{}");
+    addressed.replace(addressed.find("canonical\":\"") + 12, 0, "/v1/species?form=" + text);
+    expect_problem(ask(inspection_of(glb_of(addressed, 0))), 400);
+}
+
+TEST_F(ServiceTest, the_largest_json_chunks_of_ours_are_far_from_the_limit) {
+    for (const char* target :
+         {"/v1/colonies/marasmius_oreades.glb?count=256&distinct=16&lod=3&texture_size=128",
+          "/v1/colonies/marasmius_oreades.glb?count=256&lod=3&textures=none&instancing=gpu",
+          "/v1/mushrooms/amanita_muscaria.glb?animation=growth&frames=16&lod=3&texture_size=128",
+          "/v1/trees/birch.glb?lod=3&texture_size=128", "/v1/leaves/maple.glb?textures=none"}) {
+        const std::string file = text_of(ask(target));
+        std::uint32_t length = 0;
+        std::memcpy(&length, file.data() + 12, 4);
+        EXPECT_LT(length, most_inspected_json / 8) << target;
+        const Answer answer = ask(inspection_of(file));
+        ASSERT_EQ(answer.status, 200) << target << text_of(answer);
+        EXPECT_LT(dump(*json_of(answer).find("effective")).size(), most_effective_json / 8)
+            << target;
+        EXPECT_GT(json_of(answer).at_pointer("/counts/triangles")->as_number(), 0) << target;
+    }
 }
 
 TEST_F(ServiceTest, any_thread_may_ask_at_any_time) {
