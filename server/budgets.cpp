@@ -23,18 +23,17 @@ Budgets::Budgets(const BudgetOptions& options)
       capacity_(in_millionths(std::max<std::uint64_t>(options.burst, 1))),
       most_clients_(std::max<std::size_t>(options.most_clients, 1)) {}
 
-std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t work, Time time) {
-    const std::int64_t wanted = in_millionths(work);
-    const std::lock_guard lock(mutex_);
-    const std::int64_t now = advance(time);
-    auto found = buckets_.find(client);
-    Bucket bucket{capacity_, now, now};
-    if (found != buckets_.end()) fill(bucket = found->second, now);
-    const std::int64_t enough = std::min(wanted, capacity_);
-    if (bucket.level < enough)
-        return std::chrono::microseconds(quotient(enough - bucket.level, rate_));
-    if (wanted == 0) return {};
+Budgets::Bucket Budgets::bucket_of(const Address& client, std::int64_t now) const {
+    const auto found = buckets_.find(client);
+    if (found == buckets_.end()) return {capacity_, now, now};
+    Bucket bucket = found->second;
+    fill(bucket, now);
+    return bucket;
+}
+
+void Budgets::take(const Address& client, Bucket bucket, std::int64_t wanted) {
     bucket.level -= wanted;
+    auto found = buckets_.find(client);
     if (found == buckets_.end()) {
         if (buckets_.size() >= most_clients_) forget_one();
         found = buckets_.emplace(client, bucket).first;
@@ -43,7 +42,25 @@ std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t wo
         found->second = bucket;
     }
     keep(found);
+}
+
+std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t work, Time time) {
+    const std::int64_t wanted = in_millionths(work);
+    const std::lock_guard lock(mutex_);
+    const Bucket bucket = bucket_of(client, advance(time));
+    const std::int64_t enough = std::min(wanted, capacity_);
+    if (bucket.level < enough)
+        return std::chrono::microseconds(quotient(enough - bucket.level, rate_));
+    if (wanted > 0) take(client, bucket, wanted);
     return {};
+}
+
+void Budgets::owe(const Address& client, std::uint64_t work, Time time) {
+    if (work == 0) return;
+    const std::lock_guard lock(mutex_);
+    Bucket bucket = bucket_of(client, advance(time));
+    // No debt grows beyond that of the largest piece, so that its millionths fit their type.
+    take(client, bucket, std::min(in_millionths(work), bucket.level + in_millionths(most_work)));
 }
 
 void Budgets::give_back(const Address& client, std::uint64_t work, Time time) {

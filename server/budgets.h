@@ -44,6 +44,10 @@ class Budgets {
     [[nodiscard]] std::chrono::microseconds spend(const Address& client, std::uint64_t work,
                                                   Time now);
 
+    /// Takes what was done for a client before its cost was known, even where its bucket does not
+    /// hold that: the rest is owed.
+    void owe(const Address& client, std::uint64_t work, Time now);
+
     /// Gives back what was spent on work that was not begun.
     void give_back(const Address& client, std::uint64_t work, Time now);
 
@@ -65,6 +69,8 @@ class Budgets {
     using Buckets = std::map<Address, Bucket>;  // not hashed: its keys are chosen by strangers
 
     std::int64_t advance(Time now);
+    [[nodiscard]] Bucket bucket_of(const Address& client, std::int64_t now) const;
+    void take(const Address& client, Bucket bucket, std::int64_t wanted);
     void fill(Bucket& bucket, std::int64_t now) const;
     void keep(Buckets::iterator bucket);
     void forget_one();

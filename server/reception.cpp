@@ -20,6 +20,9 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* alive = "alive\n";
 
+/// Work of reading a body that is not begun for a client which owes: a millisecond.
+constexpr std::uint64_t large_reading = 1000;
+
 constexpr std::string_view own_paths[] = {"/livez", "/readyz", "/metrics"};
 
 /// The path of a target in origin or absolute form, still encoded.
@@ -148,23 +151,30 @@ void Reception::answer(const Using& means, const std::shared_ptr<Visit>& visit, 
                        bool prepared) {
     api::Service& service = *means->service;
     const api::Request& request = *asked.request;
+    // A body is read to know what it asks for, and costs that even if it is refused.
+    const std::uint64_t reading = budgets_ && !prepared && !request.body.empty()
+                                      ? service.cost_of_reading(request).work()
+                                      : 0;
+    if (reading > large_reading)
+        if (const auto missing = budgets_->spend(client_of(visit->client()), 0, Clock::now());
+            missing > missing.zero())
+            return reply_over_budget(service, visit, request, missing);
     std::optional<Answers::Glance> glance(std::in_place, flights_);
     std::variant<api::Answer, api::Job> planned = service.plan(request, prepared);
-    if (api::Answer* answer = std::get_if<api::Answer>(&planned))
+    if (api::Answer* answer = std::get_if<api::Answer>(&planned)) {
+        if (reading > 0) {
+            budgets_->owe(client_of(visit->client()), reading, Clock::now());
+            asked.is_charged = true;
+        }
         return reply(visit, asked, std::move(*answer));
+    }
 
     auto& job = std::get<api::Job>(planned);
     std::uint64_t work = job.cost.work();
-    if (const auto missing = charge(visit->client(), job.key, work); missing > missing.zero()) {
-        metrics_.rejected("budget");
-        const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
-        api::Answer refusal = service.problem(
-            request, 429, "this client has had much made; there is room for more in a while",
-            {{"Retry-After", std::to_string(seconds)}});
-        tell_budget(visit->client(), refusal);
-        return visit->reply(std::move(refusal));
-    }
-    asked.is_charged = asked.is_charged || (budgets_ && work > 0);
+    if (const auto missing = charge(visit->client(), job.key, reading, work);
+        missing > missing.zero())
+        return reply_over_budget(service, visit, request, missing);
+    asked.is_charged = asked.is_charged || (budgets_ && reading + work > 0);
     // Delivered by a worker of the transport: a slot is for making. After what only prepares it goes on when that has landed
     // and its own wait is known, or the next would be taken for that.
     const bool prepares = job.prepares;
@@ -228,12 +238,29 @@ void Reception::tell_budget(const Address& client, api::Answer& answer) const {
 }
 
 std::chrono::microseconds Reception::charge(const Address& client, const api::Key& key,
-                                            std::uint64_t& work) {
+                                            std::uint64_t reading, std::uint64_t& work) {
     if (!budgets_ || flights_.flies(key)) {
         work = 0;
+        if (budgets_) budgets_->owe(client_of(client), reading, Clock::now());
         return {};
     }
-    return budgets_->spend(client_of(client), work, Clock::now());
+    // Both at once: a piece that is larger than the bucket needs it full, which it would never be
+    // after its body was read.
+    const auto missing = budgets_->spend(client_of(client), reading + work, Clock::now());
+    if (missing == missing.zero()) return missing;
+    budgets_->owe(client_of(client), reading, Clock::now());
+    return missing + std::chrono::microseconds(reading * 1'000'000 / options_.budget.rate);
+}
+
+void Reception::reply_over_budget(const api::Service& service, const std::shared_ptr<Visit>& visit,
+                                  const api::Request& request, std::chrono::microseconds missing) {
+    metrics_.rejected("budget");
+    const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
+    api::Answer refusal = service.problem(
+        request, 429, "this client has had much made; there is room for more in a while",
+        {{"Retry-After", std::to_string(seconds)}});
+    tell_budget(visit->client(), refusal);
+    visit->reply(std::move(refusal));
 }
 
 Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visit>& visit) const {

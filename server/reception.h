@@ -105,11 +105,14 @@ class Reception {
     [[nodiscard]] Made made(api::Service& service, const api::Job& job, std::stop_token stop,
                             double queue);
     std::optional<Answers::Seat> board(const Using& means, api::Job job, Answers::Then then);
-    /// Takes what a job costs from the budget of who asks, unless somebody has begun it.
+    /// Takes what a job costs from the budget of who asks, unless somebody has begun it, and what
+    /// reading its body took.
     ///
     /// returns  how long until there is enough; zero if there is
     [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
-                                                   std::uint64_t& work);
+                                                   std::uint64_t reading, std::uint64_t& work);
+    void reply_over_budget(const api::Service& service, const std::shared_ptr<Visit>& visit,
+                           const api::Request& request, std::chrono::microseconds missing);
     /// Tells a client what is left of its budget of work; such an answer is for this client alone.
     void tell_budget(const Address& client, api::Answer& answer) const;
     api::Answer housekeeping(const api::Request& request, std::string_view path, bool metrics);

@@ -76,6 +76,18 @@ TEST(Budgets, GiveBackWhatWasNotBegunAndNoMore) {
     EXPECT_EQ(budgets.clients(), 1u);
 }
 
+TEST(Budgets, WhatIsDoneAlreadyIsOwed) {
+    Budgets budgets({.rate = 10, .burst = 100});
+    budgets.owe(client(1), 130, at(0s));
+    EXPECT_EQ(budgets.spend(client(1), 0, at(0s)), 3s) << "nothing at all while it owes";
+    EXPECT_EQ(budgets.spend(client(1), 20, at(0s)), 5s);
+    EXPECT_EQ(budgets.spend(client(1), 20, at(5s)), 0us);
+    budgets.owe(client(2), 0, at(5s));
+    EXPECT_EQ(budgets.clients(), 1u);
+    for (int i = 0; i < 3; ++i) budgets.owe(client(3), UINT64_MAX, at(5s));
+    EXPECT_GT(budgets.spend(client(3), 0, at(1000h)), 0us) << "without an overflow";
+}
+
 TEST(Budgets, RememberSoManyClientsAndForgetWhoIsFullFirst) {
     Budgets budgets({.rate = 1, .burst = 100, .most_clients = 10});
     EXPECT_EQ(budgets.spend(client(1000), 100, at(0s)), 0us);

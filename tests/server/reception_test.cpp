@@ -80,11 +80,27 @@ struct House {
     api::Answer ask(const std::string& target, const std::string& method = "GET",
                     std::chrono::milliseconds patience = 5min, Visit::Over then = Visit::Over::late,
                     std::vector<api::Header> headers = {}) {
+        api::Request request = request_of(method, target);
+        request.headers = std::move(headers);
+        return ask(std::move(request), patience, then);
+    }
+
+    api::Answer post(const std::string& target, std::string body) {
+        api::Request request = request_of("POST", target);
+        request.headers = {{"Content-Type", "application/json"}};
+        request.body = std::move(body);
+        return ask(std::move(request), 5min, Visit::Over::late);
+    }
+
+    static api::Request request_of(const std::string& method, const std::string& target) {
         api::Request request;
         request.method = method;
         request.target = target;
-        request.headers = std::move(headers);
         request.id = "test";
+        return request;
+    }
+
+    api::Answer ask(api::Request request, std::chrono::milliseconds patience, Visit::Over then) {
         const auto guest = std::make_shared<Guest>(std::move(request));
         handlers.answer(guest);
         return guest->answer(patience, then);
@@ -310,6 +326,29 @@ TEST(Reception, ChargesOnceForWhatIsMadeOnceAndNotForWhatCouldNotBegin) {
     options.most_waiters = 0;
     House full(options);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(full.ask(heavy + "1").status, 503) << "given back";
+}
+
+TEST(Reception, ChargesForReadingABodyThatIsRefused) {
+    ReceptionOptions options;
+    options.budget = {.rate = 1, .burst = 3000};
+    House house(options);
+    std::string body = "{\"model\":[0";
+    while (body.size() < 250'000) body += ",0";
+    body += "]}";
+    EXPECT_EQ(house.post("/v1/mushrooms.glb", body).status, 400);
+    EXPECT_EQ(house.post("/v1/mushrooms.glb", body).status, 429) << "it owes, so none is read";
+    EXPECT_EQ(house.ask(small + "1").status, 429);
+    EXPECT_EQ(house.ask("/v1/species").status, 200);
+
+    // Reading counts with what is made, or a piece larger than the bucket would never find it full.
+    options.budget = {.rate = 1'000'000'000, .burst = 1};
+    House fast(options);
+    const std::string mix = "{\"mix\":{\"amanita_muscaria\":1},\"lod\":3,\"texture_size\":128}";
+    EXPECT_EQ(fast.post("/v1/mushrooms.glb", mix).status, 200);
+    options.budget = {.rate = 1, .burst = 1};
+    House once(options);
+    EXPECT_EQ(once.post("/v1/mushrooms.glb", mix).status, 200) << "from a full bucket";
+    EXPECT_EQ(once.ask(small + "2").status, 429);
 }
 
 TEST(Reception, FindsCorrespondencesInSlotsAndChargesThem) {
