@@ -6,6 +6,7 @@
 #include "core/geometry/sweep.h"
 #include "core/individual/proportion.h"
 #include "core/math/purposes.h"
+#include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 
 namespace sporeprint {
@@ -33,8 +34,10 @@ std::vector<OutlineSample> neck_rings(const SubCurve& stem, const OutlineSample&
     };
     static constexpr Ring fine[] = {{1.0, 0.88}, {0.7, 0.97}, {0.5, 1.012}, {0.25, 1.01}};
     static constexpr Ring coarse[] = {{1.0, 0.86}, {0.5, 1.015}};
-    const std::span<const Ring> rings =
-        lod <= 1 ? std::span<const Ring>(fine) : std::span<const Ring>(coarse);
+    static constexpr Ring farthest[] = {{1.0, 0.97}};
+    const std::span<const Ring> rings = lod >= farthest_lod ? std::span<const Ring>(farthest)
+                                        : lod <= 1          ? std::span<const Ring>(fine)
+                                                            : std::span<const Ring>(coarse);
     std::vector<OutlineSample> samples;
     for (const Ring& ring : rings) {
         OutlineSample sample = stem.at(1.0 - ring.below * depth / stem.length());

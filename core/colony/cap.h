@@ -17,7 +17,7 @@ struct StemFit {
 
 /// How a cap is cut off.
 struct CapCut {
-    int lod = 1;  ///< of the mushroom
+    int lod = 1;  ///< of the mushroom, up to farthest_lod
     /// The stem that will bear it is this many times thinner than its own: between them stands a neck. At least 1.
     double neck = 1.0;
     bool textured = true;

@@ -1,8 +1,11 @@
 #include "core/colony/colony_skin.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <numeric>
+#include <vector>
 
 #include "core/mesh/index_order.h"
 #include "core/mesh/tangents.h"
@@ -23,6 +26,9 @@ constexpr double least_segment = 2.7, least_on_root = 3.6;
 constexpr std::size_t most_near_nodes = 210;
 /// A strip that rises by more than this many of its radii is no root.
 constexpr double risen = 3.2;
+
+/// Of the nodes along a root between two forks or stems every so-manieth is left, by level of detail.
+constexpr std::array<std::uint32_t, 4> root_strides = {1, 1, 2, 4};
 
 /// Where each distance along a strip lies on the image, in images: to and fro. Turns fall on the rings that lie next to them.
 class ToAndFro {
@@ -114,13 +120,67 @@ void dress(SkinnedSkeleton& made, double painted_length) {
     add_tangents(mesh);
 }
 
+/// Roots with fewer nodes: their ends, their forks, what bears a stem, and every `stride`-th of the others.
+///
+/// ground   limbs lead away from the base; each comes after the one that bears it
+/// bears    by node
+/// node_of  of each node that is left, where it lies now
+Skeleton thinned_roots(const Skeleton& ground, const std::vector<bool>& bears, std::uint32_t stride,
+                       std::vector<std::uint32_t>& node_of) {
+    const std::size_t count = ground.nodes.size();
+    constexpr std::uint32_t none = ~std::uint32_t{0};
+    std::vector<std::uint32_t> limbs_at(count, 0), skipped(count, 0), last(count, none);
+    node_of.resize(count);
+    std::iota(node_of.begin(), node_of.end(), 0U);
+    if (stride == 1) return ground;
+    std::vector<bool> begins(count, true);
+    for (const Skeleton::Limb& limb : ground.limbs) {
+        ++limbs_at[limb.from];
+        ++limbs_at[limb.to];
+        begins[limb.to] = false;
+    }
+    Skeleton roots;
+    const auto keep = [&](std::uint32_t node) {
+        node_of[node] = static_cast<std::uint32_t>(roots.nodes.size());
+        roots.nodes.push_back(ground.nodes[node]);
+        last[node] = node;
+    };
+    for (std::uint32_t i = 0; i < count; ++i)
+        if (begins[i]) keep(i);
+    for (const Skeleton::Limb& limb : ground.limbs) {
+        const std::uint32_t passed = skipped[limb.from] + 1;
+        if (limbs_at[limb.to] == 2 && !bears[limb.to] && passed < stride) {
+            skipped[limb.to] = passed;
+            last[limb.to] = last[limb.from];
+            continue;
+        }
+        keep(limb.to);
+        roots.limbs.push_back({node_of[last[limb.from]], node_of[limb.to]});
+    }
+    return roots;
+}
+
 }  // namespace
+
+double root_share(int lod) {
+    // Forks and stems stay.
+    constexpr std::array<double, 4> shares = {1.0, 1.0, 0.75, 0.6};
+    return shares[static_cast<std::size_t>(lod)];
+}
 
 Skeleton colony_limbs(const ColonySite& site, const std::vector<ColonyMember>& members,
                       const ColonyParams& params, const ColonyNature& nature, int segments) {
     Skeleton limbs;
     const bool on_roots = nature.habit == Habit::rooted && nature.roots == RootsShown::shown;
-    if (on_roots) limbs = site.ground;
+    std::vector<std::uint32_t> node_of;
+    if (on_roots) {
+        std::vector<bool> bears(site.ground.nodes.size(), false);
+        if (nature.capped)
+            for (const ColonyMember& member : members)
+                bears[site.places[member.place].number] = true;
+        limbs = thinned_roots(site.ground, bears,
+                              root_strides[static_cast<std::size_t>(params.lod)], node_of);
+    }
     if (!nature.capped) return limbs;
     for (const ColonyMember& member : members) {
         const ColonyPlace& place = site.places[member.place];
@@ -130,8 +190,10 @@ Skeleton colony_limbs(const ColonySite& site, const std::vector<ColonyMember>& m
         // A neck widens to its cap; a cap that is too small for its stem takes the end of it.
         const double top = place.radius * std::min(params.cap_scale, 1.0);
         const double height = glm::length(at(1.0) - place.foot);
-        std::uint32_t below = place.number;
-        if (!on_roots) {
+        std::uint32_t below = 0;
+        if (on_roots) {
+            below = node_of[place.number];
+        } else {
             const glm::dvec3 way = glm::normalize(member.rise);
             below = static_cast<std::uint32_t>(limbs.nodes.size());
             limbs.nodes.push_back({place.foot - below_ground * place.radius * way, place.radius});

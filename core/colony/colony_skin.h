@@ -17,6 +17,9 @@ namespace sporeprint {
                                     const ColonyParams& params, const ColonyNature& nature,
                                     int segments);
 
+/// Share of the nodes of roots that is left at a level of detail, about: runs without forks and stems have fewer from afar.
+[[nodiscard]] double root_share(int lod);
+
 /// How often the skin of a skeleton of so many nodes is subdivided: twice near by (tubes of sixteen sides), once where that would come
 /// to more triangles than a mushroom has at most.
 [[nodiscard]] int skin_levels(std::size_t nodes, int lod);

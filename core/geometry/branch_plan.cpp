@@ -6,6 +6,7 @@
 
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
+#include "core/mesh/detail.h"
 
 namespace sporeprint {
 
@@ -13,22 +14,26 @@ namespace {
 
 constexpr std::uint32_t none = Bush::none;
 
-constexpr std::array<TubeDetail, 9> detail_steps = {{{28, 28, 20, 18, 6, 12, 11, 0.3, 0.0},
-                                                     {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
-                                                     {24, 8, 8, 8, 2, 3, 6, 0.3, 0.0, 2, 6, 12, 11},
-                                                     {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
-                                                     {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
-                                                     {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
-                                                     {12, 6, 3, 3, 1, 1, 3, 0.3, 0.0},
-                                                     {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
-                                                     {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6}}};
+constexpr std::array<TubeDetail, 10> detail_steps = {
+    {{28, 28, 20, 18, 6, 12, 11, 0.3, 0.0},
+     {20, 20, 12, 10, 4, 6, 6, 0.3, 0.0},
+     {24, 8, 8, 8, 2, 3, 6, 0.3, 0.0, 2, 6, 12, 11},
+     {12, 12, 7, 5, 2, 3, 5, 0.3, 0.0},
+     {12, 10, 6, 4, 1, 2, 4, 0.3, 0.0},
+     {12, 7, 5, 4, 1, 1, 3, 0.3, 0.0},
+     {12, 6, 3, 3, 1, 1, 3, 0.3, 0.0},
+     {6, 3, 3, 3, 1, 1, 2, 0.4, 0.0},
+     {4, 4, 3, 3, 1, 1, 2, 1.0, 0.6},
+     {3, 3, 3, 3, 1, 1, 2, 1.0, 0.6}}};
 /// Index of the finest and of the coarsest resolution by level of detail; if the coarsest exceeds
 /// the limit, the smallest tubes are dropped.
-constexpr std::array<std::size_t, 4> first_step = {0, 3, 7, 8};
-constexpr std::array<std::size_t, 4> last_step = {6, 6, 7, 8};
+constexpr std::array<std::size_t, 5> first_step = {0, 3, 7, 8, 9};
+constexpr std::array<std::size_t, 5> last_step = {6, 6, 7, 8, 9};
 /// Share of tubes that must be kept at a resolution before a coarser one is tried. A round tube of
 /// four sides is more visible than a missing twig.
-constexpr std::array<double, 4> sufficient_share = {0.9, 0.5, 0.0, 0.0};
+constexpr std::array<double, 5> sufficient_share = {0.9, 0.5, 0.0, 0.0, 0.0};
+/// Largest number of triangles at farthest_lod, which no request asks for by itself.
+constexpr std::uint64_t most_at_farthest = 150;
 /// Number of tips from which on a tube counts as thick.
 constexpr int thick_tube_tips = 12;
 
@@ -131,6 +136,8 @@ bool is_present(const Bush& graph, const TubeChain& chain) {
 
 BranchPlan branch_plan(const Bush& graph, int lod) {
     const auto level = static_cast<std::size_t>(lod);
+    const std::uint64_t limit =
+        lod < farthest_lod ? most_triangles[level] : std::uint64_t{most_at_farthest};
     BranchPlan plan;
     plan.chains = chains_of(graph);
     // For each node its chain, and its index there.
@@ -161,7 +168,7 @@ BranchPlan branch_plan(const Bush& graph, int lod) {
                 one.vertices += rings.vertices;
                 one.triangles += rings.triangles;
             }
-            if (plan.count.triangles + one.triangles > most_triangles[level]) break;
+            if (plan.count.triangles + one.triangles > limit) break;
             plan.count.vertices += one.vertices;
             plan.count.triangles += one.triangles;
         }

@@ -88,7 +88,7 @@ Budget budget_of(const Individual& individual, int lod) {
         return count;
     };
     budget.count = total();
-    const std::uint64_t limit = most_triangles[static_cast<std::size_t>(lod)];
+    const std::uint64_t limit = at_level(most_triangles, lod);
     while (budget.count.triangles > limit &&
            (coarsen(budget.ornaments, lod) || (solids && coarsen(individual, budget.blades))))
         budget.count = total();

@@ -64,7 +64,7 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
 MarginCuts::MarginCuts(const Individual& individual, int lod) {
     const Outline& outline = individual.outline;
     const WeatheringOf<Plain>& amounts = individual.wear.amounts;
-    const LodLimits& limits = limits_by_lod[static_cast<std::size_t>(lod)];
+    const LodLimits& limits = at_level(limits_by_lod, lod);
     std::vector<Notch> notches;
     if (!outline.hymenium.empty()) {
         notches = notches_of(individual, limits);

@@ -11,6 +11,7 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/mesh/detail.h"
 
 namespace sporeprint {
 
@@ -21,7 +22,7 @@ constexpr double whole_turn = 2.0 * pi;
 // Numbers of solids by LOD.
 constexpr std::array<SolidCounts, 4> limits_by_lod = {
     {{5, 14, 22, 12}, {0, 0, 0, 6}, {0, 0, 0, 0}, {0, 0, 0, 0}}};
-const SolidCounts& limits_at(int lod) { return limits_by_lod[static_cast<std::size_t>(lod)]; }
+const SolidCounts& limits_at(int lod) { return at_level(limits_by_lod, lod); }
 
 constexpr int roll_sides = 5, drop_sides = 6, drip_sides = 5, drip_rows = 4;
 constexpr std::uint64_t roll_vertices(int pieces) {

@@ -27,7 +27,7 @@ struct LodLimits {
 };
 constexpr std::array<LodLimits, 4> limits_by_lod = {
     {{true, true, true}, {true, true, false}, {true, false, false}, {false, false, false}}};
-const LodLimits& limits_at(int lod) { return limits_by_lod[static_cast<std::size_t>(lod)]; }
+const LodLimits& limits_at(int lod) { return at_level(limits_by_lod, lod); }
 
 /// Applies weathering to the vertices of a swept body.
 class Weatherer {

@@ -8,8 +8,10 @@
 
 #include "core/colony/colony_skin.h"
 #include "core/grow/mushroom.h"
+#include "core/individual/proportion.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
+#include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
@@ -29,7 +31,19 @@ constexpr double quads_per_node = 9.0;
 /// members.
 constexpr int placement_lod = 1;
 
+/// Level of detail of what is painted on the individuals of a colony.
 int cap_lod(int lod) { return std::min(lod + 1, 3); }
+
+/// Level of detail of their meshes, at most.
+int mesh_lod(int lod) { return std::min(lod + 1, farthest_lod); }
+
+/// The same for one of them: an outline that touches itself with so few rings keeps those of the level before.
+int mesh_lod(const Individual& individual, int lod) {
+    const int level = mesh_lod(lod);
+    return level == farthest_lod && !individual.is_branched() && fault_of(individual.outline, level)
+               ? level - 1
+               : level;
+}
 
 bool textured(const ColonyOrder& order) { return order.params.textures != Textures::none; }
 
@@ -180,9 +194,10 @@ Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo
     const ColonyRoots growth = growth_of(params, nature, fit_of(individual, nature));
     const auto count = static_cast<std::uint64_t>(params.count);
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
-    const MeshCount one = body_count(individual, cap_lod(params.lod));
+    const MeshCount one = body_count(individual, mesh_lod(individual, params.lod));
     double nodes = 0.0;
-    if (nature.roots == RootsShown::shown) nodes += 1.2 * expected_root_nodes(growth) + 20.0;
+    if (nature.roots == RootsShown::shown)
+        nodes += root_share(params.lod) * (1.2 * expected_root_nodes(growth) + 20.0);
     if (nature.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
     // Where the number of nodes is random, the level of the finer skin is assumed.
     const auto least =
@@ -239,10 +254,11 @@ Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop
             order_for_vertex_cache(mesh);
             return mesh;
         };
-        colony.models.push_back(grown(own.params.lod, textured(order)));
+        const int own_lod = mesh_lod(one, params.lod);
+        colony.models.push_back(grown(own_lod, textured(order)));
         const Mesh& own_mesh = colony.models.back();
-        const Mesh near = own.params.lod == placement_lod ? Mesh() : grown(placement_lod, false);
-        const Mesh& footprint_mesh = own.params.lod == placement_lod ? own_mesh : near;
+        const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
+        const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
         if (!nature.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
         models.push_back({Room(footprint_mesh), nature.capped ? stem_fit(one).radius : fit.radius});
     }

@@ -1,9 +1,13 @@
 #include "core/grow/tree.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 #include <utility>
+#include <vector>
 
 #include "core/gltf/glb.h"
 #include "core/grow/leaf.h"
@@ -49,17 +53,98 @@ void refuse_beyond_bounds(const Tree& tree) {
             faults.front().message);
 }
 
-// Returns the leaves that remain at a level of detail. At coarse levels a leaf represents others
-// near it: it is enlarged about its middle, not away from its twig.
-std::vector<PlacedLeaf> leaves_of(const Tree& tree, const TreeParams& params) {
-    const std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
-    std::vector<PlacedLeaf> left =
-        thinned(all, leaf_share(params.lod, static_cast<double>(all.size())));
-    if (params.lod < 2) return left;
-    const double middle = 0.5 * shape_of(leaf_of(params)).length;
-    for (std::size_t i = 0; i < left.size(); ++i)
-        left[i].place -= middle * (left[i].size - all[i].size) * left[i].along;
-    return left;
+struct Box {
+    glm::dvec3 low{1e9}, high{-1e9};
+};
+
+/// Returns the largest distance of a vertex from the origin.
+double reach_of(const Mesh& mesh) {
+    double reach = 0.0;
+    for (const glm::vec3& place : mesh.positions)
+        reach = std::max(reach, static_cast<double>(glm::length(place)));
+    return reach;
+}
+
+/// Returns the bounding box of one placed leaf.
+Box box_of(const PlacedLeaf& leaf, const Mesh& mesh) {
+    const glm::dvec3 side = glm::cross(leaf.up, leaf.along);
+    Box box;
+    for (const glm::vec3& place : mesh.positions) {
+        const glm::dvec3 own = leaf.size * glm::dvec3(place);
+        const glm::dvec3 at = leaf.place + own.x * side + own.y * leaf.up + own.z * leaf.along;
+        box.low = glm::min(box.low, at);
+        box.high = glm::max(box.high, at);
+    }
+    return box;
+}
+
+/// Moves the leaves that reach farthest, two along each axis, before all others, so that every level
+/// of detail has them.
+///
+/// returns  the bounding box of all leaves
+Box farthest_first(std::vector<PlacedLeaf>& leaves, const Mesh& mesh) {
+    const double reach = reach_of(mesh);
+    Box box;
+    std::array<std::size_t, 6> farthest{};
+    for (std::size_t i = 0; i < leaves.size(); ++i) {
+        const glm::dvec3 room(reach * leaves[i].size);
+        if (glm::all(glm::greaterThanEqual(leaves[i].place - room, box.low)) &&
+            glm::all(glm::lessThanEqual(leaves[i].place + room, box.high)))
+            continue;
+        const Box own = box_of(leaves[i], mesh);
+        for (int axis = 0; axis < 3; ++axis) {
+            const auto at = static_cast<std::size_t>(axis);
+            if (own.low[axis] < box.low[axis]) farthest[at] = i;
+            if (own.high[axis] > box.high[axis]) farthest[at + 3] = i;
+        }
+        box = {glm::min(box.low, own.low), glm::max(box.high, own.high)};
+    }
+    std::sort(farthest.begin(), farthest.end());
+    const auto end = std::unique(farthest.begin(), farthest.end());
+    std::size_t front = 0;
+    for (auto one = farthest.begin(); one != end; ++one, ++front) {
+        const auto first = leaves.begin() + static_cast<std::ptrdiff_t>(front),
+                   found = leaves.begin() + static_cast<std::ptrdiff_t>(*one);
+        std::rotate(first, found, found + 1);
+    }
+    return box;
+}
+
+/// Moves leaves that reach beyond a box back into it.
+void keep_within(const Box& box, const Mesh& mesh, std::vector<PlacedLeaf>& leaves) {
+    const double reach = reach_of(mesh);
+    for (PlacedLeaf& leaf : leaves) {
+        const glm::dvec3 room(reach * leaf.size);
+        if (glm::all(glm::greaterThanEqual(leaf.place - room, box.low)) &&
+            glm::all(glm::lessThanEqual(leaf.place + room, box.high)))
+            continue;
+        const Box own = box_of(leaf, mesh);
+        // A leaf wider than the box is centred in it.
+        const glm::dvec3 in = glm::max(box.low - own.low, 0.0),
+                         out = glm::max(own.high - box.high, 0.0);
+        for (int axis = 0; axis < 3; ++axis)
+            leaf.place[axis] += in[axis] > 0.0 && out[axis] > 0.0 ? 0.5 * (in[axis] - out[axis])
+                                                                  : in[axis] - out[axis];
+    }
+}
+
+/// Returns the mesh of the leaves at a level of detail. At coarse levels a leaf represents others near
+/// it: it is enlarged about its middle, not away from its twig, and the crown keeps its extent.
+Mesh leaves_of(const Tree& tree, const TreeParams& params) {
+    const LeafShape shape = shape_of(leaf_of(params));
+    std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
+    if (all.empty()) return {};
+    const auto count = static_cast<double>(all.size());
+    if (params.lod == 0)
+        return merged_leaves(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
+    const Box box = farthest_first(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
+    std::vector<PlacedLeaf> left = thinned(all, leaf_share(params.lod, count));
+    if (params.lod >= 2)
+        for (std::size_t i = 0; i < left.size(); ++i)
+            left[i].place -= 0.5 * shape.length * (left[i].size - all[i].size) * left[i].along;
+    const Mesh leaf = foliage_leaf(shape, leaf_triangles(params.lod, left.size()));
+    keep_within(box, leaf, left);
+    return merged_leaves(left, leaf);
 }
 
 }  // namespace
@@ -106,14 +191,9 @@ TreeMeshes tree_meshes(const TreeOrder& order) {
     static_cast<void>(estimate(order));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
     refuse_beyond_bounds(tree);
-    TreeMeshes meshes{bark_of(tree, params.lod), {}};
-    const std::vector<PlacedLeaf> leaves = leaves_of(tree, params);
-    if (!leaves.empty())
-        meshes.leaves = merged_leaves(
-            leaves,
-            foliage_leaf(shape_of(leaf_of(params)), leaf_triangles(params.lod, leaves.size())));
+    TreeMeshes meshes{bark_of(tree, params.lod), leaves_of(tree, params)};
     finish(meshes.bark, params);
-    if (!leaves.empty()) finish(meshes.leaves, params);
+    if (!meshes.leaves.positions.empty()) finish(meshes.leaves, params);
     return meshes;
 }
 

@@ -35,9 +35,21 @@ inline constexpr std::array<Detail, 4> details = {{
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
-/// Returns the counts of a level of detail, 0..3.
+/// One level beyond those that a request may ask for: the individuals of a colony at LOD 3. It has the
+/// columns of LOD 3, which keep the outline seen from above, and fewer rings. Outlines are not proven
+/// simple at it.
+inline constexpr int farthest_lod = 4;
+inline constexpr Detail farthest_detail = {3, 2, 3, 8, 0, 0, 0, 1};
+
+/// Returns the counts of a level of detail, 0..farthest_lod.
 [[nodiscard]] constexpr const Detail& detail_of(int lod) {
-    return details[static_cast<std::size_t>(lod)];
+    return lod < farthest_lod ? details[static_cast<std::size_t>(lod)] : farthest_detail;
+}
+
+/// Returns the row of a table by LOD; at farthest_lod, that of LOD 3.
+template <class Table>
+[[nodiscard]] constexpr const auto& at_level(const Table& table, int lod) {
+    return table[lod < farthest_lod ? static_cast<std::size_t>(lod) : table.size() - 1];
 }
 
 }  // namespace sporeprint

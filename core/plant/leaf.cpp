@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/math/elementary.h"
@@ -247,15 +248,66 @@ double limb_area(const LeafShape& shape) {
 
 namespace {
 
+/// What a polygon of few corners keeps of the limb.
+enum class Keeps {
+    area,   ///< seen from above; it is as much shorter as the limb has bays
+    extent  ///< length and width; its area as far as corners between them can be drawn in
+};
+
+/// Makes the right half of a border, from the root to the tip, as long and as wide as a whole one, and draws in those of its corners
+/// that are neither its widest nor its tip until it has that one's area.
+void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
+             const std::vector<glm::dvec2>& whole) {
+    glm::dvec2 low(0.0), high(0.0);
+    for (const glm::dvec2& place : whole) {
+        low = glm::min(low, place);
+        high = glm::max(high, place);
+    }
+    const auto widest = static_cast<std::size_t>(
+        std::max_element(half.begin(), half.end(),
+                         [](const glm::dvec2& a, const glm::dvec2& b) { return a.x < b.x; }) -
+        half.begin());
+    double lowest = 0.0, highest = 0.0;
+    for (const glm::dvec2& place : half) {
+        lowest = std::min(lowest, place.y);
+        highest = std::max(highest, place.y);
+    }
+    if (half[widest].x < 1e-9 || highest < 1e-9) return;
+    const double wider = high.x / half[widest].x, longer = high.y / highest,
+                 deeper = lowest < -1e-9 ? std::clamp(low.y / lowest, 0.5, 2.0) : 1.0;
+    for (glm::dvec2& place : half) {
+        place.x *= wider;
+        place.y *= place.y < 0.0 ? deeper : longer;
+    }
+    centre.y *= longer;
+    // Twice the area of the half is the sum of each corner's x times the way from its neighbour to its neighbour along y.
+    double fixed = 0.0, drawn = 0.0;
+    for (std::size_t i = 1; i + 1 < half.size(); ++i)
+        (i == widest ? fixed : drawn) += half[i].x * (half[i + 1].y - half[i - 1].y);
+    if (drawn <= 0.0) return;
+    double share = std::clamp((area_of(whole) - fixed) / drawn, 0.2, 1.0);
+    const std::vector<glm::dvec2> before = half;
+    for (int tries = 0; tries < 8; ++tries, share += 0.3 * (1.0 - share)) {
+        bool seen = true;
+        for (std::size_t i = 1; i + 1 < half.size(); ++i)
+            half[i].x = (i == widest ? 1.0 : share) * before[i].x;
+        for (std::size_t i = 0; i + 1 < half.size(); ++i)
+            seen = seen && twice_area(centre, half[i], half[i + 1]) > 1e-6;
+        if (seen) return;
+    }
+    half = before;
+}
+
 // The limb alone, root at the origin.
-Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles) {
+Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
+                    Keeps keeps) {
     const Limb limb = limb_of(shape.venation, leaf_steps(shape.venation, 0));
     // Between its veins' ends the border goes straight, or every corner would go into the bays of a frond.
     Venation plain = shape.venation;
     plain.sinus = plain.teeth = 0.0;
     const Limb outline = limb_of(plain, plain.lobes.value == 1 ? 2 : 1);
     const Lobe& middle = outline.lobes[outline.lobes.size() / 2];
-    const glm::dvec2 centre(0.0, outline.lobes.size() > 1 ? 0.3 : 0.5);
+    glm::dvec2 centre(0.0, outline.lobes.size() > 1 ? 0.3 : 0.5);
     const glm::dvec2 tip = middle.place(0, middle.reach, 0.0);
     std::vector<glm::dvec2> half;
     for (const glm::dvec2& place : border_of(outline)) {
@@ -263,10 +315,11 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
         if (place == tip) break;
     }
     std::vector<glm::dvec2> border = simplified(half, centre, triangles / 4 + 1);
+    const std::vector<glm::dvec2> whole = border_of(limb);
+    if (keeps == Keeps::extent) stretch(border, centre, whole);
     for (std::size_t i = border.size() - 2; i > 0; --i)
         border.emplace_back(-border[i].x, border[i].y);
-    // As much area as the limb has.
-    const double grown = std::sqrt(area_of(border_of(limb)) / area_of(border));
+    const double grown = keeps == Keeps::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
     const LeafChart chart = chart_of(limb);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(border.size());
@@ -290,7 +343,7 @@ Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
     refuse_faults(shape);
     if (triangles < 8 || triangles > most_foliage_triangles || triangles % 4 != 0)
         throw InvalidInput("/triangles", std::to_string(triangles) + " is not 8, 12 or 16");
-    return foliage_shell(shape, Bending(shape), triangles).mesh(shape.length);
+    return foliage_shell(shape, Bending(shape), triangles, Keeps::area).mesh(shape.length);
 }
 
 namespace {
@@ -318,6 +371,37 @@ Shell limb_shell(const LeafShape& shape, const Bending& bent, const Level& level
     return shell;
 }
 
+/// Stretches a limb of few corners, which curls and waves in larger steps, to the box of another one; the root stays.
+void fit_to(const Shell& like, Shell& shell) {
+    const auto box = [](const Shell& one) {
+        std::array<glm::dvec3, 2> corners = {glm::dvec3(0.0), glm::dvec3(0.0)};
+        for (const glm::dvec3& place : one.places) {
+            corners[0] = glm::min(corners[0], place);
+            corners[1] = glm::max(corners[1], place);
+        }
+        return corners;
+    };
+    const std::array<glm::dvec3, 2> wanted = box(like), own = box(shell);
+    std::array<glm::dvec3, 2> scale = {glm::dvec3(1.0), glm::dvec3(1.0)};
+    for (std::size_t end = 0; end < 2; ++end)
+        for (int axis = 0; axis < 3; ++axis)
+            if (std::abs(own[end][axis]) > 1e-3)
+                scale[end][axis] = std::clamp(wanted[end][axis] / own[end][axis], 0.4, 4.0);
+    for (glm::dvec3& place : shell.places)
+        for (int axis = 0; axis < 3; ++axis)
+            place[axis] *= scale[place[axis] < 0.0 ? 0U : 1U][axis];
+    // Folds that lie between its corners may reach above all of them: its highest corners on either side rise to there.
+    double top = 0.0, highest = -1e9;
+    const auto beside = [](const glm::dvec3& place) { return std::abs(place.x) > 1e-6; };
+    for (const glm::dvec3& place : shell.places) {
+        top = std::max(top, place.y);
+        if (beside(place)) highest = std::max(highest, place.y);
+    }
+    if (top > wanted[1].y - 1e-9) return;
+    for (glm::dvec3& place : shell.places)
+        if (beside(place) && place.y > highest - 1e-9) place.y = wanted[1].y;
+}
+
 }  // namespace
 
 Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
@@ -328,8 +412,11 @@ Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
     const Level level = level_of(shape.venation, lod);
     const Bending bent(shape);
     Shell shell = limb_shell(shape, bent, level);
-    if (lod + 1 == leaf_lods && shell.triangles.size() > most_foliage_triangles)
-        shell = foliage_shell(shape, bent, most_foliage_triangles);
+    if (lod + 1 == leaf_lods && shell.triangles.size() > most_foliage_triangles) {
+        Shell far = foliage_shell(shape, bent, most_foliage_triangles, Keeps::extent);
+        fit_to(shell, far);
+        shell = std::move(far);
+    }
     add_petiole(shape, bent, level, shell);
     for (glm::dvec3& place : shell.places) place.z += shape.petiole;
     return shell.mesh(shape.length * size);

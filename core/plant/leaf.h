@@ -103,8 +103,8 @@ inline constexpr int leaf_lods = 4;
 
 /// The whole leaf: pivot at the far end of the petiole, the limb along +z, its upper face up.
 ///
-/// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source; 3 foliage_leaf() on its petiole, or the polygon
-///          where that has no more triangles
+/// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source; 3 a fan of most_foliage_triangles as long and as wide
+///          as that, or the polygon where it has no more triangles
 /// size     scale of the whole
 /// returns  two closed pieces: limb, its veins as relief, and petiole
 /// throws   InvalidInput with all that check() finds

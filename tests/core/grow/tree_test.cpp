@@ -90,6 +90,24 @@ TEST_P(EveryTree, HasFewerTrianglesAtEveryLevelAndOneCrown) {
     }
 }
 
+// Leaves that stand for many are large, and those that reach farthest may be left out: the crown reaches as far as it does near by.
+TEST_P(EveryTree, ReachesEquallyFarAtNeighbouringLevels) {
+    for (std::uint32_t seed = 1; seed <= effort(6, 1); ++seed) {
+        Bounds before;
+        for (int lod = 0; lod < tree_lods; ++lod) {
+            TreeOrder order = order_of(GetParam(), lod);
+            order.params.seed = seed;
+            order.params.autumn = std::min(1.0, 0.2 * (seed - 1.0));
+            const Bounds box = bounds(tree_meshes(order));
+            const glm::vec3 size = box.max - box.min, last = before.max - before.min;
+            for (int axis = 0; lod > 0 && axis < 3; ++axis)
+                EXPECT_NEAR(static_cast<double>(size[axis] / last[axis]), 1.0, 0.03)
+                    << seed << ' ' << lod << ' ' << axis;
+            before = box;
+        }
+    }
+}
+
 TEST_P(EveryTree, IsEstimatedBeforeAnyWork) {
     for (int lod = 0; lod < tree_lods; ++lod)
         for (std::uint32_t seed = 1; seed <= effort(4, 1); ++seed) {

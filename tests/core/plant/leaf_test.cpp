@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <string>
@@ -100,6 +101,28 @@ TEST(Leaf, LevelsOfDetailHaveNearlyOneArea) {
         for (int lod = 1; lod < leaf_lods; ++lod)
             EXPECT_NEAR(seen_area(leaf_mesh(flat, lod)) / finest, 1.0, 0.15) << preset.id << lod;
     }
+}
+
+// A leaf that is shorter from afar is seen to jump. Both ends of its box along each axis count.
+TEST(Leaf, NeighbouringLevelsOfDetailReachEquallyFar) {
+    for (const LeafPreset& preset : leaf_presets())
+        for (const double variation : {0.0, 0.5, 1.0})
+            for (std::uint32_t seed = 1; seed <= effort(12, 2); ++seed) {
+                const LeafShape shape = individual_leaf(preset.shape, seed, variation);
+                Bounds before = bounds(leaf_mesh(shape, 0));
+                for (int lod = 1; lod < leaf_lods; ++lod) {
+                    const Bounds box = bounds(leaf_mesh(shape, lod));
+                    const glm::vec3 size = before.max - before.min;
+                    const float bar = 0.03F * std::max({size.x, size.y, size.z});
+                    for (int axis = 0; axis < 3; ++axis) {
+                        EXPECT_NEAR(box.min[axis], before.min[axis], bar)
+                            << preset.id << ' ' << variation << ' ' << seed << ' ' << lod << axis;
+                        EXPECT_NEAR(box.max[axis], before.max[axis], bar)
+                            << preset.id << ' ' << variation << ' ' << seed << ' ' << lod << axis;
+                    }
+                    before = box;
+                }
+            }
 }
 
 TEST(Leaf, TheMiddleVeinKeepsItsLengthHoweverItCurls) {
