@@ -31,6 +31,10 @@ void Trees::take_from_body(Value& body, Faults& faults) {
     const std::optional<RamificationMatrix> matrix = given ? rows_of(*given) : std::nullopt;
     if (!matrix) return;  // what is wrong with the form of it, the reader says
     const char* own = name(MatrixKind::own);
+    // No rows are what a tree without a matrix of its own has: its effective parameters say so.
+    if (given->items().empty() && body.find("matrix") && !says(body, "matrix", own) &&
+        !says(body, "toward", own) && !says(body, "tips", own))
+        return;
     const bool asked =
         says(body, "matrix", own) || says(body, "toward", own) || says(body, "tips", own);
     if (!body.find("matrix") && !asked) body.set("matrix", own);
