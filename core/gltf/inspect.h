@@ -17,7 +17,7 @@ inline constexpr std::size_t most_inspected_json = 1u << 20;
 inline constexpr std::size_t most_effective_json = 64u << 10;
 
 struct Inspection {
-    std::string generator;       ///< printable, at most 120 bytes
+    std::string generator;       ///< asset.generator, printable, at most 120 bytes; empty for none
     std::string canonical;       ///< canonical address in asset.extras
     std::string effective_json;  ///< the effective parameters in asset.extras, as JSON
     std::uint64_t vertices = 0, triangles = 0, meshes = 0, materials = 0, images = 0, bytes = 0;
@@ -32,8 +32,8 @@ struct Inspection {
 /// Reads the JSON chunk of a file; buffers and images are not looked at, `bytes` stays 0.
 ///
 /// stop    looked at before and after the chunk is read
-/// throws  InvalidInput (path "") when it is longer than most_inspected_json, is no glTF, or was
-///         not made by Sporeprint; Cancelled
+/// throws  InvalidInput (path "") when it is longer than most_inspected_json, is no glTF, or
+///         carries no request of Sporeprint; Cancelled
 /// cost    O(size of the chunk): some ten microseconds a kilobyte; each value takes 40 bytes while
 ///         it is read
 [[nodiscard]] Inspection inspect_json(std::string_view json, const std::stop_token& stop = {});

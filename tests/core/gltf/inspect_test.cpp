@@ -121,20 +121,33 @@ TEST(Inspect, WrongLengthsAreRefused) {
     expect_refused(file, "JSON chunk");
 }
 
+// Tools that rewrite a file name themselves as its generator, or nobody.
+TEST(Inspect, WhoeverHasRewrittenAFileTheRequestInItIsRead) {
+    for (const std::string generator : {R"("generator":"glTF-Transform v4.1.0",)", R"()"}) {
+        const Bytes file = glb_of(
+            R"({"asset":{"version":"2.0",)" + generator +
+            R"("extras":{"canonical":"/v1/leaves/oak.glb?seed=3","effective":{"seed":3}}}})");
+        const Inspection found = inspect_glb(file);
+        EXPECT_EQ(found.generator, generator.empty() ? "" : "glTF-Transform v4.1.0");
+        EXPECT_EQ(found.canonical, "/v1/leaves/oak.glb?seed=3");
+        EXPECT_EQ(found.effective_json, R"({"seed":3})");
+    }
+}
+
 TEST(Inspect, ForeignFilesAreRefused) {
     const std::string text = "<html><body>not a model at all</body></html>";
     expect_refused(Bytes(text.begin(), text.end()), "not a GLB");
     expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":"Blender"}})"),
-                   "not made by Sporeprint");
-    expect_refused(glb_of(R"({"asset":{"version":"2.0"}})"), "not made by Sporeprint");
-    expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":7}})"), "not made by");
+                   "does not carry a request of Sporeprint");
+    expect_refused(glb_of(R"({"asset":{"version":"2.0"}})"), "does not carry");
+    expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":7}})"), "does not carry");
     expect_refused(glb_of(R"({"asset":{"version":"2.0","generator":"Sporeprint 1"}})"),
                    "does not carry");
     expect_refused(
         glb_of(
             R"({"asset":{"version":"2.0","generator":"Sporeprint 1","extras":{"canonical":"x","effective":[]}}})"),
         "does not carry");
-    expect_refused(glb_of("[]"), "not made by");
+    expect_refused(glb_of("[]"), "does not carry");
     expect_refused(glb_of(""), "JSON chunk");
     expect_refused(glb_of(R"({"asset":1,"asset":2})"), "JSON chunk cannot be read");
 }
