@@ -110,13 +110,22 @@ void Answers::add_common_headers(const Request& request, Answer& answer) const {
 
 Answer Answers::problem(const Request& request, int status, std::string_view detail,
                         std::span<const Problem> problems, const Value::Object& more) const {
-    Answer answer = problem_answer(request, status, detail, problems, more);
+    Answer answer = problem_answer(request, status, detail, problems, more, base_path_);
     add_common_headers(request, answer);
     return answer;
 }
 
 Answer Answers::problem(const Request& request, const Faults& faults) const {
     return problem(request, faults.status(), {}, faults.problems());
+}
+
+Answer Answers::to_page(const Request& request, std::string_view query) const {
+    Answer answer;
+    answer.status = 308;
+    answer.headers = {{"Location", base_path_ + '/' + std::string(query)},
+                      {"Cache-Control", cached_for_an_hour}};
+    add_common_headers(request, answer);
+    return answer;
 }
 
 void Answers::represent(const Request& request, Answer& answer, const Document* ready) const {

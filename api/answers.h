@@ -44,7 +44,18 @@ void bound_freshness(Answer& answer, std::int64_t seconds_left);
 class Answers {
   public:
     /// allow_origin  Access-Control-Allow-Origin of every answer; empty sends none
-    explicit Answers(std::string allow_origin) : allow_origin_(std::move(allow_origin)) {}
+    /// base_path     begins every link that an answer tells
+    explicit Answers(std::string allow_origin, std::string base_path = {})
+        : allow_origin_(std::move(allow_origin)), base_path_(std::move(base_path)) {}
+
+    /// An address of ours as clients see it.
+    [[nodiscard]] std::string link(std::string_view address) const {
+        return base_path_ + std::string(address);
+    }
+    [[nodiscard]] const std::string& base_path() const { return base_path_; }
+
+    /// 308 from the base path itself to the page under it, whose links are relative.
+    [[nodiscard]] Answer to_page(const Request& request, std::string_view query) const;
 
     /// Headers that every answer carries.
     void add_common_headers(const Request& request, Answer& answer) const;
@@ -83,7 +94,7 @@ class Answers {
     [[nodiscard]] Answer options(const Request& request, const std::string& allow) const;
 
   private:
-    std::string allow_origin_;
+    std::string allow_origin_, base_path_;
 };
 
 }  // namespace sporeprint::api

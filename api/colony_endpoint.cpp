@@ -56,7 +56,9 @@ Estimate guessed(const ColonyOrder& order) {
 }
 
 /// The GLB.
-Body grown(const Context& context, const ColonyOrder& order, const std::string& address,
+///
+/// depth  of the links to its images
+Body grown(const Context& context, const ColonyOrder& order, const std::string& address, int depth,
            Loan& loan) {
     const Atlas& atlas = *context.atlas;
     Extras extras;
@@ -68,9 +70,10 @@ Body grown(const Context& context, const ColonyOrder& order, const std::string& 
         SurfaceAddress image = surface_address(surface);
         image.texture_size = {order.params.texture_size >> order.params.lod};
         for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-            extras.image_addresses[i] =
+            extras.image_addresses[i] = reference_from(
+                depth,
                 with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
-                             version_token(surface.mix, atlas));
+                             version_token(surface.mix, atlas)));
     }
     return grow_colony(order, atlas, extras, loan.workshop()).glb;
 }
@@ -117,8 +120,8 @@ Plan plan_colony(Context& context, const Request& request, ColonyRequest asked, 
     if (!shows_roots(*order, *context.atlas))
         resource.guess = cost_of(*order, guessed(*order), product, *context.atlas);
     resource.make = [&context, order, product, address = resource.address,
-                     version = resource.version](Loan& loan) {
-        return product == Product::glb ? grown(context, *order, address, loan)
+                     depth = link_depth(context, request), version = resource.version](Loan& loan) {
+        return product == Product::glb ? grown(context, *order, address, depth, loan)
                                        : described(context, *order, version, loan);
     };
     return plan_resource(context, request, std::move(resource), faults);

@@ -29,6 +29,12 @@ struct Context {
     Memo memo;  ///< what plan() asks: `kept_only`, or `made_at_once` when it is prepared
 };
 
+/// Depth of links that are resolved against the address of most files, /v1/mushrooms/x.glb.
+inline constexpr int usual_depth = 1;
+
+/// Depth, as reference_from() takes it, of the file that a request asks for.
+[[nodiscard]] int link_depth(const Context& context, const Request& request);
+
 /// What is made once and kept, as HTTP sees it. What the address and the body mean is decided; nothing is made.
 struct Resource {
     Key key;              ///< full canonical text
@@ -116,7 +122,8 @@ struct PaintWork {
 [[nodiscard]] ImageResource image_of(const Context& context, const PresetSurface<Trees>& asked);
 
 /// The image that was asked for, out of the shared answer of an atlas.
-[[nodiscard]] Answer delivered_image(const ImageResource& image, Answer shared);
+[[nodiscard]] Answer delivered_image(const Answers& answers, const ImageResource& image,
+                                     Answer shared);
 
 /// 422 for an estimate that is over the budget of one request: /lod, /frames of a clip, /texture_size.
 void refuse_over_budget(const ServiceOptions& options, const Estimate& cost,

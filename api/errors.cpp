@@ -110,10 +110,11 @@ int Faults::status() const {
 }
 
 Answer problem_answer(const Request& request, int status, std::string_view detail,
-                      std::span<const Problem> problems, const Value::Object& more) {
+                      std::span<const Problem> problems, const Value::Object& more,
+                      std::string_view base) {
     const ProblemType& type = problem_type(status);
     Value body = Value::object();
-    body.set("type", std::string("/problems/") + type.slug);
+    body.set("type", std::string(base) + "/problems/" + type.slug);
     body.set("title", type.title);
     body.set("status", status);
     body.set("detail", !detail.empty()    ? std::string(detail)
@@ -151,12 +152,12 @@ std::string parameter_name(std::string_view pointer, bool posted) {
     return of_params ? query_name(pointer) : "mix";
 }
 
-Answer problem_answer(const Request& request, std::exception_ptr error) {
+Answer problem_answer(const Request& request, std::exception_ptr error, std::string_view base) {
     const auto named = [&](const InvalidInput& input, int status) {
         std::vector<Problem> problems = input.problems();
         for (Problem& problem : problems)
             problem.path = parameter_name(problem.path, request.method == "POST");
-        return problem_answer(request, status, {}, problems);
+        return problem_answer(request, status, {}, problems, {}, base);
     };
     try {
         std::rethrow_exception(error);
@@ -165,11 +166,12 @@ Answer problem_answer(const Request& request, std::exception_ptr error) {
     } catch (const InvalidInput& invalid) {
         return named(invalid, 400);
     } catch (const Cancelled&) {
-        Answer answer = problem_answer(request, 503, "the work was stopped before it was done");
+        Answer answer =
+            problem_answer(request, 503, "the work was stopped before it was done", {}, {}, base);
         answer.headers.emplace_back("Retry-After", "1");
         return answer;
     } catch (...) {
-        return problem_answer(request, 500, {});
+        return problem_answer(request, 500, {}, {}, {}, base);
     }
 }
 

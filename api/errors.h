@@ -49,14 +49,16 @@ class Faults {
 /// detail    a sentence; empty for "n parameters are invalid"
 /// problems  become `errors`, absent when empty; `path` is what the answer calls `parameter`
 /// more      further members of the body, such as `canonical`
+/// base      path under which clients see the service
 [[nodiscard]] Answer problem_answer(const Request& request, int status, std::string_view detail,
                                     std::span<const Problem> problems = {},
-                                    const Value::Object& more = {});
+                                    const Value::Object& more = {}, std::string_view base = {});
 
 /// The one table from what is thrown below to status and words. InvalidInput 400, Impossible 422, GenerationError 500,
 /// Cancelled 503, anything else 500 without detail. Paths of problems are made what the client wrote: query names for GET,
 /// pointers into the body for POST.
-[[nodiscard]] Answer problem_answer(const Request& request, std::exception_ptr error);
+[[nodiscard]] Answer problem_answer(const Request& request, std::exception_ptr error,
+                                    std::string_view base = {});
 
 /// What the client calls the parameter at a JSON pointer that core reports.
 ///

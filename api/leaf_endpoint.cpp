@@ -6,7 +6,7 @@ namespace sporeprint::api {
 namespace {
 
 struct Recipe {
-    static Grown grow(const LeafOrder& order, const Extras& extras, const Workshop& workshop) {
+    static Grown grow(const LeafOrder& order, const Extras& extras, int, const Workshop& workshop) {
         return grow_leaf(order, extras, workshop);
     }
 

@@ -73,8 +73,10 @@ Estimate guessed(const MushroomOrder& order) {
 }
 
 /// The GLB.
+///
+/// depth  of the links to its images
 Body grown(const Context& context, const MushroomOrder& order, const std::string& address,
-           Loan& loan) {
+           int depth, Loan& loan) {
     const Atlas& atlas = *context.atlas;
     Extras extras;
     extras.canonical = address;
@@ -83,9 +85,10 @@ Body grown(const Context& context, const MushroomOrder& order, const std::string
         const MushroomOrder surface = surface_order(order, atlas, memo);
         const SurfaceAddress image = surface_address(surface);
         for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-            extras.image_addresses[i] =
+            extras.image_addresses[i] = reference_from(
+                depth,
                 with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
-                             version_token(surface.mix, atlas));
+                             version_token(surface.mix, atlas)));
     }
     return grow_mushroom(order, atlas, extras, loan.workshop()).glb;
 }
@@ -166,8 +169,8 @@ Plan plan_mushroom(Context& context, const Request& request, MushroomRequest ask
     resource.search = cost_of_search(order->mix, *context.atlas);
     resource.guess = cost_of(*order, guessed(*order), product, *context.atlas);
     resource.make = [&context, order, product, address = resource.address,
-                     version = resource.version](Loan& loan) {
-        return product == Product::glb ? grown(context, *order, address, loan)
+                     depth = link_depth(context, request), version = resource.version](Loan& loan) {
+        return product == Product::glb ? grown(context, *order, address, depth, loan)
                                        : described(context, *order, version, loan);
     };
     return plan_resource(context, request, std::move(resource), faults);

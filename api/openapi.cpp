@@ -401,7 +401,8 @@ Value used_headers(const Value& document, const Value& headers) {
 
 }  // namespace
 
-Value openapi(const Atlas& atlas, std::string_view version, bool is_signed) {
+Value openapi(const Atlas& atlas, std::string_view version, bool is_signed,
+              std::string_view base_path) {
     Value paths = Value::object();
     for (const Route& route : routes()) {
         const bool is_get = std::string_view(route.method) == "GET";
@@ -436,7 +437,8 @@ Value openapi(const Atlas& atlas, std::string_view version, bool is_signed) {
                           "same request gives the same bytes. "
                           "For pictures, never for identifying mushrooms to eat."},
                          {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
-        {"servers", Value(Value::Array{object({{"url", "/"}})})},
+        {"servers",
+         Value(Value::Array{object({{"url", std::string(base_path.empty() ? "/" : base_path)}})})},
         {"security", Value::array()},
         {"tags", std::move(groups)},
         {"paths", std::move(paths)},

@@ -11,7 +11,9 @@ namespace sporeprint::api {
 /// The whole document.
 ///
 /// is_signed  what is made is answered to signed addresses only
-[[nodiscard]] Value openapi(const Atlas& atlas, std::string_view version, bool is_signed = false);
+/// base_path  path before /v1, as clients see it
+[[nodiscard]] Value openapi(const Atlas& atlas, std::string_view version, bool is_signed = false,
+                            std::string_view base_path = {});
 
 /// JSON Schema of a mushroom's query parameters, nested: the page's controls.
 [[nodiscard]] Value mushroom_schema();

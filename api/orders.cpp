@@ -63,6 +63,13 @@ std::string with_version(std::string address, std::string_view version) {
     return (address += "v=") += version;
 }
 
+std::string reference_from(int depth, std::string_view address) {
+    constexpr std::string_view root = "/v1/";
+    std::string reference;
+    for (int i = 0; i < depth; ++i) reference += "../";
+    return reference += address.substr(root.size());
+}
+
 std::optional<ImageKind> read_image(std::string_view image, Faults& faults) {
     std::vector<std::string> kinds;
     for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) {

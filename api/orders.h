@@ -84,6 +84,13 @@ void without_negative_zero(T& value) {
 /// Appends `v` as the last parameter.
 [[nodiscard]] std::string with_version(std::string address, std::string_view version);
 
+/// Reference to an address under /v1 from a document whose own address has `depth` segments between /v1/ and its name: relative, so
+/// that it holds under any prefix.
+///
+/// address  "/v1/surfaces/..."
+/// depth    0 for /v1/mushrooms.glb, 1 for /v1/mushrooms/x.glb, 2 for /v1/morphs/a/b.glb
+[[nodiscard]] std::string reference_from(int depth, std::string_view address);
+
 /// Reads the {image} of an address; 404 for none of them.
 [[nodiscard]] std::optional<ImageKind> read_image(std::string_view image, Faults& faults);
 

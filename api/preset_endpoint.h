@@ -10,7 +10,7 @@
 namespace sporeprint::api {
 
 /// A product as GLB or JSON, by address or by body. What `Recipe` tells of an order:
-///   grow(order, extras, workshop)  the file
+///   grow(order, extras, depth, workshop)  the file; depth of links to further images
 ///   measure(order, workshop)       what it comes to, exactly, and where it lies
 ///   cost(order)                    what growing it costs beside its vertices, bytes and images
 ///   paint_cost(order)              what painting all of its images costs
@@ -40,6 +40,7 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> a
         return cost;
     };
     resource.make = [order, product, address = resource.address,
+                     depth = link_depth(context, request),
                      version = resource.version](Loan& loan) -> Body {
         if (product == Product::json) {
             const auto [cost, box] = Recipe::measure(*order, loan.workshop());
@@ -57,11 +58,12 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> a
         extras.canonical = address;
         if (order->params.textures == Textures::linked)
             for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-                extras.image_addresses[i] = with_version(
-                    canonical_image_address<Kind>(order->preset, static_cast<ImageKind>(i),
-                                                  paint_of(order->params)),
-                    version);
-        return Recipe::grow(*order, extras, loan.workshop()).glb;
+                extras.image_addresses[i] =
+                    reference_from(depth, with_version(canonical_image_address<Kind>(
+                                                           order->preset, static_cast<ImageKind>(i),
+                                                           paint_of(order->params)),
+                                                       version));
+        return Recipe::grow(*order, extras, depth, loan.workshop()).glb;
     };
     return plan_resource(context, request, std::move(resource), faults);
 }

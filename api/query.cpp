@@ -53,6 +53,13 @@ std::string_view origin_form(std::string_view target) {
     return target;
 }
 
+std::string_view below(std::string_view base, std::string_view target) {
+    target = origin_form(target);
+    if (base.empty() || !target.starts_with(base)) return target;
+    const std::string_view rest = target.substr(base.size());
+    return rest.starts_with('/') ? rest : target;
+}
+
 Target split_target(std::string_view target, std::vector<Problem>& problems) {
     Target out;
     target = origin_form(target);

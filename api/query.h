@@ -23,6 +23,12 @@ struct Target {
 /// Path and query of a target in origin form, or in absolute form, whose scheme and host are passed over.
 [[nodiscard]] std::string_view origin_form(std::string_view target);
 
+/// Path and query below a base path: without it where the target begins with it, as they are elsewhere, since some proxies take the
+/// base path off.
+///
+/// base  "" or "/a/b", no '/' at its end
+[[nodiscard]] std::string_view below(std::string_view base, std::string_view target);
+
 /// Takes a request target apart: origin form, or absolute form whose scheme and host are passed over.
 ///
 /// problems  malformed escapes, control characters, bytes that are no UTF-8, empty parameters and parameters without '='

@@ -1,9 +1,12 @@
+#include <algorithm>
+#include <string>
 #include <utility>
 
 #include "api/compression.h"
 #include "api/conditions.h"
 #include "api/encoding.h"
 #include "api/endpoints.h"
+#include "api/query.h"
 #include "core/params/messages.h"
 
 namespace sporeprint::api {
@@ -108,7 +111,8 @@ Answer superseded(Context& context, const Request& request, const Resource& reso
                    in_quotes(resource.version));
     Value::Object more;
     if (faults.status() == 410 && !resource.address.empty())
-        more.emplace_back("canonical", with_version(resource.address, resource.version));
+        more.emplace_back("canonical",
+                          context.answers.link(with_version(resource.address, resource.version)));
     return context.answers.problem(request, faults.status(), {}, faults.problems(), more);
 }
 
@@ -153,12 +157,22 @@ std::vector<Problem> named(const InvalidInput& input, bool posted) {
     return problems;
 }
 
+int link_depth(const Context& context, const Request& request) {
+    std::string_view path = below(context.options.base_path, request.target);
+    path = path.substr(0, path.find('?'));
+    return static_cast<int>(std::count(path.begin(), path.end(), '/')) - 2;
+}
+
 Plan plan_resource(Context& context, const Request& request, Resource resource, Faults& faults) {
     if (resource.is_linked && context.options.signed_addresses)
         faults.add(422, request.method == "POST" ? "/textures" : "textures",
                    "addresses are signed here, and those of linked images are not; ask for "
                    "embedded or none");
     if (!faults.empty()) return context.answers.problem(request, faults);
+    const int depth = link_depth(context, request);
+    // Links are relative, so that bytes depend on how deep the address lies that they are resolved against.
+    const bool linked_elsewhere = resource.is_linked && depth != usual_depth;
+    if (linked_elsewhere) resource.key += "\nlinked from depth " + std::to_string(depth);
     if (resource.asked_version && *resource.asked_version != resource.version)
         return superseded(context, request, resource, faults);
 
@@ -170,9 +184,9 @@ Plan plan_resource(Context& context, const Request& request, Resource resource, 
                     {"ETag", etag},
                     {"Cache-Control", cache_control(versioned)},
                     {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
-    if (!resource.address.empty() && !context.options.signed_addresses)
-        head.headers.emplace_back("Content-Location",
-                                  with_version(resource.address, resource.version));
+    if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_addresses)
+        head.headers.emplace_back("Content-Location", context.answers.link(with_version(
+                                                          resource.address, resource.version)));
     const bool takes_gzip = takes_gzip_of_glb(request, resource.type, etag);
     const Found found = find_cached(store, resource.key, takes_gzip);
     std::vector<std::string> etags = current_etags(request, etag, resource.type);

@@ -79,8 +79,13 @@ std::optional<Answer> read_head(const Answers& answers, const Request& request, 
                                    " are taken");
     if (request.method == "OPTIONS" && request.target == "*")
         return answers.options(request, "GET, HEAD, POST, OPTIONS");
+    const std::string& base = answers.base_path();
+    if (const std::string_view asked = origin_form(request.target);
+        !base.empty() && asked.substr(0, asked.find('?')) == base &&
+        (request.method == "GET" || request.method == "HEAD"))
+        return answers.to_page(request, asked.substr(base.size()));
     std::vector<Problem> malformed;
-    head.target = split_target(request.target, malformed);
+    head.target = split_target(below(base, request.target), malformed);
     const bool path_malformed = std::any_of(malformed.begin(), malformed.end(),
                                             [](const Problem& one) { return one.path == "path"; });
     head.faults.add(400, malformed);
@@ -234,8 +239,8 @@ struct Service::Parts {
     Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
           std::shared_ptr<Store> the_store)
         : store(std::move(the_store)),
-          context{std::move(atlas), options, Answers(options.allow_origin), *store,
-                  kept_only(*store)},
+          context{std::move(atlas), options, Answers(options.allow_origin, options.base_path),
+                  *store, kept_only(*store)},
           prepared{context.atlas, options, context.answers, *store, made_at_once(*store)},
           shelf(context.atlas, context.answers, options) {}
 
@@ -320,7 +325,7 @@ Answer Service::deliver(const Request& request, const Answer& shared, Outcome ou
         status += "; collapsed";
     }
     std::vector<Problem> ignored;
-    const Target target = split_target(request.target, ignored);
+    const Target target = split_target(below(context.options.base_path, request.target), ignored);
     const Match match = match_route(request.method, target.segments);
     const Endpoint endpoint = match.route ? match.route->endpoint : Endpoint::inspect;
 
@@ -328,7 +333,7 @@ Answer Service::deliver(const Request& request, const Answer& shared, Outcome ou
     const std::optional<ImageResource> image = parts_->image_asked(match, target, none);
     if (!none.empty()) return context.answers.problem(request, none);
     if (image && answer.status == 200) {
-        answer = delivered_image(*image, std::move(answer));
+        answer = delivered_image(context.answers, *image, std::move(answer));
         set_header(answer, "Cache-Status", std::move(status));
     } else if (endpoint != Endpoint::inspect && answer.status == 200) {
         const bool versioned = std::any_of(target.query.begin(), target.query.end(),
@@ -350,7 +355,7 @@ Answer Service::problem(const Request& request, int status, std::string_view det
 }
 
 Answer Service::problem(const Request& request, std::exception_ptr error) const {
-    Answer answer = problem_answer(request, std::move(error));
+    Answer answer = problem_answer(request, std::move(error), parts_->context.options.base_path);
     parts_->context.answers.add_common_headers(request, answer);
     return answer;
 }
@@ -371,8 +376,10 @@ bool Service::self_test() {
 
 Cost Service::cost_of_reading(const Request& request) const {
     std::vector<Problem> ignored;
-    const Match match = match_route(
-        request.method, split_target(request.target.substr(0, longest_target), ignored).segments);
+    const std::string_view target =
+        below(parts_->context.options.base_path,
+              std::string_view(request.target).substr(0, longest_target));
+    const Match match = match_route(request.method, split_target(target, ignored).segments);
     // Other bodies are not looked at; of an upload to /v1/inspect its job is charged.
     if (!match.route || std::string_view(match.route->takes) != "application/json" ||
         request.body.size() > longest_body(*match.route))
@@ -382,8 +389,8 @@ Cost Service::cost_of_reading(const Request& request) const {
 
 std::size_t Service::most_body(std::string_view method, std::string_view target) const {
     std::vector<Problem> ignored;
-    const Match match =
-        match_route(method, split_target(target.substr(0, longest_target), ignored).segments);
+    target = below(parts_->context.options.base_path, target.substr(0, longest_target));
+    const Match match = match_route(method, split_target(target, ignored).segments);
     return match.route ? longest_body(*match.route) : 256u << 10;
 }
 

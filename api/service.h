@@ -26,6 +26,7 @@ struct ServiceOptions {
     std::function<void(const StoreEvent&)>
         store_event;  ///< called on any thread, several at once; may be empty
     std::string allow_origin = "*";
+    std::string base_path;          ///< under which clients see the service: "" or "/a/b"
     bool signed_addresses = false;  ///< only who holds a key makes addresses; so answers tell none
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
     std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB

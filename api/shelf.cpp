@@ -50,6 +50,26 @@ void refuse_query(const Target& target, Faults& faults) {
         faults.add(400, printable(pair.first), "unknown parameter; this route takes none");
 }
 
+namespace {
+
+/// The same document with a base path before the addresses in each of its `links`.
+Value under(const std::string& base, Value value) {
+    if (base.empty()) return value;
+    if (value.is_array())
+        for (Value& item : value.items()) item = under(base, std::move(item));
+    if (!value.is_object()) return value;
+    for (auto& [key, member] : value.members()) {
+        member = under(base, std::move(member));
+        if (key != "links" || !member.is_object()) continue;
+        for (auto& [name, link] : member.members())
+            if (link.is_string() && link.as_string().starts_with('/'))
+                link = Value(base + link.as_string());
+    }
+    return value;
+}
+
+}  // namespace
+
 Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
              const ServiceOptions& options)
     : atlas_(std::move(atlas)), answers_(answers) {
@@ -69,17 +89,19 @@ Shelf::Shelf(std::shared_ptr<const Atlas> atlas, const Answers& answers,
         .set("version", SPOREPRINT_VERSION)
         .set("generator_version", generator_version)
         .set("links", std::move(links));
-    about_ = json_document(root);
-    species_list_ = json_document(api::species_list(*atlas_));
-    mushroom_list_ = json_document(api::product_list(*atlas_, "mushrooms"));
+    const std::string& base = answers_.base_path();
+    about_ = json_document(under(base, std::move(root)));
+    species_list_ = json_document(under(base, api::species_list(*atlas_)));
+    mushroom_list_ = json_document(under(base, api::product_list(*atlas_, "mushrooms")));
     schema_ = json_document(api::mushroom_schema(), "application/schema+json");
-    colony_list_ = json_document(api::product_list(*atlas_, "colonies"));
+    colony_list_ = json_document(under(base, api::product_list(*atlas_, "colonies")));
     colony_schema_ = json_document(api::colony_schema(), "application/schema+json");
-    leaf_list_ = json_document(preset_list<Leaves>());
+    leaf_list_ = json_document(under(base, preset_list<Leaves>()));
     leaf_schema_ = json_document(api::leaf_schema(), "application/schema+json");
-    tree_list_ = json_document(preset_list<Trees>());
+    tree_list_ = json_document(under(base, preset_list<Trees>()));
     tree_schema_ = json_document(api::tree_schema(), "application/schema+json");
-    openapi_ = json_document(api::openapi(*atlas_, SPOREPRINT_VERSION, options.signed_addresses));
+    openapi_ =
+        json_document(api::openapi(*atlas_, SPOREPRINT_VERSION, options.signed_addresses, base));
     for (const ProblemType& type : problem_types())
         problem_types_.emplace(type.slug, document("text/html; charset=utf-8", page_of(type)));
     for (const AtlasEntry& entry : atlas_->entries())
@@ -158,9 +180,11 @@ Answer Shelf::species_list(const Request& request, const Target& target, Faults&
     read_query(target.query, filter, problems);
     add_problems(problems, filter, "", false, faults);
     if (!faults.empty()) return answers_.problem(request, faults);
-    return answers_.document(request, filter == SpeciesFilter{}
-                                          ? species_list_
-                                          : json_document(api::species_list(*atlas_, filter)));
+    return answers_.document(
+        request,
+        filter == SpeciesFilter{}
+            ? species_list_
+            : json_document(under(answers_.base_path(), api::species_list(*atlas_, filter))));
 }
 
 Answer Shelf::species(const Request& request, const Target& target, const std::string& id,

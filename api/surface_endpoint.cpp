@@ -14,12 +14,12 @@ namespace {
 constexpr const char* digest_header = ":digest";
 
 /// What every answer about an image carries; the tag is that of what is painted.
-Answer image_head(const ImageResource& image, std::string_view digest) {
+Answer image_head(const Answers& answers, const ImageResource& image, std::string_view digest) {
     Answer head;
     head.headers = {{"Content-Type", "image/jpeg"},
                     {"ETag", '"' + std::string(digest) + '-' + name(image.kind) + '"'},
                     {"Cache-Control", cache_control(image.asked_version.has_value())},
-                    {"Content-Location", with_version(image.address, image.version)},
+                    {"Content-Location", answers.link(with_version(image.address, image.version))},
                     {"Content-Disposition",
                      "inline; filename=\"" + image.of + '-' + name(image.kind) + ".jpg\""}};
     return head;
@@ -62,13 +62,14 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
                        in_quotes(image.version));
         Value::Object more;
         if (faults.status() == 410)
-            more.emplace_back("canonical", with_version(image.address, image.version));
+            more.emplace_back("canonical",
+                              answers.link(with_version(image.address, image.version)));
         return answers.problem(request, faults.status(), {}, faults.problems(), more);
     }
     if (!faults.empty()) return answers.problem(request, faults);
 
     const std::string digest = digest_of(work.key);
-    Answer head = image_head(image, digest);
+    Answer head = image_head(answers, image, digest);
     const Conditions conditions(request);
     const std::vector<std::string> etags{std::string(header_of(head, "ETag"))};
     if (conditions.match_fails(etags))
@@ -129,8 +130,8 @@ Plan plan_surface(Context& context, const Request& request, const SurfaceRequest
     return plan_image(context, request, image_of(context, asked), decide, faults);
 }
 
-Answer delivered_image(const ImageResource& image, Answer shared) {
-    Answer answer = image_head(image, take_header(shared, digest_header));
+Answer delivered_image(const Answers& answers, const ImageResource& image, Answer shared) {
+    Answer answer = image_head(answers, image, take_header(shared, digest_header));
     answer.body = {shared.body[static_cast<std::size_t>(image.kind)]};
     return answer;
 }

@@ -7,15 +7,17 @@ namespace sporeprint::api {
 namespace {
 
 struct Recipe {
-    static Grown grow(const TreeOrder& order, const Extras& extras, const Workshop& workshop) {
+    static Grown grow(const TreeOrder& order, const Extras& extras, int depth,
+                      const Workshop& workshop) {
         ImageAddresses of_leaves;
         if (order.params.textures == Textures::linked) {
             const LeafParams leaf = leaf_of(order.params);
             const std::string kind = name(order.params.look.leaf);
             for (std::size_t i = 0; i < of_leaves.size(); ++i)
-                of_leaves[i] = with_version(canonical_image_address<Leaves>(
-                                                kind, static_cast<ImageKind>(i), paint_of(leaf)),
-                                            preset_token<Leaves>(kind));
+                of_leaves[i] = reference_from(
+                    depth, with_version(canonical_image_address<Leaves>(
+                                            kind, static_cast<ImageKind>(i), paint_of(leaf)),
+                                        preset_token<Leaves>(kind)));
         }
         return grow_tree(order, extras, of_leaves, workshop);
     }

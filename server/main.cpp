@@ -194,6 +194,7 @@ int serve(const Options& options, const Environment& environment) {
     service_options.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
     service_options.signed_addresses = !options.sign_keys.empty();
     service_options.allow_origin = options.allow_origin.string();
+    service_options.base_path = options.base_path.string();
     Means means;
     means.service = std::make_shared<api::Service>(atlas, service_options);
 
@@ -201,6 +202,7 @@ int serve(const Options& options, const Environment& environment) {
     reception_options.slots =
         options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
     reception_options.metrics = options.metrics_port == 0;
+    reception_options.base_path = options.base_path.string();
     reception_options.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
     reception_options.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
     const Sources sources{options.atlas.string(), options.sign_keys.string()};

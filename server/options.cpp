@@ -110,6 +110,38 @@ bool is_serialized_origin(std::string_view text) {
     return is_port(number) && !own;
 }
 
+/// What keeps a text from being the path that stands before all others; empty for nothing.
+std::string fault_of_base_path(std::string_view text) {
+    if (text.empty()) return {};
+    if (!text.starts_with('/')) return "does not begin with '/'";
+    if (text.ends_with('/')) return "ends with '/'";
+    const auto is_hex = [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f') || (c >= 'A' && c <= 'F');
+    };
+    for (std::size_t i = 0; i < text.size(); ++i) {
+        const char c = text[i];
+        const bool letter =
+            (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+        if (c == '%') {
+            if (i + 2 >= text.size() || !is_hex(text[i + 1]) || !is_hex(text[i + 2]))
+                return "has a '%' without two hexadecimal digits after it";
+        } else if (c == '?' || c == '#') {
+            return "has a query or a fragment";
+        } else if (!letter &&
+                   std::string_view("/-._~!$&'()*+,;=:@").find(c) == std::string_view::npos) {
+            return "holds what has to be percent-encoded in a path";
+        }
+    }
+    for (std::size_t begin = 1; begin <= text.size();) {
+        const std::size_t end = std::min(text.find('/', begin), text.size());
+        const std::string_view segment = text.substr(begin, end - begin);
+        if (segment.empty() || segment == "." || segment == "..")
+            return "has an empty segment, '.' or '..'";
+        begin = end + 1;
+    }
+    return {};
+}
+
 }  // namespace
 
 void Options::check(const std::string& path, std::vector<Problem>& problems) const {
@@ -128,6 +160,9 @@ void Options::check(const std::string& path, std::vector<Problem>& problems) con
                 " is not an origin; allowed are *, nothing, or one as a browser sends it: scheme "
                 "and host in lower case and no path, https://a.example or "
                 "http://localhost:8080 (null, which any page can have, is not)");
+    if (const std::string why = fault_of_base_path(base_path); !why.empty())
+        report(problems, path + "/base_path",
+               in_quotes(base_path) + ' ' + why + "; give one like /sporeprint, or none");
     try {
         static_cast<void>(Networks(trusted_proxies));
     } catch (const InvalidInput& invalid) {

@@ -53,6 +53,7 @@ struct Options {
     LogLevel log_level = LogLevel::info;
     Text<15> simd = "auto";
     Text<255> allow_origin = "*";
+    Text<255> base_path;
 
     static constexpr void fields(auto visit) {
         using O = Options;
@@ -148,6 +149,11 @@ struct Options {
               Info{.name = "allow_origin",
                    .doc = "Access-Control-Allow-Origin of every answer: *, or one origin as a "
                           "browser sends it, https://a.example; empty sends none."});
+        visit(&O::base_path,
+              Info{.name = "base_path",
+                   .doc = "Path under which clients see the service, as in /sporeprint: links are "
+                          "told with it, requests are answered with it and without; none by "
+                          "itself."});
     }
 
     void check(const std::string& path, std::vector<Problem>& problems) const;

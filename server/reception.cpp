@@ -25,9 +25,9 @@ constexpr std::uint64_t large_reading = 1000;
 
 constexpr std::string_view own_paths[] = {"/livez", "/readyz", "/metrics"};
 
-/// The path of a target in origin or absolute form, still encoded.
-std::string_view path_of(std::string_view target) {
-    target = api::origin_form(target);
+/// The path of a target in origin or absolute form below the base path, still encoded.
+std::string_view path_of(std::string_view base, std::string_view target) {
+    target = api::below(base, target);
     return target.substr(0, target.find('?'));
 }
 
@@ -38,8 +38,9 @@ bool is_own(std::string_view path) {
 }
 
 /// The template of a request's route, for the metrics.
-std::string route_of(std::string_view method, std::string_view target) {
-    const std::string_view path = path_of(target);
+std::string route_of(std::string_view base, std::string_view method, std::string_view target) {
+    target = api::below(base, target);
+    const std::string_view path = path_of({}, target);
     if (is_own(path)) return std::string(path);
     std::vector<Problem> ignored;
     const api::Target asked = api::split_target(target, ignored);
@@ -94,13 +95,13 @@ Handlers Reception::handlers() {
         return means()->service->most_body(method, target);
     };
     handlers.judge_head = [this](const api::Request& request) -> std::optional<api::Answer> {
-        const std::string_view path = path_of(request.target);
+        const std::string_view path = path_of(options_.base_path, request.target);
         if (!is_own(path)) return means()->service->answer_to_head(request);
         if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
         return housekeeping(request, path, options_.metrics);
     };
-    handlers.label = [](std::string_view method, std::string_view target) {
-        return route_of(method, target);
+    handlers.label = [this](std::string_view method, std::string_view target) {
+        return route_of(options_.base_path, method, target);
     };
     api::Request nobody;
     nobody.id = "standing";
@@ -114,7 +115,7 @@ Handlers Reception::metrics_handlers() {
     Handlers handlers = this->handlers();
     handlers.answer = [this](const std::shared_ptr<Visit>& visit) {
         const api::Request& request = visit->request();
-        const std::string_view path = path_of(request.target);
+        const std::string_view path = path_of(options_.base_path, request.target);
         visit->reply(is_own(path)
                          ? housekeeping(request, path, true)
                          : means()->service->problem(request, 404,
@@ -136,7 +137,7 @@ bool Reception::is_ready() const {
 }
 
 void Reception::answer(const std::shared_ptr<Visit>& visit) {
-    const std::string_view path = path_of(visit->request().target);
+    const std::string_view path = path_of(options_.base_path, visit->request().target);
     if (is_own(path)) return visit->reply(housekeeping(visit->request(), path, options_.metrics));
     const Using means = this->means();
     const Asked asked = this->asked(*means, visit);
@@ -268,8 +269,9 @@ Reception::Asked Reception::asked(const Means& means, const std::shared_ptr<Visi
     Asked asked{{visit, &whole}, std::nullopt, {}, false};
     if (!means.signatures || whole.method == "OPTIONS") return asked;
     std::vector<Problem> ignored;
-    const api::Match match =
-        api::match_route(whole.method, api::split_target(whole.target, ignored).segments);
+    const api::Match match = api::match_route(
+        whole.method,
+        api::split_target(api::below(options_.base_path, whole.target), ignored).segments);
     if (!match.route || !api::makes(match.route->endpoint)) return asked;
     Checked checked =
         means.signatures->check(whole.method, whole.target, whole.body, seconds_since_1970());

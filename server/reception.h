@@ -29,6 +29,7 @@ struct ReceptionOptions {
     std::size_t longest_queue = 128;  ///< jobs that wait for a slot; 503 beyond
     std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
     bool metrics = true;              ///< whether /metrics is answered here
+    std::string base_path;            ///< under which clients see the service, or empty
     BudgetOptions budget;             ///< of each client, in api::Cost::work(); 429 beyond
 };
 

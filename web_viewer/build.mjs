@@ -1,5 +1,5 @@
 // Bundles the page into dist/: index.html, docs.html, hashed scripts and styles, favicon.svg.
-// The server answers index.html at / and every other file at /assets/<name>.
+// The server answers index.html at / and every other file at /assets/<name>. All links are relative, so that both may stand under a prefix.
 import { readFile, rm, mkdir, writeFile, copyFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import path from "node:path";
@@ -37,7 +37,7 @@ for (const page of ["index.html", "docs.html"]) {
     const text = await readFile(path.join(source, page), "utf8");
     const linked = text.replace(/\{\{([a-z.]+)\}\}/g, (_, name) => {
         if (!names[name]) throw new Error(`${page} asks for ${name}, which the bundle does not have`);
-        return `/assets/${names[name]}`;
+        return `assets/${names[name]}`;
     });
     await writeFile(path.join(dist, page), linked);
 }

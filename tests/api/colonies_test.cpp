@@ -13,6 +13,7 @@ using test::expect_problem;
 using test::get;
 using test::header;
 using test::json_of;
+using test::linked_images;
 using test::names;
 using test::post;
 using test::text_of;
@@ -83,11 +84,10 @@ TEST_F(ColoniesTest, of_a_body_are_those_of_the_address) {
 }
 
 TEST_F(ColoniesTest, link_images_that_are_those_they_would_embed) {
-    const std::string linked = text_of(ask(small("&textures=linked")));
-    const std::string begin = "/v1/surfaces/mushrooms/armillaria_mellea/base_color.jpg?";
-    const std::size_t at = linked.find(begin);
-    ASSERT_NE(at, std::string::npos);
-    const std::string address = linked.substr(at, linked.find('"', at) - at);
+    const std::vector<std::string> linked = linked_images(ask(small("&textures=linked")), small());
+    ASSERT_EQ(linked.size(), 3U);
+    const std::string& address = linked[0];
+    EXPECT_TRUE(address.starts_with("/v1/surfaces/mushrooms/armillaria_mellea/base_color.jpg?"));
     const Answer image = ask(address);
     ASSERT_EQ(image.status, 200) << address;
     EXPECT_NE(text_of(ask(small())).find(text_of(image)), std::string::npos)

@@ -18,6 +18,7 @@ using test::first_species;
 using test::get;
 using test::header;
 using test::json_of;
+using test::linked_images;
 using test::names;
 using test::post;
 using test::request;
@@ -179,10 +180,8 @@ TEST_F(MixesTest, linked_textures_of_a_mix_are_where_the_file_says) {
     const std::string mix = a_ + ":0.6," + b_ + ":0.4";
     const Answer embedded = ask(glb(mix)), linked = ask(glb(mix, "&textures=linked"));
     ASSERT_EQ(linked.status, 200) << text_of(linked);
-    const std::string file = text_of(linked);
     int found = 0;
-    for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
-        const std::string address = file.substr(at, file.find('"', at) - at);
+    for (const std::string& address : linked_images(linked, glb(mix))) {
         const Answer image = ask(address);
         ASSERT_EQ(image.status, 200) << address << text_of(image);
         EXPECT_EQ(header(image, "Content-Location"), address);

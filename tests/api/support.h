@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <memory>
 #include <string>
@@ -109,6 +110,36 @@ inline void expect_problem(const Answer& answer, int status) {
     EXPECT_EQ(header(answer, "X-Content-Type-Options"), "nosniff");
 }
 
+/// What a reference without scheme and host means in a document at `base`: RFC 3986, 5.2.
+inline std::string resolved(const std::string& reference, const std::string& base) {
+    if (reference.starts_with('/')) return reference;
+    const std::string path = base.substr(0, base.find('?'));
+    const std::size_t mark = std::min(reference.find('?'), reference.size());
+    std::string rest = path.substr(0, path.rfind('/') + 1) + reference.substr(0, mark), out;
+    while (!rest.empty()) {
+        const std::size_t end = std::min(rest.find('/', 1), rest.size());
+        const std::string segment = rest.substr(0, end);
+        rest.erase(0, end);
+        if (segment == "/..")
+            out.erase(std::min(out.rfind('/'), out.size()));
+        else
+            out += segment;
+    }
+    return out + reference.substr(mark);
+}
+
+/// The addresses of the images that a file links, as a client resolves them that has fetched it from `from`.
+inline std::vector<std::string> linked_images(const Answer& file, const std::string& from) {
+    const std::string text = text_of(file);
+    std::vector<std::string> found;
+    constexpr std::string_view begin = "\"uri\":\"";
+    for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+        at += begin.size();
+        found.push_back(resolved(text.substr(at, text.find('"', at) - at), from));
+    }
+    return found;
+}
+
 /// Expects that the three images which a file points to are those of the same file with embedded ones, kept once, immutable, and
 /// painted alike by a service that has never seen the file.
 ///
@@ -116,10 +147,8 @@ inline void expect_problem(const Answer& answer, int status) {
 inline std::vector<std::string> expect_linked_images(Service& service, const Answer& linked,
                                                      const Answer& embedded) {
     EXPECT_EQ(linked.status, 200) << text_of(linked);
-    const std::string file = text_of(linked);
     std::vector<std::string> found;
-    for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
-        const std::string address = file.substr(at, file.find('"', at) - at);
+    for (const std::string& address : linked_images(linked, header(linked, "Content-Location"))) {
         const Answer image = handle(service, get(address));
         EXPECT_EQ(image.status, 200) << address << text_of(image);
         EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");

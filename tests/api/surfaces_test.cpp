@@ -125,10 +125,8 @@ TEST(SurfaceAddress, linked_images_of_a_mix_are_those_embedded) {
         const std::string embedded = test::text_of(handle(service, test::get(address)));
         const Answer linked = handle(service, test::get(address + "&textures=linked"));
         ASSERT_EQ(linked.status, 200) << test::text_of(linked);
-        const std::string file = test::text_of(linked);
         int found = 0;
-        for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
-            const std::string image = file.substr(at, file.find('"', at) - at);
+        for (const std::string& image : test::linked_images(linked, address)) {
             const Answer kept = handle(service, test::get(image));
             ASSERT_EQ(kept.status, 200) << image << test::text_of(kept);
             EXPECT_EQ(test::header(kept, "Cache-Status"), "sporeprint-images; hit") << image;

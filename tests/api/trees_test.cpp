@@ -21,6 +21,7 @@ using test::expect_problem;
 using test::get;
 using test::header;
 using test::json_of;
+using test::linked_images;
 using test::names;
 using test::post;
 using test::request;
@@ -139,10 +140,8 @@ TEST_F(TreesTest, linked_images_are_those_embedded) {
     const Answer linked = ask(small("&autumn=0.4&textures=linked"));
     ASSERT_EQ(linked.status, 200) << text_of(linked);
     EXPECT_EQ(header(linked, "Cache-Status"), "sporeprint; fwd=miss; stored");
-    const std::string file = text_of(linked);
     int bark = 0, leaves = 0;
-    for (std::size_t at = 0; (at = file.find("/v1/surfaces/", at)) != std::string::npos; ++at) {
-        const std::string address = file.substr(at, file.find('"', at) - at);
+    for (const std::string& address : linked_images(linked, small())) {
         const bool of_bark = address.starts_with("/v1/surfaces/trees/broadleaf/");
         EXPECT_TRUE(of_bark || address.starts_with("/v1/surfaces/leaves/oak/")) << address;
         ++(of_bark ? bark : leaves);

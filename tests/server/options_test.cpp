@@ -82,6 +82,32 @@ TEST(Options, AProblemNamesTheOptionItsValueAndWhatIsAllowed) {
     EXPECT_EQ(problems_of("", {}, {{"proxy_header", "x-real-ip"}}).size(), 1u);
 }
 
+TEST(Options, ABasePathIsOneThatStandsBeforeAllOthers) {
+    for (const char* good : {"", "/a", "/sporeprint", "/a/b-c/d.e_f~g", "/%7Ejo/x%2F", "/a:b@c,d"})
+        EXPECT_EQ(read("", {}, {{"base_path", good}}).base_path.string(), good);
+    const std::vector<std::pair<const char*, const char*>> bad = {
+        {"a", "does not begin with '/'"},
+        {"/", "ends with '/'"},
+        {"/a/", "ends with '/'"},
+        {"/a//b", "has an empty segment"},
+        {"/a/../b", "has an empty segment, '.' or '..'"},
+        {"/.", "has an empty segment, '.' or '..'"},
+        {"/a?b", "has a query or a fragment"},
+        {"/a#b", "has a query or a fragment"},
+        {"/a%2", "has a '%' without two hexadecimal digits"},
+        {"/a%zz", "has a '%' without two hexadecimal digits"},
+        {"/a b", "holds what has to be percent-encoded"},
+        {"/\xc3\xa4", "holds what has to be percent-encoded"},
+        {"/a\"b", "holds what has to be percent-encoded"}};
+    for (const auto& [text, why] : bad) {
+        const std::vector<std::string> problems = problems_of("", {}, {{"base_path", text}});
+        ASSERT_EQ(problems.size(), 1U) << text;
+        EXPECT_EQ(problems[0].find("--base-path: "), 0U) << problems[0];
+        EXPECT_NE(problems[0].find(why), std::string::npos) << problems[0];
+        EXPECT_NE(problems[0].find("give one like /sporeprint"), std::string::npos);
+    }
+}
+
 TEST(Options, AllowOneOriginAsABrowserSendsIt) {
     const auto allowed = [](const std::string& origin) {
         return problems_of("", {}, {{"allow_origin", origin}}).empty();
@@ -203,7 +229,7 @@ TEST(Options, EachHasHelp) {
          {"--host", "--port", "--cache-mb", "--image-cache-mb", "--morph-cache-mb", "--threads",
           "--atlas", "--assets", "--metrics-port", "--log-level", "--simd", "--allow-origin",
           "--client-connections", "--client-work", "--client-burst", "--trusted-proxies",
-          "--proxy-header", "--warm"})
+          "--proxy-header", "--warm", "--base-path"})
         EXPECT_TRUE(flags.contains(flag)) << flag;
 }
 

@@ -79,14 +79,14 @@ test("a slider's step is 1, 2 or 5 times a power of ten and leaves at least 180 
 
 test("an address carries only what differs, in the schema's order", () => {
     const settings = new page.Settings(fields, "boletus_edulis");
-    assert.equal(settings.address(".glb"), "/v1/mushrooms/boletus_edulis.glb");
+    assert.equal(settings.address(".glb"), "v1/mushrooms/boletus_edulis.glb");
     settings.set("deformation.bend_deg", 20);
     settings.set("age", 0.25);
     settings.set("seed", 1);
-    assert.equal(settings.address(".json"), "/v1/mushrooms/boletus_edulis.json?age=0.25&deformation.bend_deg=20");
+    assert.equal(settings.address(".json"), "v1/mushrooms/boletus_edulis.json?age=0.25&deformation.bend_deg=20");
     assert.equal(settings.pageQuery(new URLSearchParams("shot=1")), "?species=boletus_edulis&age=0.25&deformation.bend_deg=20&shot=1");
     settings.set("age", 0.6);
-    assert.equal(settings.address(".glb"), "/v1/mushrooms/boletus_edulis.glb?deformation.bend_deg=20");
+    assert.equal(settings.address(".glb"), "v1/mushrooms/boletus_edulis.glb?deformation.bend_deg=20");
 });
 
 test("a leaf has its own routes, and its colours are controls of their own kind", () => {
@@ -96,10 +96,10 @@ test("a leaf has its own routes, and its colours are controls of their own kind"
     assert.deepEqual(parts.map(({ name, kind, owner }) => [name, kind, owner]), [["seed", "number", ""], ["summer.vein", "color", "preset"]]);
     const settings = new page.Settings(parts, "maple", page.leaves);
     settings.set("summer.vein", "#aabbcc");
-    assert.equal(settings.address(".glb"), "/v1/leaves/maple.glb?summer.vein=%23aabbcc");
+    assert.equal(settings.address(".glb"), "v1/leaves/maple.glb?summer.vein=%23aabbcc");
     assert.equal(settings.pageQuery(new URLSearchParams()), "?leaf=maple&summer.vein=%23aabbcc");
     settings.choose("oak");
-    assert.equal(settings.address(".json"), "/v1/leaves/oak.json");
+    assert.equal(settings.address(".json"), "v1/leaves/oak.json");
     assert.deepEqual(settings.read(new URLSearchParams("leaf=oak&age=1")).map(({ detail }) => detail), ["'age' is no parameter of a leaf"]);
 });
 
@@ -113,12 +113,24 @@ test("a page's query and a canonical address say what grew", () => {
     assert.equal(page.grownAt("/v1/morphs/a/b.glb"), undefined);
 });
 
+test("nothing that the page links or asks for leaves the path that it stands under", () => {
+    for (const product of page.products) assert.match(product.path, /^v1\/\w+$/);
+    for (const file of ["index.html", "docs.html"]) {
+        const text = readFileSync(path.join(root, "web_viewer/src", file), "utf8");
+        const links = [...text.matchAll(/(?:href|src)="([^"]*)"/g)].map(([, link]) => link);
+        assert.ok(links.length > 3);
+        for (const link of links) {
+            assert.ok(new URL(link.replace(/[{}]/g, ""), "http://host/a/b/docs").pathname.startsWith("/a/b/") && !link.startsWith("/"), `${file}: ${link}`);
+        }
+    }
+});
+
 test("another species drops what was set on the last one's own shape and keeps the rest", () => {
     const settings = new page.Settings(fields, "boletus_edulis");
     settings.set("deformation.bend_deg", 20);
     settings.set("seed", 7);
     settings.choose("russula_vinosa");
-    assert.equal(settings.address(".glb"), "/v1/mushrooms/russula_vinosa.glb?seed=7");
+    assert.equal(settings.address(".glb"), "v1/mushrooms/russula_vinosa.glb?seed=7");
 });
 
 test("what a page address says is read back, and what it cannot use is named", () => {
@@ -147,14 +159,14 @@ test("playing asks for the growth of the settings at most at LOD 1, and frames a
     assert.ok(settings.grows);
     assert.ok(!new page.Settings(fields, "a").grows);
     settings.set("frames", 5);
-    assert.equal(settings.address(".glb"), "/v1/mushrooms/a.glb");
+    assert.equal(settings.address(".glb"), "v1/mushrooms/a.glb");
     assert.equal(settings.matters(settings.field("frames")), false);
-    assert.equal(settings.address(".glb", settings.clipValues()), "/v1/mushrooms/a.glb?lod=1&animation=growth&frames=5");
+    assert.equal(settings.address(".glb", settings.clipValues()), "v1/mushrooms/a.glb?lod=1&animation=growth&frames=5");
     settings.set("lod", 3);
     settings.set("animation", "growth");
-    assert.equal(settings.address(".glb"), "/v1/mushrooms/a.glb?lod=3&animation=growth&frames=5");
+    assert.equal(settings.address(".glb"), "v1/mushrooms/a.glb?lod=3&animation=growth&frames=5");
     assert.equal(settings.address(".glb", settings.clipValues()), settings.address(".glb"));
-    assert.equal(settings.address(".glb", settings.draftValues(false)), "/v1/mushrooms/a.glb?lod=3", "drafts do not move");
+    assert.equal(settings.address(".glb", settings.draftValues(false)), "v1/mushrooms/a.glb?lod=3", "drafts do not move");
 });
 
 test("values outside the schema have their fault in words", () => {
@@ -301,13 +313,13 @@ test("rows of one's own are posted with what else is set, and leave with the pre
     settings.set("lod", 2);
     assert.deepEqual(settings.readMatrix(new URLSearchParams("rows=0.5,0.5")), []);
     const { address, body } = settings.wanted();
-    assert.equal(address, "/v1/trees.glb");
+    assert.equal(address, "v1/trees.glb");
     assert.deepEqual(JSON.parse(body), { preset: "birch", lod: 2, order: 2, rows: [[0.5, 0.5]] });
     assert.equal(settings.pageQuery(new URLSearchParams()), "?tree=birch&rows=0.5,0.5&lod=2");
     assert.equal(settings.readMatrix(new URLSearchParams("rows=1")).length, 1);
     settings.rows = [[0.5, 0.5]];
     settings.choose("herb");
-    assert.equal(settings.wanted().address, "/v1/trees/herb.glb?lod=2");
+    assert.equal(settings.wanted().address, "v1/trees/herb.glb?lod=2");
 });
 
 test("another share of one species leaves the others in proportion", () => {
@@ -328,7 +340,7 @@ test("the bench's address says all shares in their order and the arcs, and is re
     assert.equal(settings.pageQuery(new URLSearchParams()), "?morph=b:0.6,a:0.4&arcs=cap:0.25:0.4");
     assert.deepEqual(read("morph=c,a,b:0"), []);
     assert.equal(settings.pageQuery(new URLSearchParams()), "?morph=c:0.5,a:0.5,b:0");
-    assert.equal(settings.address(".glb"), "/v1/mushrooms/a:0.5,c:0.5.glb");
+    assert.equal(settings.address(".glb"), "v1/mushrooms/a:0.5,c:0.5.glb");
     for (const wrong of ["morph=a", "morph=a,z", "morph=a,a", "morph=", "morph=a,b&arcs=cap:2:1", "morph=a,b&arcs=brim:0:1"]) {
         assert.equal(read(wrong).length, 1, wrong);
     }
@@ -342,12 +354,12 @@ test("own arcs are posted with what differs, a mix without them has its plain ad
     settings.set("age", 0.3);
     settings.set("deformation.bend_deg", 20);
     const { address, body } = settings.wanted(settings.draftValues(true));
-    assert.equal(address, "/v1/morphs/b/a.glb");
+    assert.equal(address, "v1/morphs/b/a.glb");
     assert.deepEqual(JSON.parse(body), {
         t: 0.4, arcs: [{ curve: "cap", a: 0.25, b: 0.4 }], age: 0.3, lod: 1, textures: "linked", deformation: { bend_deg: 20 },
     });
     settings.readMorph(new URLSearchParams("morph=b:1,a:0&arcs=cap:0.25:0.4"), () => true);
-    assert.equal(settings.wanted().address, "/v1/mushrooms/b.glb?age=0.3&deformation.bend_deg=20");
+    assert.equal(settings.wanted().address, "v1/mushrooms/b.glb?age=0.3&deformation.bend_deg=20");
     assert.equal(settings.wanted().body, undefined);
 });
 

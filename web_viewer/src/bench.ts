@@ -284,7 +284,7 @@ export class Bench {
         const shares = this.settings.morph?.shares;
         if (!shares || !this.hasGraph()) return undefined;
         const age = this.settings.values.get("age");
-        return `/v1/morphs/${shares[0]!.id}/${shares[1]!.id}${age === undefined ? "" : `?age=${age}`}`;
+        return `v1/morphs/${shares[0]!.id}/${shares[1]!.id}${age === undefined ? "" : `?age=${age}`}`;
     }
 
     /** The service may answer for b and a: the graph has A on the left. */

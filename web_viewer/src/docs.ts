@@ -177,7 +177,7 @@ function curlOf(verb: string, path: string, parameters: Parameter[], body: [stri
         .filter((one) => one.in === "query" && (one.example !== undefined || one.examples))
         .map((one) => `${one.name}=${encodeURIComponent(String(exampleOf(one)))}`)
         .join("&");
-    const address = `${location.origin}${filled}${query ? `?${query}` : ""}`;
+    const address = `${new URL(".", location.href).href.replace(/\/$/, "")}${filled}${query ? `?${query}` : ""}`;
     const parts = ["curl"];
     if (/\.(glb|jpg|png)$/.test(path)) parts.push(`-o out${path.slice(path.lastIndexOf("."))}`);
     if (verb !== "get") parts.push(`-X ${verb.toUpperCase()}`);
@@ -239,7 +239,7 @@ function routeSection(id: string, verb: string, path: string, item: PathItem, op
 }
 
 async function open(): Promise<void> {
-    root = await getJson<Document_>("/openapi.json");
+    root = await getJson<Document_>("openapi.json");
     const main = document.getElementById("content");
     const list = document.getElementById("routes");
     if (!main || !list) return;

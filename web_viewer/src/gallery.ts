@@ -12,7 +12,6 @@ export interface Species {
     height_m?: [number, number];
     substrate?: string;
     season?: number[];
-    links?: { self?: string; model?: string };
 }
 
 const months = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];

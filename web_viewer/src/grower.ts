@@ -128,7 +128,7 @@ export class Grower {
             });
             if (!current()) return;
             this.events.progress({ stage: "unpacking" });
-            const model = await parseModel(answer.bytes, draft ? this.paint : undefined);
+            const model = await parseModel(answer.bytes, answer.response.url, draft ? this.paint : undefined);
             const refit = this.refit;
             if (!(await this.events.show({ answer, model, draft, clip, wanted }, refit, current))) return;
             this.refit = false;

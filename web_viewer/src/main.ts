@@ -660,7 +660,7 @@ class Page {
     private async inspect(file: File): Promise<void> {
         say(`Reading ${file.name}`);
         try {
-            const response = await send("/v1/inspect", {
+            const response = await send("v1/inspect", {
                 method: "POST",
                 headers: { "Content-Type": "model/gltf-binary" },
                 body: file,
@@ -719,10 +719,9 @@ class Page {
             const least = name === "lod" ? Math.min(2, field?.max ?? 0) : field?.options.find((side) => Number(side) >= 256);
             return field && least !== undefined ? [`${name}=${least}`] : [];
         }).join("&");
-        const models = this.gallery.species.map(({ id, links }) => {
-            const model = links?.model ?? `${this.product.path}/${id}.glb`;
-            return { id, address: query ? `${model}${model.includes("?") ? "&" : "?"}${query}` : model };
-        });
+        // Where the list is of species, it shows one of each.
+        const path = this.product.ofSpecies ? mushrooms.path : this.product.path;
+        const models = this.gallery.species.map(({ id }) => ({ id, address: `${path}/${id}.glb${query ? `?${query}` : ""}` }));
         await makeThumbnails(models, this.product.portraits, (id, picture) => this.gallery.picture(id, picture), this.thumbnails.signal);
         document.documentElement.dataset["gallery"] = "complete";
     }

@@ -50,12 +50,13 @@ export function paintOf(model: Object3D): Map<string, string> {
     return (model.userData["paint"] as Map<string, string> | undefined) ?? new Map<string, string>();
 }
 
-/** Reads GLB bytes; linked images are fetched from this server, or with `paint` lent now and fetched later. */
-export async function parseModel(bytes: ArrayBuffer, paint?: Paint): Promise<Object3D> {
+/** Reads GLB bytes that came from an address, which links to images are resolved against; those are fetched now, or with `paint` lent
+ *  now and fetched later. */
+export async function parseModel(bytes: ArrayBuffer, from: string, paint?: Paint): Promise<Object3D> {
     const loader = new GLTFLoader();
     const late = new Map<string, string>();
-    if (paint) loader.register(paint.plugin(late));
-    const { scene, animations } = await loader.parseAsync(bytes, `${location.origin}/`);
+    if (paint) loader.register(paint.plugin(late, from));
+    const { scene, animations } = await loader.parseAsync(bytes, new URL(".", from).href);
     scene.animations = animations;
     scene.userData["paint"] = late;
     for (const mesh of meshesOf(scene)) {

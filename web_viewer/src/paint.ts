@@ -35,7 +35,7 @@ interface LinkedJson {
 
 const wrappings: Record<number, Wrapping> = { 33071: 1001, 33648: 1002, 10497: 1000 };
 
-/** "base_color" of "/v1/surfaces/mushrooms/amanita_muscaria/base_color.jpg?…". */
+/** "base_color" of "../surfaces/mushrooms/amanita_muscaria/base_color.jpg?…". */
 function roleOf(uri: string): string {
     return /([^/?]+)\.\w+(?:\?|$)/.exec(uri)?.[1] ?? uri;
 }
@@ -61,8 +61,8 @@ export class Paint {
     /** Called when paint was put on. */
     onChange: () => void = () => undefined;
 
-    /** Lends the worn textures to a model that is being read, and notes what it is to be painted with. */
-    plugin(addresses: Map<string, string>): (parser: GLTFParser) => GLTFLoaderPlugin {
+    /** Lends the worn textures to a model that is being read from an address, and notes what it is to be painted with. */
+    plugin(addresses: Map<string, string>, from: string): (parser: GLTFParser) => GLTFLoaderPlugin {
         return (parser) => {
             const json = parser.json as LinkedJson;
             return {
@@ -72,7 +72,7 @@ export class Paint {
                     const uri = json.images?.[definition?.source ?? -1]?.uri;
                     if (!uri || uri.startsWith("data:")) return null;
                     const role = ofMaterial(roleOf(uri), materialOf(json, index));
-                    addresses.set(role, new URL(uri, location.href).href);
+                    addresses.set(role, new URL(uri, from).href);
                     return Promise.resolve(this.texture(role, json.samplers?.[definition?.sampler ?? -1] ?? {}));
                 },
             };

@@ -10,7 +10,7 @@ export interface Product {
     whole: string;
     /** What names one of its list: "species", also in the page's query. */
     kind: string;
-    /** Where the service grows it. */
+    /** Where the service grows it, relative to the page: it may stand under a prefix. */
     path: string;
     /** Whether two of them have something between them, and a growth. */
     lives: boolean;
@@ -32,14 +32,13 @@ export interface Product {
 interface Preset {
     id: string;
     name: string;
-    links?: { self?: string; model?: string };
 }
 
 export const mushrooms: Product = {
     noun: "mushroom",
     whole: "individual",
     kind: "species",
-    path: "/v1/mushrooms",
+    path: "v1/mushrooms",
     lives: true,
     ofSpecies: true,
     views: viewNames,
@@ -55,7 +54,7 @@ export const colonies: Product = {
     noun: "colony",
     whole: "colony",
     kind: "colony",
-    path: "/v1/colonies",
+    path: "v1/colonies",
     lives: false,
     ofSpecies: true,
     views: [...viewNames, "roots"],
@@ -70,7 +69,7 @@ export const leaves: Product = {
     noun: "leaf",
     whole: "individual",
     kind: "leaf",
-    path: "/v1/leaves",
+    path: "v1/leaves",
     lives: false,
     ofSpecies: false,
     views: viewNames,
@@ -78,14 +77,14 @@ export const leaves: Product = {
     portraits: lying,
     lies: true,
     ramifies: false,
-    list: async () => listed((await getJson<{ leaves: Preset[] }>("/v1/leaves")).leaves),
+    list: async () => listed((await getJson<{ leaves: Preset[] }>("v1/leaves")).leaves),
 };
 
 export const trees: Product = {
     noun: "tree",
     whole: "individual",
     kind: "tree",
-    path: "/v1/trees",
+    path: "v1/trees",
     lives: false,
     ofSpecies: false,
     views: viewNames,
@@ -93,17 +92,17 @@ export const trees: Product = {
     portraits: standing,
     lies: false,
     ramifies: true,
-    list: async () => listed((await getJson<{ trees: Preset[] }>("/v1/trees")).trees),
+    list: async () => listed((await getJson<{ trees: Preset[] }>("v1/trees")).trees),
 };
 
 export const products: readonly Product[] = [mushrooms, leaves, trees, colonies];
 
 async function listSpecies(): Promise<Species[]> {
-    return (await getJson<{ species: Species[] }>("/v1/species")).species;
+    return (await getJson<{ species: Species[] }>("v1/species")).species;
 }
 
 function listed(presets: readonly Preset[]): Species[] {
-    return presets.map(({ id, name, links }) => ({ id, common_name: name, scientific_name: "", ...(links && { links }) }));
+    return presets.map(({ id, name }) => ({ id, common_name: name, scientific_name: "" }));
 }
 
 /** What a page's query is about. */
@@ -114,7 +113,7 @@ export function productOf(query: URLSearchParams): Product {
 /** What grew at a canonical address, and which of its list. */
 export function grownAt(path: string): { product: Product; id: string } | undefined {
     for (const product of products) {
-        const id = new RegExp(`^${product.path}/([^/]+)\\.(?:glb|json)$`).exec(path)?.[1];
+        const id = new RegExp(`^/${product.path}/([^/]+)\\.(?:glb|json)$`).exec(path)?.[1];
         if (id) return { product, id };
     }
     return undefined;

@@ -130,7 +130,7 @@ export class Settings {
             const address = this.address(".glb", replaced);
             return { address, body: undefined, key: address };
         }
-        const address = `/v1/morphs/${a.id}/${b.id}.glb`;
+        const address = `v1/morphs/${a.id}/${b.id}.glb`;
         const body = JSON.stringify({ t: b.weight, arcs: this.morph.arcs, ...this.nested(replaced) });
         return { address, body, key: address + body };
     }

@@ -29,6 +29,8 @@ interface Plan {
 
 interface Made extends Plan {
     bytes: ArrayBuffer;
+    /** Where they came from. */
+    from: string;
     box: Box3;
 }
 
@@ -139,7 +141,7 @@ export class Sheet {
             if (this.settings.field("animation")) values.set("animation", "none");
             if (age !== undefined) values.set("age", age);
             const query = this.settings.query(values);
-            return `/v1/mushrooms/${mix}.glb${query ? `?${query}` : ""}`;
+            return `v1/mushrooms/${mix}.glb${query ? `?${query}` : ""}`;
         };
         if (kind === "growth") {
             const shares = readShares(this.settings.mix) ?? [];
@@ -197,10 +199,10 @@ export class Sheet {
         const waiting = [...plans];
         const one = async (): Promise<void> => {
             for (let next = waiting.shift(); next; next = waiting.shift()) {
-                const { bytes } = await getModel({ address: next.address }, stop.signal);
-                const model = await parseModel(bytes);
+                const { bytes, response } = await getModel({ address: next.address }, stop.signal);
+                const model = await parseModel(bytes, response.url);
                 stop.signal.throwIfAborted();
-                const made = { ...next, bytes, box: boundsOf(model) };
+                const made = { ...next, bytes, from: response.url, box: boundsOf(model) };
                 this.made.push(made);
                 this.drawCell(made, model, undefined);
                 disposeModel(model);
@@ -245,7 +247,7 @@ export class Sheet {
         }
         let done = 0;
         for (const made of this.made) {
-            const model = await parseModel(made.bytes);
+            const model = await parseModel(made.bytes, made.from);
             signal.throwIfAborted();
             this.drawCell(made, model, frame);
             disposeModel(model);
@@ -377,7 +379,7 @@ export class Sheet {
         const middle = Math.max(...this.plans.map(({ column }) => column)) / 2;
         try {
             for (const made of this.made) {
-                const model = await parseModel(made.bytes);
+                const model = await parseModel(made.bytes, made.from);
                 signal?.throwIfAborted();
                 const group = new Group();
                 group.name = made.name;

@@ -1,7 +1,7 @@
 // Takes the gallery's pictures: small models, one after the other, on one renderer off the page.
 // They are kept in Cache Storage under the model's ETag, so that a second visit draws nothing.
 import type { Directions } from "./camera";
-import { getModel, send } from "./http";
+import { getModel, send, type Answer } from "./http";
 import { disposeModel, parseModel } from "./model";
 import { Studio } from "./studio";
 
@@ -24,18 +24,19 @@ function versionOf(response: Response): string | undefined {
 }
 
 function keyOf(id: string, version: string): string {
-    return `/thumbnails/${id}?version=${encodeURIComponent(version)}`;
+    return `thumbnails/${id}?version=${encodeURIComponent(version)}`;
 }
 
 async function keep(cache: Cache, id: string, version: string, picture: Blob): Promise<void> {
+    const { pathname } = new URL(keyOf(id, version), location.href);
     for (const old of await cache.keys()) {
-        if (new URL(old.url).pathname === `/thumbnails/${id}`) await cache.delete(old);
+        if (new URL(old.url).pathname === pathname) await cache.delete(old);
     }
     await cache.put(keyOf(id, version), new Response(picture, { headers: { "Content-Type": picture.type } }));
 }
 
-async function photograph(studio: Studio, bytes: ArrayBuffer, directions: Directions): Promise<Blob> {
-    const model = await parseModel(bytes);
+async function photograph(studio: Studio, { bytes, response }: Answer, directions: Directions): Promise<Blob> {
+    const model = await parseModel(bytes, response.url);
     const canvas = studio.photograph(model, { view: "three-quarter", directions, margin: { x: 0.08, y: 0.08 } });
     const picture = await new Promise<Blob>((resolve, reject) => {
         canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/webp", 0.9);
@@ -66,7 +67,7 @@ export async function makeThumbnails(
                 }
                 const answer = await getModel({ address }, signal);
                 studio ??= new Studio(pixels);
-                const picture = await photograph(studio, answer.bytes, directions);
+                const picture = await photograph(studio, answer, directions);
                 done(id, URL.createObjectURL(picture));
                 const version = versionOf(answer.response);
                 if (cache && version) await keep(cache, id, version, picture);

@@ -1,0 +1,207 @@
+// Links in what is answered: relative in files, under a base path where there is one.
+#include <string>
+#include <vector>
+
+#include "tests/api/support.h"
+
+namespace sporeprint::api::test {
+namespace {
+
+class LinksTest : public AskedService {};
+
+// A reference that begins with a segment that holds ':' would be a scheme.
+void expect_relative(const std::string& reference) {
+    EXPECT_FALSE(reference.starts_with('/')) << reference;
+    EXPECT_EQ(reference.substr(0, reference.find('/')).find(':'), std::string::npos) << reference;
+}
+
+std::vector<std::string> references_in(const Answer& file) {
+    const std::string text = text_of(file);
+    std::vector<std::string> found;
+    constexpr std::string_view begin = "\"uri\":\"";
+    for (std::size_t at = 0; (at = text.find(begin, at)) != std::string::npos;) {
+        at += begin.size();
+        found.push_back(text.substr(at, text.find('"', at) - at));
+    }
+    return found;
+}
+
+TEST(Resolved, goes_up_and_down_as_clients_do) {
+    EXPECT_EQ(resolved("../b/c:d.jpg?x=../y", "/v1/a/x.glb?q=/z"), "/v1/b/c:d.jpg?x=../y");
+    EXPECT_EQ(resolved("b/c.jpg", "/v1/a.glb"), "/v1/b/c.jpg");
+    EXPECT_EQ(resolved("../../b", "/p/v1/m/a/b.glb"), "/p/v1/b");
+}
+
+TEST_F(LinksTest, hold_wherever_a_file_was_fetched_from) {
+    struct Case {
+        Request request;
+        std::size_t images;
+    };
+    const std::string small = "\"lod\":3,\"texture_size\":128,\"textures\":\"linked\"}";
+    const std::string query = ".glb?lod=3&texture_size=128&textures=linked";
+    const std::string mix = "amanita_muscaria:0.7,boletus_edulis:0.3";
+    const std::vector<Case> cases = {
+        {get("/v1/mushrooms/boletus_edulis" + query), 3},
+        {get("/v1/mushrooms/" + mix + query), 3},
+        {get("/v1/mushrooms/amanita_muscaria%3A0.7%2Cboletus_edulis%3A0.3" + query), 3},
+        {get("http://a.example/v1/mushrooms/boletus_edulis" + query), 3},
+        {get("/v1/colonies/" + mix + query + "&count=2&distinct=1"), 3},
+        {get("/v1/leaves/oak" + query), 3},
+        {get("/v1/trees/herb" + query), 6},
+        {post("{\"mix\":{\"boletus_edulis\":1}," + small), 3},
+        {post("{\"mix\":{\"amanita_muscaria\":7,\"boletus_edulis\":3}," + small), 3},
+        {post("{\"t\":0.3," + small, "/v1/morphs/amanita_muscaria/boletus_edulis.glb"), 3},
+        {post("{\"mix\":{\"boletus_edulis\":1},\"count\":2," + small, "/v1/colonies.glb"), 3},
+        {post("{\"preset\":\"oak\"," + small, "/v1/leaves.glb"), 3},
+        {post("{\"preset\":\"herb\"," + small, "/v1/trees.glb"), 6}};
+    for (const std::string base : {"", "/a/%7Eb"}) {
+        ServiceOptions options;
+        options.base_path = base;
+        Service service(built_in_atlas(), options);
+        for (const Case& one : cases) {
+            Request request = one.request;
+            const bool absolute = request.target.starts_with("http");
+            if (absolute && !base.empty()) continue;
+            if (!absolute) request.target = base + request.target;
+            SCOPED_TRACE(request.method + ' ' + request.target);
+            const Answer file = handle(service, request);
+            ASSERT_EQ(file.status, 200) << text_of(file);
+            for (const std::string& reference : references_in(file)) expect_relative(reference);
+            const std::string from =
+                absolute ? request.target.substr(std::string("http://a.example").size())
+                         : request.target;
+            const std::vector<std::string> images = linked_images(file, from);
+            EXPECT_EQ(images.size(), one.images);
+            for (const std::string& address : images) {
+                EXPECT_TRUE(address.starts_with(base + "/v1/surfaces/")) << address;
+                const Answer image = handle(service, get(address));
+                EXPECT_EQ(image.status, 200) << address << text_of(image);
+                EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
+                EXPECT_EQ(header(image, "Content-Location"), address);
+            }
+        }
+    }
+}
+
+// The bytes of a file that links depend on how deep its address lies; no other's do.
+TEST_F(LinksTest, are_another_representation_where_they_are_written_otherwise) {
+    const auto body = [](const std::string& textures) {
+        return R"({"mix":{"amanita_muscaria":0.7,"boletus_edulis":0.3},"lod":3,"texture_size":128,)"
+               R"("textures":")" +
+               textures + "\"}";
+    };
+    const std::string address =
+        "/v1/mushrooms/"
+        "amanita_muscaria:0.7,boletus_edulis:0.3.glb?lod=3&texture_size=128&textures=";
+    const std::string morph = R"({"t":0.3,"lod":3,"texture_size":128,"textures":"linked"})";
+    for (const std::string textures : {"embedded", "none"}) {
+        const Answer got = ask(address + textures), posted = ask(post(body(textures)));
+        EXPECT_EQ(header(got, "ETag"), header(posted, "ETag"));
+        EXPECT_EQ(text_of(got), text_of(posted));
+        EXPECT_EQ(header(got, "Content-Location"), header(posted, "Content-Location"));
+    }
+    const Answer got = ask(address + "linked"), posted = ask(post(body("linked"))),
+                 between = ask(post(morph, "/v1/morphs/amanita_muscaria/boletus_edulis.glb"));
+    EXPECT_NE(header(got, "ETag"), header(posted, "ETag"));
+    EXPECT_NE(header(got, "ETag"), header(between, "ETag"));
+    EXPECT_NE(header(posted, "ETag"), header(between, "ETag"));
+    EXPECT_NE(text_of(got), text_of(posted));
+    EXPECT_NE(header(got, "Content-Location"), "");
+    EXPECT_EQ(header(posted, "Content-Location"), "") << "no GET gives these bytes";
+    EXPECT_EQ(header(between, "Content-Location"), "");
+    // What was kept for one is not given to the other.
+    EXPECT_EQ(text_of(ask(address + "linked")), text_of(got));
+    EXPECT_EQ(text_of(ask(post(body("linked")))), text_of(posted));
+    EXPECT_EQ(header(ask(post(body("linked"))), "Cache-Status"), "sporeprint; hit");
+}
+
+class BasePathTest : public testing::Test {
+  protected:
+    static ServiceOptions under(const std::string& base) {
+        ServiceOptions options;
+        options.base_path = base;
+        return options;
+    }
+    Answer ask(const std::string& target) { return handle(service_, get(target)); }
+    Answer plain(const std::string& target) { return handle(other_, get(target)); }
+
+    const std::string base_ = "/forest/spore";
+    Service service_{built_in_atlas(), under(base_)};
+    Service other_{built_in_atlas(), ServiceOptions{}};
+};
+
+TEST_F(BasePathTest, files_are_the_same_with_and_without_it) {
+    const std::string target = "/v1/leaves/oak.glb?lod=3&texture_size=128";
+    const Answer bare = plain(target);
+    for (const std::string& asked : {base_ + target, target}) {
+        const Answer file = ask(asked);
+        ASSERT_EQ(file.status, 200) << asked;
+        EXPECT_EQ(text_of(file), text_of(bare));
+        EXPECT_EQ(header(file, "ETag"), header(bare, "ETag"));
+        EXPECT_EQ(header(file, "Content-Location"), base_ + header(bare, "Content-Location"));
+        EXPECT_EQ(ask(header(file, "Content-Location")).status, 200);
+    }
+    EXPECT_EQ(service_.counters().generated, 1U) << "they are one resource";
+    // The canonical request in a file and in JSON is that of the service itself.
+    EXPECT_EQ(json_of(ask(base_ + "/v1/leaves/oak.json")).find("canonical")->as_string(),
+              "/v1/leaves/oak.glb");
+    EXPECT_EQ(header(ask(base_ + "/v1/leaves/oak.json"), "ETag"),
+              header(plain("/v1/leaves/oak.json"), "ETag"));
+}
+
+TEST_F(BasePathTest, links_are_told_with_it) {
+    const auto link = [](const Answer& answer, const char* pointer) {
+        const Value body = json_of(answer);
+        const Value* found = body.at_pointer(pointer);
+        return found ? found->as_string() : std::string();
+    };
+    for (const std::string& before : {base_, std::string()}) {
+        EXPECT_EQ(link(ask(before + "/v1"), "/links/species"), base_ + "/v1/species");
+        EXPECT_EQ(link(ask(before + "/v1/species"), "/species/0/links/model"),
+                  base_ + "/v1/mushrooms/" + first_species() + ".glb");
+        EXPECT_EQ(link(ask(before + "/v1/species?family=branched"), "/species/0/links/self")
+                      .find(base_ + "/v1/species/"),
+                  0U);
+        EXPECT_EQ(link(ask(before + "/v1/leaves"), "/leaves/0/links/self").find(base_), 0U);
+        EXPECT_EQ(link(ask(before + "/v1/trees"), "/trees/0/links/model").find(base_), 0U);
+        EXPECT_EQ(link(ask(before + "/openapi.json"), "/servers/0/url"), base_);
+    }
+    EXPECT_EQ(link(plain("/v1"), "/links/species"), "/v1/species");
+    EXPECT_EQ(link(plain("/openapi.json"), "/servers/0/url"), "/");
+    // A document is another one with other links; one without is not.
+    EXPECT_NE(header(ask("/v1/leaves"), "ETag"), header(plain("/v1/leaves"), "ETag"));
+    EXPECT_EQ(header(ask("/v1/leaves/schema"), "ETag"), header(plain("/v1/leaves/schema"), "ETag"));
+    const Answer old = ask(base_ + "/v1/leaves/oak.glb?v=1-00000000");
+    EXPECT_EQ(old.status, 410);
+    EXPECT_EQ(link(old, "/type"), base_ + "/problems/" + problem_type(410).slug);
+    EXPECT_EQ(link(old, "/canonical").find(base_ + "/v1/leaves/oak.glb?v="), 0U);
+    EXPECT_EQ(ask(link(old, "/canonical")).status, 200);
+    EXPECT_EQ(link(ask(base_ + "/v1/nothing"), "/type").find(base_ + "/problems/"), 0U);
+}
+
+TEST_F(BasePathTest, what_only_begins_like_it_is_not_under_it) {
+    EXPECT_EQ(ask("/forest/sporeprint/v1/species").status, 404);
+    EXPECT_EQ(ask(base_ + base_ + "/v1/species").status, 404) << "it is taken off once";
+    EXPECT_EQ(plain(base_ + "/v1/species").status, 404);
+    EXPECT_EQ(ask("http://a.example" + base_ + "/v1/species").status, 200);
+}
+
+// The page's links are relative, and without a '/' at the end they would leave the base path.
+TEST_F(BasePathTest, the_bare_path_leads_to_the_page) {
+    const Answer answer = ask(base_ + "?leaf=oak");
+    EXPECT_EQ(answer.status, 308);
+    EXPECT_EQ(header(answer, "Location"), base_ + "/?leaf=oak");
+    EXPECT_EQ(ask(base_ + "/").status, 200);
+    EXPECT_EQ(ask(header(ask(base_), "Location")).status, 200);
+}
+
+TEST_F(BasePathTest, bodies_are_as_large_as_elsewhere) {
+    EXPECT_EQ(service_.most_body("POST", base_ + "/v1/inspect"),
+              other_.most_body("POST", "/v1/inspect"));
+    EXPECT_EQ(service_.most_body("POST", "/v1/inspect"), other_.most_body("POST", "/v1/inspect"));
+    EXPECT_GT(other_.most_body("POST", "/v1/inspect"),
+              other_.most_body("POST", base_ + "/v1/inspect"));
+}
+
+}  // namespace
+}  // namespace sporeprint::api::test
