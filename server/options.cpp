@@ -195,8 +195,10 @@ std::vector<OptionLine> option_lines() {
 Environment environment_from(const Given& variables) {
     constexpr const char* config = "SPOREPRINT_CONFIG";
     const std::vector<OptionLine> lines = option_lines();
-    std::vector<std::string> known = {config};
-    for (const OptionLine& line : lines) known.push_back(line.variable);
+    // Compared without their common beginning, which would make any two of them look alike.
+    const std::size_t common = variable_prefix.size();
+    std::vector<std::string> known = {std::string(config).substr(common)};
+    for (const OptionLine& line : lines) known.push_back(line.variable.substr(common));
     Environment environment;
     for (const auto& [name, value] : variables) {
         if (!name.starts_with(variable_prefix)) continue;
@@ -209,10 +211,10 @@ Environment environment_from(const Given& variables) {
         } else if (name == config) {
             environment.config = value;
         } else {
-            const std::string_view meant = closest(name, known);
+            const std::string meant(closest(std::string_view(name).substr(common), known));
             environment.unknown.push_back(
                 printable(name) +
-                (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+                (meant.empty() ? "" : "; did you mean 'SPOREPRINT_" + meant + "'?"));
         }
     }
     return environment;
@@ -234,11 +236,11 @@ bool is_service_link(std::string_view name, std::string_view value) {
     for (std::size_t at = 0; at != rest.npos; at = rest.find('_', at + 1)) {
         std::string_view ending = rest.substr(at);
         if (at > 0 && !is_name(rest.substr(1, at - 1))) return false;
-        if (ending == "_SERVICE_HOST") return is_address(value);
-        if (ending == "_SERVICE_PORT") return is_port(value);
-        if (ending.starts_with("_SERVICE_PORT_") && is_name(ending.substr(14)))
-            return is_port(value);
-        if (ending == "_PORT") return is_service_address(value);
+        if (ending == "_SERVICE_HOST" && is_address(value)) return true;
+        if (ending == "_SERVICE_PORT" && is_port(value)) return true;
+        if (ending.starts_with("_SERVICE_PORT_") && is_name(ending.substr(14)) && is_port(value))
+            return true;
+        if (ending == "_PORT" && is_service_address(value)) return true;
         if (!ending.starts_with("_PORT_")) continue;
         ending.remove_prefix(6);
         const std::size_t digits = std::min(ending.find_first_not_of("0123456789"), ending.size());
@@ -247,10 +249,10 @@ bool is_service_link(std::string_view name, std::string_view value) {
         for (const std::string_view protocol : {"_TCP", "_UDP", "_SCTP"}) {
             if (!ending.starts_with(protocol)) continue;
             const std::string_view what = ending.substr(protocol.size());
-            if (what.empty()) return is_service_address(value);
-            if (what == "_PROTO") return is_protocol(value);
-            if (what == "_PORT") return is_port(value);
-            if (what == "_ADDR") return is_address(value);
+            if ((what.empty() && is_service_address(value)) ||
+                (what == "_PROTO" && is_protocol(value)) || (what == "_PORT" && is_port(value)) ||
+                (what == "_ADDR" && is_address(value)))
+                return true;
         }
     }
     return false;

@@ -165,11 +165,11 @@ TEST(Options, ComeFromTheEnvironmentByTheirOwnNames) {
 
 TEST(Options, UnknownVariablesAreNamedWithWhatWasMeant) {
     const Environment environment = environment_from(
-        {{"SPOREPRINT_PROT", "9000"}, {"SPOREPRINT_", "x"}, {"SPOREPRINT_QUITE_OTHER", ""}});
+        {{"SPOREPRINT_PROT", "9000"}, {"SPOREPRINT_", "x"}, {"SPOREPRINT_URL", ""}});
     EXPECT_TRUE(environment.options.empty());
     EXPECT_EQ(environment.unknown,
               (std::vector<std::string>{"SPOREPRINT_PROT; did you mean 'SPOREPRINT_PORT'?",
-                                        "SPOREPRINT_", "SPOREPRINT_QUITE_OTHER"}));
+                                        "SPOREPRINT_", "SPOREPRINT_URL"}));
 }
 
 // As kubelet makes them: pkg/kubelet/envvars of Kubernetes.
@@ -187,7 +187,8 @@ TEST(Options, VariablesOfAKubernetesServiceAreNoOptions) {
                             {"SPOREPRINT_METRICS_PORT", "tcp://[fd00::1]:9090"},
                             {"SPOREPRINT_METRICS_SERVICE_HOST", "fd00::1"},
                             {"SPOREPRINT_METRICS_SERVICE_PORT_PLAIN_TEXT", "9090"},
-                            {"SPOREPRINT_MY_2_PORT_9090_TCP_ADDR", "fd00::1"}};
+                            {"SPOREPRINT_MY_2_PORT_9090_TCP_ADDR", "fd00::1"},
+                            {"SPOREPRINT_SERVICE_PORT", "tcp://10.0.0.1:8080"}};
     Environment environment = environment_from(injected);
     std::vector<std::string> names;
     for (const auto& [name, value] : injected) names.push_back(name);
