@@ -133,7 +133,7 @@ void DirectoryStore::take_stock() {
     };
     std::vector<Found> found;
     StoreEvent foreign{StoreEvent::Kind::foreign, {}, 0, "not written by the store"};
-    std::uint64_t damaged = 0, evictions = 0;
+    std::uint64_t evictions = 0;
     std::error_code error;
     for (fs::directory_iterator i(folder_ / aside, error), end; !error && i != end;
          i.increment(error)) {
@@ -149,14 +149,15 @@ void DirectoryStore::take_stock() {
         const bool named = S_ISREG(status.st_mode) && path.extension() == extension &&
                            is_name(name) && path_of(name) == path;
         const auto bytes = static_cast<std::uint64_t>(status.st_size);
-        const bool whole = !has_holes(status);
-        const bool plausible = bytes <= most_of_one() && whole;  // else written with another bound?
+        // A file may have been written under a larger bound, and some file systems count the
+        // blocks of a new file late: its beginning decides.
+        const bool plausible = bytes <= most_of_one() && !has_holes(status);
         if (!named || (!plausible && !begins_as_ours(path))) {
             if (foreign.files++ == 0) foreign.file = path;
-        } else if (!whole || bytes > most_bytes_) {
+        } else if (bytes > most_bytes_) {
             std::error_code gone_already;
             fs::remove(path, gone_already);
-            ++(whole ? evictions : damaged);
+            ++evictions;
         } else {
             std::error_code unknown;
             const auto used = i->last_write_time(unknown);
@@ -168,7 +169,6 @@ void DirectoryStore::take_stock() {
         return std::tie(a.used, a.name) < std::tie(b.used, b.name);
     });
     const std::lock_guard lock(mutex_);
-    stats_.damaged += damaged;
     stats_.evictions += evictions;
     for (const Found& one : found) remember(one.name, one.bytes);
     make_room();

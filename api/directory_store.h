@@ -45,7 +45,7 @@ class DirectoryStore {
 
     /// Makes the folder if it is missing, takes stock of it and removes what is over the bound or was left half written. Files
     /// that the store has not written are left alone and not counted: those of other names, links, and what does not begin as
-    /// its own do where it is larger than any of them, or has holes. Its own with holes are damaged, and removed.
+    /// its own do where it is larger than any of them, or has holes. Its own that are larger than the whole bound are removed.
     ///
     /// most_bytes  of all files together; the least recently used go first, and none is larger than an eighth of it
     /// report      called for events, here and on any thread that inserts, several at once; may be empty
