@@ -1,4 +1,5 @@
-// The memory that request bodies take while they arrive and are worked on: in all, and for each client. Used on one thread.
+// The memory that request bodies take while they arrive and are worked on: in all, and for each
+// client. Used on one thread.
 #pragma once
 
 #include <cstddef>

@@ -350,7 +350,8 @@ Connection::Step Connection::read_body() {
     }
     count_body();
     if (body.size() >= body_length_) return dispatch();
-    // Nothing more is taken while there is no room: the reactor gives an upload up before the next round.
+    // Nothing more is taken while there is no room: before the next round the reactor gives an
+    // upload up.
     waits_for_room_ = !has_room_for_body();
     if (waits_for_room_) {
         hall_.exceeding.push_back(body_client_);
@@ -367,7 +368,8 @@ bool Connection::has_room_for_body() const {
 }
 
 /// When the client will have been too slow if nothing more comes: a body of n bytes has to come
-/// within T = body + n / body_rate, and of each part of T after the first `body` the same part of n.
+/// within T = body + n / body_rate, and after the first `body` as much of n must be there as of T
+/// has passed.
 Clock::time_point Connection::body_deadline() const {
     using Seconds = std::chrono::duration<double>;
     const Seconds grace = hall_.options.body;
