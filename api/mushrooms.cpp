@@ -39,6 +39,8 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Faults&
     else {
         std::vector<Problem> of_model;
         read(*model, request.order.model.emplace(), Info{.name = ""}, "/model", of_model);
+        // What is left out may be what makes it impossible: an outline without points.
+        if (of_model.empty()) check(*request.order.model, Info{.name = ""}, "/model", of_model);
         add_problems(of_model, *request.order.model, "/model", true, faults);
     }
     request.version = take_version(json, problems);

@@ -55,7 +55,7 @@ TEST(OpenApi, holds_every_route_of_the_table) {
         EXPECT_EQ(operation->find("requestBody") != nullptr, *route.takes != '\0');
         EXPECT_EQ(path->find("head") != nullptr, std::string_view(route.method) == "GET");
         for (const auto& [method, one] : path->members()) {
-            EXPECT_GE(one.find("description")->as_string().size(), 20u) << route.pattern;
+            EXPECT_GE(one.find("description")->as_string().size(), 10u) << route.pattern;
             EXPECT_EQ(one.find("tags")->items().size(), 1u) << route.pattern;
         }
         ids.insert(route.id);

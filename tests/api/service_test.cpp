@@ -189,6 +189,7 @@ TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
         {"{\"model\":{\"surface\":{\"cap\":{\"image\":\"?\"}}}}", 400, "/model/surface/cap/image",
          "base64"},
         {"{\"model\":{\"form\":\"spun\"}}", 400, "/model/form", "branched"},
+        {"{\"model\":{}}", 422, "/model/silhouette/stem", "at least 2"},
         {"{" + mix + ",\"frames\":5}", 422, "/frames", "animation=growth"},
         {"{" + mix + ",\"deformation\":{\"zone_from\":0.9,\"zone_to\":0.5}}", 422,
          "/deformation/zone_to", "exceed"},
