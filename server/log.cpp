@@ -203,7 +203,7 @@ void RepeatedWarning::operator()(Value::Object members, Clock::time_point now) {
         ++times_;
         if (now < next_) return;
         next_ = now + pause_;
-        members.emplace_back("times", Value(static_cast<double>(std::exchange(times_, 0))));
+        members.emplace_back("times", static_cast<double>(std::exchange(times_, 0)));
     }
     log_.event(LogLevel::warning, message_, members);
 }

@@ -381,7 +381,7 @@ int run(int argc, char** argv) {
     } catch (const std::runtime_error& error) {
         return complain(error.what(), wrong_usage);
     }
-    if (print_config || !to_sign.empty())
+    if (print_config || !to_sign.target.empty())
         for (const std::string& unknown : environment.unknown)
             complain("ignored: unknown variable " + unknown, fine);
     if (print_config) {

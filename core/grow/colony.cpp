@@ -40,7 +40,8 @@ int mesh_lod(int lod) { return std::min(lod + 1, farthest_lod); }
 /// The same for one of them: an outline that touches itself with so few rings keeps those of the level before.
 int mesh_lod(const Individual& individual, int lod) {
     const int level = mesh_lod(lod);
-    return level == farthest_lod && !individual.is_branched() && fault_of(individual.outline, level)
+    return level == farthest_lod && !individual.is_branched() &&
+                   self_intersecting_curve(individual.outline, level)
                ? level - 1
                : level;
 }

@@ -287,7 +287,7 @@ std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
     };
     return workshop.memo.images(image_key(recipe), [&]() -> std::shared_ptr<const ImageSet> {
         if (recipe.size() > 1) return blended();
-        stop_if_asked(workshop);  // uploads of a model are decoded first, 80 ms each at most
+        throw_if_cancelled(workshop);  // uploads of a model are decoded first, 80 ms each at most
         return std::make_shared<const ImageSet>(paint(recipe.front().painting, workshop.parallel));
     });
 }

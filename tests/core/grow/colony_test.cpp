@@ -90,7 +90,7 @@ TEST_P(EveryColony, HasFewerTrianglesAtEveryLevel) {
                 } catch (const InvalidInput&) {
                     break;  // what this species cannot have, or a seed that bears nothing
                 }
-                const std::uint64_t triangles = drawn_triangles(colony),
+                const std::uint64_t triangles = instanced_triangles(colony),
                                     own = measured(order, colony).triangles;
                 const Bounds box = bounds(colony);
                 if (lod > 0) {
