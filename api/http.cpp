@@ -23,20 +23,21 @@ constexpr Term terms[] = {
     {&Cost::pairs, 500.0},
     {&Cost::individuals, 200.0},  // frames of a clip at lod=3
     {&Cost::bushes, 650.0},
-    {&Cost::vertices, 0.2},          // 0.15 for one that is only outline, 0.3 for scales and warts
-    {&Cost::placed_vertices, 0.06},  // a tree of 240,000 takes 20 ms
-    {&Cost::twigs, 1.8},
+    {&Cost::vertices, 0.2},           // 0.15 for one that is only outline, 0.3 for scales and warts
+    {&Cost::placed_vertices, 0.045},  // a tree of 240,000 takes 11 to 18 ms
+    {&Cost::twigs, 1.6},
     {&Cost::members, 20.0},  // 5 in a troop, 30 in a tuft
     {&Cost::atlases, 500.0},
     {&Cost::texels, 0.01},
     {&Cost::leaf_atlases, 200.0},  // 16 x 16 take 0.3 ms, 256 x 256 5 ms, 1024 x 1024 30 ms
-    {&Cost::leaf_rows, 12.0},
+    {&Cost::leaf_rows, 6.0},
+    {&Cost::leaf_row_vertices, 1.0 / 300.0},  // a needle takes a fifth of a birch leaf
     {&Cost::leaf_texels, 0.005},
     {&Cost::bark_atlases, 2000.0},
     {&Cost::bark_texels, 0.1},  // 512 x 512 takes 78 ms: bark is noise of many octaves
     {&Cost::pixels, 0.019},     // a PNG of 2048 x 2048 takes 80 ms
     {&Cost::json_bytes, 0.005},
-    {&Cost::json_values, 0.04},
+    {&Cost::json_values, 0.03},
     {&Cost::bytes, 1.0 / 2048.0},
     {&Cost::gzip_bytes, 0.017},  // zlib level 1: a tree of 8.6 MB takes 126 ms
 };
@@ -56,10 +57,10 @@ Cost& Cost::operator+=(const Cost& other) {
 }
 
 Cost cost_of_json(std::string_view text) {
-    // Commas and braces in texts count too: who sends those is charged too much.
+    // Commas and colons in texts count too: who sends those is charged too much.
     Cost cost;
     cost.json_bytes = text.size();
-    for (const char c : text) cost.json_values += c == ',' || c == '{' || c == '[' ? 1 : 0;
+    for (const char c : text) cost.json_values += c == ',' || c == ':' ? 1 : 0;
     return cost;
 }
 

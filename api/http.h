@@ -55,12 +55,13 @@ struct Cost {
     std::uint64_t atlases = 0;          ///< of mushrooms: painted, or dissolved from others
     std::uint64_t texels = 0;           ///< of these atlases, in all of their images
     std::uint64_t leaf_atlases = 0, leaf_rows = 0, leaf_texels = 0;  ///< of leaves
-    std::uint64_t bark_atlases = 0, bark_texels = 0;                 ///< of bark
-    std::uint64_t pixels = 0;       ///< of uploaded images that are decoded
-    std::uint64_t json_bytes = 0;   ///< JSON of the client's that is read
-    std::uint64_t json_values = 0;  ///< about how many values are in it
-    std::uint64_t bytes = 0;        ///< of the file that is put together
-    std::uint64_t gzip_bytes = 0;   ///< of that, compressed by gzip
+    std::uint64_t leaf_row_vertices = 0;  ///< rows of these times vertices of their outline
+    std::uint64_t bark_atlases = 0, bark_texels = 0;  ///< of bark
+    std::uint64_t pixels = 0;                         ///< of uploaded images that are decoded
+    std::uint64_t json_bytes = 0;                     ///< JSON of the client's that is read
+    std::uint64_t json_values = 0;                    ///< about how many values are in it
+    std::uint64_t bytes = 0;                          ///< of the file that is put together
+    std::uint64_t gzip_bytes = 0;                     ///< of that, compressed by gzip
 
     /// All of it as one number: about microseconds of one processor of 2020. http.cpp has what each
     /// count takes.
@@ -70,7 +71,7 @@ struct Cost {
     friend Cost operator+(Cost a, const Cost& b) { return a += b; }
 };
 
-/// What reading JSON takes, by its length and its commas.
+/// What reading JSON takes, by its length, its commas and its colons.
 [[nodiscard]] Cost cost_of_json(std::string_view text);
 
 /// Full canonical text of what is to be made: equal keys, equal bytes.

@@ -26,7 +26,11 @@ struct Recipe {
 
 Cost cost_of_paint(const LeafPaint& paint) {
     const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
-    return {.leaf_atlases = 1, .leaf_rows = side, .leaf_texels = 3 * side * side};
+    const auto vertices = static_cast<std::uint64_t>(most_of_leaf(paint.venation, 0).vertices);
+    return {.leaf_atlases = 1,
+            .leaf_rows = side,
+            .leaf_texels = 3 * side * side,
+            .leaf_row_vertices = side * vertices};
 }
 
 Plan plan_leaf(Context& context, const Request& request, PresetRequest<Leaves> asked,
