@@ -10,7 +10,7 @@ namespace sporeprint::api {
 
 inline constexpr const char* glb_type = "model/gltf-binary";
 
-/// Whether a GLB has a gzip variant: it has at least 1 MiB, and images, which are compressed already, are less than half of it.
+/// Whether a GLB has a gzip variant: it has at least 1 MiB, and images, which are compressed already, are less than a sixth of it.
 /// Depends on nothing but the file, so every server says the same of one URL.
 [[nodiscard]] bool is_worth_gzip(const Body& glb);
 

@@ -2,6 +2,7 @@
 
 #include <cstring>
 
+#include "core/gltf/mesh_counts.h"
 #include "core/params/messages.h"
 #include "core/params/value.h"
 #include "core/problems.h"
@@ -21,46 +22,6 @@ InvalidInput refusal(std::string why) { return {"", std::move(why)}; }
 std::uint64_t count_of(const Value& document, const char* key) {
     const Value* list = document.find(key);
     return list && list->is_array() ? list->items().size() : 0;
-}
-
-/// The item of the document's list of that name that `index` names, where there is one.
-const Value* item_of(const Value& document, const char* list, const Value* index) {
-    const Value* items = document.find(list);
-    if (!items || !items->is_array() || !index || !index->is_number()) return nullptr;
-    const double at = index->as_number();
-    return at >= 0.0 && at < static_cast<double>(items->items().size())
-               ? &items->items()[static_cast<std::size_t>(at)]
-               : nullptr;
-}
-
-/// `count` of the accessor that `index` names; 0 where there is none, or one that no file of ours
-/// has.
-std::uint64_t elements_of(const Value& document, const Value* index) {
-    constexpr double most = 4294967295.0;
-    const Value* accessor = item_of(document, "accessors", index);
-    const Value* count = accessor ? accessor->find("count") : nullptr;
-    return count && count->is_number() && count->as_number() >= 0.0 && count->as_number() <= most
-               ? static_cast<std::uint64_t>(count->as_number())
-               : 0;
-}
-
-void count_meshes(const Value& document, Inspection& found) {
-    const Value* meshes = document.find("meshes");
-    if (!meshes) return;
-    if (!meshes->is_array()) throw refusal("the glTF cannot be read: /meshes is no list");
-    found.meshes = meshes->items().size();
-    for (const Value& mesh : meshes->items()) {
-        const Value* primitives = mesh.find("primitives");
-        if (!primitives || !primitives->is_array())
-            throw refusal("the glTF cannot be read: a mesh has no list of primitives");
-        for (const Value& primitive : primitives->items()) {
-            const Value* attributes = primitive.find("attributes");
-            if (attributes) found.vertices += elements_of(document, attributes->find("POSITION"));
-            found.triangles += elements_of(document, primitive.find("indices")) / 3;
-            if (const Value* targets = primitive.find("targets"); targets && targets->is_array())
-                found.morph_targets += targets->items().size();
-        }
-    }
 }
 
 }  // namespace
@@ -108,7 +69,11 @@ Inspection inspect_json(std::string_view json, const std::stop_token& stop) {
         throw refusal("the effective parameters in this file have " +
                       std::to_string(found.effective_json.size()) + " bytes; at most " +
                       std::to_string(most_effective_json) + " are given back");
-    count_meshes(document, found);
+    const MeshCounts counts = mesh_counts(document);
+    found.meshes = counts.meshes;
+    found.vertices = counts.vertices;
+    found.triangles = counts.triangles;
+    found.morph_targets = counts.morph_targets;
     found.materials = count_of(document, "materials");
     found.images = count_of(document, "images");
     found.animations = count_of(document, "animations");

@@ -350,9 +350,9 @@ TEST(HostileLog, UnknownMethodsAreNoFaultOfTheServer) {
             EXPECT_TRUE(answer.header("Allow").starts_with("GET, HEAD")) << path;
             EXPECT_EQ(answer.header("Content-Type"), "application/problem+json");
         }
-        EXPECT_EQ(client.ask(line + "/v1/inspect HTTP/1.1\r\nContent-Length: 1\r\n\r\nx")
-                      .header("Allow"),
-                  "POST, OPTIONS");
+        EXPECT_EQ(
+            client.ask(line + "/v1/inspect HTTP/1.1\r\nContent-Length: 1\r\n\r\nx").header("Allow"),
+            "POST, OPTIONS");
         EXPECT_EQ(client.ask(line + "/nowhere HTTP/1.1\r\n\r\n").status, 404);
     }
     EXPECT_TRUE(server.logs("\"method\":\"M-SEARCH\",\"target\":\"/nowhere\",\"status\":404"));
@@ -433,8 +433,8 @@ TEST(HostileLimits, WhoExpectsToGoOnIsToldWhatTheHeadDecides) {
     EXPECT_EQ(asked("PUT /v1/trees.glb", json), 405);
     EXPECT_EQ(asked("POST /livez", json), 405);
     EXPECT_EQ(asked("GET /v1/species", json), 100) << "a body that nobody reads";
-    RawClient large(server.port());
-    EXPECT_EQ(large
+    RawClient announced(server.port());
+    EXPECT_EQ(announced
                   .ask("POST /v1/trees.glb HTTP/1.1\r\n" + json +
                        "Expect: 100-continue\r\nContent-Length: 9999999\r\n\r\n")
                   .status,

@@ -473,7 +473,9 @@ TEST(Transport, LeavesEachClientItsShareOfTheMemoryForBodies) {
     for (const auto& one : proxy)
         if (one) one->send(std::string(megabyte - part, 'p'));
     for (const auto& one : proxy)
-        if (one) EXPECT_EQ(length_of_body(one->receive()), megabyte);
+        if (one) {
+            EXPECT_EQ(length_of_body(one->receive()), megabyte);
+        }
     EXPECT_EQ(server.transport->load().uploads_given_up, 2u);
     same.close();
     expect_body_bytes(server, 0);

@@ -199,6 +199,14 @@ TEST(Inspect, LongChunksAreRefusedUnread) {
     EXPECT_THROW((void)inspect_json("{}", stop.get_token()), Cancelled);
 }
 
+TEST(Inspect, MeshesWithTooManyValuesAreRefusedBeforeTinygltfReadsThem) {
+    std::string primitives;
+    for (int i = 0; i < 50'000; ++i) primitives += i > 0 ? ",{}" : "{}";
+    expect_refused(glb_of(R"({"asset":{"version":"2.0","extras":{"canonical":")" + address +
+                          R"(","effective":{}}},"meshes":[{"primitives":[)" + primitives + "]}]}"),
+                   "at most 40000 are read");
+}
+
 TEST(Inspect, WhatIsGivenBackIsBounded) {
     const auto with = [](const std::string& generator, const std::string& effective) {
         return glb_of(R"({"asset":{"generator":")" + generator +
