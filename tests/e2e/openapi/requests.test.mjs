@@ -175,7 +175,7 @@ class Generator {
         }
         headers["Accept-Encoding"] = dice.pick(["gzip", "identity"]);
         if (method === "GET" && dice.chance(0.1)) headers["Range"] = dice.pick(["bytes=0-99", "bytes=-20", "bytes=5-", "bytes=0-1,5-9", "bytes=99999999999-", "lines=1-2"]);
-        if (method !== "POST" && dice.chance(0.03)) headers["If-None-Match"] = dice.pick(["*", '"nothing"', 'W/"x", "y"']);
+        if (dice.chance(0.03)) headers["If-None-Match"] = dice.pick(["*", '"nothing"', 'W/"x", "y"']);
         if (dice.chance(0.02)) headers["If-Match"] = dice.pick(["*", '"nothing"']);
         return { method, target, headers, body, right, wrong };
     }
