@@ -84,9 +84,8 @@ TEST_P(EveryPair, ConvergesToEitherSpecies) {
     const auto pairs = some_species_pairs(effort(210));
     for (std::size_t i = GetParam(); i < pairs.size(); i += parts)
         for (const auto& [corner, near] : {std::pair{0, 1}, std::pair{1000, 999}}) {
-            const auto& [a, b] = pairs[i];
-            const auto at = [&](int t) {
-                return mix_of(present({{a, 1000 - t}, {b, t}}), 0.6, 3, 0);
+            const auto at = [&pair = pairs[i]](int t) {
+                return mix_of(present({{pair.first, 1000 - t}, {pair.second, t}}), 0.6, 3, 0);
             };
             expect_convergence(at(corner), at(near), hairs_breadth);
         }
