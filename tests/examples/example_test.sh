@@ -13,7 +13,8 @@ cd "$folder"
 stated=$(od -An -t u4 -j 8 -N 4 "$name.glb" | tr -d ' ')
 [ "$stated" = "$(stat -c %s "$name.glb")" ] || { echo "the header says $stated bytes"; exit 1; }
 json=$(od -An -t u4 -j 12 -N 4 "$name.glb" | tr -d ' ')
-tail -c +21 "$name.glb" | head -c "$json" | grep -qF "$what" || { echo "the file says nothing of $what"; exit 1; }
+head -c $((20 + json)) "$name.glb" | tail -c "$json" >json
+grep -qF "$what" json || { echo "the file says nothing of $what"; exit 1; }
 # The README names the source in the line before its block.
 sed -n '/^`tests\/examples\/'"$name"'\.cpp`/,/^```$/p' "$project/core/README.md" | sed '1,/^```cpp$/d;/^```$/d' |
     diff - "$project/tests/examples/$name.cpp" ||
