@@ -140,10 +140,11 @@ function quantile(sorted, share) {
     return sorted[Math.min(sorted.length - 1, Math.floor(share * sorted.length))] ?? NaN;
 }
 
-/** Mebibytes that the server takes: resident, and files in memory count as shared. */
+/** Mebibytes of resident memory that the server takes; undefined when it has ended. */
 function memory() {
-    const status = readFileSync(`/proc/${options.pid}/status`, "utf8");
-    return Number(/VmRSS:\s+(\d+)/.exec(status)[1]) / 1024;
+    const file = `/proc/${options.pid}/status`;
+    const resident = existsSync(file) && /VmRSS:\s+(\d+)/.exec(readFileSync(file, "utf8"));
+    return resident ? Number(resident[1]) / 1024 : undefined;
 }
 
 async function polite() {
@@ -171,14 +172,16 @@ async function polite() {
         void ask("hit", hits[turn % hits.length]);
         if (turn % 12 === 0) void ask("new", `/v1/mushrooms/russula_vinosa.glb?seed=${seed++}`);
         if (options.pid && turn % 25 === 0) {
-            gone = !existsSync(`/proc/${options.pid}`);
-            if (!gone) most = Math.max(most, memory());
+            const now = memory();
+            gone = now === undefined;
+            most = Math.max(most, now ?? 0);
         }
         await pause(20);
     }
     for (const client of clients) client.send("end");
     const sent = await Promise.all(reports);
     for (let i = 0; open > 0 && i < 500; ++i) await pause(20);
+    if (options.pid) gone ||= memory() === undefined; // what was begun may have ended it after the last request
     for (const [i, report] of sent.entries()) console.log(`127.0.0.${i + 2} was answered ${JSON.stringify(report)}`);
     let good = !gone && Object.keys(statuses).every((status) => status === "200");
     console.log(`the polite client was answered ${JSON.stringify(statuses)}`);
