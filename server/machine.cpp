@@ -114,6 +114,17 @@ void raise_descriptor_limit() {
     setrlimit(RLIMIT_NOFILE, &limit);  // if not, connections end when there are no more
 }
 
-void bound_malloc() { mallopt(M_ARENA_MAX, 2); }
+void bound_malloc() {
+    mallopt(M_ARENA_MAX, 2);
+    mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_TRIM_THRESHOLD, 64 << 20);  // a fixed limit above would set this one to 128 KiB
+}
+
+void lower_thread_priority() {
+    constexpr int nice = 10;
+    const auto thread = static_cast<id_t>(gettid());  // Linux keeps a niceness for each thread
+    // If this fails, all threads have the same one.
+    if (getpriority(PRIO_PROCESS, thread) < nice) setpriority(PRIO_PROCESS, thread, nice);
+}
 
 }  // namespace sporeprint::server

@@ -34,9 +34,19 @@ struct Usage {
 /// Lets this process open as many descriptors as the system ever allows it: each connection is one.
 void raise_descriptor_limit();
 
-/// Lets all threads share two arenas of malloc: what one frees another uses again. Lower thresholds for returning memory were measured too: 100 MB less at
-/// rest, but a tenth more time for each small answer, since its pages are mapped anew. So was jemalloc 5.3, a minute of 400 mixed requests a second twice each:
-/// 2 % less processor time, 3 % more memory at most (490 MB), equal latencies; not worth a dependency. (Beside a busy compiler one pair showed 12 % less.)
+/// Bounds what malloc() keeps for later: two arenas for all threads, so that memory which one frees
+/// another uses again, and blocks of 4 MiB and more go back to the system as soon as they are freed.
+/// By default the limit for such blocks grows to 32 MiB with the first that is freed, and bodies and
+/// decoded images then fragment the heap.
+///
+/// Lower limits were measured too: 100 MB less at rest, but a tenth more time for each small answer,
+/// since its pages are mapped anew. So was jemalloc 5.3, a minute of 400 mixed requests a second
+/// twice each: 2 % less processor time, 3 % more memory at most (490 MB), equal latencies; that is
+/// not worth a dependency.
 void bound_malloc();
+
+/// Gives the calling thread a lower priority (nice 10) than the other threads of this process, so that
+/// answers from memory do not wait for computation when all processors are busy.
+void lower_thread_priority();
 
 }  // namespace sporeprint::server

@@ -5,6 +5,8 @@
 #include <exception>
 #include <utility>
 
+#include "server/machine.h"
+
 namespace sporeprint::server {
 
 /// Pieces of one task; whoever has time takes the next. The span is the caller's and is not touched
@@ -110,6 +112,7 @@ std::size_t Slots::busy() const {
 }
 
 void Slots::work() {
+    lower_thread_priority();
     std::unique_lock lock(mutex_);
     for (;;) {
         wake_.wait(lock, [&] { return stopping_ || !offers_.empty() || !queue_.empty(); });

@@ -31,38 +31,55 @@ constexpr std::array<Place, 3> places = {{
 
 constexpr int profile_rows = 24;
 
+bool is_oversampled(const UploadedImage& image, const Frame& frame) {
+    return image.width > 2 * frame.width || image.height > 2 * frame.height;
+}
+
+// Halves each side of an image that has more than two texels to one of the frame.
+// texel  returns the linear light of a channel by its index, three channels per texel
+template <class Texel>
+UploadedImage halved(const UploadedImage& image, const Frame& frame, Texel texel) {
+    const int across = image.width > 2 * frame.width ? 2 : 1;
+    const int down = image.height > 2 * frame.height ? 2 : 1;
+    UploadedImage half;
+    half.width = image.width / across;
+    half.height = image.height / down;
+    half.light.resize(static_cast<std::size_t>(half.width) * static_cast<std::size_t>(half.height) *
+                      3);
+    for (int y = 0; y < half.height; ++y)
+        for (int x = 0; x < half.width; ++x)
+            for (int c = 0; c < 3; ++c) {
+                float sum = 0.0F;
+                for (int j = 0; j < down; ++j)
+                    for (int i = 0; i < across; ++i)
+                        sum += texel(static_cast<std::size_t>(
+                            ((y * down + j) * image.width + x * across + i) * 3 + c));
+                half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] =
+                    sum / static_cast<float>(across * down);
+            }
+    return half;
+}
+
 }  // namespace
 
 UploadedImage uploaded_image(const Upload& upload, const Frame& frame, const std::string& path) {
     UploadedImage image;
     if (upload.empty()) return image;
-    const Picture picture = decoded_picture(upload.bytes, path);
+    Picture picture = decoded_picture(upload.bytes, path);
     const std::array<float, 256>& table = linear_table();
     image.width = picture.width;
     image.height = picture.height;
-    image.light.resize(picture.rgb.size());
-    for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.light[i] = table[picture.rgb[i]];
-    while (image.width > 2 * frame.width || image.height > 2 * frame.height) {
-        const int across = image.width > 2 * frame.width ? 2 : 1;
-        const int down = image.height > 2 * frame.height ? 2 : 1;
-        UploadedImage half;
-        half.width = image.width / across;
-        half.height = image.height / down;
-        half.light.resize(static_cast<std::size_t>(half.width) *
-                          static_cast<std::size_t>(half.height) * 3);
-        for (int y = 0; y < half.height; ++y)
-            for (int x = 0; x < half.width; ++x)
-                for (int c = 0; c < 3; ++c) {
-                    float sum = 0.0F;
-                    for (int j = 0; j < down; ++j)
-                        for (int i = 0; i < across; ++i)
-                            sum += image.light[static_cast<std::size_t>(
-                                ((y * down + j) * image.width + x * across + i) * 3 + c)];
-                    half.light[static_cast<std::size_t>((y * half.width + x) * 3 + c)] =
-                        sum / static_cast<float>(across * down);
-                }
-        image = std::move(half);
+    // The first halving reads the bytes: 2048 x 2048 texels would take 48 MB as floats.
+    const auto texel = [&](std::size_t i) { return table[picture.rgb[i]]; };
+    if (is_oversampled(image, frame)) {
+        image = halved(image, frame, texel);
+    } else {
+        image.light.resize(picture.rgb.size());
+        for (std::size_t i = 0; i < picture.rgb.size(); ++i) image.light[i] = texel(i);
     }
+    picture = {};
+    while (is_oversampled(image, frame))
+        image = halved(image, frame, [&](std::size_t i) { return image.light[i]; });
     return image;
 }
 

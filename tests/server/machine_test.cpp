@@ -1,6 +1,11 @@
 #include "server/machine.h"
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <thread>
 
 #include "server/health.h"
 #include "server/transport.h"
@@ -26,6 +31,18 @@ TEST(Machine, KnowsWhatThisProcessTakes) {
     EXPECT_GT(used.open_files, 2u);
     EXPECT_GT(used.started, 1.6e9);
     EXPECT_FALSE(program_folder().empty());
+}
+
+TEST(Machine, LowersThePriorityOfOneThreadAlone) {
+    const auto niceness = [] { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); };
+    const int own = niceness();
+    int lowered = own;
+    std::thread([&] {
+        lower_thread_priority();
+        lowered = niceness();
+    }).join();
+    EXPECT_EQ(lowered, std::max(own, 10));
+    EXPECT_EQ(niceness(), own);
 }
 
 TEST(Health, IsTheStatusOfTheAnswer) {
