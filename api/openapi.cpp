@@ -5,11 +5,11 @@
 #include <string>
 #include <utility>
 
-#include "api/errors.h"
-#include "api/mix.h"
+#include "api/http/errors.h"
+#include "api/http/routes.h"
 #include "api/openapi_schemas.h"
-#include "api/presets.h"
-#include "api/routes.h"
+#include "api/products/mix.h"
+#include "api/products/presets.h"
 #include "core/params/describe.h"
 
 namespace sporeprint::api {
@@ -114,13 +114,13 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
     }
     const bool is_get = std::string_view(route.method) == "GET";
     add_query_parameters(query_schema(route.endpoint), "", parameters);
-    if (makes(route.endpoint) && is_get)
+    if (is_generated(route.endpoint) && is_get)
         parameters.push(query_parameter(
             "v", false,
             "Version token. Today's makes the answer immutable; any other is 410 with the "
             "canonical address of today's.",
             text));
-    if (is_signed && makes(route.endpoint)) {
+    if (is_signed && is_generated(route.endpoint)) {
         parameters.push(
             query_parameter("key", true, "Id of the key that signed the address.", text));
         parameters.push(query_parameter("expires", false,
@@ -237,7 +237,9 @@ std::set<int> problems_of(Endpoint endpoint, bool is_signed) {
 }
 
 /// Whether a route answers with something made and kept: an upload is looked at each time.
-bool is_kept(Endpoint endpoint) { return makes(endpoint) && endpoint != Endpoint::inspect; }
+bool is_cached(Endpoint endpoint) {
+    return is_generated(endpoint) && endpoint != Endpoint::inspect;
+}
 
 /// Whether the server itself answers: of the process, not of what it makes.
 bool is_health(Endpoint endpoint) {
@@ -247,7 +249,7 @@ bool is_health(Endpoint endpoint) {
 
 /// Whether a range of the body may be asked for: of files that are not sent as gzip by demand. Of a POST no part is sent.
 bool has_ranges(const Route& route) {
-    const std::string_view type = route.answers;
+    const std::string_view type = route.responses;
     return std::string_view(route.method) == "GET" &&
            (type == "model/gltf-binary" || type == "image/jpeg" ||
             route.endpoint == Endpoint::asset);
@@ -265,11 +267,11 @@ Value success_headers(const Route& route, bool is_signed) {
     }
     add({"Cache-Control", "X-Request-Id", "X-Content-Type-Options", "Access-Control-Allow-Origin?",
          "Vary?", "Content-Encoding?"});
-    if (makes(route.endpoint)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
+    if (is_generated(route.endpoint)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
     if (route.endpoint == Endpoint::inspect) return headers;
     add({"ETag"});
     if (has_ranges(route)) add({"Accept-Ranges?"});
-    if (!is_kept(route.endpoint)) return headers;
+    if (!is_cached(route.endpoint)) return headers;
     add({"Cache-Status", "Content-Disposition"});
     if (!is_signed) {
         // A body may say what no address does.
@@ -281,28 +283,28 @@ Value success_headers(const Route& route, bool is_signed) {
 
 /// Media types of a route's 200, each with its schema.
 Value success_content(const Route& route) {
-    const Value schema = answer_schema(route.endpoint);
+    const Value schema = response_schema(route.endpoint);
     Value content = Value::object();
     // Files of the page are of many types; who has no page built is told so in plain text.
-    content.set(route.endpoint == Endpoint::asset ? "*/*" : route.answers,
+    content.set(route.endpoint == Endpoint::asset ? "*/*" : route.responses,
                 object({{"schema", schema}}));
     if (route.endpoint == Endpoint::page) content.set("text/plain", object({{"schema", schema}}));
     return content;
 }
 
-std::string told(const Route& route, bool is_head, bool is_signed) {
+std::string description(const Route& route, bool is_head, bool is_signed) {
     std::string text = route.summary;
     if (is_head)
         return text +
                " Answers with the headers of GET and no body; nothing is made for it, and "
                "Content-Length is told only of what is kept.";
-    if (is_kept(route.endpoint))
+    if (is_cached(route.endpoint))
         text +=
             " The same request gives the same bytes. The key of the answer is known before it "
             "is made, so a condition that holds costs nothing.";
-    if (is_kept(route.endpoint) && std::string_view(route.method) == "GET" && !is_signed)
+    if (is_cached(route.endpoint) && std::string_view(route.method) == "GET" && !is_signed)
         text += " Content-Location is the canonical address.";
-    if (is_signed && makes(route.endpoint)) text += " The address has to be signed.";
+    if (is_signed && is_generated(route.endpoint)) text += " The address has to be signed.";
     return text;
 }
 
@@ -311,12 +313,12 @@ Value operation(const Route& route, const Atlas& atlas, bool is_head, bool is_si
     const bool is_get = std::string_view(route.method) == "GET";
     Value out = object({{"operationId", (is_head ? "head_" : "") + std::string(route.id)},
                         {"summary", route.summary},
-                        {"description", told(route, is_head, is_signed)},
+                        {"description", description(route, is_head, is_signed)},
                         {"tags", Value(Value::Array{tag_of(route)})}});
     Value parameters = parameters_of(route, atlas, is_signed);
     if (!parameters.items().empty()) out.set("parameters", std::move(parameters));
     if (*route.takes) out.set("requestBody", taken_body(route));
-    if (is_signed && makes(route.endpoint))
+    if (is_signed && is_generated(route.endpoint))
         out.set("security", Value(Value::Array{object({{"signature", Value::array()}})}));
 
     Value responses = Value::object();
@@ -393,10 +395,10 @@ Value used_headers(const Value& document, const Value& headers) {
         }
     };
     walk(walk, document);
-    Value kept = Value::object();
+    Value cached = Value::object();
     for (const auto& [name, header] : headers.members())
-        if (used.contains("#/components/headers/" + name)) kept.set(name, header);
-    return kept;
+        if (used.contains("#/components/headers/" + name)) cached.set(name, header);
+    return cached;
 }
 
 }  // namespace

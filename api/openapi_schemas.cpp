@@ -3,13 +3,13 @@
 #include <string>
 #include <utility>
 
-#include "api/catalogue.h"
-#include "api/errors.h"
-#include "api/mix.h"
-#include "api/morphs.h"
+#include "api/http/errors.h"
 #include "api/openapi.h"
-#include "api/presets.h"
-#include "api/surfaces.h"
+#include "api/products/catalogue.h"
+#include "api/products/mix.h"
+#include "api/products/morphs.h"
+#include "api/products/presets.h"
+#include "api/products/surfaces.h"
 #include "core/colony/colony_spec.h"
 #include "core/grow/species_morph.h"
 #include "core/individual/mushroom_spec.h"
@@ -71,7 +71,7 @@ Value as_template(Value schema) {
 }
 
 /// A bush of order 1 would have no fork: Branched::check() refuses it, where a tree of order 1 is a twig.
-Value with_bushes(Value schema) {
+Value with_branch_graphs(Value schema) {
     each_schema(schema, [](Value& one) {
         if (Value* properties = one.find("properties"))
             if (Value* ramification = properties->find("ramification"))
@@ -134,7 +134,7 @@ Value order_schema() {
     Value out = schema<MushroomParams>();
     Value properties = object({
         {"mix", mix_schema()},
-        {"model", with_bushes(schema<Model>())},
+        {"model", with_branch_graphs(schema<Model>())},
         {"v", version_member()},
     });
     for (const auto& [key, property] : out.find("properties")->members())
@@ -176,7 +176,7 @@ Value preset_order_schema(Value out) {
 
 /// Body of POST /v1/morphs/{a}/{b}.glb.
 Value morph_order_schema() {
-    Value out = schema<MorphOrder>();
+    Value out = schema<MorphSpec>();
     out.find("properties")->set("v", version_member());
     return out;
 }
@@ -207,12 +207,12 @@ Value morph_schema() {
         objects({{"stem", polyline}, {"hymenium", polyline}, {"cap", std::move(polyline)}});
     Value arcs = list_of(as_written(schema<Arc>()));
     arcs.set("description", "Some of the pairs as shares of arc length, landmarks among them.");
-    Value limbs = list_of(as_written(schema<LimbPair>()));
-    limbs.set(
+    Value segments = list_of(as_written(schema<SegmentPair>()));
+    segments.set(
         "description",
         "The limbs of both, fork on fork: entry k of one species becomes entry k of the other. "
         "Each as its template is, branching as that of seed 1.");
-    const auto answer = [&](Family family, std::initializer_list<Value::Member> correspondence) {
+    const auto response = [&](Family family, std::initializer_list<Value::Member> correspondence) {
         Value out = objects({{"canonical", typed("string")},
                              {"v", typed("string")},
                              {"a", typed("string")},
@@ -228,12 +228,12 @@ Value morph_schema() {
     return object(
         {{"oneOf",
           Value(Value::Array{
-              answer(Family::swept, {{"outlines", objects({{"a", outline}, {"b", outline}})},
-                                     {"arcs", arcs},
-                                     {"certificate", reference("schemas/certificate")}}),
-              answer(
-                  Family::branched,
-                  {{"limbs", limbs}, {"certificate", as_written(schema<LimbCertificate>())}})})}});
+              response(Family::swept, {{"outlines", objects({{"a", outline}, {"b", outline}})},
+                                       {"arcs", arcs},
+                                       {"certificate", reference("schemas/certificate")}}),
+              response(Family::branched,
+                       {{"limbs", segments},
+                        {"certificate", as_written(schema<SegmentCertificate>())}})})}});
 }
 
 }  // namespace
@@ -299,7 +299,7 @@ Value component_schemas() {
         {"mushroom_list", objects({{"mushrooms", product_items}})},
         {"colony_list", objects({{"colonies", product_items}})},
         {"certificate", as_written(schema<Certificate>())},
-        {"species", as_template(with_bushes(schema<Species>()))},
+        {"species", as_template(with_branch_graphs(schema<Species>()))},
         {"species_list", objects({{"species", list_of(objects({{"id", text},
                                                                {"scientific_name", text},
                                                                {"common_name", text},
@@ -331,7 +331,7 @@ Value component_schemas() {
     });
 }
 
-Value answer_schema(Endpoint endpoint) {
+Value response_schema(Endpoint endpoint) {
     switch (endpoint) {
         case Endpoint::root:
             return reference("schemas/about");

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "api/routes.h"
+#include "api/http/routes.h"
 #include "core/atlas/atlas.h"
 #include "core/params/value.h"
 
@@ -34,7 +34,7 @@ namespace sporeprint::api {
 [[nodiscard]] Value taken_body(const Route& route);
 
 /// The schema of what a route answers with 200.
-[[nodiscard]] Value answer_schema(Endpoint endpoint);
+[[nodiscard]] Value response_schema(Endpoint endpoint);
 
 /// The nested schema of the query that a route takes; without properties where it takes none.
 [[nodiscard]] Value query_schema(Endpoint endpoint);

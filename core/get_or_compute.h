@@ -9,13 +9,13 @@ namespace sporeprint {
 
 /// Returns the value cached under `key`, or the result of `make`.
 template <class T>
-using Remember = std::function<std::shared_ptr<const T>(
+using GetOrCompute = std::function<std::shared_ptr<const T>(
     const std::string& key, const std::function<std::shared_ptr<const T>()>& make)>;
 
 /// Computes the value without caching.
 template <class T>
-std::shared_ptr<const T> make_anew(const std::string& /*key*/,
-                                   const std::function<std::shared_ptr<const T>()>& make) {
+std::shared_ptr<const T> uncached(const std::string& /*key*/,
+                                  const std::function<std::shared_ptr<const T>()>& make) {
     return make();
 }
 

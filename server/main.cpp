@@ -15,19 +15,19 @@
 #include <string>
 #include <thread>
 
-#include "api/directory_store.h"
+#include "api/cache/directory_store.h"
 #include "api/service.h"
 #include "core/math/noise.h"
-#include "server/health.h"
-#include "server/log.h"
-#include "server/machine.h"
-#include "server/metrics.h"
-#include "server/options.h"
-#include "server/reception.h"
+#include "server/http/transport.h"
+#include "server/operations/health.h"
+#include "server/operations/log.h"
+#include "server/operations/machine.h"
+#include "server/operations/metrics.h"
+#include "server/operations/options.h"
+#include "server/operations/signatures.h"
+#include "server/operations/text_files.h"
 #include "server/reload.h"
-#include "server/signatures.h"
-#include "server/text_files.h"
-#include "server/transport.h"
+#include "server/request_handler.h"
 #include "server/warm.h"
 
 namespace {
@@ -80,9 +80,9 @@ std::string generator_version(api::Service& service) {
     request.method = "GET";
     request.target = "/v1";
     const auto planned = service.plan(request);
-    const auto* answer = std::get_if<api::Answer>(&planned);
-    if (!answer || answer->body.empty()) return "unknown";
-    const Slice& slice = answer->body.front();
+    const auto* response = std::get_if<api::Response>(&planned);
+    if (!response || response->body.empty()) return "unknown";
+    const Slice& slice = response->body.front();
     std::vector<Problem> ignored;
     const Value about = parse({reinterpret_cast<const char*>(slice.data()), slice.size}, ignored);
     const Value* version = about.find("generator_version");
@@ -195,21 +195,21 @@ int serve(const Options& options, const Environment& environment) {
     service_options.signed_addresses = !options.sign_keys.empty();
     service_options.allow_origin = options.allow_origin.string();
     service_options.base_path = options.base_path.string();
-    Means means;
-    means.service = std::make_shared<api::Service>(atlas, service_options);
+    AppState state;
+    state.service = std::make_shared<api::Service>(atlas, service_options);
 
-    ReceptionOptions reception_options;
-    reception_options.slots =
+    RequestHandlerOptions request_handler_options;
+    request_handler_options.threads =
         options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
-    reception_options.metrics = options.metrics_port == 0;
-    reception_options.base_path = options.base_path.string();
-    reception_options.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
-    reception_options.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
+    request_handler_options.metrics = options.metrics_port == 0;
+    request_handler_options.base_path = options.base_path.string();
+    request_handler_options.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
+    request_handler_options.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
     const Sources sources{options.atlas.string(), options.sign_keys.string()};
     if (!sources.keys.empty())
-        means.signatures = std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
-    Metrics metrics(SPOREPRINT_VERSION, generator_version(*means.service));
-    Reception reception(means, metrics, log, reception_options);
+        state.signatures = std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
+    Metrics metrics(SPOREPRINT_VERSION, generator_version(*state.service));
+    RequestHandler request_handler(state, metrics, log, request_handler_options);
 
     TransportOptions transport_options;
     transport_options.host = options.host.string();
@@ -218,38 +218,38 @@ int serve(const Options& options, const Environment& environment) {
     transport_options.proxies = {Networks(options.trusted_proxies), options.proxy_header};
     transport_options.hot_bytes = static_cast<std::size_t>(options.hot_cache_mb) << 20;
     transport_options.workers = std::max<std::size_t>(granted_processors(), 4);
-    Transport transport(transport_options, reception.handlers());
+    Transport transport(transport_options, request_handler.handlers());
     std::optional<Transport> metrics_transport;
     if (options.metrics_port != 0) {
         transport_options.port = options.metrics_port;
         transport_options.workers = 2;
         transport_options.most_connections = 64;
         transport_options.most_of_client = 0;
-        metrics_transport.emplace(transport_options, reception.metrics_handlers());
+        metrics_transport.emplace(transport_options, request_handler.metrics_handlers());
     }
-    reception.watch(&transport);
-    if (!means.service->self_test())
+    request_handler.watch(&transport);
+    if (!state.service->self_test())
         return complain("the first thing made for a test could not be made; not starting", failed);
     transport.start();
     if (metrics_transport) metrics_transport->start();
     if (!options.warm.empty())
-        warm(options.warm.string(), warm_list, reception, log, is_asked_to_end);
+        warm(options.warm.string(), warm_list, request_handler, log, is_asked_to_end);
     if (!is_asked_to_end()) {
-        reception.open();
+        request_handler.open();
         announce(options, !service_options.assets.empty(), transport.port());
         log.event(LogLevel::info, "ready",
                   {{"version", Value(SPOREPRINT_VERSION)},
                    {"port", Value(transport.port())},
-                   {"slots", Value(reception_options.slots)}});
+                   {"slots", Value(request_handler_options.threads)}});
     }
 
-    means = {};
+    state = {};
     for (int signal = 0; signal != SIGTERM && signal != SIGINT;) {
         signal = next_signal(signals, std::chrono::hours(1));
-        if (signal == SIGHUP && reload(sources, reception, log)) transport.forget();
+        if (signal == SIGHUP && reload(sources, request_handler, log)) transport.forget();
     }
     log.event(LogLevel::info, "stopping: no new connections, finishing what has begun");
-    reception.close();
+    request_handler.close();
     std::atomic<bool> drained{false};
     const std::jthread drain([&] {
         transport.drain();
@@ -286,32 +286,32 @@ std::string standard_input() {
 }
 
 /// Prints a URL with the signature of the first key.
-int sign(const Options& options, const SigningRequest& asked) {
-    const std::string& target = asked.target;
+int sign(const Options& options, const SigningRequest& requested) {
+    const std::string& target = requested.target;
     if (options.sign_keys.empty())
         return complain("--sign needs --sign-keys, the file of keys", wrong_usage);
     if (!target.starts_with('/'))
         return complain("--sign takes path and query, all of an address after its host",
                         wrong_usage);
-    const bool is_post = asked.method == "POST";
-    if (is_post && asked.body.empty())
+    const bool is_post = requested.method == "POST";
+    if (is_post && requested.body.empty())
         return complain("--sign-method POST needs --sign-body, as the signature covers the body",
                         wrong_usage);
-    if (!is_post && !asked.body.empty())
+    if (!is_post && !requested.body.empty())
         return complain("--sign-body needs --sign-method POST; no other method has a body",
                         wrong_usage);
     std::string body;
-    if (asked.body == "-") {
+    if (requested.body == "-") {
         body = standard_input();
     } else if (is_post) {
-        std::optional<std::string> text = read_text(asked.body);
-        if (!text) return complain("--sign-body: " + asked.body + " cannot be read", failed);
+        std::optional<std::string> text = read_text(requested.body);
+        if (!text) return complain("--sign-body: " + requested.body + " cannot be read", failed);
         body = *std::move(text);
     }
     std::optional<std::int64_t> expires;
-    if (asked.seconds > 0) expires = seconds_since_1970() + asked.seconds;
+    if (requested.seconds > 0) expires = seconds_since_1970() + requested.seconds;
     const auto signatures = Signatures::from_file(options.sign_keys.string());
-    std::printf("%s\n", signatures.signed_target(asked.method, target, body, expires).c_str());
+    std::printf("%s\n", signatures.signed_target(requested.method, target, body, expires).c_str());
     return fine;
 }
 

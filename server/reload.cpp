@@ -37,23 +37,23 @@ bool try_to(const char* what, const std::filesystem::path& source, Log& log, Rea
 
 }  // namespace
 
-bool reload(const Sources& sources, Reception& reception, Log& log) {
-    Means means = *reception.means();
+bool reload(const Sources& sources, RequestHandler& request_handler, Log& log) {
+    AppState state = *request_handler.state();
     bool renewed = false;
     if (!sources.atlas.empty())
         renewed |= try_to("atlas", sources.atlas, log, [&] {
             auto service =
-                std::make_shared<api::Service>(atlas_from(sources.atlas), *means.service);
+                std::make_shared<api::Service>(atlas_from(sources.atlas), *state.service);
             if (!service->self_test())
                 throw std::runtime_error("the first thing made of it for a test could not be made");
-            means.service = std::move(service);
+            state.service = std::move(service);
         });
     if (!sources.keys.empty())
         renewed |= try_to("keys", sources.keys, log, [&] {
-            means.signatures =
+            state.signatures =
                 std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
         });
-    if (renewed) reception.renew(std::move(means));
+    if (renewed) request_handler.renew(std::move(state));
     return renewed;
 }
 

@@ -3,8 +3,8 @@
 
 #include <filesystem>
 
-#include "server/log.h"
-#include "server/reception.h"
+#include "server/operations/log.h"
+#include "server/request_handler.h"
 
 namespace sporeprint::server {
 
@@ -18,6 +18,6 @@ struct Sources {
 /// names what is wrong. Answers that were ready to be given again are the transport's to forget.
 ///
 /// returns  whether anything was put in the place of another
-bool reload(const Sources& sources, Reception& reception, Log& log);
+bool reload(const Sources& sources, RequestHandler& request_handler, Log& log);
 
 }  // namespace sporeprint::server

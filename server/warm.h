@@ -6,8 +6,8 @@
 #include <functional>
 #include <string_view>
 
-#include "server/log.h"
-#include "server/reception.h"
+#include "server/operations/log.h"
+#include "server/request_handler.h"
 
 namespace sporeprint::server {
 
@@ -18,7 +18,7 @@ namespace sporeprint::server {
 /// text     of the list
 /// stop     asked now and then: whether to leave the rest
 /// returns  how many lines were good
-std::size_t warm(const std::filesystem::path& file, std::string_view text, Reception& reception,
-                 Log& log, const std::function<bool()>& stop);
+std::size_t warm(const std::filesystem::path& file, std::string_view text,
+                 RequestHandler& request_handler, Log& log, const std::function<bool()>& stop);
 
 }  // namespace sporeprint::server

@@ -75,11 +75,11 @@ verdict 'Highway in two places: the noise of core/math and the paint kernels of 
     code core api server | grep -E '#include [<"]hwy/(highway|foreach_target|contrib)' | cut -d: -f1 | sed 's,/[^/]*$,,' |
         sort -u | grep -vxE 'core/(math|surface)'
     code core | grep -E '#include [<"]hwy/foreach_target' | cut -d: -f1 | sort -u | tail -n +3)"
-only_in nlohmann/json.hpp '(core/(params|atlas)|api)/[a-z_]+\.cpp' 'json.hpp in .cpp files only'
+only_in nlohmann/json.hpp '(core/(params|atlas)|api(/[a-z]+)?)/[a-z_]+\.cpp' 'json.hpp in .cpp files only'
 only_in tiny_gltf.h 'core/gltf/[a-z_]+\.cpp' 'tinygltf reads uploads in core/gltf'
 only_in CLI/CLI.hpp 'server/main\.cpp' 'CLI11 takes half a minute to compile: main.cpp only'
 only_in turbojpeg.h 'core/surface/[a-z_]+\.cpp' 'image codecs live in core/surface'
-only_in httplib.h 'server/[a-z_]+\.(cpp|h)' 'HTTP lives in server'
+only_in httplib.h 'server/[a-z]+/[a-z_]+\.(cpp|h)' 'HTTP lives in server'
 
 # House style a glance can miss.
 verdict 'a header begins with a sentence saying what it is' "$(

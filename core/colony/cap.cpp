@@ -58,8 +58,9 @@ std::vector<OutlineSample> neck_rings(const SubCurve& stem, const OutlineSample&
 }  // namespace
 
 StemFit stem_fit(const Individual& individual) {
-    if (const Bush& bush = individual.bush; individual.is_branched())
-        return {bush.trunk_radius, bush.height, bush.trunk, bush.reach};
+    if (const BranchGraph& branch_graph = individual.branch_graph; individual.is_branched())
+        return {branch_graph.trunk_radius, branch_graph.height, branch_graph.trunk,
+                branch_graph.reach};
     const OutlineSample top = individual.outline.stem.at(1.0);
     return {top.r, top.y, individual.outline.stem.length(),
             greatest_radius(individual.outline.cap)};

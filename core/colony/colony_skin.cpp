@@ -122,22 +122,22 @@ void dress(SkinnedSkeleton& made, double painted_length) {
 
 /// Roots with fewer nodes: their ends, their forks, what bears a stem, and every `stride`-th of the others.
 ///
-/// ground   limbs lead away from the base; each comes after the one that bears it
+/// ground   segments lead away from the base; each comes after the one that bears it
 /// bears    by node
 /// node_of  of each node that is left, where it lies now
 Skeleton thinned_roots(const Skeleton& ground, const std::vector<bool>& bears, std::uint32_t stride,
                        std::vector<std::uint32_t>& node_of) {
     const std::size_t count = ground.nodes.size();
     constexpr std::uint32_t none = ~std::uint32_t{0};
-    std::vector<std::uint32_t> limbs_at(count, 0), skipped(count, 0), last(count, none);
+    std::vector<std::uint32_t> segments_at(count, 0), skipped(count, 0), last(count, none);
     node_of.resize(count);
     std::iota(node_of.begin(), node_of.end(), 0U);
     if (stride == 1) return ground;
     std::vector<bool> begins(count, true);
-    for (const Skeleton::Limb& limb : ground.limbs) {
-        ++limbs_at[limb.from];
-        ++limbs_at[limb.to];
-        begins[limb.to] = false;
+    for (const Skeleton::Segment& segment : ground.segments) {
+        ++segments_at[segment.from];
+        ++segments_at[segment.to];
+        begins[segment.to] = false;
     }
     Skeleton roots;
     const auto keep = [&](std::uint32_t node) {
@@ -147,15 +147,15 @@ Skeleton thinned_roots(const Skeleton& ground, const std::vector<bool>& bears, s
     };
     for (std::uint32_t i = 0; i < count; ++i)
         if (begins[i]) keep(i);
-    for (const Skeleton::Limb& limb : ground.limbs) {
-        const std::uint32_t passed = skipped[limb.from] + 1;
-        if (limbs_at[limb.to] == 2 && !bears[limb.to] && passed < stride) {
-            skipped[limb.to] = passed;
-            last[limb.to] = last[limb.from];
+    for (const Skeleton::Segment& segment : ground.segments) {
+        const std::uint32_t passed = skipped[segment.from] + 1;
+        if (segments_at[segment.to] == 2 && !bears[segment.to] && passed < stride) {
+            skipped[segment.to] = passed;
+            last[segment.to] = last[segment.from];
             continue;
         }
-        keep(limb.to);
-        roots.limbs.push_back({node_of[last[limb.from]], node_of[limb.to]});
+        keep(segment.to);
+        roots.segments.push_back({node_of[last[segment.from]], node_of[segment.to]});
     }
     return roots;
 }
@@ -168,9 +168,9 @@ double root_share(int lod) {
     return shares[static_cast<std::size_t>(lod)];
 }
 
-Skeleton colony_limbs(const ColonySite& site, const std::vector<ColonyMember>& members,
-                      const ColonyParams& params, const ColonyNature& nature, int segments) {
-    Skeleton limbs;
+Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>& members,
+                         const ColonyParams& params, const ColonyNature& nature, int segments) {
+    Skeleton skeleton;
     const bool on_roots = nature.habit == Habit::rooted && nature.roots == RootsShown::shown;
     std::vector<std::uint32_t> node_of;
     if (on_roots) {
@@ -178,10 +178,10 @@ Skeleton colony_limbs(const ColonySite& site, const std::vector<ColonyMember>& m
         if (nature.capped)
             for (const ColonyMember& member : members)
                 bears[site.places[member.place].number] = true;
-        limbs = thinned_roots(site.ground, bears,
-                              root_strides[static_cast<std::size_t>(params.lod)], node_of);
+        skeleton = thinned_roots(site.ground, bears,
+                                 root_strides[static_cast<std::size_t>(params.lod)], node_of);
     }
-    if (!nature.capped) return limbs;
+    if (!nature.capped) return skeleton;
     for (const ColonyMember& member : members) {
         const ColonyPlace& place = site.places[member.place];
         const auto at = [&](double t) {
@@ -195,31 +195,32 @@ Skeleton colony_limbs(const ColonySite& site, const std::vector<ColonyMember>& m
             below = node_of[place.number];
         } else {
             const glm::dvec3 way = glm::normalize(member.rise);
-            below = static_cast<std::uint32_t>(limbs.nodes.size());
-            limbs.nodes.push_back({place.foot - below_ground * place.radius * way, place.radius});
+            below = static_cast<std::uint32_t>(skeleton.nodes.size());
+            skeleton.nodes.push_back(
+                {place.foot - below_ground * place.radius * way, place.radius});
         }
         const double least = on_roots ? least_on_root : least_segment;
         const int room = static_cast<int>((height - short_of_cap * top) / (least * place.radius));
         const int count = std::max(1, std::min(segments, room));
         const double end = 1.0 - short_of_cap * top / glm::length(member.rise + 2.0 * member.swing);
         for (int i = 1; i <= count; ++i) {
-            const auto above = static_cast<std::uint32_t>(limbs.nodes.size());
-            limbs.nodes.push_back({at(end * i / count), i == count ? top : place.radius});
-            limbs.limbs.push_back({below, above});
+            const auto above = static_cast<std::uint32_t>(skeleton.nodes.size());
+            skeleton.nodes.push_back({at(end * i / count), i == count ? top : place.radius});
+            skeleton.segments.push_back({below, above});
             below = above;
         }
     }
-    return limbs;
+    return skeleton;
 }
 
 int skin_levels(std::size_t nodes, int lod) {
     return std::max((nodes <= most_near_nodes ? 2 : 1) - lod, 0);
 }
 
-Mesh colony_skin(const Skeleton& limbs, const SkinDress& wanted) {
-    if (limbs.nodes.empty()) return {};
+Mesh colony_skin(const Skeleton& segments, const SkinDress& wanted) {
+    if (segments.nodes.empty()) return {};
     SkinnedSkeleton made =
-        skinned(cleaned(limbs).skeleton, skin_levels(limbs.nodes.size(), wanted.lod),
+        skinned(cleaned(segments).skeleton, skin_levels(segments.nodes.size(), wanted.lod),
                 wanted.textured ? SkinPlaces::told : SkinPlaces::left_out);
     if (wanted.textured) dress(made, wanted.painted_length);
     order_for_vertex_cache(made.mesh);

@@ -12,10 +12,10 @@ namespace sporeprint {
 /// lod      of the colony: far ones have fewer segments
 /// returns  metres at size 1. A stem is as thick as its place says up to its last node, which lies inside the neck of its cap and is
 ///          no thicker than that
-[[nodiscard]] Skeleton colony_limbs(const ColonySite& site,
-                                    const std::vector<ColonyMember>& members,
-                                    const ColonyParams& params, const ColonyNature& nature,
-                                    int segments);
+[[nodiscard]] Skeleton colony_skeleton(const ColonySite& site,
+                                       const std::vector<ColonyMember>& members,
+                                       const ColonyParams& params, const ColonyNature& nature,
+                                       int segments);
 
 /// Share of the nodes of roots that is left at a level of detail, about: runs without forks and stems have fewer from afar.
 [[nodiscard]] double root_share(int lod);
@@ -34,7 +34,7 @@ struct SkinDress {
 /// turning only where the mesh has a ring.
 ///
 /// returns  closed; empty for an empty skeleton
-/// throws   InvalidInput with faults_of()
-[[nodiscard]] Mesh colony_skin(const Skeleton& limbs, const SkinDress& dress);
+/// throws   InvalidInput with validation_errors()
+[[nodiscard]] Mesh colony_skin(const Skeleton& segments, const SkinDress& dress);
 
 }  // namespace sporeprint

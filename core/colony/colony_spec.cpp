@@ -89,13 +89,13 @@ Habit habit_of(const Facts& facts) {
     return is_lateral(facts.form) ? Habit::tier : found;
 }
 
-ColonyNature colony_nature(const ColonyOrder& order, const Atlas& atlas) {
-    const ColonyParams& params = order.params;
+ColonyNature colony_nature(const ColonySpec& spec, const Atlas& atlas) {
+    const ColonyParams& params = spec.params;
     std::vector<Problem> problems;
     check(params, Info{.name = ""}, "", problems);
     const MixPart* most = nullptr;
     ColonyNature nature;
-    for (const MixPart& part : order.mix) {
+    for (const MixPart& part : spec.mix) {
         const AtlasEntry* entry = atlas.find(part.id);
         if (!entry) {
             report(problems, "mix", in_quotes(part.id) + " is no species of the atlas");
@@ -110,7 +110,7 @@ ColonyNature colony_nature(const ColonyOrder& order, const Atlas& atlas) {
             nature.habit = habit_of(facts);
         }
     }
-    if (order.mix.empty()) report(problems, "mix", "names no species");
+    if (spec.mix.empty()) report(problems, "mix", "names no species");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
     if (nature.lateral) nature.habit = Habit::tier;

@@ -129,7 +129,7 @@ struct ColonyParams {
 };
 static_assert(well_described<ColonyParams>());
 
-struct ColonyOrder {
+struct ColonySpec {
     Mix mix;
     ColonyParams params;
 };
@@ -150,6 +150,6 @@ struct ColonyNature {
 ///
 /// throws  InvalidInput for ranges, an empty mix or an unknown species ("mix"); Impossible for a habit that the species cannot
 ///         have, for controls of roots without roots, of stems without stems, of a trunk without a trunk
-[[nodiscard]] ColonyNature colony_nature(const ColonyOrder& order, const Atlas& atlas);
+[[nodiscard]] ColonyNature colony_nature(const ColonySpec& spec, const Atlas& atlas);
 
 }  // namespace sporeprint

@@ -177,9 +177,9 @@ ColonySite rooted(const ColonyParams& params, const ColonyNature& nature,
     ColonySite site;
     const auto roots = grown.skeleton.nodes.begin();
     site.ground.nodes.assign(roots, roots + grown.root_nodes);
-    for (const Skeleton::Limb& limb : grown.skeleton.limbs)
-        if (limb.from < grown.root_nodes && limb.to < grown.root_nodes)
-            site.ground.limbs.push_back(limb);
+    for (const Skeleton::Segment& segment : grown.skeleton.segments)
+        if (segment.from < grown.root_nodes && segment.to < grown.root_nodes)
+            site.ground.segments.push_back(segment);
     // Of too many stems each has the same chance to stay.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> chances;
     for (const ColonySkeleton::Stem& stem : grown.stems)

@@ -164,7 +164,9 @@ class Grower {
         return -roots_.branch_distance * logarithm(1.0 - random.uniform());
     }
 
-    void link(std::uint32_t from, std::uint32_t to) { made_.skeleton.limbs.push_back({from, to}); }
+    void link(std::uint32_t from, std::uint32_t to) {
+        made_.skeleton.segments.push_back({from, to});
+    }
 
     void stem(std::uint32_t root) {
         Random random(seed_, purposes::root_stems, root);

@@ -26,7 +26,7 @@ constexpr int stem_looks = 6;
 
 }  // namespace
 
-Room::Room(const Mesh& mesh) {
+OccupancyGrid::OccupancyGrid(const Mesh& mesh) {
     const Bounds box = bounds(mesh);
     const double side = std::max({static_cast<double>(box.max.x - box.min.x),
                                   static_cast<double>(box.max.z - box.min.z), 1e-6});
@@ -80,14 +80,14 @@ Room::Room(const Mesh& mesh) {
         reach_ = std::max(reach_, glm::length(point - middle_) + 0.75 * cell_);
 }
 
-bool Room::holds(const glm::dvec3& point) const {
+bool OccupancyGrid::holds(const glm::dvec3& point) const {
     const double x = (point.x - corner_.x) / cell_, z = (point.z - corner_.y) / cell_;
     if (!(x >= 0.0 && z >= 0.0 && x < cells && z < cells)) return false;
     const Span& span = at(static_cast<int>(x), static_cast<int>(z));
     return point.y >= static_cast<double>(span.low) && point.y <= static_cast<double>(span.high);
 }
 
-bool Room::holds(const glm::dvec3& point, double margin) const {
+bool OccupancyGrid::holds(const glm::dvec3& point, double margin) const {
     const auto column = [&](double x) { return static_cast<int>(std::floor(x / cell_)); };
     const double x = point.x - corner_.x, z = point.z - corner_.y;
     const double whole = cells * cell_;
@@ -115,11 +115,12 @@ glm::dmat3 upright(const glm::dvec3& up, double turn) {
     return {x, up, glm::cross(x, up)};
 }
 
-bool meet(const Room& a, const Posture& posture_a, const Room& b, const Posture& posture_b) {
+bool meet(const OccupancyGrid& a, const Posture& posture_a, const OccupancyGrid& b,
+          const Posture& posture_b) {
     const double apart = glm::length(posture_a.world(a.middle()) - posture_b.world(b.middle()));
     if (apart > posture_a.scale * a.reach() + posture_b.scale * b.reach()) return false;
-    const auto enters = [](const Room& from, const Posture& pose, const Room& into,
-                           const Posture& other) {
+    const auto enters = [](const OccupancyGrid& from, const Posture& pose,
+                           const OccupancyGrid& into, const Posture& other) {
         // Both frames at once.
         const glm::dmat3 turn = glm::transpose(other.turn) * pose.turn * (pose.scale / other.scale);
         const glm::dvec3 at = other.own(pose.at);
@@ -198,14 +199,14 @@ class Settler {
     }
 
     [[nodiscard]] bool meets(const ColonyMember& one, const ColonyMember& other) const {
-        const Room &room = models_[one.model].room, &beside = models_[other.model].room;
+        const OccupancyGrid &room = models_[one.model].room, &beside = models_[other.model].room;
         return meet(room, one.posture, beside, other.posture) ||
                (nature_.capped && (runs_through(one, other) || runs_through(other, one)));
     }
 
     /// Whether the stem of one runs through the cap of another.
     [[nodiscard]] bool runs_through(const ColonyMember& one, const ColonyMember& other) const {
-        const Room& room = models_[other.model].room;
+        const OccupancyGrid& room = models_[other.model].room;
         const ColonyPlace& place = site_.places[one.place];
         const double radius = place.radius / other.posture.scale;
         for (int i = 1; i <= stem_looks; ++i) {

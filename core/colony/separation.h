@@ -15,10 +15,10 @@ namespace sporeprint {
 
 /// Room that a mesh takes: what lies between its lowest and highest point over each cell of a grid across its axis (+y). All of the
 /// mesh is in it, and what an umbrella covers is not.
-class Room {
+class OccupancyGrid {
   public:
     /// cost  O(triangles); some ten microseconds for a cap
-    explicit Room(const Mesh& mesh);
+    explicit OccupancyGrid(const Mesh& mesh);
 
     /// Whether a point of the mesh's own frame lies inside; or no farther than `margin` from it in any of three directions, metres.
     [[nodiscard]] bool holds(const glm::dvec3& point) const;
@@ -66,12 +66,12 @@ struct Posture {
 [[nodiscard]] glm::dmat3 upright(const glm::dvec3& up, double turn);
 
 /// Whether the rooms of two meshes meet.
-[[nodiscard]] bool meet(const Room& a, const Posture& posture_a, const Room& b,
+[[nodiscard]] bool meet(const OccupancyGrid& a, const Posture& posture_a, const OccupancyGrid& b,
                         const Posture& posture_b);
 
 /// One of the individuals that all others are likes of, oldest first.
 struct ColonyModel {
-    Room room;
+    OccupancyGrid room;
     double radius =
         1.0;  ///< metres of its own frame that are as wide as its place's stem at cap_scale 1
 };

@@ -83,7 +83,7 @@ int tier_of(int slot, int tiers) {
 /// the stem in one species may be short in another.
 template <class Work>
 void for_each_blade(const Individual& individual, const BladeBudget& budget, const Work& work) {
-    const int slots = individual.comb.blades << individual.blade_tiers;
+    const int slots = individual.gill_layout.blades << individual.blade_tiers;
     for (int slot = 0; slot < slots; ++slot) {
         if (tier_of(slot, individual.blade_tiers) < budget.tiers) work(slot);
     }
@@ -110,9 +110,9 @@ std::vector<SpeciesBlades> species_blades(const Individual& individual) {
         if (!is_bladed(pattern) || part.weight <= 0.0) continue;
         const HymeniumOf<Plain>& hymenium = part.model.hymenium;
         out.push_back({part.weight, &hymenium, pattern == HymeniumPattern::ridges,
-                       BladeRow(stand_on(0, pattern, hymenium.blades, hymenium.tiers), pattern,
-                                hymenium.forking, individual.effective.seed,
-                                individual.comb.blades << individual.blade_tiers)});
+                       BladeRow(slot_assignment(0, pattern, hymenium.blades, hymenium.tiers),
+                                pattern, hymenium.forking, individual.effective.seed,
+                                individual.gill_layout.blades << individual.blade_tiers)});
     }
     return out;
 }
@@ -425,7 +425,7 @@ void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudg
 
 void Builder::blades(const BladeBudget& budget) {
     const std::vector<SpeciesBlades> all = species_blades(individual_);
-    const int slots = individual_.comb.blades << individual_.blade_tiers;
+    const int slots = individual_.gill_layout.blades << individual_.blade_tiers;
     const double length = face_.length();
     const SubCurve& stem = context_.outline.stem;
     const BladeShape shape = blade_shape(all, face_.at(1.0).r);
@@ -496,9 +496,9 @@ void Builder::veins(const BladeBudget& budget) {
         const HymeniumOf<Plain>& hymenium = part.model.hymenium;
         const std::vector<CrossVein> all = built_veins(part, budget, seed);
         if (all.empty()) continue;
-        const BladeRow row_of(stand_on(0, HymeniumPattern::ridges, hymenium.blades, hymenium.tiers),
-                              HymeniumPattern::ridges, hymenium.forking, seed,
-                              hymenium.blades << hymenium.tiers);
+        const BladeRow row_of(
+            slot_assignment(0, HymeniumPattern::ridges, hymenium.blades, hymenium.tiers),
+            HymeniumPattern::ridges, hymenium.forking, seed, hymenium.blades << hymenium.tiers);
         for (const CrossVein& vein : all) {
             plan_vein(part, vein, row_of);
             double most = 0.0;
@@ -515,13 +515,13 @@ BladeBudget blade_budget(const Individual& individual, bool beside_pores) {
     BladeBudget budget;
     while (built_vein_count(individual, budget.vein_stride) > most_veins) ++budget.vein_stride;
     budget.veins = built_vein_count(individual, budget.vein_stride);
-    const Comb& comb = individual.comb;
+    const GillLayout& gill_layout = individual.gill_layout;
     const int max_triangles = beside_pores ? most_blade_triangles / 6 : most_blade_triangles;
     budget.tiers = individual.blade_tiers;
     budget.below = individual.runs_down ? stem_segments : 0;
     // Rows on the stem are dropped first, then the shortest blades.
     const auto too_many = [&] {
-        return (comb.blades << budget.tiers) * triangles_of(face_segments + budget.below) >
+        return (gill_layout.blades << budget.tiers) * triangles_of(face_segments + budget.below) >
                max_triangles;
     };
     while (budget.below > 1 && too_many()) --budget.below;
@@ -556,7 +556,7 @@ MeshCount solid_count(const Individual& individual, const BladeBudget& budget) {
 
 void add_blades(const Attachment& attachment, const BladeBudget& budget) {
     Builder builder(attachment);
-    if (attachment.individual.comb.blades > 0) builder.blades(budget);
+    if (attachment.individual.gill_layout.blades > 0) builder.blades(budget);
     if (budget.veins > 0) builder.veins(budget);
 }
 

@@ -12,7 +12,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t none = Bush::none;
+constexpr std::uint32_t none = BranchGraph::none;
 
 constexpr std::array<TubeDetail, 10> detail_steps = {
     {{28, 28, 20, 18, 6, 12, 11, 0.3, 0.0},
@@ -37,10 +37,10 @@ constexpr std::uint64_t most_at_farthest = 150;
 /// Number of tips from which on a tube counts as thick.
 constexpr int thick_tube_tips = 12;
 
-std::vector<TubeChain> chains_of(const Bush& graph) {
+std::vector<TubeChain> chains_of(const BranchGraph& graph) {
     std::vector<TubeChain> chains;
     for (std::uint32_t i = 0; i < graph.nodes.size(); ++i) {
-        const Bush::Node& node = graph.nodes[i];
+        const BranchGraph::Node& node = graph.nodes[i];
         if (node.parent != none && graph.nodes[node.parent].children[0] == i) continue;
         TubeChain chain;
         chain.tips = node.tips;
@@ -62,7 +62,8 @@ std::vector<TubeChain> chains_of(const Bush& graph) {
 }
 
 /// Returns the triangles of a tube, without the trunk below it.
-std::uint64_t tube_triangles(const Bush& graph, const TubeChain& chain, const TubeDetail& detail) {
+std::uint64_t tube_triangles(const BranchGraph& graph, const TubeChain& chain,
+                             const TubeDetail& detail) {
     // One ring is at the fork where it begins, or at the top of the trunk.
     int rings = 1 + segment_rings(graph.nodes[chain.nodes.back()], detail);
     for (const std::size_t fork : chain.forks)
@@ -72,7 +73,8 @@ std::uint64_t tube_triangles(const Bush& graph, const TubeChain& chain, const Tu
 }
 
 /// Returns the triangles of a trunk from the ground to its lowest fork; it is closed below.
-std::uint64_t trunk_triangles(const Bush& graph, const TubeChain& chain, const TubeDetail& detail) {
+std::uint64_t trunk_triangles(const BranchGraph& graph, const TubeChain& chain,
+                              const TubeDetail& detail) {
     return 2 *
            static_cast<std::uint64_t>(trunk_ring_count(graph.nodes[chain.nodes.front()], detail) -
                                       1) *
@@ -80,7 +82,7 @@ std::uint64_t trunk_triangles(const Bush& graph, const TubeChain& chain, const T
 }
 
 /// Returns the counts of a tube on which no other begins.
-MeshCount count_of(const Bush& graph, const TubeChain& chain, const TubeDetail& detail) {
+MeshCount count_of(const BranchGraph& graph, const TubeChain& chain, const TubeDetail& detail) {
     const auto sides = static_cast<std::uint64_t>(tube_columns(graph, chain, detail));
     const auto rings = static_cast<std::uint64_t>(1 + detail.tip_rings);
     // One row at the beginning, one point at the tip.
@@ -96,7 +98,7 @@ MeshCount count_of(const Bush& graph, const TubeChain& chain, const TubeDetail& 
 }
 
 /// Returns the counts of the additional rings that a tube has where another one begins on it.
-MeshCount fork_count(const Bush& graph, const TubeChain& parent, std::size_t at,
+MeshCount fork_count(const BranchGraph& graph, const TubeChain& parent, std::size_t at,
                      const TubeDetail& detail) {
     const auto rings =
         static_cast<std::uint64_t>(segment_rings(graph.nodes[parent.nodes[at]], detail)) *
@@ -112,12 +114,12 @@ int tube_sides(const TubeChain& chain, const TubeDetail& detail) {
     return chain.tips > 1 ? detail.sides : detail.twig_sides;
 }
 
-int tube_columns(const Bush& graph, const TubeChain& chain, const TubeDetail& detail) {
+int tube_columns(const BranchGraph& graph, const TubeChain& chain, const TubeDetail& detail) {
     const bool few = !chain.root && graph.nodes[chain.nodes.front()].few > 0.0;
     return tube_sides(chain, detail) * (few ? detail.few_sides : 1);
 }
 
-int segment_rings(const Bush::Node& end, const TubeDetail& detail) {
+int segment_rings(const BranchGraph::Node& end, const TubeDetail& detail) {
     if (end.children[0] == none) return detail.tip_rings;
     const bool few = end.few > 0.0;
     const int steps = few ? std::max(detail.steps, detail.few_steps) : detail.steps;
@@ -125,16 +127,16 @@ int segment_rings(const Bush::Node& end, const TubeDetail& detail) {
     return std::max({steps, detail.tip_rings, few ? detail.few_tip_rings : 0});
 }
 
-int trunk_ring_count(const Bush::Node& top, const TubeDetail& detail) {
+int trunk_ring_count(const BranchGraph::Node& top, const TubeDetail& detail) {
     return top.few > 0.0 ? std::max(detail.trunk_rings, detail.few_trunk_rings)
                          : detail.trunk_rings;
 }
 
-bool is_present(const Bush& graph, const TubeChain& chain) {
+bool is_present(const BranchGraph& graph, const TubeChain& chain) {
     return graph.nodes[chain.nodes.front()].presence >= least_presence;
 }
 
-BranchPlan branch_plan(const Bush& graph, int lod) {
+BranchPlan branch_plan(const BranchGraph& graph, int lod) {
     const auto level = static_cast<std::size_t>(lod);
     const std::uint64_t limit =
         lod < farthest_lod ? most_triangles[level] : std::uint64_t{most_at_farthest};
@@ -183,7 +185,7 @@ BranchPlan branch_plan(const Bush& graph, int lod) {
     return plan;
 }
 
-MeshCount branched_mesh_count(const Bush& graph, int lod, bool keep_absent) {
+MeshCount branched_mesh_count(const BranchGraph& graph, int lod, bool keep_absent) {
     const BranchPlan plan = branch_plan(graph, lod);
     MeshCount count = plan.count;
     if (keep_absent) return count;

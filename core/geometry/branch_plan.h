@@ -52,25 +52,26 @@ struct BranchPlan {
 /// triangle limit that keeps enough of them; those with fewest tips are dropped first.
 ///
 /// cost  O(nodes log nodes)
-[[nodiscard]] BranchPlan branch_plan(const Bush& graph, int lod);
+[[nodiscard]] BranchPlan branch_plan(const BranchGraph& graph, int lod);
 
 /// Returns the sides of a tube as species of many segments draw it.
 [[nodiscard]] int tube_sides(const TubeChain& chain, const TubeDetail& detail);
 
 /// Returns the sides of a tube as it is drawn.
-[[nodiscard]] int tube_columns(const Bush& graph, const TubeChain& chain, const TubeDetail& detail);
+[[nodiscard]] int tube_columns(const BranchGraph& graph, const TubeChain& chain,
+                               const TubeDetail& detail);
 
 /// Returns the rings of a segment, whatever its end. Where only some species of a mix have a tip it
 /// has as many rings as a tip needs, so that weight 1 reproduces the single-species mesh.
-[[nodiscard]] int segment_rings(const Bush::Node& end, const TubeDetail& detail);
+[[nodiscard]] int segment_rings(const BranchGraph::Node& end, const TubeDetail& detail);
 
 /// Returns the rings of a trunk below its lowest fork.
-[[nodiscard]] int trunk_ring_count(const Bush::Node& top, const TubeDetail& detail);
+[[nodiscard]] int trunk_ring_count(const BranchGraph::Node& top, const TubeDetail& detail);
 
 /// Segments with less presence have no triangles.
 inline constexpr double least_presence = 0.004;
 
 /// Returns true when a tube has triangles: its first segment has begun to exist.
-[[nodiscard]] bool is_present(const Bush& graph, const TubeChain& chain);
+[[nodiscard]] bool is_present(const BranchGraph& graph, const TubeChain& chain);
 
 }  // namespace sporeprint

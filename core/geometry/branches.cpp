@@ -23,7 +23,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t none = Bush::none;
+constexpr std::uint32_t none = BranchGraph::none;
 
 /// Limit of curvature of the bent axis times the reach of the graph: at 1 the segments on the inner
 /// side would meet.
@@ -42,8 +42,8 @@ struct Station {
     glm::dmat3 flat{0.0};  ///< flattening: sum of outer squares of unit vectors
     double radius = 0.0, wide = 1.0, thin = 1.0;  ///< factors along the flattening and across it
     double at_fork = 0.0;                         ///< 0..1: closeness to a fork
-    double colour = 0.0;  ///< see Bush::Node::from_tip; for a trunk the share of its length
-    double few = 0.0;     ///< see Bush::Node::few
+    double colour = 0.0;  ///< see BranchGraph::Node::from_tip; for a trunk the share of its length
+    double few = 0.0;     ///< see BranchGraph::Node::few
 };
 
 glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
@@ -53,8 +53,8 @@ glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
 double polygon_scale(int sides) { return pi / (sides * sine(pi / sides)); }
 
 /// Returns the branch graph of an individual after deformation.
-Bush deformed(const Individual& individual) {
-    Bush graph = individual.bush;
+BranchGraph deformed(const Individual& individual) {
+    BranchGraph graph = individual.branch_graph;
     const DeformationOf<Plain>& deformation = individual.model.deformation;
     Random random(individual.effective.seed, purposes::axis_angles);
     const double bend = random.uniform(0.0, 2.0 * pi);
@@ -89,10 +89,10 @@ Bush deformed(const Individual& individual) {
         point.azimuth = station.direction(point.position, point.azimuth);
         point.position = station.point(point.position);
     };
-    for (Bush::Node& node : graph.nodes) {
+    for (BranchGraph::Node& node : graph.nodes) {
         // Start and end of the segment of this node.
         SurfacePoint start{node.beside, node.heading, node.across};
-        if (node.parent != none) start.position += individual.bush.nodes[node.parent].place;
+        if (node.parent != none) start.position += individual.branch_graph.nodes[node.parent].place;
         SurfacePoint end{node.place, node.heading, node.across};
         moved(start);
         moved(end);
@@ -134,7 +134,7 @@ class TubeBuilder {
     }
 
   private:
-    using Node = Bush::Node;
+    using Node = BranchGraph::Node;
 
     [[nodiscard]] const Node& node(std::uint32_t i) const { return graph_.nodes[i]; }
 
@@ -481,7 +481,7 @@ class TubeBuilder {
         const double turn =
             chain.root
                 ? 0.0
-                : 2.0 * pi * Random(seed_, purposes::limb_turns, chain.nodes.front()).uniform();
+                : 2.0 * pi * Random(seed_, purposes::segment_turns, chain.nodes.front()).uniform();
         // The tube above a trunk begins with the very ring in which the trunk ends.
         if (!chain.root) side_ = square_to(stations.front().along, node(start).across);
         const std::uint32_t base =
@@ -604,7 +604,7 @@ class TubeBuilder {
         mesh_.texture_coordinates.emplace_back(at.u, at.v);
     }
 
-    Bush graph_;
+    BranchGraph graph_;
     BranchPlan plan_;
     std::uint32_t seed_;
     bool full_disc_;

@@ -15,7 +15,8 @@ namespace sporeprint {
 /// Returns the exact counts of branched_mesh() at a level of detail, 0..3. The vertex count follows
 /// from species and seed alone: no age and no weight changes it. Triangles are counted for segments
 /// that are present or, with `keep_absent`, for all segments, as for vertices.
-[[nodiscard]] MeshCount branched_mesh_count(const Bush& graph, int lod, bool keep_absent = false);
+[[nodiscard]] MeshCount branched_mesh_count(const BranchGraph& graph, int lod,
+                                            bool keep_absent = false);
 
 /// Returns the mesh of a branched individual at a level of detail, 0..3.
 ///

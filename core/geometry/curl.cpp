@@ -15,7 +15,7 @@ Curl::Curl(const Individual& individual, const MarginCuts& cuts, std::vector<glm
       lower_length_(individual.outline.hymenium.length()),
       reach_(0.22 * cap_length_),
       max_height_(0.075 * cap_length_ *
-                  smooth_step(0.0, 0.6, individual.wear.amounts.deliquescence)),
+                  smooth_step(0.0, 0.6, individual.damage.amounts.deliquescence)),
       away_(std::move(away)) {}
 
 double Curl::height(bool cap, double at, double cap_end, double lower_end) const {

@@ -50,8 +50,8 @@ std::vector<Notch> notches_of(const Individual& individual, const LodLimits& lim
         const auto count = std::min(all.size(), static_cast<std::size_t>(most));
         out.insert(out.end(), all.begin(), all.begin() + static_cast<std::ptrdiff_t>(count));
     };
-    if (individual.wear.bites && limits.bites > 0) add(bites(seed), limits.bites);
-    if (individual.wear.splits && limits.splits > 0) add(splits(seed), limits.splits);
+    if (individual.damage.bites && limits.bites > 0) add(bites(seed), limits.bites);
+    if (individual.damage.splits && limits.splits > 0) add(splits(seed), limits.splits);
     return out;
 }
 
@@ -63,12 +63,12 @@ double share_of(const Notch& notch, const WeatheringOf<Plain>& amounts) {
 
 MarginCuts::MarginCuts(const Individual& individual, int lod) {
     const Outline& outline = individual.outline;
-    const WeatheringOf<Plain>& amounts = individual.wear.amounts;
+    const WeatheringOf<Plain>& amounts = individual.damage.amounts;
     const LodLimits& limits = at_level(limits_by_lod, lod);
     std::vector<Notch> notches;
     if (!outline.hymenium.empty()) {
         notches = notches_of(individual, limits);
-        melts_ = individual.wear.melts;
+        melts_ = individual.damage.melts;
     }
     possible_ = melts_ || !notches.empty();
     if (possible_) {

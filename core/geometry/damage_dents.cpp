@@ -32,32 +32,32 @@ double stem_freedom(double share) {
 
 Dents::Dents(const Individual& individual)
     : outline_(individual.outline),
-      bumps_(individual.wear.amounts.bumps),
-      creases_(individual.wear.amounts.creases),
-      clubs_(individual.wear.clubs) {
+      bumps_(individual.damage.amounts.bumps),
+      creases_(individual.damage.amounts.creases),
+      clubs_(individual.damage.clubs) {
     const std::uint32_t seed = individual.effective.seed;
     if (bumps_ > 0.0) {
-        cap_lumps_ = marks(MarkKind::lump, CurveName::cap, seed);
-        stem_lumps_ = marks(MarkKind::lump, CurveName::stem, seed);
+        cap_lumps_ = damage_spots(DamageSpotKind::lump, CurveName::cap, seed);
+        stem_lumps_ = damage_spots(DamageSpotKind::lump, CurveName::stem, seed);
     }
     if (creases_ > 0.0) furrows_ = furrows(seed);
     if (bumps_ > 0.0 || creases_ > 0.0) radius_ = mean_radius(outline_.stem);
 }
 
-double Dents::lumps(const SubCurve& curve, const std::vector<Mark>& marks, double unit, bool stem,
-                    double sigma, double angle) const {
+double Dents::lumps(const SubCurve& curve, const std::vector<DamageSpot>& damage_spots, double unit,
+                    bool stem, double sigma, double angle) const {
     const double length = curve.length(), ring = curve.at(stem ? sigma : 1.0 - sigma).r;
     double height = 0.0;
-    for (const Mark& mark : marks) {
-        const double scale = grown(mark.onset, bumps_);
-        const double size = std::max(mark.radius * (0.5 + 0.5 * scale), 1e-4) * unit;
-        const double a = (sigma - mark.sigma) * length / (size * mark.elongation);
+    for (const DamageSpot& spot : damage_spots) {
+        const double scale = grown(spot.onset, bumps_);
+        const double size = std::max(spot.radius * (0.5 + 0.5 * scale), 1e-4) * unit;
+        const double a = (sigma - spot.sigma) * length / (size * spot.elongation);
         if (scale <= 0.0 || a < -1.0 || a > 1.0) continue;
-        const double r = std::max(curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r, 1e-4);
-        const double chord = 2.0 * sine(0.5 * turn_between(mark.theta, angle));
+        const double r = std::max(curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r, 1e-4);
+        const double chord = 2.0 * sine(0.5 * turn_between(spot.theta, angle));
         const double square = a * a + r * ring * chord * chord / (size * size);
         if (square < 1.0)
-            height += lump_height(mark) * scale * unit * (1.0 - square) * (1.0 - square);
+            height += lump_height(spot) * scale * unit * (1.0 - square) * (1.0 - square);
     }
     return height;
 }

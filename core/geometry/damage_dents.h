@@ -38,12 +38,12 @@ class Dents {
     [[nodiscard]] double stem(double sigma, double angle) const;
 
   private:
-    [[nodiscard]] double lumps(const SubCurve& curve, const std::vector<Mark>& marks, double unit,
-                               bool stem, double sigma, double angle) const;
+    [[nodiscard]] double lumps(const SubCurve& curve, const std::vector<DamageSpot>& damage_spots,
+                               double unit, bool stem, double sigma, double angle) const;
     [[nodiscard]] double furrow(double sigma, double angle, bool on_stem) const;
 
     const Outline& outline_;
-    std::vector<Mark> cap_lumps_, stem_lumps_;
+    std::vector<DamageSpot> cap_lumps_, stem_lumps_;
     std::vector<Furrow> furrows_;
     double bumps_, creases_, clubs_, radius_ = 0.0;
 };

@@ -46,10 +46,10 @@ MeshCount damage_solid_count(const Individual& individual, int lod) {
         count.vertices += static_cast<std::uint64_t>(number) * vertices;
         count.triangles += static_cast<std::uint64_t>(number) * triangles;
     };
-    if (individual.wear.peels)
+    if (individual.damage.peels)
         solids(limits.rolls, roll_vertices(limits.roll_pieces), roll_triangles(limits.roll_pieces));
-    if (individual.wear.melts) solids(limits.drips, drip_vertices, drip_triangles);
-    if (individual.wear.dew) solids(limits.drops, drop_vertices, drop_triangles);
+    if (individual.damage.melts) solids(limits.drips, drip_vertices, drip_triangles);
+    if (individual.damage.dew) solids(limits.drops, drop_vertices, drop_triangles);
     return count;
 }
 
@@ -59,7 +59,7 @@ DamageSolids::DamageSolids(Mesh& mesh, const FaceGrid& cap, const Individual& in
       cap_(cap),
       individual_(individual),
       limits_(limits_at(lod)),
-      amounts_(individual.wear.amounts),
+      amounts_(individual.damage.amounts),
       cuts_(cuts),
       keep_absent_(keep_absent),
       textured_(!mesh.texture_coordinates.empty()),
@@ -134,7 +134,7 @@ void DamageSolids::solid(const std::vector<glm::dvec3>& corners, const glm::dvec
 }
 
 void DamageSolids::add_rolls() {
-    if (!individual_.wear.peels || limits_.rolls == 0) return;
+    if (!individual_.damage.peels || limits_.rolls == 0) return;
     const double most = individual_.model.surface.scars.peel_reach;
     const double length = individual_.outline.cap.length();
     int left = limits_.rolls;
@@ -181,7 +181,7 @@ void DamageSolids::add_rolls() {
 }
 
 void DamageSolids::add_drips() {
-    if (!individual_.wear.melts || limits_.drips == 0) return;
+    if (!individual_.damage.melts || limits_.drips == 0) return;
     const double length = individual_.outline.cap.length();
     for (int i = 0; i < limits_.drips; ++i) {
         Random random(individual_.effective.seed, purposes::drips, static_cast<std::uint32_t>(i));
@@ -214,15 +214,16 @@ void DamageSolids::add_drips() {
 }
 
 void DamageSolids::add_drops() {
-    if (!individual_.wear.dew || limits_.drops == 0) return;
+    if (!individual_.damage.dew || limits_.drops == 0) return;
     const double length = individual_.outline.cap.length();
     int left = limits_.drops;
-    for (const Mark& mark : marks(MarkKind::dew, CurveName::cap, individual_.effective.seed)) {
+    for (const DamageSpot& spot :
+         damage_spots(DamageSpotKind::dew, CurveName::cap, individual_.effective.seed)) {
         if (left-- <= 0) break;
-        const double scale = begun(mark.onset, amounts_.dew);
-        const double radius = std::max(mark.radius * 1.15 * scale * length, 0.0);
-        const double sigma = std::min(mark.sigma, cuts_.cap_end(mark.theta) - 0.02);
-        const CapPoint here = cap_point(1.0 - sigma, mark.theta / whole_turn);
+        const double scale = begun(spot.onset, amounts_.dew);
+        const double radius = std::max(spot.radius * 1.15 * scale * length, 0.0);
+        const double sigma = std::min(spot.sigma, cuts_.cap_end(spot.theta) - 0.02);
+        const CapPoint here = cap_point(1.0 - sigma, spot.theta / whole_turn);
         const glm::dvec3 aside = glm::cross(here.meridian, here.normal);
         const auto sides = static_cast<std::size_t>(drop_sides);
         std::vector<glm::dvec3> corners;

@@ -38,7 +38,7 @@ class Weatherer {
           body_(body),
           individual_(individual),
           limits_(limits_at(lod)),
-          amounts_(individual.wear.amounts),
+          amounts_(individual.damage.amounts),
           cuts_(cuts),
           lod_(lod),
           keep_absent_(keep_absent),
@@ -205,9 +205,9 @@ class Weatherer {
             const FaceGrid& face = stem ? body_.stem : body_.cap;
             const CurveName part = stem ? CurveName::stem : CurveName::cap;
             heights_.assign(face.shares.size() * columns_, 0.0);
-            if (lumps) add_marks(face, part, MarkKind::lump, amounts_.bumps);
-            if (pitted) add_marks(face, part, MarkKind::pit, amounts_.bites);
-            if (furrowed && (stem || individual_.wear.clubs > 0.0)) add_furrows(face, stem);
+            if (lumps) add_spots(face, part, DamageSpotKind::lump, amounts_.bumps);
+            if (pitted) add_spots(face, part, DamageSpotKind::pit, amounts_.bites);
+            if (furrowed && (stem || individual_.damage.clubs > 0.0)) add_furrows(face, stem);
             raise(face, stem);
         }
     }
@@ -217,27 +217,27 @@ class Weatherer {
         return stem ? stem_freedom(share) : smooth_step(0.0, 0.08, share);
     }
 
-    void add_marks(const FaceGrid& face, CurveName part, MarkKind kind, double amount) {
+    void add_spots(const FaceGrid& face, CurveName part, DamageSpotKind kind, double amount) {
         const bool stem = part == CurveName::stem;
         const SubCurve& curve = individual_.outline.of(part);
         const double length = curve.length();
         if (length <= 0.0) return;
         const double girth = whole_turn * mean_radius(individual_.outline.stem);
-        for (const Mark& mark : marks(kind, part, individual_.effective.seed)) {
-            const double scale = grown(mark.onset, amount);
+        for (const DamageSpot& spot : damage_spots(kind, part, individual_.effective.seed)) {
+            const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
             const double unit = stem ? girth : length;
-            const bool pit = kind == MarkKind::pit;
+            const bool pit = kind == DamageSpotKind::pit;
             const double size =
-                std::max(mark.radius * (pit ? scale : 0.5 + 0.5 * scale), 1e-4) * unit;
-            double height = pit ? -0.30 * size : lump_height(mark) * scale * unit;
-            if (pit) height *= carried_pit(size, length, mark, curve, stem);
-            const double along = size * mark.elongation;
-            const double r = std::max(curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r, 1e-4);
-            const double x = r * cosine(mark.theta), z = r * sine(mark.theta);
+                std::max(spot.radius * (pit ? scale : 0.5 + 0.5 * scale), 1e-4) * unit;
+            double height = pit ? -0.30 * size : lump_height(spot) * scale * unit;
+            if (pit) height *= carried_pit(size, length, spot, curve, stem);
+            const double along = size * spot.elongation;
+            const double r = std::max(curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r, 1e-4);
+            const double x = r * cosine(spot.theta), z = r * sine(spot.theta);
             for (std::size_t i = 0; i < face.shares.size(); ++i) {
                 const double sigma = stem ? face.shares[i] : 1.0 - face.shares[i];
-                const double a = (sigma - mark.sigma) * length / along;
+                const double a = (sigma - spot.sigma) * length / along;
                 if (a < -1.0 || a > 1.0) continue;
                 const double ring = curve.at(face.shares[i]).r;
                 // Distance on the circle of the mean radius, so that it also holds across the pole.
@@ -258,12 +258,12 @@ class Weatherer {
 
     // A pit narrower than a few rings and columns is only painted: its depth would depend on which
     // vertex happens to lie in it.
-    [[nodiscard]] double carried_pit(double size, double length, const Mark& mark,
+    [[nodiscard]] double carried_pit(double size, double length, const DamageSpot& spot,
                                      const SubCurve& curve, bool stem) const {
         const Detail& detail = detail_of(lod_);
         const double ring = length / ((stem ? detail.stem_rings : detail.cap_rings) - 1);
         const double round =
-            whole_turn * curve.at(stem ? mark.sigma : 1.0 - mark.sigma).r / detail.columns;
+            whole_turn * curve.at(stem ? spot.sigma : 1.0 - spot.sigma).r / detail.columns;
         return smooth_step(2.0, 6.0, size / std::max({ring, round, 1e-6}));
     }
 
@@ -277,7 +277,7 @@ class Weatherer {
                 // On a club, furrows continue over its end.
                 const double sigma = stem ? share : 1.0 + share;
                 const double fades =
-                    stem ? 1.0 : club_carried * individual_.wear.clubs * club_fade(share);
+                    stem ? 1.0 : club_carried * individual_.damage.clubs * club_fade(share);
                 const double deep = furrow_deep * radius * scale * fades *
                                     (stem ? furrow_depth(furrow, sigma) : furrow.depth);
                 if (deep <= 0.0) continue;
@@ -502,8 +502,9 @@ WeatheringCount weathering_count(const Individual& individual, int lod) {
 
 Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual,
              const MarginCuts& cuts, int lod, bool keep_absent) {
-    const Wear& wear = individual.wear;
-    if (!wear.any() && !wear.bites && !wear.splits && !wear.melts && !wear.peels && !wear.dew)
+    const DamageAmounts& damage = individual.damage;
+    if (!damage.any() && !damage.bites && !damage.splits && !damage.melts && !damage.peels &&
+        !damage.dew)
         return {};
     return Weatherer(mesh, body, individual, cuts, lod, keep_absent).run();
 }

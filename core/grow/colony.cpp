@@ -46,13 +46,13 @@ int mesh_lod(const Individual& individual, int lod) {
                : level;
 }
 
-bool textured(const ColonyOrder& order) { return order.params.textures != Textures::none; }
+bool textured(const ColonySpec& spec) { return spec.params.textures != Textures::none; }
 
 /// Returns the spec of one individual. `which` determines its age.
-MushroomOrder individual_order(const ColonyOrder& order, int which) {
-    const ColonyParams& params = order.params;
-    MushroomOrder own;
-    own.mix = order.mix;
+MushroomSpec individual_spec(const ColonySpec& spec, int which) {
+    const ColonyParams& params = spec.params;
+    MushroomSpec own;
+    own.mix = spec.mix;
     own.params.seed =
         Random(params.seed, purposes::colony_seeds, static_cast<std::uint32_t>(which)).bits();
     own.params.age =
@@ -63,10 +63,10 @@ MushroomOrder individual_order(const ColonyOrder& order, int which) {
 }
 
 /// Returns an individual without variation, from which the lengths of a colony follow.
-Individual typical_individual(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
-    MushroomOrder own = individual_order(order, 0);
+Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
+    MushroomSpec own = individual_spec(spec, 0);
     own.params.variation = 0.0;
-    return resolve(own, atlas, memo.morphs);
+    return resolve(own, atlas, caches.morphs);
 }
 
 StemFit fit_of(const Individual& individual, const ColonyNature& nature) {
@@ -100,16 +100,16 @@ int segments_of(const ColonyRoots& growth, int lod) {
     return std::min(growth.stem_segments, stem_nodes[static_cast<std::size_t>(lod)]);
 }
 
-std::uint64_t image_texels(const ColonyOrder& order) {
-    const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
-    return textured(order) ? 3 * side * side : 0;
+std::uint64_t image_texels(const ColonySpec& spec) {
+    const auto side = static_cast<std::uint64_t>(spec.params.texture_size) >> spec.params.lod;
+    return textured(spec) ? 3 * side * side : 0;
 }
 
-std::uint64_t bytes_of(const ColonyOrder& order, std::uint64_t vertices, std::uint64_t triangles,
+std::uint64_t bytes_of(const ColonySpec& spec, std::uint64_t vertices, std::uint64_t triangles,
                        std::uint64_t members) {
-    const std::uint64_t place = order.params.instancing == Instancing::gpu ? 40 : 150;
-    return estimated_bytes(vertices, triangles, order.params.textures, image_texels(order) / 3) +
-           place * members + 700 * static_cast<std::uint64_t>(order.params.distinct);
+    const std::uint64_t place = spec.params.instancing == Instancing::gpu ? 40 : 150;
+    return estimated_bytes(vertices, triangles, spec.params.textures, image_texels(spec) / 3) +
+           place * members + 700 * static_cast<std::uint64_t>(spec.params.distinct);
 }
 
 /// Returns the parameters with every default resolved.
@@ -188,10 +188,10 @@ void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& 
 
 }  // namespace
 
-Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
-    const ColonyParams& params = order.params;
-    const ColonyNature nature = colony_nature(order, atlas);
-    const Individual individual = typical_individual(order, atlas, memo);
+Estimate estimate(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
+    const ColonyParams& params = spec.params;
+    const ColonyNature nature = colony_nature(spec, atlas);
+    const Individual individual = typical_individual(spec, atlas, caches);
     const ColonyRoots growth = growth_of(params, nature, fit_of(individual, nature));
     const auto count = static_cast<std::uint64_t>(params.count);
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
@@ -208,12 +208,13 @@ Estimate estimate(const ColonyOrder& order, const Atlas& atlas, const Memo& memo
     Estimate e;
     e.vertices = distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads);
     e.triangles = distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads);
-    e.texels = image_texels(order) * static_cast<std::uint64_t>(atlases_held(paint_order(order)));
-    e.bytes = bytes_of(order, e.vertices, e.triangles, count);
+    e.texels =
+        image_texels(spec) * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    e.bytes = bytes_of(spec, e.vertices, e.triangles, count);
     return e;
 }
 
-Estimate measured(const ColonyOrder& order, const Colony& colony) {
+Estimate measured(const ColonySpec& spec, const Colony& colony) {
     Estimate e;
     e.vertices = colony.skin.positions.size();
     e.triangles = colony.skin.triangles();
@@ -221,26 +222,27 @@ Estimate measured(const ColonyOrder& order, const Colony& colony) {
         e.vertices += model.positions.size();
         e.triangles += model.triangles();
     }
-    e.texels = image_texels(order) * static_cast<std::uint64_t>(atlases_held(paint_order(order)));
-    e.bytes = bytes_of(order, e.vertices, e.triangles, colony.members.size());
+    e.texels =
+        image_texels(spec) * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    e.bytes = bytes_of(spec, e.vertices, e.triangles, colony.members.size());
     return e;
 }
 
-Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop& workshop) {
-    const ColonyParams& params = order.params;
-    workshop.observer(Step::resolve);
-    const ColonyNature nature = colony_nature(order, atlas);
-    const Individual individual = typical_individual(order, atlas, workshop.memo);
+Colony colony_parts(const ColonySpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
+    const ColonyParams& params = spec.params;
+    execution.observer(Step::resolve);
+    const ColonyNature nature = colony_nature(spec, atlas);
+    const Individual individual = typical_individual(spec, atlas, execution.caches);
     StemFit fit = fit_of(individual, nature);
     const double painted_length = fit.length;
 
-    workshop.observer(Step::build);
+    execution.observer(Step::build);
     Colony colony;
     std::vector<ColonyModel> models;
     for (int which = 0; which < params.distinct; ++which) {
-        throw_if_cancelled(workshop);
-        const MushroomOrder own = individual_order(order, which);
-        Individual one = resolve(own, atlas, workshop.memo.morphs);
+        throw_if_cancelled(execution);
+        const MushroomSpec own = individual_spec(spec, which);
+        Individual one = resolve(own, atlas, execution.caches.morphs);
         // All members use the images of one mushroom, so features drawn by its seed are where they
         // are painted.
         one.effective.seed = params.seed;
@@ -256,22 +258,23 @@ Colony colony_parts(const ColonyOrder& order, const Atlas& atlas, const Workshop
             return mesh;
         };
         const int own_lod = mesh_lod(one, params.lod);
-        colony.models.push_back(grown(own_lod, textured(order)));
+        colony.models.push_back(grown(own_lod, textured(spec)));
         const Mesh& own_mesh = colony.models.back();
         const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
         const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
         if (!nature.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
-        models.push_back({Room(footprint_mesh), nature.capped ? stem_fit(one).radius : fit.radius});
+        models.push_back(
+            {OccupancyGrid(footprint_mesh), nature.capped ? stem_fit(one).radius : fit.radius});
     }
-    throw_if_cancelled(workshop);
+    throw_if_cancelled(execution);
 
     const ColonyRoots growth = growth_of(params, nature, fit);
     const ColonySite site = colony_site(params, nature, growth, fit);
     colony.members = settled(site, models, params, nature);
     const Skeleton skeleton =
-        colony_limbs(site, colony.members, params, nature, segments_of(growth, params.lod));
-    throw_if_cancelled(workshop);
-    colony.skin = colony_skin(skeleton, {params.lod, painted_length, textured(order)});
+        colony_skeleton(site, colony.members, params, nature, segments_of(growth, params.lod));
+    throw_if_cancelled(execution);
+    colony.skin = colony_skin(skeleton, {params.lod, painted_length, textured(spec)});
     colony.effective = effective_params(params, nature, growth, fit);
     colony.junction = fit.radius;
 
@@ -310,35 +313,35 @@ std::uint64_t instanced_triangles(const Colony& colony) {
     return triangles;
 }
 
-MushroomOrder paint_order(const ColonyOrder& order) {
-    MushroomOrder own;
-    own.mix = order.mix;
-    own.params.seed = order.params.seed;
-    own.params.age = order.params.age;
-    own.params.lod = cap_lod(order.params.lod);
-    own.params.texture_size = order.params.texture_size;
-    own.params.textures = order.params.textures;
+MushroomSpec paint_mushroom_spec(const ColonySpec& spec) {
+    MushroomSpec own;
+    own.mix = spec.mix;
+    own.params.seed = spec.params.seed;
+    own.params.age = spec.params.age;
+    own.params.lod = cap_lod(spec.params.lod);
+    own.params.texture_size = spec.params.texture_size;
+    own.params.textures = spec.params.textures;
     return own;
 }
 
-PaintRecipe paint_recipe(const ColonyOrder& order, const Atlas& atlas, const Memo& memo) {
-    PaintRecipe recipe = paint_recipe(paint_order(order), atlas, memo);
+PaintSpec paint_spec_of(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
+    PaintSpec paint_spec = paint_spec_of(paint_mushroom_spec(spec), atlas, caches);
     // The resolution is that of the colony's level of detail, the painted detail that of its caps'.
-    for (PaintShare& share : recipe)
-        share.painting.side = order.params.texture_size >> order.params.lod;
-    return recipe;
+    for (PaintShare& share : paint_spec)
+        share.painting.side = spec.params.texture_size >> spec.params.lod;
+    return paint_spec;
 }
 
-Grown grow_colony(const ColonyOrder& order, const Atlas& atlas, const Extras& extras,
-                  const Workshop& workshop) {
-    const Colony colony = colony_parts(order, atlas, workshop);
-    const Individual individual = typical_individual(order, atlas, workshop.memo);
+Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extras,
+                  const ExecutionContext& execution) {
+    const Colony colony = colony_parts(spec, atlas, execution);
+    const Individual individual = typical_individual(spec, atlas, execution.caches);
     const std::string name = name_of(individual);
     GlbMaterial material{.name = name, .look = look_of(individual.model)};
     const auto images = attach_images(
-        material, order.params.textures, extras.image_addresses, workshop,
-        [&] { return painted_images(paint_recipe(order, atlas, workshop.memo), workshop); });
-    workshop.observer(Step::pack);
+        material, spec.params.textures, extras.image_addresses, execution,
+        [&] { return painted_images(paint_spec_of(spec, atlas, execution.caches), execution); });
+    execution.observer(Step::pack);
     GlbScene scene;
     scene.extras_json =
         extras_json(extras, write(colony.effective), bounds(colony), instanced_triangles(colony));
@@ -354,7 +357,7 @@ Grown grow_colony(const ColonyOrder& order, const Atlas& atlas, const Extras& ex
         scene.meshes.push_back({name + " " + std::to_string(i + 1), {{&colony.models[i], 0, {}}}});
     }
     add_member_nodes(scene, colony, name, mesh_of);
-    const Estimate e = measured(order, colony);
+    const Estimate e = measured(spec, colony);
     return {glb(scene), e.vertices, e.triangles};
 }
 

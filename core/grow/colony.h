@@ -16,8 +16,8 @@ namespace sporeprint {
 /// and bytes. One individual is resolved, nothing is built.
 ///
 /// throws  as colony_nature(); Impossible ("/branch_distance") for roots with too many nodes
-[[nodiscard]] Estimate estimate(const ColonyOrder& order, const Atlas& atlas,
-                                const Memo& memo = {});
+[[nodiscard]] Estimate estimate(const ColonySpec& spec, const Atlas& atlas,
+                                const Caches& caches = {});
 
 /// The parts of a colony; each mesh is stored once.
 struct Colony {
@@ -32,11 +32,11 @@ struct Colony {
 /// placed on stems or as whole mushrooms.
 ///
 /// throws  InvalidInput, Impossible, Cancelled
-[[nodiscard]] Colony colony_parts(const ColonyOrder& order, const Atlas& atlas,
-                                  const Workshop& workshop = {});
+[[nodiscard]] Colony colony_parts(const ColonySpec& spec, const Atlas& atlas,
+                                  const ExecutionContext& execution = {});
 
 /// Returns the estimate of a built colony, with exact vertex and triangle counts.
-[[nodiscard]] Estimate measured(const ColonyOrder& order, const Colony& colony);
+[[nodiscard]] Estimate measured(const ColonySpec& spec, const Colony& colony);
 
 /// Returns the bounding box of all instances of a colony.
 [[nodiscard]] Bounds bounds(const Colony& colony);
@@ -45,17 +45,17 @@ struct Colony {
 [[nodiscard]] std::uint64_t instanced_triangles(const Colony& colony);
 
 /// Returns the spec of the mushroom whose images all members of a colony use.
-[[nodiscard]] MushroomOrder paint_order(const ColonyOrder& order);
+[[nodiscard]] MushroomSpec paint_mushroom_spec(const ColonySpec& spec);
 
 /// Returns everything that painting these images depends on.
-[[nodiscard]] PaintRecipe paint_recipe(const ColonyOrder& order, const Atlas& atlas,
-                                       const Memo& memo = {});
+[[nodiscard]] PaintSpec paint_spec_of(const ColonySpec& spec, const Atlas& atlas,
+                                      const Caches& caches = {});
 
 /// Builds a colony: one skin, a few caps, and a node per individual, or an instanced node per cap.
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
-[[nodiscard]] Grown grow_colony(const ColonyOrder& order, const Atlas& atlas,
-                                const Extras& extras = {}, const Workshop& workshop = {});
+[[nodiscard]] Grown grow_colony(const ColonySpec& spec, const Atlas& atlas,
+                                const Extras& extras = {}, const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

@@ -32,22 +32,22 @@ constexpr const char* name(Step step) {
 using Observer = std::function<void(Step)>;
 
 /// Caches of expensive results, each kind with its own keys.
-struct Memo {
-    Remember<ImageSet> images = make_anew<ImageSet>;
-    Remember<RawImages> paintings = make_anew<RawImages>;  ///< inputs of image blending
-    Remember<MorphSet> morphs = make_anew<MorphSet>;       ///< correspondence of a set of species
+struct Caches {
+    GetOrCompute<ImageSet> images = uncached<ImageSet>;
+    GetOrCompute<RawImages> paintings = uncached<RawImages>;  ///< inputs of image blending
+    GetOrCompute<MorphSet> morphs = uncached<MorphSet>;  ///< correspondence of a set of species
 };
 
-struct Workshop {
-    Memo memo;
+struct ExecutionContext {
+    Caches caches;
     Observer observer = [](Step) {};
     Parallel parallel = in_turn;
     std::stop_token stop;
 };
 
 /// throws  Cancelled if a stop was requested
-inline void throw_if_cancelled(const Workshop& workshop) {
-    if (workshop.stop.stop_requested()) throw Cancelled();
+inline void throw_if_cancelled(const ExecutionContext& execution) {
+    if (execution.stop.stop_requested()) throw Cancelled();
 }
 
 }  // namespace sporeprint

@@ -51,29 +51,29 @@ std::vector<double> frame_ages(int frames) {
     return ages;
 }
 
-GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas, const Mesh& mesh,
-                       const Workshop& workshop) {
-    const std::vector<double> ages = frame_ages(order.params.frames);
+GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh& mesh,
+                       const ExecutionContext& execution) {
+    const std::vector<double> ages = frame_ages(spec.params.frames);
     GrowthClip growth;
     growth.targets.resize(ages.size());
     std::vector<std::exception_ptr> faults(ages.size());
     std::vector<std::function<void()>> pieces;
     // All ages are weights of one set, so the correspondence is looked up once.
     std::map<std::string, std::shared_ptr<const MorphSet>> sets;
-    const Remember<MorphSet> morphs = [&](const std::string& key, const auto& make) {
+    const GetOrCompute<MorphSet> morphs = [&](const std::string& key, const auto& make) {
         std::shared_ptr<const MorphSet>& set = sets[key];
-        if (!set) set = workshop.memo.morphs(key, make);
+        if (!set) set = execution.caches.morphs(key, make);
         return set;
     };
     for (std::size_t k = 0; k < ages.size(); ++k) {
         const double age = ages[k];
-        MushroomOrder frame = order;
+        MushroomSpec frame = spec;
         frame.params.age = age;
         frame.params.textures = Textures::none;  // texture coordinates are those of the base mesh
         Individual individual = at_age(age, [&] { return resolve(frame, atlas, morphs); });
         pieces.emplace_back([&, k, age, frame, individual = std::move(individual)] {
             try {
-                throw_if_cancelled(workshop);
+                throw_if_cancelled(execution);
                 growth.targets[k] = difference(
                     mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }), age);
             } catch (...) {
@@ -81,7 +81,7 @@ GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas, const Mes
             }
         });
     }
-    workshop.parallel(pieces);
+    execution.parallel(pieces);
     // Of several errors the one of the youngest frame is thrown, for any number of worker threads.
     for (const std::exception_ptr& fault : faults)
         if (fault) std::rethrow_exception(fault);

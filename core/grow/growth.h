@@ -34,7 +34,7 @@ struct GrowthClip {
 /// throws   Impossible if the order cannot be grown at one of the ages, which the message names;
 ///          Cancelled
 /// cost     that of one mesh per frame
-[[nodiscard]] GrowthClip growth_clip(const MushroomOrder& order, const Atlas& atlas,
-                                     const Mesh& mesh, const Workshop& workshop);
+[[nodiscard]] GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh& mesh,
+                                     const ExecutionContext& execution);
 
 }  // namespace sporeprint

@@ -16,17 +16,16 @@ std::uint64_t image_bytes(std::uint64_t texels) { return texels / 6 + 1500; }
 
 }  // namespace
 
-Estimate measured(const LeafOrder& order, const Mesh& mesh) {
-    Estimate e = estimate(order);
+Estimate measured(const LeafSpec& spec, const Mesh& mesh) {
+    Estimate e = estimate(spec);
     e.vertices = mesh.positions.size();
     e.triangles = mesh.triangles();
-    e.bytes =
-        estimated_bytes(e.vertices, e.triangles, order.params.textures, image_bytes(e.texels));
+    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, image_bytes(e.texels));
     return e;
 }
 
-Estimate estimate(const LeafOrder& order) {
-    const LeafParams& params = order.params;
+Estimate estimate(const LeafSpec& spec) {
+    const LeafParams& params = spec.params;
     const LeafCount most = most_of_leaf(params.shape.venation, params.lod);
     const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     Estimate e;
@@ -37,8 +36,8 @@ Estimate estimate(const LeafOrder& order) {
     return e;
 }
 
-Mesh leaf_mesh(const LeafOrder& order) {
-    const LeafParams& params = order.params;
+Mesh leaf_mesh(const LeafSpec& spec) {
+    const LeafParams& params = spec.params;
     require_valid(params);
     Mesh mesh = leaf_mesh(shape_of(params), params.lod, params.size);
     if (params.textures == Textures::none) {
@@ -51,33 +50,34 @@ Mesh leaf_mesh(const LeafOrder& order) {
 
 std::string image_key(const LeafPaint& paint) { return "leaf " + canonical_text(paint); }
 
-std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint, const Workshop& workshop) {
+std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
+                                               const ExecutionContext& execution) {
     require_valid(paint);
-    return workshop.memo.images(image_key(paint), [&] {
+    return execution.caches.images(image_key(paint), [&] {
         LeafParams params;
         params.seed = paint.seed;
         params.variation = paint.variation;
         params.shape.relief = paint.relief;
         params.shape.venation = paint.venation;
         const RawImages images = leaf_images(shape_of(params), paint.palette, paint.autumn,
-                                             paint.seed, paint.texture_size, workshop.parallel);
-        throw_if_cancelled(workshop);
-        return std::make_shared<const ImageSet>(encoded(images, workshop.parallel));
+                                             paint.seed, paint.texture_size, execution.parallel);
+        throw_if_cancelled(execution);
+        return std::make_shared<const ImageSet>(encoded(images, execution.parallel));
     });
 }
 
-Grown grow_leaf(const LeafOrder& order, const Extras& extras, const Workshop& workshop) {
-    const LeafParams& params = order.params;
-    workshop.observer(Step::build);
-    const Mesh mesh = leaf_mesh(order);
-    throw_if_cancelled(workshop);
-    GlbParts parts{.name = order.preset.empty() ? "leaf" : order.preset,
+Grown grow_leaf(const LeafSpec& spec, const Extras& extras, const ExecutionContext& execution) {
+    const LeafParams& params = spec.params;
+    execution.observer(Step::build);
+    const Mesh mesh = leaf_mesh(spec);
+    throw_if_cancelled(execution);
+    GlbParts parts{.name = spec.preset.empty() ? "leaf" : spec.preset,
                    .images = nullptr,
                    .image_addresses = {},
                    .extras_json = extras_json(extras, write(params), mesh)};
-    const auto images = attach_images(parts, params.textures, extras, workshop,
-                                      [&] { return painted_images(paint_of(params), workshop); });
-    workshop.observer(Step::pack);
+    const auto images = attach_images(parts, params.textures, extras, execution,
+                                      [&] { return painted_images(paint_of(params), execution); });
+    execution.observer(Step::pack);
     return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
 }
 

@@ -11,16 +11,16 @@
 namespace sporeprint {
 
 /// Returns upper bounds of vertices and triangles, texels and bytes; takes nanoseconds.
-[[nodiscard]] Estimate estimate(const LeafOrder& order);
+[[nodiscard]] Estimate estimate(const LeafSpec& spec);
 
 /// Returns the mesh alone: base of the petiole at the origin, the lamina along +z, its upper face
 /// up.
 ///
 /// throws  InvalidInput
-[[nodiscard]] Mesh leaf_mesh(const LeafOrder& order);
+[[nodiscard]] Mesh leaf_mesh(const LeafSpec& spec);
 
 /// Returns the estimate of an order whose mesh is built, with exact vertex and triangle counts.
-[[nodiscard]] Estimate measured(const LeafOrder& order, const Mesh& mesh);
+[[nodiscard]] Estimate measured(const LeafSpec& spec, const Mesh& mesh);
 
 /// Returns the cache key of a leaf's images: equal keys, equal images.
 [[nodiscard]] std::string image_key(const LeafPaint& paint);
@@ -29,13 +29,13 @@ namespace sporeprint {
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
-                                                             const Workshop& workshop);
+                                                             const ExecutionContext& execution);
 
 /// Builds a leaf.
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
-[[nodiscard]] Grown grow_leaf(const LeafOrder& order, const Extras& extras = {},
-                              const Workshop& workshop = {});
+[[nodiscard]] Grown grow_leaf(const LeafSpec& spec, const Extras& extras = {},
+                              const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

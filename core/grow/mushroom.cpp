@@ -12,7 +12,7 @@ namespace sporeprint {
 
 namespace {
 
-bool textured(const MushroomOrder& order) { return order.params.textures != Textures::none; }
+bool textured(const MushroomSpec& spec) { return spec.params.textures != Textures::none; }
 
 }  // namespace
 
@@ -41,23 +41,23 @@ MaterialLook look_of(const Model& model) {
     return look;
 }
 
-Estimate estimate(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
-    return estimate(order, resolve(order, atlas, memo.morphs));
+Estimate estimate(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {
+    return estimate(spec, resolve(spec, atlas, caches.morphs));
 }
 
-Estimate estimate(const MushroomOrder& order, const Individual& individual) {
-    const bool grows = order.params.animation != Animation::none;
-    const MeshCount mesh = body_count(individual, order.params.lod, grows);
+Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
+    const bool grows = spec.params.animation != Animation::none;
+    const MeshCount mesh = body_count(individual, spec.params.lod, grows);
     Estimate e;
     e.vertices = mesh.vertices;
     e.triangles = mesh.triangles;
-    const auto side = static_cast<std::uint64_t>(order.params.texture_size) >> order.params.lod;
-    const std::uint64_t images = textured(order) ? 3 * side * side : 0;
-    e.texels = images * static_cast<std::uint64_t>(atlases_held(order));
+    const auto side = static_cast<std::uint64_t>(spec.params.texture_size) >> spec.params.lod;
+    const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
+    e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    e.bytes = estimated_bytes(e.vertices, e.triangles, order.params.textures, images / 3);
+    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, images / 3);
     if (grows) {
-        const auto frames = static_cast<std::uint64_t>(order.params.frames);
+        const auto frames = static_cast<std::uint64_t>(spec.params.frames);
         e.bytes += e.vertices * 24 * frames + 600 * frames;
         e.vertices += e.vertices * frames;
     }
@@ -70,40 +70,40 @@ Mesh body_mesh(const Individual& individual, int lod, const SweepOptions& option
 }
 
 MeshCount body_count(const Individual& individual, int lod, bool keep_absent) {
-    return individual.is_branched() ? branched_mesh_count(individual.bush, lod, keep_absent)
+    return individual.is_branched() ? branched_mesh_count(individual.branch_graph, lod, keep_absent)
                                     : budget_of(individual, lod).count;
 }
 
-Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual) {
+Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
     Mesh mesh = body_mesh(
-        individual, order.params.lod,
-        {.textured = textured(order), .keep_absent = order.params.animation != Animation::none});
+        individual, spec.params.lod,
+        {.textured = textured(spec), .keep_absent = spec.params.animation != Animation::none});
     order_for_vertex_cache(mesh);
     return mesh;
 }
 
-Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas, const Extras& extras,
-                       const Workshop& workshop) {
-    workshop.observer(Step::resolve);
-    const Individual individual = resolve(order, atlas, workshop.memo.morphs);
-    workshop.observer(Step::build);
-    const Mesh mesh = mushroom_mesh(order, individual);
-    throw_if_cancelled(workshop);
+Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extras& extras,
+                       const ExecutionContext& execution) {
+    execution.observer(Step::resolve);
+    const Individual individual = resolve(spec, atlas, execution.caches.morphs);
+    execution.observer(Step::build);
+    const Mesh mesh = mushroom_mesh(spec, individual);
+    throw_if_cancelled(execution);
     GlbParts parts{.name = name_of(individual),
                    .images = nullptr,
                    .image_addresses = {},
                    .extras_json = extras_json(extras, write(individual.effective), mesh),
                    .look = look_of(individual.model)};
     GrowthClip growth;
-    if (order.params.animation == Animation::growth) {
-        growth = growth_clip(order, atlas, mesh, workshop);
+    if (spec.params.animation == Animation::growth) {
+        growth = growth_clip(spec, atlas, mesh, execution);
         parts.targets = growth.targets;
         parts.clip = &growth.clip;
     }
-    const auto images = attach_images(parts, order.params.textures, extras, workshop, [&] {
-        return painted_images(paint_recipe(order, atlas, workshop.memo), workshop);
+    const auto images = attach_images(parts, spec.params.textures, extras, execution, [&] {
+        return painted_images(paint_spec_of(spec, atlas, execution.caches), execution);
     });
-    workshop.observer(Step::pack);
+    execution.observer(Step::pack);
     return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
 }
 

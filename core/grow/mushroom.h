@@ -13,9 +13,9 @@ namespace sporeprint {
 
 /// Returns the number of vertices (exact), triangles (at most), texels and bytes. Takes
 /// microseconds and allocates nothing large.
-[[nodiscard]] Estimate estimate(const MushroomOrder& order, const Individual& individual);
-[[nodiscard]] Estimate estimate(const MushroomOrder& order, const Atlas& atlas,
-                                const Memo& memo = {});
+[[nodiscard]] Estimate estimate(const MushroomSpec& spec, const Individual& individual);
+[[nodiscard]] Estimate estimate(const MushroomSpec& spec, const Atlas& atlas,
+                                const Caches& caches = {});
 
 /// Returns the mesh of a swept or branched individual, with triangles not yet reordered for the
 /// vertex cache.
@@ -29,7 +29,7 @@ namespace sporeprint {
 [[nodiscard]] MeshCount body_count(const Individual& individual, int lod, bool keep_absent = true);
 
 /// Returns the mesh alone.
-[[nodiscard]] Mesh mushroom_mesh(const MushroomOrder& order, const Individual& individual);
+[[nodiscard]] Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual);
 
 /// Returns the name in a file: the species with the largest weight, so that the order of a mix does
 /// not matter.
@@ -45,7 +45,8 @@ using Mushroom = Grown;
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, GenerationError, Cancelled
-[[nodiscard]] Mushroom grow_mushroom(const MushroomOrder& order, const Atlas& atlas,
-                                     const Extras& extras = {}, const Workshop& workshop = {});
+[[nodiscard]] Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas,
+                                     const Extras& extras = {},
+                                     const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

@@ -23,14 +23,14 @@ std::vector<int> apportioned(const std::vector<int>& weights, int total) {
     const int sum = std::accumulate(weights.begin(), weights.end(), 0);
     std::vector<int> parts;
     parts.reserve(weights.size());
-    std::vector<std::size_t> order(weights.size());
-    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::vector<std::size_t> spec(weights.size());
+    std::iota(spec.begin(), spec.end(), std::size_t{0});
     for (const int weight : weights) parts.push_back(weight * total / sum);
-    std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    std::stable_sort(spec.begin(), spec.end(), [&](std::size_t a, std::size_t b) {
         return weights[a] * total % sum > weights[b] * total % sum;
     });
     int missing = total - std::accumulate(parts.begin(), parts.end(), 0);
-    for (std::size_t i = 0; missing > 0; ++i, --missing) ++parts[order[i]];
+    for (std::size_t i = 0; missing > 0; ++i, --missing) ++parts[spec[i]];
     return parts;
 }
 
@@ -58,16 +58,16 @@ struct SpeciesPaint {
     double lightness = 1.0;
 };
 
-SpeciesPaint species_paint(const MushroomOrder& stepped, const std::string& id, const Atlas& atlas,
-                           const Memo& memo) {
-    MushroomOrder order;
-    order.model = stepped.model;
-    if (!order.model) order.mix = {{id, 1000}};
-    order.params.seed = stepped.params.seed;
-    order.params.age = stepped.params.age;
-    order.params.variation = stepped.params.variation;
-    order.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks use strain
-    const Individual individual = resolve(order, atlas, memo.morphs);
+SpeciesPaint species_paint(const MushroomSpec& stepped, const std::string& id, const Atlas& atlas,
+                           const Caches& caches) {
+    MushroomSpec spec;
+    spec.model = stepped.model;
+    if (!spec.model) spec.mix = {{id, 1000}};
+    spec.params.seed = stepped.params.seed;
+    spec.params.age = stepped.params.age;
+    spec.params.variation = stepped.params.variation;
+    spec.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks use strain
+    const Individual individual = resolve(spec, atlas, caches.morphs);
     SpeciesPaint found{surface_metrics(individual), individual.lightness};
     // Lengths are quantised in the same steps as size, so scaling is an addition of steps.
     const int larger = quantised_length(stepped.params.size);
@@ -81,18 +81,19 @@ SpeciesPaint species_paint(const MushroomOrder& stepped, const std::string& id, 
 
 // Branches use the chart of the cap from their tips down: its meridian is the path from the lowest
 // fork to the highest tip, its girth the mean one of segments.
-SurfaceMetrics surface_metrics(const Bush& bush) {
+SurfaceMetrics surface_metrics(const BranchGraph& branch_graph) {
     double girth = 0.0, weight = 0.0;
-    for (const Bush::Node& node : bush.nodes) {
-        if (node.parent == Bush::none) continue;
+    for (const BranchGraph::Node& node : branch_graph.nodes) {
+        if (node.parent == BranchGraph::none) continue;
         girth += node.presence * node.radius;
         weight += node.presence;
     }
     SurfaceMetrics metrics;
-    metrics.cap_arc = quantised_length(bush.height - bush.trunk);
-    metrics.cap_radius = quantised_length(weight > 0.0 ? girth / weight : bush.trunk_radius);
-    metrics.stem_length = quantised_length(bush.trunk);
-    metrics.stem_radius = quantised_length(bush.trunk_radius);
+    metrics.cap_arc = quantised_length(branch_graph.height - branch_graph.trunk);
+    metrics.cap_radius =
+        quantised_length(weight > 0.0 ? girth / weight : branch_graph.trunk_radius);
+    metrics.stem_length = quantised_length(branch_graph.trunk);
+    metrics.stem_radius = quantised_length(branch_graph.trunk_radius);
     metrics.hymenium_arc = quantised_length(0.0);
     return metrics;
 }
@@ -114,7 +115,7 @@ std::string painting_key(const PaintParams& painting) {
 }  // namespace
 
 SurfaceMetrics surface_metrics(const Individual& individual) {
-    if (individual.is_branched()) return surface_metrics(individual.bush);
+    if (individual.is_branched()) return surface_metrics(individual.branch_graph);
     const Outline& outline = individual.outline;
     double radius = 0.0, stem_radius = 0.0;
     for (int i = 0; i <= 16; ++i) {
@@ -146,49 +147,49 @@ Mix surface_mix(const Mix& mix) {
     return kept;
 }
 
-MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
-    MushroomOrder stepped = order;
+MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {
+    MushroomSpec stepped = spec;
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;
     params.size = length_of_step(quantised_length(params.size));
     stepped.arcs.clear();
-    if (order.model) return stepped;
+    if (spec.model) return stepped;
     params.deformation = {};
     params.weathering.waves.reset();
     params.ornaments.ring.reset();
     params.ornaments.volva.reset();
     params.ornaments.glow.reset();
-    stepped.mix = surface_mix(order.mix);
-    if (stepped.mix.size() == order.mix.size()) return stepped;
-    MushroomOrder bare = stepped;
+    stepped.mix = surface_mix(spec.mix);
+    if (stepped.mix.size() == spec.mix.size()) return stepped;
+    MushroomSpec bare = stepped;
     bare.params.hymenium = {};
     bare.params.ornaments = {};
     bare.params.weathering = {};
-    const MushroomParams effective = resolve(bare, atlas, memo.morphs).effective;
+    const MushroomParams effective = resolve(bare, atlas, caches.morphs).effective;
     keep_possible(params.hymenium, effective.hymenium);
     keep_possible(params.ornaments, effective.ornaments);
     keep_possible(params.weathering, effective.weathering);
     return stepped;
 }
 
-PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const Memo& memo) {
-    const MushroomOrder stepped = surface_order(order, atlas, memo);
-    const Individual individual = resolve(stepped, atlas, memo.morphs);
+PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {
+    const MushroomSpec stepped = surface_spec(spec, atlas, caches);
+    const Individual individual = resolve(stepped, atlas, caches.morphs);
     std::vector<int> parts = {whole};
-    if (!order.model) parts = apportioned(weights_of(stepped.mix), whole);
-    const int comb = individual.comb.blades;
+    if (!spec.model) parts = apportioned(weights_of(stepped.mix), whole);
+    const int gill_layout = individual.gill_layout.blades;
     std::vector<std::pair<std::string, PaintShare>> shares;
     for (std::size_t i = 0; i < individual.parts.size(); ++i) {
         const Model& model = individual.parts[i].model;
-        const SpeciesPaint alone = species_paint(stepped, individual.parts[i].id, atlas, memo);
+        const SpeciesPaint alone = species_paint(stepped, individual.parts[i].id, atlas, caches);
         PaintShare share;
         // Parts are sorted by id, whatever the order of the mix.
         for (std::size_t k = 0; k < stepped.mix.size(); ++k)
             if (stepped.mix[k].id == individual.parts[i].id) share.sixty_fourths = parts[k];
         PaintParams& painting = share.painting;
-        painting.seed = order.params.seed;
+        painting.seed = spec.params.seed;
         painting.lightness = alone.lightness;
-        painting.side = order.params.texture_size >> order.params.lod;
+        painting.side = spec.params.texture_size >> spec.params.lod;
         painting.metrics = alone.metrics;
         painting.surface = model.surface;
         painting.hymenium = model.hymenium;
@@ -202,7 +203,7 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         painting.warts = model.warts;
         painting.scales = model.scales;
         if (const auto* swept = std::get_if<Swept>(&model.shape)) painting.relief = swept->relief;
-        const Detail& detail = detail_of(order.params.lod);
+        const Detail& detail = detail_of(spec.params.lod);
         painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
         painting.ornaments = {model.ornaments.warts, model.ornaments.scales};
         painting.slime = model.material.slime;
@@ -211,7 +212,7 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         roughness += model.material.velvet * (0.95 - roughness);
         painting.weathering = painted_of(model.weathering);
         // A species with the common gill layout is painted as if it were alone.
-        const bool on_common_layout = has_blades(model) && model.hymenium.blades != comb;
+        const bool on_common_layout = has_blades(model) && model.hymenium.blades != gill_layout;
         const int own =
             on_common_layout ? own_layout_share(share.sixty_fourths) : share.sixty_fourths;
         const int common = share.sixty_fourths - own;
@@ -221,74 +222,75 @@ PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas, const M
         }
         if (common > 0) {
             share.sixty_fourths = common;
-            painting.comb = comb;
+            painting.gill_layout = gill_layout;
             shares.emplace_back(canonical_text(painting), std::move(share));
         }
     }
     std::sort(shares.begin(), shares.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
-    PaintRecipe recipe;
+    PaintSpec paint_spec;
     for (std::size_t i = 0; i < shares.size(); ++i)
         if (i > 0 && shares[i].first == shares[i - 1].first)
-            recipe.back().sixty_fourths += shares[i].second.sixty_fourths;
+            paint_spec.back().sixty_fourths += shares[i].second.sixty_fourths;
         else
-            recipe.push_back(std::move(shares[i].second));
-    return recipe;
+            paint_spec.push_back(std::move(shares[i].second));
+    return paint_spec;
 }
 
-int atlases_held(const MushroomOrder& order) {
-    const Mix mix = surface_mix(order.mix);
+int atlases_held(const MushroomSpec& spec) {
+    const Mix mix = surface_mix(spec.mix);
     if (mix.size() < 2) return 1;
     const std::vector<int> parts = apportioned(weights_of(mix), whole);
     const bool has_own_layout = own_layout_share(*std::max_element(parts.begin(), parts.end())) > 0;
     return static_cast<int>(mix.size()) + (has_own_layout ? 2 : 1);
 }
 
-int atlases_held(const PaintRecipe& recipe) {
-    return recipe.size() < 2 ? 1 : static_cast<int>(recipe.size()) + 1;
+int atlases_held(const PaintSpec& paint_spec) {
+    return paint_spec.size() < 2 ? 1 : static_cast<int>(paint_spec.size()) + 1;
 }
 
-int side_of(const PaintRecipe& recipe) { return recipe.front().painting.side; }
+int side_of(const PaintSpec& paint_spec) { return paint_spec.front().painting.side; }
 
-std::string image_key(const PaintRecipe& recipe) {
-    if (recipe.size() == 1) return painting_key(recipe.front().painting);
+std::string image_key(const PaintSpec& paint_spec) {
+    if (paint_spec.size() == 1) return painting_key(paint_spec.front().painting);
     std::string key = "dissolve";
-    for (const PaintShare& share : recipe)
+    for (const PaintShare& share : paint_spec)
         ((key += ' ') += std::to_string(share.sixty_fourths) + ' ') += painting_key(share.painting);
     return key;
 }
 
-std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
-                                               const Workshop& workshop) {
+std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,
+                                               const ExecutionContext& execution) {
     const auto blended = [&] {
         std::vector<const PaintParams*> params;
         std::vector<double> weights;
-        for (const PaintShare& share : recipe) {
+        for (const PaintShare& share : paint_spec) {
             params.push_back(&share.painting);
             weights.push_back(share.sixty_fourths / static_cast<double>(whole));
         }
         const std::vector<ImageRotations> turns = aligned_rotations(params, weights);
         std::vector<std::shared_ptr<const RawImages>> paintings;
         std::vector<const RawImages*> raw;
-        for (std::size_t i = 0; i < recipe.size(); ++i) {
-            if (workshop.stop.stop_requested()) throw Cancelled();
+        for (std::size_t i = 0; i < paint_spec.size(); ++i) {
+            if (execution.stop.stop_requested()) throw Cancelled();
             const PaintParams bare = without_patches(*params[i]);
             std::string key = "raw " + painting_key(bare);
             for (const double turn : {turns[i].cap, turns[i].hymenium, turns[i].stem})
                 (key += ' ') += number_text(turn);
-            paintings.push_back(workshop.memo.paintings(key, [&] {
+            paintings.push_back(execution.caches.paintings(key, [&] {
                 return std::make_shared<const RawImages>(
-                    paint_raw(bare, workshop.parallel, turns[i]));
+                    paint_raw(bare, execution.parallel, turns[i]));
             }));
             raw.push_back(paintings.back().get());
         }
         return std::make_shared<const ImageSet>(
-            blend_images(raw, weights, workshop.parallel, params));
+            blend_images(raw, weights, execution.parallel, params));
     };
-    return workshop.memo.images(image_key(recipe), [&]() -> std::shared_ptr<const ImageSet> {
-        if (recipe.size() > 1) return blended();
-        throw_if_cancelled(workshop);  // uploads of a model are decoded first, 80 ms each at most
-        return std::make_shared<const ImageSet>(paint(recipe.front().painting, workshop.parallel));
+    return execution.caches.images(image_key(paint_spec), [&]() -> std::shared_ptr<const ImageSet> {
+        if (paint_spec.size() > 1) return blended();
+        throw_if_cancelled(execution);  // uploads of a model are decoded first, 80 ms each at most
+        return std::make_shared<const ImageSet>(
+            paint(paint_spec.front().painting, execution.parallel));
     });
 }
 

@@ -25,7 +25,7 @@ struct PaintShare {
 /// Everything that the images of a mushroom depend on: weights sum to 64, none is 0, no two
 /// paintings are equal, at most most_paintings. Paintings are sorted, so that the order of the
 /// species does not matter.
-using PaintRecipe = std::vector<PaintShare>;
+using PaintSpec = std::vector<PaintShare>;
 
 /// Returns the mix at the resolution of images: weights in sixty-fourths by largest remainder (ties
 /// by position), written as the nearest thousandths that sum to 1000; a species that rounds to 0 is
@@ -37,8 +37,8 @@ using PaintRecipe = std::vector<PaintShare>;
 /// Returns the order at the resolution of images: age in steps of 1/64, size in steps of 2 %,
 /// surface_mix, without parameters of the shape; overrides that no species of that mix can have are
 /// dropped. Its images equal those of the order. A user-defined model is unchanged.
-[[nodiscard]] MushroomOrder surface_order(const MushroomOrder& order, const Atlas& atlas,
-                                          const Memo& memo = {});
+[[nodiscard]] MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas,
+                                        const Caches& caches = {});
 
 /// Returns what painting an order depends on. Each species is painted as it would be alone: at this
 /// age and size, with the requested overrides and its own lengths and lightness, so that the cache
@@ -47,26 +47,26 @@ using PaintRecipe = std::vector<PaintShare>;
 /// layout, as a second painting.
 ///
 /// throws  InvalidInput, Impossible as resolve()
-[[nodiscard]] PaintRecipe paint_recipe(const MushroomOrder& order, const Atlas& atlas,
-                                       const Memo& memo = {});
+[[nodiscard]] PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas,
+                                      const Caches& caches = {});
 
 /// Returns the largest number of atlases in memory while the images are made: the result, and the
 /// inputs of blending.
-[[nodiscard]] int atlases_held(const MushroomOrder& order);
-[[nodiscard]] int atlases_held(const PaintRecipe& recipe);
+[[nodiscard]] int atlases_held(const MushroomSpec& spec);
+[[nodiscard]] int atlases_held(const PaintSpec& paint_spec);
 
 /// Returns the side of the atlas in texels.
-[[nodiscard]] int side_of(const PaintRecipe& recipe);
+[[nodiscard]] int side_of(const PaintSpec& paint_spec);
 
 /// Returns the cache key of the images: equal keys, equal images. For a single species it is the
 /// key of its painting.
-[[nodiscard]] std::string image_key(const PaintRecipe& recipe);
+[[nodiscard]] std::string image_key(const PaintSpec& paint_spec);
 
 /// Returns the images, cached in workshop.memo or painted now. A mix is blended from paintings that
 /// may be cached too; uploaded images of several species are rotated to match first.
 ///
 /// throws  InvalidInput if an uploaded image cannot be read; Cancelled
-[[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const PaintRecipe& recipe,
-                                                             const Workshop& workshop);
+[[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,
+                                                             const ExecutionContext& execution);
 
 }  // namespace sporeprint

@@ -44,13 +44,14 @@ std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh)
 
 std::shared_ptr<const ImageSet> attach_images(
     GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
-    const Workshop& workshop, const std::function<std::shared_ptr<const ImageSet>()>& paint) {
+    const ExecutionContext& execution,
+    const std::function<std::shared_ptr<const ImageSet>()>& paint) {
     std::shared_ptr<const ImageSet> images;
     if (textures == Textures::embedded) {
-        workshop.observer(Step::paint);
+        execution.observer(Step::paint);
         images = paint();
         material.images = images.get();
-        throw_if_cancelled(workshop);
+        throw_if_cancelled(execution);
     } else if (textures == Textures::linked) {
         if (addresses[0].empty())
             throw Impossible(
@@ -62,10 +63,10 @@ std::shared_ptr<const ImageSet> attach_images(
 }
 
 std::shared_ptr<const ImageSet> attach_images(
-    GlbParts& parts, Textures textures, const Extras& extras, const Workshop& workshop,
+    GlbParts& parts, Textures textures, const Extras& extras, const ExecutionContext& execution,
     const std::function<std::shared_ptr<const ImageSet>()>& paint) {
     GlbMaterial material;
-    auto images = attach_images(material, textures, extras.image_addresses, workshop, paint);
+    auto images = attach_images(material, textures, extras.image_addresses, execution, paint);
     parts.images = material.images;
     parts.image_addresses = material.image_addresses;
     return images;

@@ -57,12 +57,13 @@ struct Grown {
 /// returns  the painted images, which must live as long as `parts` is used
 /// throws   Impossible (path "/textures") for linked images without URLs; Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> attach_images(
-    GlbParts& parts, Textures textures, const Extras& extras, const Workshop& workshop,
+    GlbParts& parts, Textures textures, const Extras& extras, const ExecutionContext& execution,
     const std::function<std::shared_ptr<const ImageSet>()>& paint);
 
 /// Does the same for one material of a scene.
 [[nodiscard]] std::shared_ptr<const ImageSet> attach_images(
     GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
-    const Workshop& workshop, const std::function<std::shared_ptr<const ImageSet>()>& paint);
+    const ExecutionContext& execution,
+    const std::function<std::shared_ptr<const ImageSet>()>& paint);
 
 }  // namespace sporeprint

@@ -19,9 +19,9 @@ std::vector<OutlineSample> scaled(std::vector<OutlineSample> rings, double size)
     return rings;
 }
 
-LimbShape segment_of(const Bush& bush, const Bush::Node& node) {
+SegmentShape segment_of(const BranchGraph& branch_graph, const BranchGraph::Node& node) {
     const glm::dvec3 parent_end =
-        node.parent == Bush::none ? glm::dvec3(0.0) : bush.nodes[node.parent].place;
+        node.parent == BranchGraph::none ? glm::dvec3(0.0) : branch_graph.nodes[node.parent].place;
     const glm::dvec3 start = parent_end + node.beside;
     return {{start.x, start.y, start.z},
             {node.place.x, node.place.y, node.place.z},
@@ -29,13 +29,13 @@ LimbShape segment_of(const Bush& bush, const Bush::Node& node) {
             node.presence};
 }
 
-std::vector<LimbPair> segment_pairs_of(const Bush& a, const Bush& b) {
-    std::vector<LimbPair> segments;
+std::vector<SegmentPair> segment_pairs_of(const BranchGraph& a, const BranchGraph& b) {
+    std::vector<SegmentPair> segments;
     segments.reserve(a.nodes.size());
     for (std::uint32_t i = 0; i < a.nodes.size(); ++i) {
-        const Bush::Node& node = a.nodes[i];
-        LimbPair segment;
-        if (node.parent != Bush::none) {
+        const BranchGraph::Node& node = a.nodes[i];
+        SegmentPair segment;
+        if (node.parent != BranchGraph::none) {
             segment.bearer = static_cast<int>(node.parent);
             segment.goes_on = a.nodes[node.parent].children[0] == i;
         }
@@ -49,23 +49,23 @@ std::vector<LimbPair> segment_pairs_of(const Bush& a, const Bush& b) {
 }  // namespace
 
 SpeciesMorph species_morph(const std::array<std::string, 2>& species, double age,
-                           const Atlas& atlas, const Workshop& workshop) {
-    workshop.observer(Step::resolve);
-    MushroomOrder order;
-    order.mix = {{species[0], 500}, {species[1], 500}};
-    order.params.age = age;
+                           const Atlas& atlas, const ExecutionContext& execution) {
+    execution.observer(Step::resolve);
+    MushroomSpec spec;
+    spec.mix = {{species[0], 500}, {species[1], 500}};
+    spec.params.age = age;
     const AtlasEntry* first = atlas.find(species[0]);
     if (first && std::holds_alternative<Branched>(first->species.stages.front().model.shape)) {
-        std::vector<Bush> graphs = species_bushes(order, atlas);
+        std::vector<BranchGraph> graphs = species_branch_graphs(spec, atlas);
         if (species[1] < species[0]) std::swap(graphs[0], graphs[1]);  // sorted by id
         SpeciesMorph morph;
-        morph.limbs = segment_pairs_of(graphs[0], graphs[1]);
+        morph.segments = segment_pairs_of(graphs[0], graphs[1]);
         return morph;
     }
-    const SpeciesShapes shapes = species_shapes(order, atlas, workshop.memo.morphs);
-    if (workshop.stop.stop_requested()) throw Cancelled();
+    const SpeciesShapes shapes = species_shapes(spec, atlas, execution.caches.morphs);
+    if (execution.stop.stop_requested()) throw Cancelled();
 
-    workshop.observer(Step::build);
+    execution.observer(Step::build);
     SpeciesMorph morph;
     morph.arcs = shapes.set->arcs(age, arcs_per_curve);
     for (std::size_t side = 0; side < 2; ++side) {

@@ -15,12 +15,12 @@
 namespace sporeprint {
 
 /// A segment of one species' branch graph.
-struct LimbShape {
+struct SegmentShape {
     std::array<double, 3> start{}, end{};
     double radius = 0.0, presence = 0.0;
 
     static constexpr void fields(auto visit) {
-        using L = LimbShape;
+        using L = SegmentShape;
         visit(&L::start,
               Info{.name = "start", .unit = "m", .min = -10, .max = 10, .doc = "Where it begins."});
         visit(&L::end,
@@ -32,17 +32,17 @@ struct LimbShape {
                    .doc = "How much of it there is: 0 for a limb that the species lacks, which has "
                           "neither length nor radius."});
     }
-    bool operator==(const LimbShape&) const = default;
+    bool operator==(const SegmentShape&) const = default;
 };
 
 /// A segment that two species have in common.
-struct LimbPair {
+struct SegmentPair {
     int bearer = -1;
     bool goes_on = true;
-    LimbShape a, b;
+    SegmentShape a, b;
 
     static constexpr void fields(auto visit) {
-        using L = LimbPair;
+        using L = SegmentPair;
         visit(&L::bearer, Info{.name = "bearer",
                                .min = -1,
                                .max = 100000,
@@ -54,16 +54,16 @@ struct LimbPair {
         visit(&L::a, Info{.name = "a", .doc = "What it is in the first species."});
         visit(&L::b, Info{.name = "b", .doc = "What it is in the second."});
     }
-    bool operator==(const LimbPair&) const = default;
+    bool operator==(const SegmentPair&) const = default;
 };
 
 /// Properties of the branch graphs between two species, and whether they were checked.
-struct LimbCertificate {
+struct SegmentCertificate {
     bool matched = true;
     bool checked = false;
 
     static constexpr void fields(auto visit) {
-        using C = LimbCertificate;
+        using C = SegmentCertificate;
         visit(&C::matched,
               Info{.name = "matched",
                    .doc = "Whether every limb has its counterpart at every moment: so by "
@@ -73,7 +73,7 @@ struct LimbCertificate {
                    .doc = "Whether limbs between the two were looked at for passing through each "
                           "other: they are not, and may."});
     }
-    bool operator==(const LimbCertificate&) const = default;
+    bool operator==(const SegmentCertificate&) const = default;
 };
 
 /// Two species of one age, each as its template defines it, without individual variation. Branched
@@ -85,8 +85,8 @@ struct SpeciesMorph {
     std::vector<Arc> arcs;  ///< a sample of corresponding points, besides ends of sub-curves
     /// Result of the proof that no intermediate outline intersects itself.
     Certificate certificate;
-    std::vector<LimbPair> limbs;  ///< parents first
-    LimbCertificate limb_certificate;
+    std::vector<SegmentPair> segments;  ///< parents first
+    SegmentCertificate segment_certificate;
 };
 
 /// Computes the correspondence of two species.
@@ -94,6 +94,7 @@ struct SpeciesMorph {
 /// species  two different ids of one family, in any order
 /// throws   InvalidInput, Impossible; Cancelled
 [[nodiscard]] SpeciesMorph species_morph(const std::array<std::string, 2>& species, double age,
-                                         const Atlas& atlas, const Workshop& workshop = {});
+                                         const Atlas& atlas,
+                                         const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

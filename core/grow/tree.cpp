@@ -43,7 +43,7 @@ void finish(Mesh& mesh, const TreeParams& params) {
 
 // Throws Impossible when parameters that are each in range together exceed the bounds of a skeleton.
 void refuse_beyond_bounds(const Tree& tree) {
-    const std::vector<Problem> faults = faults_of(tree.skeleton);
+    const std::vector<Problem> faults = validation_errors(tree.skeleton);
     if (faults.empty()) return;
     const bool of_radius = faults.front().path.ends_with("/radius");
     throw Impossible(
@@ -149,8 +149,8 @@ Mesh leaves_of(const Tree& tree, const TreeParams& params) {
 
 }  // namespace
 
-Estimate measured(const TreeOrder& order, const TreeMeshes& meshes) {
-    const TreeParams& params = order.params;
+Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes) {
+    const TreeParams& params = spec.params;
     Estimate e;
     e.vertices = meshes.vertices();
     e.triangles = meshes.triangles();
@@ -159,8 +159,8 @@ Estimate measured(const TreeOrder& order, const TreeMeshes& meshes) {
     return e;
 }
 
-Estimate estimate(const TreeOrder& order) {
-    const TreeParams& params = order.params;
+Estimate estimate(const TreeSpec& spec) {
+    const TreeParams& params = spec.params;
     const TreeLook& look = params.look;
     const double tips = expected_tips(look.shape.topology);
     if (tips > static_cast<double>(most_tips))
@@ -185,10 +185,10 @@ Estimate estimate(const TreeOrder& order) {
     return e;
 }
 
-TreeMeshes tree_meshes(const TreeOrder& order) {
-    const TreeParams& params = order.params;
+TreeMeshes tree_meshes(const TreeSpec& spec) {
+    const TreeParams& params = spec.params;
     require_valid(params);
-    static_cast<void>(estimate(order));  // throws if the tree is too large
+    static_cast<void>(estimate(spec));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
     refuse_beyond_bounds(tree);
     TreeMeshes meshes{bark_of(tree, params.lod), leaves_of(tree, params)};
@@ -206,23 +206,24 @@ Bounds bounds(const TreeMeshes& meshes) {
 
 std::string image_key(const TreePaint& paint) { return "bark " + canonical_text(paint); }
 
-std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint, const Workshop& workshop) {
+std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
+                                               const ExecutionContext& execution) {
     require_valid(paint);
-    return workshop.memo.images(image_key(paint), [&] {
+    return execution.caches.images(image_key(paint), [&] {
         const RawImages images =
-            bark_images(paint.bark, bark_seed, paint.texture_size, workshop.parallel);
-        throw_if_cancelled(workshop);
-        return std::make_shared<const ImageSet>(encoded(images, workshop.parallel));
+            bark_images(paint.bark, bark_seed, paint.texture_size, execution.parallel);
+        throw_if_cancelled(execution);
+        return std::make_shared<const ImageSet>(encoded(images, execution.parallel));
     });
 }
 
-Grown grow_tree(const TreeOrder& order, const Extras& extras, const ImageAddresses& leaf_addresses,
-                const Workshop& workshop) {
-    const TreeParams& params = order.params;
-    workshop.observer(Step::build);
-    const TreeMeshes meshes = tree_meshes(order);
-    throw_if_cancelled(workshop);
-    const std::string name = order.preset.empty() ? "tree" : order.preset;
+Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageAddresses& leaf_addresses,
+                const ExecutionContext& execution) {
+    const TreeParams& params = spec.params;
+    execution.observer(Step::build);
+    const TreeMeshes meshes = tree_meshes(spec);
+    throw_if_cancelled(execution);
+    const std::string name = spec.preset.empty() ? "tree" : spec.preset;
     GlbScene scene;
     scene.materials.push_back({.name = "bark", .goes_round = true});
     scene.meshes.push_back({name, {{&meshes.bark, 0, {}}}});
@@ -233,14 +234,14 @@ Grown grow_tree(const TreeOrder& order, const Extras& extras, const ImageAddress
         scene.meshes[0].primitives.push_back({&meshes.leaves, 1, {}});
     }
     const auto bark_images =
-        attach_images(scene.materials[0], params.textures, extras.image_addresses, workshop,
-                      [&] { return painted_images(paint_of(params), workshop); });
+        attach_images(scene.materials[0], params.textures, extras.image_addresses, execution,
+                      [&] { return painted_images(paint_of(params), execution); });
     std::shared_ptr<const ImageSet> leaf_images;
     if (leafy)
         leaf_images =
-            attach_images(scene.materials[1], params.textures, leaf_addresses, workshop,
-                          [&] { return painted_images(paint_of(leaf_of(params)), workshop); });
-    workshop.observer(Step::pack);
+            attach_images(scene.materials[1], params.textures, leaf_addresses, execution,
+                          [&] { return painted_images(paint_of(leaf_of(params)), execution); });
+    execution.observer(Step::pack);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes), meshes.triangles());
     return {glb(scene), meshes.vertices(), meshes.triangles()};
 }

@@ -17,7 +17,7 @@ namespace sporeprint {
 /// throws  Impossible (path "/order") naming the expected number if it exceeds most_tips, (path
 ///         "/leaves/per_tip") if it exceeds most_leaves, (path "/twig_length") for segments too
 ///         long for their radius
-[[nodiscard]] Estimate estimate(const TreeOrder& order);
+[[nodiscard]] Estimate estimate(const TreeSpec& spec);
 
 /// The meshes of a tree; each is one draw call. `leaves` is empty for a bare tree.
 struct TreeMeshes {
@@ -32,13 +32,13 @@ struct TreeMeshes {
 /// Returns the meshes alone: the base of the trunk is at the origin.
 ///
 /// throws  InvalidInput, Impossible
-[[nodiscard]] TreeMeshes tree_meshes(const TreeOrder& order);
+[[nodiscard]] TreeMeshes tree_meshes(const TreeSpec& spec);
 
 /// Returns the bounding box of both meshes.
 [[nodiscard]] Bounds bounds(const TreeMeshes& meshes);
 
 /// Returns the estimate of an order whose meshes are built, with exact vertex and triangle counts.
-[[nodiscard]] Estimate measured(const TreeOrder& order, const TreeMeshes& meshes);
+[[nodiscard]] Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes);
 
 /// Returns the cache key of the images of bark: equal keys, equal images.
 [[nodiscard]] std::string image_key(const TreePaint& paint);
@@ -47,7 +47,7 @@ struct TreeMeshes {
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
-                                                             const Workshop& workshop);
+                                                             const ExecutionContext& execution);
 
 /// Builds a tree: one mesh of two primitives, bark and leaves, with two materials.
 ///
@@ -55,8 +55,8 @@ struct TreeMeshes {
 ///                 the bark
 /// returns  the GLB as shared slices: header with JSON, geometry and images of bark and leaves
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
-[[nodiscard]] Grown grow_tree(const TreeOrder& order, const Extras& extras = {},
+[[nodiscard]] Grown grow_tree(const TreeSpec& spec, const Extras& extras = {},
                               const ImageAddresses& leaf_addresses = {},
-                              const Workshop& workshop = {});
+                              const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

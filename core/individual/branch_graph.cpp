@@ -16,7 +16,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr std::uint32_t none = Bush::none;
+constexpr std::uint32_t none = BranchGraph::none;
 constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
 // Factor on the length of the segment between the two forks of a whorl.
 constexpr double whorl_rest = 0.06;
@@ -67,7 +67,7 @@ struct Target {
 class SpeciesTree {
   public:
     SpeciesTree(const Branched& shape, Ramification tree, std::vector<NodeDraws> draws)
-        : style_(shape.limbs), tree_(std::move(tree)), draws_(std::move(draws)) {
+        : style_(shape.segments), tree_(std::move(tree)), draws_(std::move(draws)) {
         const std::size_t count = tree_.nodes.size();
         targets_.resize(count);
         natural_lengths_.resize(count);
@@ -146,7 +146,7 @@ class SpeciesTree {
         }
     }
 
-    const LimbStyle& style_;
+    const SegmentStyle& style_;
     Ramification tree_;
     std::vector<NodeDraws> draws_;
     std::vector<double> natural_lengths_, rest_lengths_, tips_;
@@ -160,11 +160,11 @@ struct BlendedStyle {
 
 class GraphBuilder {
   public:
-    GraphBuilder(const std::vector<BushShare>& shares, const BushProportions& own,
+    GraphBuilder(const std::vector<BranchGraphShare>& shares, const BranchGraphProportions& own,
                  std::uint32_t seed)
         : shares_(shares), own_(own), seed_(seed) {}
 
-    Bush build(double bites) {
+    BranchGraph build(double bites) {
         blend_styles();
         overlay();
         blend_nodes();
@@ -178,8 +178,8 @@ class GraphBuilder {
   private:
     void blend_styles() {
         double log_height = 0.0;
-        for (const BushShare& share : shares_) {
-            const LimbStyle& style = share.shape->limbs;
+        for (const BranchGraphShare& share : shares_) {
+            const SegmentStyle& style = share.shape->segments;
             log_height += share.weight * logarithm(style.height);
             style_means_.trunk += share.weight * style.trunk;
             style_means_.trunk_radius += share.weight * style.trunk_radius / style.height;
@@ -198,7 +198,7 @@ class GraphBuilder {
     }
 
     std::uint32_t append(std::uint32_t parent, std::uint32_t path) {
-        Bush::Node node;
+        BranchGraph::Node node;
         node.parent = parent;
         graph_.nodes.push_back(node);
         paths_.push_back(path);
@@ -208,18 +208,18 @@ class GraphBuilder {
 
     // Merges the trees of all species; forks are matched by their path from the root.
     void overlay() {
-        for (const BushShare& share : shares_)
-            while (static_cast<int>(graph_.roots.size()) < share.shape->limbs.trunks) {
+        for (const BranchGraphShare& share : shares_)
+            while (static_cast<int>(graph_.roots.size()) < share.shape->segments.trunks) {
                 const auto trunk = static_cast<std::uint32_t>(graph_.roots.size());
                 graph_.roots.push_back(append(none, child_path(0, trunk)));
             }
-        for (const BushShare& share : shares_) {
+        for (const BranchGraphShare& share : shares_) {
             const std::size_t first = trees_.size();
             std::size_t tips = 0;
-            for (int t = 0; t < share.shape->limbs.trunks; ++t) {
+            for (int t = 0; t < share.shape->segments.trunks; ++t) {
                 const auto trunk = static_cast<std::uint32_t>(t);
-                Ramification tree =
-                    ramified(share.shape->ramification, trunk_seed(seed_, trunk), most_bush_tips);
+                Ramification tree = ramified(share.shape->ramification, trunk_seed(seed_, trunk),
+                                             most_branch_graph_tips);
                 std::vector<std::uint32_t> at(tree.nodes.size(), graph_.roots[trunk]);
                 for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
                     if (tree.leaf(i)) {
@@ -245,7 +245,7 @@ class GraphBuilder {
                 trees_[i].few = tips <= most_sparse_tips;
         }
         for (std::size_t i = graph_.nodes.size(); i > 0; --i) {
-            Bush::Node& node = graph_.nodes[i - 1];
+            BranchGraph::Node& node = graph_.nodes[i - 1];
             if (node.children[0] != none)
                 node.tips =
                     graph_.nodes[node.children[0]].tips + graph_.nodes[node.children[1]].tips;
@@ -285,7 +285,7 @@ class GraphBuilder {
             graph_.nodes[i].radius = all.radius * style_means_.height * own_.width;
         }
         for (std::size_t i = graph_.nodes.size(); i > 0; --i) {
-            Bush::Node& node = graph_.nodes[i - 1];
+            BranchGraph::Node& node = graph_.nodes[i - 1];
             if (node.children[0] == none)
                 node.left = node.presence;
             else
@@ -298,7 +298,7 @@ class GraphBuilder {
     // Sets the heading of a node's segment and the position of its end, and initialises the
     // segments of its children.
     void place(std::uint32_t i) {
-        Bush::Node& node = graph_.nodes[i];
+        BranchGraph::Node& node = graph_.nodes[i];
         const NodeDraws& draws = draws_[i];
         if (node.parent == none) {
             const auto trunk = static_cast<double>(
@@ -326,7 +326,8 @@ class GraphBuilder {
                                                   : targets_[i].length * style_means_.height;
         node.place = from + node.beside + length * node.heading;
         if (node.children[0] == none) return;
-        Bush::Node &main = graph_.nodes[node.children[0]], &other = graph_.nodes[node.children[1]];
+        BranchGraph::Node &main = graph_.nodes[node.children[0]],
+                          &other = graph_.nodes[node.children[1]];
         if (node.parent != none)
             node.across =
                 turned_square(node.across, node.heading, draws.side * targets_[i].azimuth);
@@ -359,14 +360,14 @@ class GraphBuilder {
         std::vector<glm::dvec3> base(graph_.nodes.size());
         double scale = std::numeric_limits<double>::infinity();
         for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
-            const Bush::Node& node = graph_.nodes[i];
+            const BranchGraph::Node& node = graph_.nodes[i];
             base[i] = node.parent == none ? node.place : base[node.parent];
             const double rise = node.place.y - base[i].y;
             if (rise > 1e-9) scale = std::min(scale, (graph_.height - base[i].y) / rise);
         }
         if (!std::isfinite(scale)) scale = 1.0;
         for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
-            Bush::Node& node = graph_.nodes[i];
+            BranchGraph::Node& node = graph_.nodes[i];
             node.place = base[i] + scale * (node.place - base[i]);
             node.beside *= scale;
             graph_.reach = std::max(
@@ -378,12 +379,12 @@ class GraphBuilder {
     void set_colour_coordinates() {
         std::vector<double> rest(graph_.nodes.size(), 0.0);
         for (std::size_t i = graph_.nodes.size(); i > 0; --i) {
-            const Bush::Node& node = graph_.nodes[i - 1];
+            const BranchGraph::Node& node = graph_.nodes[i - 1];
             rest[i - 1] = targets_[i - 1].length;
             if (node.children[0] != none) rest[i - 1] += rest[node.children[0]];
         }
         for (std::size_t i = 0; i < graph_.nodes.size(); ++i) {
-            Bush::Node& node = graph_.nodes[i];
+            BranchGraph::Node& node = graph_.nodes[i];
             if (node.parent == none) {
                 node.from_tip = 1.0;
                 continue;
@@ -399,9 +400,9 @@ class GraphBuilder {
         // The subtree of an eaten end moves down with it.
         std::vector<glm::dvec3> down(graph_.nodes.size(), glm::dvec3(0.0));
         for (std::uint32_t i = 0; i < graph_.nodes.size(); ++i) {
-            Bush::Node& node = graph_.nodes[i];
+            BranchGraph::Node& node = graph_.nodes[i];
             if (node.parent == none) continue;
-            const Bush::Node& parent_node = graph_.nodes[node.parent];
+            const BranchGraph::Node& parent_node = graph_.nodes[node.parent];
             node.place -= down[node.parent];
             down[i] = down[node.parent];
             const double ends = graph_.ends(i);
@@ -424,11 +425,11 @@ class GraphBuilder {
         bool few = false;  // its species is sparse, see Node::few
     };
 
-    const std::vector<BushShare>& shares_;
-    BushProportions own_;
+    const std::vector<BranchGraphShare>& shares_;
+    BranchGraphProportions own_;
     std::uint32_t seed_;
     BlendedStyle style_means_;
-    Bush graph_;
+    BranchGraph graph_;
     std::vector<std::uint32_t> paths_;
     std::vector<NodeDraws> draws_;
     std::vector<OverlaidTree> trees_;
@@ -441,15 +442,15 @@ void Branched::check(const std::string& path, std::vector<Problem>& problems) co
     if (ramification.order < 2)
         return report(problems, path + "/ramification/order",
                       "1 has no fork; a branched form has at least 2");
-    const double tips = expected_tips(ramification) * limbs.trunks;
-    if (tips > static_cast<double>(most_bush_tips))
+    const double tips = expected_tips(ramification) * segments.trunks;
+    if (tips > static_cast<double>(most_branch_graph_tips))
         report(problems, path + "/ramification/order",
                "the bush would have about " + number_text(std::floor(tips + 0.5)) +
-                   " tips; at most " + std::to_string(most_bush_tips) + " are grown");
+                   " tips; at most " + std::to_string(most_branch_graph_tips) + " are grown");
 }
 
-Bush bush_of(const std::vector<BushShare>& shares, const BushProportions& own, double bites,
-             std::uint32_t seed) {
+BranchGraph branch_graph_of(const std::vector<BranchGraphShare>& shares,
+                            const BranchGraphProportions& own, double bites, std::uint32_t seed) {
     return GraphBuilder(shares, own, seed).build(bites);
 }
 

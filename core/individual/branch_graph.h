@@ -12,13 +12,13 @@
 namespace sporeprint {
 
 /// One species of a branch graph.
-struct BushShare {
+struct BranchGraphShare {
     const Branched* shape = nullptr;
     double weight = 1.0;  ///< weights sum to 1
 };
 
 /// Factors by which an individual deviates from its species.
-struct BushProportions {
+struct BranchGraphProportions {
     double size = 1.0;    ///< of the whole
     double trunk = 1.0;   ///< of the share of the height below the lowest fork
     double width = 1.0;   ///< of all radii
@@ -31,7 +31,7 @@ constexpr std::size_t most_sparse_tips = 12;
 /// A graph of segments before deformation, upright from the origin. Its nodes depend on the species
 /// and the seed alone; weights and ages change only lengths, angles and radii, and segments that a
 /// species lacks have length and radius 0.
-struct Bush {
+struct BranchGraph {
     static constexpr std::uint32_t none = 0xffffffffU;
 
     /// The end of a segment, and that segment.
@@ -60,7 +60,7 @@ struct Bush {
     double trunk = 0.0;                ///< metres, length of a trunk
     double trunk_radius = 0.0;         ///< metres
     double reach = 0.0;                ///< metres: greatest distance of its segments from the axis
-    double foot = 1.0, flatness = 0.0, web = 0.0, bluntness = 0.0;  ///< see LimbStyle
+    double foot = 1.0, flatness = 0.0, web = 0.0, bluntness = 0.0;  ///< see SegmentStyle
 
     [[nodiscard]] bool empty() const { return nodes.empty(); }
     [[nodiscard]] bool is_tip(std::uint32_t node) const { return nodes[node].children[0] == none; }
@@ -78,11 +78,12 @@ struct Bush {
 ///
 /// bites   0..1, of WeatheringOf
 /// throws  Impossible (path "/ramification/order") if a randomly sampled tree exceeds
-///         most_bush_tips
+///         most_branch_graph_tips
 /// cost    O(tips of all species)
 /// source  [Viennot1989] for the branching; angles, lengths and widths by order; radii by the pipe
 ///         model
-[[nodiscard]] Bush bush_of(const std::vector<BushShare>& shares, const BushProportions& own,
-                           double bites, std::uint32_t seed);
+[[nodiscard]] BranchGraph branch_graph_of(const std::vector<BranchGraphShare>& shares,
+                                          const BranchGraphProportions& own, double bites,
+                                          std::uint32_t seed);
 
 }  // namespace sporeprint

@@ -28,22 +28,22 @@ struct Distribution {
     double elongation = 1.0;          // greatest elongation
 };
 
-Distribution distribution_of(MarkKind kind, CurveName part) {
+Distribution distribution_of(DamageSpotKind kind, CurveName part) {
     const bool cap = part == CurveName::cap, stem = part == CurveName::stem;
     switch (kind) {
-        case MarkKind::pit:
+        case DamageSpotKind::pit:
             if (cap) return {7, 0.10, 0.80, 0.055, 0.15, 1.5};
             if (stem) return {4, 0.25, 0.85, 0.045, 0.10, 2.0};
             return {};
-        case MarkKind::bruise:
+        case DamageSpotKind::bruise:
             if (cap) return {7, 0.25, 0.98, 0.07, 0.22, 1.6};
             if (stem) return {8, 0.12, 0.92, 0.08, 0.22, 2.6};
             return {6, 0.15, 0.98, 0.06, 0.17, 1.6};
-        case MarkKind::dew:
+        case DamageSpotKind::dew:
             if (cap) return {150, 0.03, 0.99, 0.011, 0.034, 1.0};
             if (stem) return {40, 0.25, 0.97, 0.012, 0.03, 1.25};
             return {};
-        case MarkKind::lump:
+        case DamageSpotKind::lump:
             if (cap) return {34, 0.06, 0.97, 0.10, 0.24, 1.3};
             if (stem) return {26, 0.05, 0.95, 0.10, 0.22, 2.4};
             return {};
@@ -156,11 +156,11 @@ double begun(double onset, double amount) {
     return std::max(0.0, grown(onset, amount) - least) / (1.0 - least);
 }
 
-std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed) {
+std::vector<DamageSpot> damage_spots(DamageSpotKind kind, CurveName part, std::uint32_t seed) {
     const Distribution distribution = distribution_of(kind, part);
-    const auto purpose =
-        purposes::marks + 4 * static_cast<std::uint32_t>(kind) + static_cast<std::uint32_t>(part);
-    std::vector<Mark> out;
+    const auto purpose = purposes::damage_spots + 4 * static_cast<std::uint32_t>(kind) +
+                         static_cast<std::uint32_t>(part);
+    std::vector<DamageSpot> out;
     out.reserve(static_cast<std::size_t>(distribution.count));
     Random start(seed, purpose, 0x80000000U);
     double theta = start.uniform(0.0, whole_turn);
@@ -174,18 +174,18 @@ std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed) {
         const double elongation = random.uniform();
         // The golden angle covers all sides of the mushroom and keeps equal sizes apart.
         theta = wrapped(theta + 2.39996322972865332 + 0.35 * jitter);
-        Mark mark;
+        DamageSpot spot;
         // The distribution is uniform along a stem, and uniform over the area of a disc.
         const double place = first + 0.61803398874989485 * i + 0.12 * along;
         const double share = place - std::floor(place);
         const double mixed = part == CurveName::stem ? share : std::sqrt(share);
-        mark.sigma = distribution.from + (distribution.to - distribution.from) * mixed;
-        mark.theta = theta;
-        mark.radius = distribution.small + (distribution.large - distribution.small) * size * size;
-        mark.elongation = 1.0 + (distribution.elongation - 1.0) * elongation;
-        mark.onset = 0.75 * i / std::max(distribution.count, 1);
-        mark.id = id;
-        out.push_back(mark);
+        spot.sigma = distribution.from + (distribution.to - distribution.from) * mixed;
+        spot.theta = theta;
+        spot.radius = distribution.small + (distribution.large - distribution.small) * size * size;
+        spot.elongation = 1.0 + (distribution.elongation - 1.0) * elongation;
+        spot.onset = 0.75 * i / std::max(distribution.count, 1);
+        spot.id = id;
+        out.push_back(spot);
     }
     return out;
 }

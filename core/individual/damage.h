@@ -15,10 +15,10 @@
 namespace sporeprint {
 
 /// A kind of damage with round or oval spots; each has random streams of its own.
-enum class MarkKind : std::uint32_t { pit, bruise, dew, lump };
+enum class DamageSpotKind : std::uint32_t { pit, bruise, dew, lump };
 
 /// A round or oval spot of damage on one part.
-struct Mark {
+struct DamageSpot {
     /// along the meridian: 0 at the apex (cap), stem (hymenium) or ground (stem)
     double sigma = 0.0;
     double theta = 0.0;   ///< round the axis, 0..2 pi
@@ -30,7 +30,8 @@ struct Mark {
 
 /// Returns the spots of a kind on a part in the order of their onset; none where the kind does not
 /// occur.
-[[nodiscard]] std::vector<Mark> marks(MarkKind kind, CurveName part, std::uint32_t seed);
+[[nodiscard]] std::vector<DamageSpot> damage_spots(DamageSpotKind kind, CurveName part,
+                                                   std::uint32_t seed);
 
 /// Returns the size factor of a spot, 0..1, for an amount of its kind; continuous, 0 for amount 0,
 /// 1 for amount 1.
@@ -42,7 +43,7 @@ struct Mark {
 [[nodiscard]] double begun(double onset, double amount);
 
 /// Returns the height of a lump at full size, in the unit of its radius; every third is a hollow.
-[[nodiscard]] constexpr double lump_height(const Mark& lump) {
+[[nodiscard]] constexpr double lump_height(const DamageSpot& lump) {
     return (lump.id % 3 == 2 ? -0.8 : 1.0) * 0.16 * lump.radius;
 }
 

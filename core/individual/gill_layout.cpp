@@ -40,27 +40,27 @@ int cells_in_row(const CellRows& cells, int row) {
 
 }  // namespace
 
-Stand stand_on(int comb, HymeniumPattern pattern, int blades, int tiers) {
-    Stand stand{.blades = blades, .tiers = tiers};
-    if (comb < 1) return stand;
+SlotAssignment slot_assignment(int gill_layout, HymeniumPattern pattern, int blades, int tiers) {
+    SlotAssignment assignment{.blades = blades, .tiers = tiers};
+    if (gill_layout < 1) return assignment;
     const bool ridges = pattern == HymeniumPattern::ridges;
     const int all = ridges ? blades : blades << tiers;
     int filled = 0;
-    while (comb << filled < all) ++filled;
-    if (ridges || all < comb) {
-        if (comb << filled == blades) return stand;
-        stand.slots = comb << filled;
-        stand.stands = all;
-        stand.stride = all / blades;
-        return stand;
+    while (gill_layout << filled < all) ++filled;
+    if (ridges || all < gill_layout) {
+        if (gill_layout << filled == blades) return assignment;
+        assignment.slots = gill_layout << filled;
+        assignment.occupied = all;
+        assignment.stride = all / blades;
+        return assignment;
     }
-    stand.blades = comb;
-    stand.tiers = filled;
+    assignment.blades = gill_layout;
+    assignment.tiers = filled;
     if (filled > 0) {
-        const int before = comb << (filled - 1);
-        stand.last_tier = static_cast<double>(all - before) / before;
+        const int before = gill_layout << (filled - 1);
+        assignment.last_tier = static_cast<double>(all - before) / before;
     }
-    return stand;
+    return assignment;
 }
 
 double cubic_wave(double t) {
@@ -99,14 +99,14 @@ float hashed_symmetric(int integer, std::uint32_t word) {
     return upper_part(hashed(hashed(integer_bits(integer) * prime_x) ^ word));
 }
 
-BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, std::uint32_t seed,
-                   int slots)
-    : stand_(stand),
+BladeRow::BladeRow(const SlotAssignment& assignment, HymeniumPattern pattern, double forking,
+                   std::uint32_t seed, int slots)
+    : assignment_(assignment),
       wander_size_(pattern == HymeniumPattern::ridges ? ridge_wander : gill_wander),
       wander_(wander_of(seed)),
       blades_(static_cast<std::size_t>(slots)) {
     const auto words = hymenium_words(seed);
-    const int n = stand.blades;
+    const int n = assignment.blades;
     for (int k = 0; k < n; ++k) {
         const double at = k;
         put(at, {.presence = 1.0, .from = at, .to = at});
@@ -130,11 +130,11 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
             }
         return;
     }
-    for (int tier = 0; tier < stand.tiers; ++tier)
+    for (int tier = 0; tier < assignment.tiers; ++tier)
         for (int k = 0; k < n << tier; ++k) {
-            if (tier + 1 == stand.tiers && stand.last_tier < 1.0) {
+            if (tier + 1 == assignment.tiers && assignment.last_tier < 1.0) {
                 const float rank = static_cast<float>(k) * static_cast<float>(golden_step);
-                if (!(rank - std::floor(rank) < static_cast<float>(stand.last_tier))) continue;
+                if (!(rank - std::floor(rank) < static_cast<float>(assignment.last_tier))) continue;
             }
             const double at = (k + 0.5) / (1 << tier);
             const double chance = static_cast<double>(
@@ -149,14 +149,14 @@ BladeRow::BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, 
 
 // Blades on slots take the slot nearest to their even spacing.
 double BladeRow::turn_of(double gaps) const {
-    if (stand_.slots == 0) return gaps / stand_.blades;
-    const double stands = gaps * stand_.stride;
-    const double integer = std::floor(stands);
+    if (assignment_.slots == 0) return gaps / assignment_.blades;
+    const double occupied = gaps * assignment_.stride;
+    const double integer = std::floor(occupied);
     const auto slot = [&](double k) {
-        return std::floor(k * stand_.slots / stand_.stands + 0.501);
+        return std::floor(k * assignment_.slots / assignment_.occupied + 0.501);
     };
-    return (slot(integer) + (stands - integer) * (slot(integer + 1.0) - slot(integer))) /
-           stand_.slots;
+    return (slot(integer) + (occupied - integer) * (slot(integer + 1.0) - slot(integer))) /
+           assignment_.slots;
 }
 
 void BladeRow::put(double gaps, Blade blade) {

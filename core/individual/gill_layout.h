@@ -13,12 +13,12 @@ namespace sporeprint {
 /// The gill layout of a whole set: the gills or ridges of the species and stage with the most at
 /// the margin, so that no weight and no age changes their number. A species with fewer uses a part
 /// of the slots, the last tiers dropped first. 0 blades: no species carries any.
-struct Comb {
+struct GillLayout {
     int blades = 0;
     int tiers = 0;
 
     [[nodiscard]] long at_margin() const { return static_cast<long>(blades) << tiers; }
-    bool operator==(const Comb&) const = default;
+    bool operator==(const GillLayout&) const = default;
 };
 
 /// Returns true for gills and ridges, which are blades.
@@ -29,19 +29,20 @@ struct Comb {
 /// The assignment of a species' blades to the slots of its set's layout. Tiers are filled one after
 /// another; a species with so few blades that all would reach the stem keeps its own tiers instead,
 /// each blade on a slot.
-struct Stand {
+struct SlotAssignment {
     int blades = 0;          ///< that reach the stem
     int tiers = 0;           ///< of shorter blades; each halves the gaps
     double last_tier = 1.0;  ///< share of the last tier's blades that is present
-    int slots = 0;   ///< number of slots round the axis; 0: blades are evenly spaced without slots
-    int stands = 0;  ///< number of blades on slots
-    int stride = 1;  ///< every `stride`-th blade reaches the stem
+    int slots = 0;  ///< number of slots round the axis; 0: blades are evenly spaced without slots
+    int occupied = 0;  ///< number of blades on slots
+    int stride = 1;    ///< every `stride`-th blade reaches the stem
 };
 
 /// Returns the slot assignment of a species.
 ///
 /// comb  blades that reach the stem in the layout of the set; 0 for a species without a set
-[[nodiscard]] Stand stand_on(int comb, HymeniumPattern pattern, int blades, int tiers);
+[[nodiscard]] SlotAssignment slot_assignment(int gill_layout, HymeniumPattern pattern, int blades,
+                                             int tiers);
 
 /// Returns the share of the meridian (0 stem, 1 margin) at which a tier of shorter gills begins. In
 /// the layout of a set a species may fill more tiers than any species has alone: those begin ever
@@ -111,8 +112,8 @@ class BladeRow {
     /// Places the blades of a species.
     ///
     /// slots  at least as many as the species has blades and forks; slot k is at k / slots turns
-    BladeRow(const Stand& stand, HymeniumPattern pattern, double forking, std::uint32_t seed,
-             int slots);
+    BladeRow(const SlotAssignment& assignment, HymeniumPattern pattern, double forking,
+             std::uint32_t seed, int slots);
 
     [[nodiscard]] const std::vector<Blade>& blades() const { return blades_; }
     /// Returns the angular position of a blade at a share of the meridian, in turns, not wrapped to
@@ -123,7 +124,7 @@ class BladeRow {
     [[nodiscard]] double turn_of(double gaps) const;
     void put(double gaps, Blade blade);
 
-    Stand stand_;
+    SlotAssignment assignment_;
     double wander_size_;
     Wander wander_;
     std::vector<Blade> blades_;

@@ -36,7 +36,7 @@ struct PatchLayer {
 
 /// Damage by weathering for geometry: amounts times the weight of the species that can have them,
 /// and which kinds can occur at any age, so that no age changes the number of vertices.
-struct Wear {
+struct DamageAmounts {
     WeatheringOf<Plain> amounts;
     double clubs = 0.0;  ///< weight of the species without a margin
     bool bites = false, splits = false, melts = false, peels = false, dew = false;
@@ -55,11 +55,11 @@ struct Individual {
     double lightness = 1.0;           ///< factor on the linear colour of the cap
     std::vector<SpeciesShare> parts;  ///< sorted by id
     std::shared_ptr<const MorphSet>
-        set;          ///< all control shapes of its swept species, with what is proven about them
-    Bush bush;        ///< of the branched family; the members after it are then empty
-    Outline outline;  ///< metres; with the proportions and size of the individual
-    double stem_base = 0.0;  ///< height of the first point of the stem, metres
-    double stem_top = 0.0;   ///< height of the last point of the stem, metres
+        set;  ///< all control shapes of its swept species, with what is proven about them
+    BranchGraph branch_graph;  ///< of the branched family; the members after it are then empty
+    Outline outline;           ///< metres; with the proportions and size of the individual
+    double stem_base = 0.0;    ///< height of the first point of the stem, metres
+    double stem_top = 0.0;     ///< height of the last point of the stem, metres
     double radial_strain =
         0.0;  ///< 0..1: by how much the cap has grown more in circumference than along its meridian
     AxisCurve axis;
@@ -73,12 +73,12 @@ struct Individual {
     RingStyle ring;        ///< its width includes amounts and weights; metres
     bool has_ring = false;  ///< some species of the mix can have one at some age
     double waves = 0.0;     ///< of the margin, from the species with a margin only
-    Wear wear;
-    Comb comb;
+    DamageAmounts damage;
+    GillLayout gill_layout;
     int blade_tiers = 0;     ///< solid blades are placed on comb.blades << blade_tiers slots
     bool runs_down = false;  ///< gills of some species of the mix run down the stem at some age
 
-    [[nodiscard]] bool is_branched() const { return !bush.empty(); }
+    [[nodiscard]] bool is_branched() const { return !branch_graph.empty(); }
 };
 
 }  // namespace sporeprint

@@ -116,7 +116,7 @@ struct MixPart {
 using Mix = std::vector<MixPart>;
 
 /// A whole request: a mix of the atlas or a custom model, and the parameters.
-struct MushroomOrder {
+struct MushroomSpec {
     Mix mix;
     std::optional<Model> model;
     MushroomParams params;

@@ -50,7 +50,7 @@ double factor(double draw, double spread, double variation) {
 /// Returns the correspondence of all control shapes of the sources, cached by their content.
 std::shared_ptr<const MorphSet> morph_set(const std::vector<Source>& sources,
                                           const std::vector<Arc>& arcs, double age,
-                                          const Remember<MorphSet>& morphs) {
+                                          const GetOrCompute<MorphSet>& morphs) {
     std::string key = "morph " + std::to_string(generator_version);
     for (const Source& source : sources)
         if (source.id.empty()) {
@@ -101,12 +101,13 @@ double strain_of(const MorphSet& set, const std::vector<Source>& sources) {
 }
 
 /// Returns the damage by weathering for geometry.
-Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& requested) {
+DamageAmounts damage_amounts_of(const std::vector<Source>& sources,
+                                const WeatheringOf<Maybe>& requested) {
     using Amount = double WeatheringOf<Plain>::*;
-    Wear wear;
+    DamageAmounts damage;
     const auto lay = [&](Amount amount, const std::optional<double>& wanted, auto able) {
         bool can = false;
-        double& sum = wear.amounts.*amount;
+        double& sum = damage.amounts.*amount;
         for (const Source& source : sources) {
             if (!able(source)) continue;
             sum += source.weight * (source.now.weathering.*amount);
@@ -120,16 +121,16 @@ Wear wear_of(const std::vector<Source>& sources, const WeatheringOf<Maybe>& requ
     const auto all = [](const Source&) { return true; };
     const auto margin = [](const Source& s) { return s.has_margin(); };
     for (const Source& source : sources)
-        if (!source.has_margin()) wear.clubs += source.weight;
+        if (!source.has_margin()) damage.clubs += source.weight;
     lay(&W::creases, requested.creases, all);
     lay(&W::bumps, requested.bumps, all);
-    wear.bites = lay(&W::bites, requested.bites, all);
-    wear.splits = lay(&W::splits, requested.splits, margin);
-    wear.melts =
+    damage.bites = lay(&W::bites, requested.bites, all);
+    damage.splits = lay(&W::splits, requested.splits, margin);
+    damage.melts =
         lay(&W::deliquescence, requested.deliquescence, [](const Source& s) { return s.melts(); });
-    wear.peels = lay(&W::peel, requested.peel, [](const Source& s) { return s.peels(); });
-    wear.dew = lay(&W::dew, requested.dew, all);
-    return wear;
+    damage.peels = lay(&W::peel, requested.peel, [](const Source& s) { return s.peels(); });
+    damage.dew = lay(&W::dew, requested.dew, all);
+    return damage;
 }
 
 AxisCurve axis_of(const std::vector<Source>& sources) {
@@ -257,7 +258,7 @@ CellRows cells_of(const Source& source) {
 /// Sets the layout of the solids on the lower face, which no weight and no age may change.
 void resolve_hymenium(Individual& individual, const MushroomParams& requested,
                       const std::vector<Source>& sources) {
-    individual.blade_tiers = individual.comb.tiers;
+    individual.blade_tiers = individual.gill_layout.tiers;
     for (const Source& source : sources) {
         if (!source.has_blades()) continue;
         individual.runs_down =
@@ -266,7 +267,7 @@ void resolve_hymenium(Individual& individual, const MushroomParams& requested,
                         [](const Model* stage) { return stage->hymenium.decurrent > 0.0; });
         // Each ridge may fork, and each of its forks.
         if (source.pattern() == HymeniumPattern::ridges)
-            while (individual.comb.blades << individual.blade_tiers <
+            while (individual.gill_layout.blades << individual.blade_tiers <
                    4 * source.now.hymenium.blades)
                 ++individual.blade_tiers;
     }
@@ -280,10 +281,10 @@ void overlay_all(const MushroomParams& requested, Model& model) {
 }
 
 /// Resolves the outline and the axis of a swept individual.
-void resolve_swept(Individual& individual, const MushroomOrder& order,
+void resolve_swept(Individual& individual, const MushroomSpec& spec,
                    const std::vector<Source>& sources, const std::vector<Arc>& arcs,
-                   const Draws& draws, const Spread& spread, const Remember<MorphSet>& morphs) {
-    const MushroomParams& requested = order.params;
+                   const Draws& draws, const Spread& spread, const GetOrCompute<MorphSet>& morphs) {
+    const MushroomParams& requested = spec.params;
     // Shapes are blended in unit size, sizes by their ratio.
     const double variation = requested.variation;
     double size = 0.0, open = 0.0;
@@ -303,7 +304,7 @@ void resolve_swept(Individual& individual, const MushroomOrder& order,
     individual.outline =
         varied_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
     if (const auto curve = self_intersecting_curve(individual.outline, requested.lod))
-        throw Impossible(order.model ? std::string("/model/silhouette/") + name(*curve) : "mix",
+        throw Impossible(spec.model ? std::string("/model/silhouette/") + name(*curve) : "mix",
                          "the outline crosses itself at this level of detail, near the " +
                              std::string(name(*curve)));
     const auto stem = individual.outline.rings(CurveName::stem, 0);
@@ -319,7 +320,7 @@ void resolve_swept(Individual& individual, const MushroomOrder& order,
     individual.lobes = lobes_of(sources);
     individual.reliefs = reliefs_of(sources);
     DeformationOf<Plain>& deformation = individual.model.deformation;
-    if (!order.model) {
+    if (!spec.model) {
         const double fold = individual.axis.greatest_turn() / slender;
         if (fold > most_natural_fold)
             individual.axis = individual.axis.scaled(most_natural_fold / fold);
@@ -332,26 +333,27 @@ void resolve_swept(Individual& individual, const MushroomOrder& order,
 }
 
 /// Resolves the branch graph of a branched individual.
-void resolve_branched(Individual& individual, const MushroomOrder& order,
+void resolve_branched(Individual& individual, const MushroomSpec& spec,
                       const std::vector<Source>& sources, const Draws& draws,
                       const Spread& spread) {
-    const MushroomParams& requested = order.params;
+    const MushroomParams& requested = spec.params;
     const double variation = requested.variation;
-    std::vector<BushShare> shares;
+    std::vector<BranchGraphShare> shares;
     shares.reserve(sources.size());
     for (const Source& source : sources)
         shares.push_back({&std::get<Branched>(source.now.shape), source.weight});
-    const BushProportions own{requested.size * factor(draws.size, spread.size, variation),
-                              factor(draws.stem_length, spread.stem_length, variation),
-                              factor(draws.stem_width, spread.stem_width, variation),
-                              factor(draws.cap_height, spread.cap_height, variation)};
+    const BranchGraphProportions own{requested.size * factor(draws.size, spread.size, variation),
+                                     factor(draws.stem_length, spread.stem_length, variation),
+                                     factor(draws.stem_width, spread.stem_width, variation),
+                                     factor(draws.cap_height, spread.cap_height, variation)};
     const double bites = requested.weathering.bites.value_or(individual.model.weathering.bites);
-    individual.bush = bush_of(shares, own, bites, requested.seed);
-    individual.stem_top = individual.bush.trunk;
-    if (order.model) return;
+    individual.branch_graph = branch_graph_of(shares, own, bites, requested.seed);
+    individual.stem_top = individual.branch_graph.trunk;
+    if (spec.model) return;
     // Variation bends an individual only as far as its own segments permit.
     DeformationOf<Plain>& deformation = individual.model.deformation;
-    const double slender = individual.bush.height / std::max(individual.bush.reach, 1e-4);
+    const double slender =
+        individual.branch_graph.height / std::max(individual.branch_graph.reach, 1e-4);
     const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
     deformation.bend_deg = std::min(
         {90.0, deformation.bend_deg + draws.bend * spread.bend_deg * variation, 0.5 * zone});
@@ -362,7 +364,7 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
                        const std::vector<Source>& sources) {
     if (individual.model.weathering.cracks > 0.0)
         individual.radial_strain = strain_of(*individual.set, sources);
-    individual.wear = wear_of(sources, requested.weathering);
+    individual.damage = damage_amounts_of(sources, requested.weathering);
     individual.layers = layers_of(sources, *individual.set);
     individual.ring = ring_of(sources, individual.size);
     individual.sac = sac_of(sources, individual.size);
@@ -370,39 +372,39 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
         individual.has_ring = individual.has_ring || source.has_ring();
         individual.has_sac = individual.has_sac || source.has_sac();
         if (source.has_margin()) individual.waves += source.weight * source.now.weathering.waves;
-        const Comb comb{source.now.hymenium.blades, source.now.hymenium.tiers};
-        if (source.has_blades() && comb.at_margin() > individual.comb.at_margin())
-            individual.comb = comb;
+        const GillLayout gill_layout{source.now.hymenium.blades, source.now.hymenium.tiers};
+        if (source.has_blades() && gill_layout.at_margin() > individual.gill_layout.at_margin())
+            individual.gill_layout = gill_layout;
     }
     resolve_hymenium(individual, requested, sources);
-    if (individual.comb.blades > 0) {
-        individual.model.hymenium.blades = individual.comb.blades;
-        individual.model.hymenium.tiers = individual.comb.tiers;
+    if (individual.gill_layout.blades > 0) {
+        individual.model.hymenium.blades = individual.gill_layout.blades;
+        individual.model.hymenium.tiers = individual.gill_layout.tiers;
     }
 }
 
 }  // namespace
 
-Individual resolve(const MushroomOrder& order, const Atlas& atlas,
-                   const Remember<MorphSet>& morphs) {
-    const MushroomParams& requested = order.params;
+Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
+                   const GetOrCompute<MorphSet>& morphs) {
+    const MushroomParams& requested = spec.params;
     std::vector<Problem> problems;
     check(requested, Info{.name = ""}, "", problems);
-    if (order.model) check(*order.model, Info{.name = ""}, "/model", problems);
+    if (spec.model) check(*spec.model, Info{.name = ""}, "/model", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    if (order.model && requested.animation == Animation::growth)
+    if (spec.model && requested.animation == Animation::growth)
         throw Impossible("/animation", "a model of your own has no stages to grow through");
 
-    std::vector<Source> sources = sources_of(order, atlas);
-    if (!order.arcs.empty() && sources.size() != 2)
+    std::vector<Source> sources = sources_of(spec, atlas);
+    if (!spec.arcs.empty() && sources.size() != 2)
         throw InvalidInput("/arcs",
                            "arcs link two species; this mix has " + std::to_string(sources.size()));
-    if (!order.arcs.empty() && sources.front().is_branched())
+    if (!spec.arcs.empty() && sources.front().is_branched())
         throw Impossible("/arcs", "limbs that branch have no outlines that arcs could link");
     check_anatomy(requested, sources);
     // Arcs name the species in the order of the mix; from here on species are sorted by id.
-    std::vector<Arc> arcs = order.arcs;
-    if (!arcs.empty() && order.mix[0].id != sources[0].id)
+    std::vector<Arc> arcs = spec.arcs;
+    if (!arcs.empty() && spec.mix[0].id != sources[0].id)
         for (Arc& arc : arcs) std::swap(arc.a, arc.b);
 
     Individual individual;
@@ -420,9 +422,9 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     const Draws draws = draws_of(requested.seed);
     const double variation = requested.variation;
     if (sources.front().is_branched())
-        resolve_branched(individual, order, sources, draws, spread);
+        resolve_branched(individual, spec, sources, draws, spread);
     else
-        resolve_swept(individual, order, sources, arcs, draws, spread, morphs);
+        resolve_swept(individual, spec, sources, arcs, draws, spread, morphs);
     individual.lightness = factor(draws.lightness, spread.lightness, variation);
     DeformationOf<Plain>& deformation = model.deformation;
     deformation.lean_deg =
@@ -446,32 +448,32 @@ Individual resolve(const MushroomOrder& order, const Atlas& atlas,
     return individual;
 }
 
-std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas) {
+std::vector<BranchGraph> species_branch_graphs(const MushroomSpec& spec, const Atlas& atlas) {
     std::vector<Problem> problems;
-    check(order.params, Info{.name = ""}, "", problems);
+    check(spec.params, Info{.name = ""}, "", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    const std::vector<Source> sources = sources_of(order, atlas);
-    std::vector<Bush> bushes;
-    bushes.reserve(sources.size());
+    const std::vector<Source> sources = sources_of(spec, atlas);
+    std::vector<BranchGraph> branch_graphs;
+    branch_graphs.reserve(sources.size());
     for (const Source& alone : sources) {
-        std::vector<BushShare> shares;
+        std::vector<BranchGraphShare> shares;
         shares.reserve(sources.size());
         for (const Source& source : sources)
             shares.push_back(
                 {&std::get<Branched>(source.now.shape), &source == &alone ? 1.0 : 0.0});
-        bushes.push_back(bush_of(shares, {}, 0.0, order.params.seed));
+        branch_graphs.push_back(branch_graph_of(shares, {}, 0.0, spec.params.seed));
     }
-    return bushes;
+    return branch_graphs;
 }
 
-SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
-                             const Remember<MorphSet>& morphs) {
+SpeciesShapes species_shapes(const MushroomSpec& spec, const Atlas& atlas,
+                             const GetOrCompute<MorphSet>& morphs) {
     std::vector<Problem> problems;
-    check(order.params, Info{.name = ""}, "", problems);
+    check(spec.params, Info{.name = ""}, "", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    const std::vector<Source> sources = sources_of(order, atlas);
+    const std::vector<Source> sources = sources_of(spec, atlas);
     SpeciesShapes shapes;
-    shapes.set = morph_set(sources, {}, order.params.age, morphs);
+    shapes.set = morph_set(sources, {}, spec.params.age, morphs);
     std::size_t first = 0;
     for (const Source& source : sources) {
         std::vector<double> weights(shapes.set->size(), 0.0);

@@ -18,8 +18,8 @@ namespace sporeprint {
 ///          mix can have and for an outline that crosses itself; paths like "/hymenium/blades",
 ///          "mix"
 /// source   [Desbenoit2004] sec. 4
-[[nodiscard]] Individual resolve(const MushroomOrder& order, const Atlas& atlas,
-                                 const Remember<MorphSet>& morphs = make_anew<MorphSet>);
+[[nodiscard]] Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
+                                 const GetOrCompute<MorphSet>& morphs = uncached<MorphSet>);
 
 /// Returns the branch graphs of the species of a request, by id, as their templates are, without
 /// individual variation. All have the same nodes, merged from all species; those that a species
@@ -27,7 +27,8 @@ namespace sporeprint {
 ///
 /// pre     all species branch
 /// throws  InvalidInput for a range or an unknown species
-[[nodiscard]] std::vector<Bush> species_bushes(const MushroomOrder& order, const Atlas& atlas);
+[[nodiscard]] std::vector<BranchGraph> species_branch_graphs(const MushroomSpec& spec,
+                                                             const Atlas& atlas);
 
 /// The control shapes of the species of a request, as their templates are, without individual
 /// variation.
@@ -43,7 +44,8 @@ struct SpeciesShapes {
 ///
 /// pre     no species branches; the request has no arcs
 /// throws  InvalidInput for a range or an unknown species
-[[nodiscard]] SpeciesShapes species_shapes(const MushroomOrder& order, const Atlas& atlas,
-                                           const Remember<MorphSet>& morphs = make_anew<MorphSet>);
+[[nodiscard]] SpeciesShapes species_shapes(
+    const MushroomSpec& spec, const Atlas& atlas,
+    const GetOrCompute<MorphSet>& morphs = uncached<MorphSet>);
 
 }  // namespace sporeprint

@@ -31,7 +31,8 @@ std::vector<double> growth_weights(const std::vector<Stage>& stages, double age)
 /// Returns the overall size of a shape: the half diagonal of the bounding box of its control points
 /// rotated about the axis, or the height of a branched shape.
 double size_of(const Model& model) {
-    if (const auto* branched = std::get_if<Branched>(&model.shape)) return branched->limbs.height;
+    if (const auto* branched = std::get_if<Branched>(&model.shape))
+        return branched->segments.height;
     const Silhouette& s = silhouette_of(model);
     double radius = 0.0, low = s.stem.front().y, high = low;
     for (const auto* part : {&s.stem, &s.hymenium, &s.cap})
@@ -65,10 +66,10 @@ Source source_of(const AtlasEntry& entry, double weight, double age) {
     source.size = size;
     source.now = blend(stages);
     // Blades and tiers are taken together from one stage: they form one layout.
-    Comb most;
+    GillLayout most;
     for (const Model* stage : source.stages) {
-        const Comb comb{stage->hymenium.blades, stage->hymenium.tiers};
-        if (comb.at_margin() > most.at_margin()) most = comb;
+        const GillLayout gill_layout{stage->hymenium.blades, stage->hymenium.tiers};
+        if (gill_layout.at_margin() > most.at_margin()) most = gill_layout;
     }
     source.now.hymenium.blades = most.blades;
     source.now.hymenium.tiers = most.tiers;
@@ -97,45 +98,45 @@ const Silhouette& silhouette_of(const Model& model) {
     return std::get<Swept>(model.shape).silhouette;
 }
 
-std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas) {
+std::vector<Source> sources_of(const MushroomSpec& spec, const Atlas& atlas) {
     std::vector<Source> sources;
-    if (order.model) {
+    if (spec.model) {
         Source own;
         own.label = "this model";
-        own.stages = {&*order.model};
+        own.stages = {&*spec.model};
         own.ages = {mature_age};
         own.growth = {1.0};
         own.mature = {1.0};
-        own.size = size_of(*order.model);
-        own.now = *order.model;
+        own.size = size_of(*spec.model);
+        own.now = *spec.model;
         sources.push_back(std::move(own));
         return sources;
     }
     std::vector<Problem> problems;
-    if (order.mix.empty() || order.mix.size() > most_blended)
+    if (spec.mix.empty() || spec.mix.size() > most_blended)
         report(problems, "mix",
-               std::to_string(order.mix.size()) + " species; a mix has 1 to " +
+               std::to_string(spec.mix.size()) + " species; a mix has 1 to " +
                    std::to_string(most_blended));
     double sum = 0.0;
-    for (const MixPart& part : order.mix) {
+    for (const MixPart& part : spec.mix) {
         if (!atlas.find(part.id))
             report(problems, "mix", "'" + part.id + "' is no species of the atlas");
         if (part.weight <= 0)
             report(problems, "mix", "the weight of '" + part.id + "' is not positive");
-        for (const MixPart& other : order.mix)
+        for (const MixPart& other : spec.mix)
             if (&other < &part && other.id == part.id)
                 report(problems, "mix", "'" + part.id + "' is named twice");
         sum += part.weight;
     }
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    Mix mix = order.mix;
+    Mix mix = spec.mix;
     std::sort(mix.begin(), mix.end(),
               [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
     std::vector<double> weights;
     for (const MixPart& part : mix) weights.push_back(part.weight / sum);
     weights = eased_weights(std::move(weights));
     for (std::size_t i = 0; i < mix.size(); ++i)
-        sources.push_back(source_of(*atlas.find(mix[i].id), weights[i], order.params.age));
+        sources.push_back(source_of(*atlas.find(mix[i].id), weights[i], spec.params.age));
     refuse_two_families(sources);
     return sources;
 }

@@ -73,7 +73,7 @@ struct Source {
 ///
 /// throws  InvalidInput for an unknown species and an invalid mix, Impossible (path "mix") for
 ///         species of several families
-[[nodiscard]] std::vector<Source> sources_of(const MushroomOrder& order, const Atlas& atlas);
+[[nodiscard]] std::vector<Source> sources_of(const MushroomSpec& spec, const Atlas& atlas);
 
 /// Returns the outline of a model.
 ///

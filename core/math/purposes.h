@@ -33,7 +33,7 @@ enum Purpose : std::uint32_t {
     furrows = 36,
     ragged = 37,  ///< edges of torn or melted parts
     drips = 38,
-    marks = 40,               ///< four kinds on four parts
+    damage_spots = 40,        ///< four kinds on four parts
     grown_ramification = 60,  ///< biorders of a tree, sampled node by node
     dealt_ramification = 61,  ///< biorders of a tree with exact counts, shuffled
     ramification_tips = 62,   ///< small trees in place of leaves
@@ -53,7 +53,7 @@ enum Purpose : std::uint32_t {
     branch_trunks = 77,       ///< the branching of each further trunk
     branch_segments = 78,     ///< how segments differ from their style
     eaten_tips = 79,          ///< which tips slugs have eaten
-    limb_turns = 80,          ///< which side of its image a segment turns to the front
+    segment_turns = 80,       ///< which side of its image a segment turns to the front
     cap_paint = 101,
     hymenium = 102,  ///< places of gills, ridges, pores and spines
     stem_paint = 103,
@@ -72,7 +72,7 @@ enum Purpose : std::uint32_t {
 /// here. The switch lists all of them: the compiler refuses duplicates and omissions.
 [[nodiscard]] constexpr std::uint32_t numbers_of(Purpose which) {
     switch (which) {
-        case marks:
+        case damage_spots:
             return 16;
         case scars:
             return 10;
@@ -120,7 +120,7 @@ enum Purpose : std::uint32_t {
         case branch_trunks:
         case branch_segments:
         case eaten_tips:
-        case limb_turns:
+        case segment_turns:
         case cap_paint:
         case hymenium:
         case stem_paint:

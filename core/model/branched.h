@@ -12,11 +12,11 @@
 namespace sporeprint {
 
 /// The greatest number of tips of one species' branch graph.
-inline constexpr std::size_t most_bush_tips = 600;
+inline constexpr std::size_t most_branch_graph_tips = 600;
 
 /// Directions, lengths and widths of segments. Orders are those of Horton and Strahler: 1 for the
 /// terminal segments.
-struct LimbStyle {
+struct SegmentStyle {
     int trunks = 1;
     double height = 0.08;
     double trunk = 0.25;
@@ -41,7 +41,7 @@ struct LimbStyle {
     double unfolding = 1.0;
 
     static constexpr void fields(auto visit) {
-        using L = LimbStyle;
+        using L = SegmentStyle;
         visit(&L::trunks,
               Info{.name = "trunks", .min = 1, .max = 9, .doc = "Trunks that rise from one foot."});
         visit(&L::height, Info{.name = "height",
@@ -153,7 +153,7 @@ struct LimbStyle {
                                   .doc = "How far branching has come, from the lowest fork on: 0 "
                                          "is a bare spike, 1 has all its tips."});
     }
-    bool operator==(const LimbStyle&) const = default;
+    bool operator==(const SegmentStyle&) const = default;
 };
 
 /// Returns a topology of plain forks, three levels deep: the default of a model.
@@ -169,14 +169,15 @@ inline TreeTopology plain_forks() {
 struct Branched {
     static constexpr const char* form = "branched";
     TreeTopology ramification = plain_forks();
-    LimbStyle limbs;
+    SegmentStyle segments;
 
     static constexpr void fields(auto visit) {
         visit(&Branched::ramification,
               Info{.name = "ramification", .doc = "How often limbs bear which others."});
-        visit(&Branched::limbs, Info{.name = "limbs", .doc = "How limbs stand, and their size."});
+        visit(&Branched::segments,
+              Info{.name = "limbs", .doc = "How limbs stand, and their size."});
     }
-    /// Reports more tips than most_bush_tips.
+    /// Reports more tips than most_branch_graph_tips.
     void check(const std::string& path, std::vector<Problem>& problems) const;
     bool operator==(const Branched&) const = default;
 };

@@ -28,7 +28,7 @@ void Species::check(const std::string& path, std::vector<Problem>& problems) con
             if (!(branched->ramification == before.ramification))
                 report(problems, at(i, "/model/ramification"),
                        "every stage branches as the first; how far is limbs.unfolding");
-            if (branched->limbs.trunks != before.limbs.trunks)
+            if (branched->segments.trunks != before.segments.trunks)
                 report(problems, at(i, "/model/limbs/trunks"),
                        "every stage has as many trunks as the first");
         }

@@ -21,7 +21,7 @@ void append(Mesh& mesh, const Mesh& part) {
     for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
 }
 
-// Limbs that are skinned together: trunk and great branches, branches, twigs.
+// Segments that are skinned together: trunk and great branches, branches, twigs.
 struct Group {
     int low = 1, high = 1;  // orders
     int levels = 0;         // of subdivision
@@ -35,7 +35,7 @@ std::vector<Group> groups_of(int highest, int lod) {
     std::vector<Group> groups;
     int high = highest;
     for (int i = 0; i < 3 && high >= lowest; ++i) {
-        // Twigs of order 1, half of all limbs, are never subdivided.
+        // Twigs of order 1, half of all segments, are never subdivided.
         const int low = i == 2 ? lowest : std::max({lowest, high - 1, std::min(high, 2)});
         groups.push_back(
             {low, high, std::max(0, 2 - i - lod), i == 2 ? 1e9 : 3.0 * (1 + i) * (1 + lod)});
@@ -51,7 +51,7 @@ void refuse_thin(double nodes) {
                          std::to_string(most_skeleton_nodes) + " are made");
 }
 
-// The limbs of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go, and longer
+// The segments of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go, and longer
 // ways than `gap` radii get nodes: an image that turns back between two rings would be seen stretched.
 Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double gap) {
     const Ramification& grown = tree.ramification;
@@ -78,7 +78,7 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double g
             from = place[parent];
         } else {
             // A part that begins on a thicker one begins inside of it, as thick as it goes on.
-            Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.limbs[i].from];
+            Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.segments[i].from];
             if (parent != Ramification::none) root.radius = std::min(root.radius, here.radius);
             from = add(root);
         }
@@ -112,11 +112,11 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double g
             const double t = step / (steps + 1.0);
             const std::uint32_t between = add({start.place + t * (here.place - start.place),
                                                start.radius + t * (here.radius - start.radius)});
-            part.limbs.push_back({from, between});
+            part.segments.push_back({from, between});
             from = between;
         }
         place[i] = add(here);
-        part.limbs.push_back({from, place[i]});
+        part.segments.push_back({from, place[i]});
     }
     return part;
 }
@@ -130,7 +130,7 @@ Mesh bark_of(const Tree& tree, int lod) {
     Mesh bark;
     for (const Group& group : groups_of(tree.ramification.nodes[0].order, lod)) {
         const Skeleton part = part_of(tree, group.low, group.high, 0.25 * (1 + lod), group.gap);
-        if (part.limbs.empty()) continue;
+        if (part.segments.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
         append(bark, skin.mesh);
         for (std::size_t s = 0; s < skin.strips.size(); ++s) {
@@ -153,20 +153,20 @@ TreeCount count_of_bark(const TreeShape& shape, int lod) {
     TreeCount count;
     double rings = 0.0;
     for (const Group& group : groups_of(static_cast<int>(orders.size()), lod)) {
-        // Quads round a limb and along it from ring to ring, with the seam and what forks and ends take.
-        double limbs = 0.0, between = 0.0;
+        // Quads round a segment and along it from ring to ring, with the seam and what forks and ends take.
+        double segments = 0.0, between = 0.0;
         for (int k = group.low; k <= group.high; ++k) {
             const ExpectedOrder& order = orders[static_cast<std::size_t>(k - 1)];
-            limbs += order.edges;
+            segments += order.edges;
             between += order.edges * std::floor(order.length / (group.gap * order.radius));
         }
         const ExpectedOrder& top = orders[static_cast<std::size_t>(group.high - 1)];
         if (group.high == static_cast<int>(orders.size()))
             between += shape.trunk / (group.gap * top.radius);
-        rings += limbs + between;
+        rings += segments + between;
         const double faces = static_cast<double>(std::size_t{4} << (2 * group.levels));
-        count.vertices += (4.3 * limbs + 1.35 * between) * (faces + 2.0);
-        count.triangles += 2.0 * (4.0 * limbs + 1.35 * between) * faces;
+        count.vertices += (4.3 * segments + 1.35 * between) * (faces + 2.0);
+        count.triangles += 2.0 * (4.0 * segments + 1.35 * between) * faces;
     }
     if (rings > static_cast<double>(most_skeleton_nodes)) refuse_thin(rings);
     return count;

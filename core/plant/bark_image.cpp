@@ -57,7 +57,7 @@ RawImages bark_images(const BarkStyle& style, std::uint32_t seed, int side,
         std::vector<float> u(count), v(count);
         const double down =
             bark_girths * (static_cast<double>(y) + 0.5) / static_cast<double>(side);
-        // Noise with so many features round the limb, `longer` times as long as wide.
+        // Noise with so many features round the segment, `longer` times as long as wide.
         const auto noise = [&](int round, double longer, std::uint32_t purpose) {
             for (std::size_t x = 0; x < count; ++x) {
                 u[x] = static_cast<float>((static_cast<double>(x) + 0.5) * round / side);

@@ -1,4 +1,4 @@
-// Bark as an image that goes round a limb once and repeats along it, there and back.
+// Bark as an image that goes round a segment once and repeats along it, there and back.
 #pragma once
 
 #include <cstdint>
@@ -42,10 +42,10 @@ struct BarkStyle {
 };
 static_assert(well_described<BarkStyle>());
 
-/// One image along a limb is as long as this many of its girths.
+/// One image along a segment is as long as this many of its girths.
 inline constexpr double bark_girths = 2.0;
 
-/// Paints base colour, normal (+Y up, towards the beginning of a limb) and occlusion-roughness-metalness; the left border goes on
+/// Paints base colour, normal (+Y up, towards the beginning of a segment) and occlusion-roughness-metalness; the left border goes on
 /// at the right one.
 ///
 /// side     16..2048 texels, a power of two

@@ -16,12 +16,12 @@ constexpr double least_foot_gap = 4e-3;
 
 class FlatMaker {
   public:
-    FlatMaker(const Limb& limb, std::vector<double> rows, std::size_t fill)
-        : limb_(limb), rows_(std::move(rows)) {
-        const std::size_t lobes = limb.lobes.size();
+    FlatMaker(const Lamina& lamina, std::vector<double> rows, std::size_t fill)
+        : lamina_(lamina), rows_(std::move(rows)) {
+        const std::size_t lobes = lamina.lobes.size();
         for (std::size_t i = 0; i < lobes; ++i)
             for (std::size_t side = 0; side < 2; ++side)
-                feet_.push_back(feet_of(limb.lobes[i], limb.lobes[i].halves[side], fill));
+                feet_.push_back(feet_of(lamina.lobes[i], lamina.lobes[i].halves[side], fill));
         root_ = add({});
         for (std::size_t i = 0; i + 1 < lobes; ++i) seams_.push_back(seam(i));
         for (std::size_t i = 0; i < lobes; ++i) {
@@ -31,7 +31,7 @@ class FlatMaker {
         }
     }
 
-    FlatLimb take() { return std::move(made_); }
+    FlatLamina take() { return std::move(made_); }
 
   private:
     // Vertices along a line, by how far along it they lie.
@@ -93,7 +93,7 @@ class FlatMaker {
     }
 
     Line main_vein(std::size_t lobe) {
-        const Lobe& one = limb_.lobes[lobe];
+        const Lobe& one = lamina_.lobes[lobe];
         Line line{feet_[2 * lobe], {}};
         line.at.insert(line.at.end(), feet_[2 * lobe + 1].begin(), feet_[2 * lobe + 1].end());
         tidy(line.at);
@@ -111,10 +111,10 @@ class FlatMaker {
 
     // The ray between a lobe and the next: by distance from the root.
     Line seam(std::size_t lobe) {
-        const Lobe& right = limb_.lobes[lobe];
+        const Lobe& right = lamina_.lobes[lobe];
         Line line;
         for (std::size_t k = 0; k < 2; ++k) {
-            const Lobe& one = limb_.lobes[lobe + k];
+            const Lobe& one = lamina_.lobes[lobe + k];
             const HalfLobe& half = one.halves[k];
             for (const double foot : feet_[2 * (lobe + k) + k])
                 if (foot <= half.joined) line.at.push_back(distance(one, k, foot));
@@ -136,7 +136,7 @@ class FlatMaker {
     }
 
     void half(std::size_t lobe, std::size_t side, const Line& middle) {
-        const Lobe& one = limb_.lobes[lobe];
+        const Lobe& one = lamina_.lobes[lobe];
         const HalfLobe& half = one.halves[side];
         const std::vector<double>& feet = feet_[2 * lobe + side];
         const bool mirrored = side == 1;
@@ -223,18 +223,18 @@ class FlatMaker {
         }
     }
 
-    const Limb& limb_;
+    const Lamina& lamina_;
     std::vector<double> rows_;
     std::vector<std::vector<double>> feet_;  ///< of each half: 2 lobe + side
-    FlatLimb made_;
+    FlatLamina made_;
     std::uint32_t root_ = 0;
     std::vector<Line> seams_;
 };
 
 }  // namespace
 
-FlatLimb flat_limb(const Limb& limb, std::vector<double> rows, std::size_t fill) {
-    return FlatMaker(limb, std::move(rows), fill).take();
+FlatLamina flat_lamina(const Lamina& lamina, std::vector<double> rows, std::size_t fill) {
+    return FlatMaker(lamina, std::move(rows), fill).take();
 }
 
 }  // namespace sporeprint

@@ -19,7 +19,7 @@ namespace sporeprint {
 
 namespace {
 
-constexpr double petiole_radius = 0.011, petiole_reach = 0.12;  // in lengths of the limb
+constexpr double petiole_radius = 0.011, petiole_reach = 0.12;  // in lengths of the lamina
 constexpr double faces_height = 0.9;  // of the image, above the petiole's strip
 
 struct Level {
@@ -49,7 +49,7 @@ Level level_of(const Venation& venation, int lod) {
     return {1, {0.0, 1.0}, 0, 3, 2};
 }
 
-// The middle surface: folded about the middle vein, waving, bent along it. Lengths of the limb.
+// The middle surface: folded about the middle vein, waving, bent along it. Lengths of the lamina.
 class Bending {
   public:
     explicit Bending(const LeafShape& shape)
@@ -85,7 +85,7 @@ void refuse_faults(const LeafShape& shape) {
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
-// Positions in lengths of the limb until the end, so that normals are as exact for needles as for palms.
+// Positions in lengths of the lamina until the end, so that normals are as exact for needles as for palms.
 struct Shell {
     std::vector<glm::dvec3> places;
     std::vector<glm::vec2> texture;
@@ -178,9 +178,9 @@ glm::dvec2 LeafChart::place(const glm::dvec2& texture_point, bool& upper) const 
                         scale;
 }
 
-LeafChart chart_of(const Limb& limb) {
+LeafChart chart_of(const Lamina& lamina) {
     glm::dvec2 low(0.0), high(0.0);
-    for (const glm::dvec2& place : border_of(limb)) {
+    for (const glm::dvec2& place : border_of(lamina)) {
         low = glm::min(low, place);
         high = glm::max(high, place);
     }
@@ -241,16 +241,16 @@ std::vector<glm::dvec2> simplified(std::vector<glm::dvec2> half, const glm::dvec
 
 }  // namespace
 
-double limb_area(const LeafShape& shape) {
-    return area_of(border_of(limb_of(shape.venation, leaf_steps(shape.venation, 0)))) *
+double lamina_area(const LeafShape& shape) {
+    return area_of(border_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)))) *
            shape.length * shape.length;
 }
 
 namespace {
 
-/// What a polygon of few corners keeps of the limb.
+/// What a polygon of few corners keeps of the lamina.
 enum class Keeps {
-    area,   ///< seen from above; it is as much shorter as the limb has bays
+    area,   ///< seen from above; it is as much shorter as the lamina has bays
     extent  ///< length and width; its area as far as corners between them can be drawn in
 };
 
@@ -298,14 +298,14 @@ void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
     half = before;
 }
 
-// The limb alone, root at the origin.
+// The lamina alone, root at the origin.
 Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
                     Keeps keeps) {
-    const Limb limb = limb_of(shape.venation, leaf_steps(shape.venation, 0));
+    const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
     // Between its veins' ends the border goes straight, or every corner would go into the bays of a frond.
     Venation plain = shape.venation;
     plain.sinus = plain.teeth = 0.0;
-    const Limb outline = limb_of(plain, plain.lobes.value == 1 ? 2 : 1);
+    const Lamina outline = lamina_of(plain, plain.lobes.value == 1 ? 2 : 1);
     const Lobe& middle = outline.lobes[outline.lobes.size() / 2];
     glm::dvec2 centre(0.0, outline.lobes.size() > 1 ? 0.3 : 0.5);
     const glm::dvec2 tip = middle.place(0, middle.reach, 0.0);
@@ -315,12 +315,12 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
         if (place == tip) break;
     }
     std::vector<glm::dvec2> border = simplified(half, centre, triangles / 4 + 1);
-    const std::vector<glm::dvec2> whole = border_of(limb);
+    const std::vector<glm::dvec2> whole = border_of(lamina);
     if (keeps == Keeps::extent) stretch(border, centre, whole);
     for (std::size_t i = border.size() - 2; i > 0; --i)
         border.emplace_back(-border[i].x, border[i].y);
     const double grown = keeps == Keeps::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
-    const LeafChart chart = chart_of(limb);
+    const LeafChart chart = chart_of(lamina);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(border.size());
     for (const bool upper : {true, false}) {
@@ -350,9 +350,9 @@ namespace {
 
 // Both faces on the grid of a level.
 Shell limb_shell(const LeafShape& shape, const Bending& bent, const Level& level) {
-    const Limb limb = limb_of(shape.venation, level.steps);
-    const LeafChart chart = chart_of(limb);
-    const FlatLimb flat = flat_limb(limb, level.rows, level.fill);
+    const Lamina lamina = lamina_of(shape.venation, level.steps);
+    const LeafChart chart = chart_of(lamina);
+    const FlatLamina flat = flat_lamina(lamina, level.rows, level.fill);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(flat.vertices.size());
     for (const bool upper : {true, false})
@@ -371,7 +371,7 @@ Shell limb_shell(const LeafShape& shape, const Bending& bent, const Level& level
     return shell;
 }
 
-/// Stretches a limb of few corners, which curls and waves in larger steps, to the box of another one; the root stays.
+/// Stretches a lamina of few corners, which curls and waves in larger steps, to the box of another one; the root stays.
 void fit_to(const Shell& like, Shell& shell) {
     const auto box = [](const Shell& one) {
         std::array<glm::dvec3, 2> corners = {glm::dvec3(0.0), glm::dvec3(0.0)};

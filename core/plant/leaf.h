@@ -84,29 +84,29 @@ struct LeafPreset {
 /// Where a leaf lies on its image: the upper face in the left half, the lower one in the right half, both from above,
 /// and under them a strip for the petiole.
 struct LeafChart {
-    glm::dvec2 corner{0.0};  ///< of the limb's box, in its plane
-    double scale = 1.0;      ///< texture lengths per length of the limb
+    glm::dvec2 corner{0.0};  ///< of the lamina's box, in its plane
+    double scale = 1.0;      ///< texture lengths per length of the lamina
 
     [[nodiscard]] glm::dvec2 texture_point(const glm::dvec2& place, bool upper) const;
-    /// The way back; whether a texture point is on either face at all is for a LimbReader to say.
+    /// The way back; whether a texture point is on either face at all is for a LaminaReader to say.
     [[nodiscard]] glm::dvec2 place(const glm::dvec2& texture_point, bool& upper) const;
 };
 /// Top of the petiole's strip; v goes down as in glTF.
 inline constexpr double petiole_strip = 0.94;
-[[nodiscard]] LeafChart chart_of(const Limb& limb);
+[[nodiscard]] LeafChart chart_of(const Lamina& lamina);
 
 /// Levels of detail of a lone leaf.
 inline constexpr int leaf_lods = 4;
 
-/// Steps that limb_of() takes for a leaf at a level of detail.
+/// Steps that lamina_of() takes for a leaf at a level of detail.
 [[nodiscard]] int leaf_steps(const Venation& venation, int lod);
 
-/// The whole leaf: pivot at the far end of the petiole, the limb along +z, its upper face up.
+/// The whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face up.
 ///
 /// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source; 3 a fan of most_foliage_triangles as long and as wide
 ///          as that, or the polygon where it has no more triangles
 /// size     scale of the whole
-/// returns  two closed pieces: limb, its veins as relief, and petiole
+/// returns  two closed pieces: lamina, its veins as relief, and petiole
 /// throws   InvalidInput with all that check() finds
 [[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod, double size = 1.0);
 
@@ -128,14 +128,14 @@ struct LeafCount {
 /// Most triangles of foliage_leaf().
 inline constexpr std::size_t most_foliage_triangles = 16;
 
-/// The leaf of a tree: one closed piece of a few triangles with the area of the limb, seen from above, without a petiole
-/// (root of the limb at the origin).
+/// The leaf of a tree: one closed piece of a few triangles with the area of the lamina, seen from above, without a petiole
+/// (root of the lamina at the origin).
 ///
 /// triangles  even, 6..16
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
                                 std::size_t triangles = most_foliage_triangles);
 
-/// Area of the limb in its plane, square metres.
-[[nodiscard]] double limb_area(const LeafShape& shape);
+/// Area of the lamina in its plane, square metres.
+[[nodiscard]] double lamina_area(const LeafShape& shape);
 
 }  // namespace sporeprint

@@ -20,8 +20,8 @@ glm::dvec3 mixed(const glm::dvec3& a, const glm::dvec3& b, double share) {
     return a + share * (b - a);
 }
 
-// 1 on a vein, 0 beside it. Main veins grow thinner to the tip, side veins are half as wide and end in the limb.
-double vein_share(const LeafColours& colours, const LimbPlace& place) {
+// 1 on a vein, 0 beside it. Main veins grow thinner to the tip, side veins are half as wide and end in the lamina.
+double vein_share(const LeafColours& colours, const LaminaPlace& place) {
     const auto line = [](double distance, double width) {
         return width > 0.0 ? 1.0 - smooth_step(0.25 * width, 0.5 * width, distance) : 0.0;
     };
@@ -58,7 +58,7 @@ LeafColourist::Season LeafColourist::season(const LeafColours& colours) {
                    linear(colours.border),
                    linear(colours.tip),
                    {}};
-    LimbPlace beyond;
+    LaminaPlace beyond;
     beyond.affinity = beyond.homothety = 1.0;
     made.beyond = blade(made, beyond);
     return made;
@@ -69,7 +69,7 @@ LeafColourist::LeafColourist(const LeafPalette& palette)
       paler_below_(palette.paler_below),
       widest_(std::max(palette.summer.vein_width, palette.fallen.vein_width)) {}
 
-glm::dvec3 LeafColourist::blade(const Season& season, const LimbPlace& place) {
+glm::dvec3 LeafColourist::blade(const Season& season, const LaminaPlace& place) {
     const LeafColours& colours = season.colours;
     const glm::dvec3 across =
         mixed(season.inner, season.border, gradation(colours.affinity, place.affinity));
@@ -77,7 +77,7 @@ glm::dvec3 LeafColourist::blade(const Season& season, const LimbPlace& place) {
                  colours.homothety_share * gradation(colours.homothety, place.homothety));
 }
 
-LeafColourist::Faces LeafColourist::at(const LimbPlace& place, double autumn) const {
+LeafColourist::Faces LeafColourist::at(const LaminaPlace& place, double autumn) const {
     // What is far from veins turns first: by up to a third of a season.
     constexpr double lag = 0.17, whole = 0.5 - lag;
     const auto turned = [&](double begin, double depth) {
@@ -106,7 +106,7 @@ LeafColourist::Faces LeafColourist::at(const LimbPlace& place, double autumn) co
     return {colour, mixed(colour, mixed(colour, pale, 0.6), paler_below_)};
 }
 
-glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place, double autumn,
+glm::dvec3 leaf_colour(const LeafPalette& palette, const LaminaPlace& place, double autumn,
                        bool upper) {
     const LeafColourist::Faces faces = LeafColourist(palette).at(place, autumn);
     return upper ? faces.upper : faces.lower;

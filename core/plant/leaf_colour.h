@@ -99,16 +99,16 @@ class LeafColourist {
     };
 
     /// autumn   0 summer, 0.5 turning, 1 fallen. Leaves turn from their border and tip inwards, veins last
-    [[nodiscard]] Faces at(const LimbPlace& place, double autumn) const;
+    [[nodiscard]] Faces at(const LaminaPlace& place, double autumn) const;
 
   private:
     struct Season {
         LeafColours colours;
         glm::dvec3 vein, inner, border, tip;
-        glm::dvec3 beyond;  ///< of the limb's border
+        glm::dvec3 beyond;  ///< of the lamina's border
     };
     [[nodiscard]] static Season season(const LeafColours& colours);
-    [[nodiscard]] static glm::dvec3 blade(const Season& season, const LimbPlace& place);
+    [[nodiscard]] static glm::dvec3 blade(const Season& season, const LaminaPlace& place);
 
     std::array<Season, 3> seasons_;  ///< summer, turning, fallen
     double paler_below_;
@@ -116,7 +116,7 @@ class LeafColourist {
 };
 
 /// The same for one place.
-[[nodiscard]] glm::dvec3 leaf_colour(const LeafPalette& palette, const LimbPlace& place,
+[[nodiscard]] glm::dvec3 leaf_colour(const LeafPalette& palette, const LaminaPlace& place,
                                      double autumn, bool upper);
 
 /// When one of many leaves turns: its own share of `autumn`, earlier and later by `spread` (0..1), from its own stream; 0 and 1

@@ -38,8 +38,8 @@ double bead(double distance, double width) {
     return distance < width ? 1.0 - smooth_step(0.0, width, distance) : 0.0;
 }
 
-// How far a vein lies in the limb here, 0..1.
-double vein_depth(const LimbPlace& place) {
+// How far a vein lies in the lamina here, 0..1.
+double vein_depth(const LaminaPlace& place) {
     const double main = bead(place.from_main, 0.028 * (1.0 - 0.7 * place.homothety));
     double side = bead(place.from_side, 0.014);
     if (side > 0.0) side *= 1.0 - smooth_step(0.7, 1.1, place.along_side);
@@ -47,7 +47,7 @@ double vein_depth(const LimbPlace& place) {
 }
 
 // Of a place beyond the border.
-constexpr LimbPlace beyond_limb = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
+constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
 
 struct Texel {
     glm::dvec3 light{0.0};
@@ -65,8 +65,8 @@ class LeafPainter {
   public:
     LeafPainter(const LeafShape& shape, const LeafPalette& palette, double autumn,
                 std::uint32_t seed, std::size_t side)
-        : reader_(limb_of(shape.venation, leaf_steps(shape.venation, 0))),
-          chart_(chart_of(reader_.limb())),
+        : reader_(lamina_of(shape.venation, leaf_steps(shape.venation, 0))),
+          chart_(chart_of(reader_.lamina())),
           colourist_(palette),
           autumn_(autumn),
           relief_(shape.relief),
@@ -75,7 +75,7 @@ class LeafPainter {
           points_(std::clamp<std::size_t>(finest_row / side, 1, most_points)),
           share_(1.0 / static_cast<double>(points_ * points_)),
           tile_(std::max<std::size_t>(side / most_tiles, 1)) {
-        LimbPlace vein;
+        LaminaPlace vein;
         vein.from_side = 0.0;
         petiole_ = colourist_.at(vein, autumn_).upper;
         heights_.assign(count_ * count_ / 2, 0.0F);
@@ -88,7 +88,7 @@ class LeafPainter {
                 across_[k].push_back(static_cast<float>(columns_.back() + 8.0) * features[k]);
         }
         find_limb();
-        const LeafColourist::Faces beyond = colourist_.at(beyond_limb, autumn_);
+        const LeafColourist::Faces beyond = colourist_.at(beyond_lamina, autumn_);
         for (const bool upper : {true, false}) {
             const Painted flat = painted_texel(
                 {upper ? beyond.upper : beyond.lower, 1.0, (upper ? 0.5 : 0.75) + 0.2 * autumn_});
@@ -182,12 +182,12 @@ class LeafPainter {
     [[nodiscard]] RawImages take() { return std::move(images_); }
 
   private:
-    // Blotches, and the net between veins, to the length of a limb.
+    // Blotches, and the net between veins, to the length of a lamina.
     static constexpr std::array<float, 2> features = {7.0F, 60.0F};
 
     static constexpr std::size_t most_points = 4;
 
-    // Beside the limb as much is painted as mipmaps of a quarter of the images' sides mix in, in lengths of it: what lies beyond is
+    // Beside the lamina as much is painted as mipmaps of a quarter of the images' sides mix in, in lengths of it: what lies beyond is
     // flat. It is looked up in tiles.
     static constexpr double margin = 0.016;
     static constexpr std::size_t most_tiles = 64;
@@ -202,13 +202,13 @@ class LeafPainter {
         double y = 0.0;
         std::size_t from = 0;
         std::vector<float> spots, cells;
-        LimbReader::Trail trail;
+        LaminaReader::Trail trail;
     };
 
     // Colour, occlusion and roughness.
     using Painted = std::array<std::uint8_t, 5>;
 
-    // Tiles that the limb's border goes through or beside, and those inside of it.
+    // Tiles that the lamina's border goes through or beside, and those inside of it.
     void find_limb() {
         const std::size_t rows = count_ / tile_, columns = rows / 2;
         shown_.assign(rows * columns, false);
@@ -223,14 +223,14 @@ class LeafPainter {
                 for (std::size_t j = tile_of(low.x, columns); j <= tile_of(high.x, columns); ++j)
                     shown_[i * columns + j] = true;
         };
-        const std::vector<glm::dvec2> border = border_of(reader_.limb());
+        const std::vector<glm::dvec2> border = border_of(reader_.lamina());
         for (std::size_t i = 0; i < border.size(); ++i) {
             const glm::dvec2 from = border[i], way = border[(i + 1) % border.size()] - from;
             const double steps = std::floor(glm::length(way) / margin) + 1.0;
             for (double step = 0.0; step < steps; step += 1.0) show(from + (step / steps) * way);
         }
         for (std::size_t i = 0; i < rows; ++i) {
-            LimbReader::Trail trail;
+            LaminaReader::Trail trail;
             Span span{count_, 0};
             for (std::size_t j = 0; j < columns; ++j) {
                 bool upper = false;
@@ -301,7 +301,7 @@ class LeafPainter {
                    double& height) const {
         const auto blotch = static_cast<double>(line.spots[point - line.from]);
         const auto cell = static_cast<double>(line.cells[point - line.from]);
-        const LimbPlace place = reader_.at({columns_[point], line.y}, line.trail);
+        const LaminaPlace place = reader_.at({columns_[point], line.y}, line.trail);
         const double depth = vein_depth(place);
         const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
         const LeafColourist::Faces faces = colourist_.at(place, own);
@@ -319,7 +319,7 @@ class LeafPainter {
         texel.add(share_, shade * petiole_, 1.0, 0.75 + 0.08 * cell + 0.2 * autumn_);
     }
 
-    LimbReader reader_;
+    LaminaReader reader_;
     LeafChart chart_;
     LeafColourist colourist_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
@@ -329,13 +329,13 @@ class LeafPainter {
     std::size_t points_;  // across a texel, which is wider than a vein in small images
     double share_;        // of a point in its texel
     glm::dvec3 petiole_{0.0};
-    std::vector<double> columns_;               // of the plane of the limb, by point
+    std::vector<double> columns_;               // of the plane of the lamina, by point
     std::array<std::vector<float>, 2> across_;  // the same in features of noise
     std::size_t tile_;                          // texels across
     std::vector<bool> shown_;                   // by row and column of tiles: all that is not flat
     std::vector<Span> spans_;                   // of each row of tiles
     std::array<Bytes, 3> flat_;                 // a row of each image where no leaf is
-    std::vector<float> heights_;  // of the upper face, outwards, in lengths of the limb
+    std::vector<float> heights_;  // of the upper face, outwards, in lengths of the lamina
     RawImages images_;
 };
 

@@ -79,7 +79,7 @@ struct LeafPaint {
 };
 static_assert(well_described<LeafPaint>());
 
-struct LeafOrder {
+struct LeafSpec {
     std::string preset;  ///< names the file; what it brings is in the parameters
     LeafParams params;
 };

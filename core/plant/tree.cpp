@@ -165,7 +165,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
     const glm::dvec3 light(height.cosine * side.sine, height.sine, height.cosine * side.cosine);
 
     tree.skeleton.nodes.resize(count + 1);
-    tree.skeleton.limbs.resize(count);
+    tree.skeleton.segments.resize(count);
     tree.headings.assign(count, upwards);
     tree.across.assign(count, glm::dvec3(0.0, 0.0, 1.0));
     std::vector<double> scale(count, 1.0);
@@ -205,7 +205,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
                                 : radius_of(node.order - 1, leaves[i]);
         tree.skeleton.nodes[i + 1] = {tree.skeleton.nodes[from].place + length * heading,
                                       thick + passed * (thin - thick)};
-        tree.skeleton.limbs[i] = {from, i + 1};
+        tree.skeleton.segments[i] = {from, i + 1};
 
         if (grown.leaf(i)) {
             tree.across[i] = across;
@@ -265,7 +265,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
     const SineCosine off = sine_cosine(radians(style.leaf_deg));
     for (std::uint32_t i = 0; i < grown.nodes.size(); ++i) {
         if (!grown.leaf(i)) continue;
-        const Skeleton::Node& from = tree.skeleton.nodes[tree.skeleton.limbs[i].from];
+        const Skeleton::Node& from = tree.skeleton.nodes[tree.skeleton.segments[i].from];
         const Skeleton::Node& to = tree.skeleton.nodes[i + 1];
         const glm::dvec3 heading = tree.headings[i];
         Random random(seed, purposes::placed_leaves, i);

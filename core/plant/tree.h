@@ -168,11 +168,11 @@ struct ExpectedOrder {
 [[nodiscard]] std::vector<ExpectedOrder> expected_orders(const TreeShape& shape);
 
 /// A tree in space. Node 0 of the skeleton stands on the ground; node i + 1 is the end of the edge that enters node i of the
-/// ramification, and limb i that edge.
+/// ramification, and segment i that edge.
 struct Tree {
     Ramification ramification;
     Skeleton skeleton;
-    std::vector<glm::dvec3> headings;  ///< unit, of each limb before it ends
+    std::vector<glm::dvec3> headings;  ///< unit, of each segment before it ends
     std::vector<glm::dvec3>
         across;  ///< unit, square to them: the way to the side of its first child
 };
@@ -190,8 +190,8 @@ inline constexpr int tree_lods = 4;
 /// The skin of trunk, branches and twigs. Thick orders are subdivided, twigs are not; each level leaves one more order out and
 /// subdivides less; what a low tree has left at last is its trunk with its branches.
 ///
-/// returns  closed pieces with tangents; u goes once round a limb, v along it to the end of the image and back, in girths of the
-///          limb, so that bark is nowhere stretched
+/// returns  closed pieces with tangents; u goes once round a segment, v along it to the end of the image and back, in girths of the
+///          segment, so that bark is nowhere stretched
 /// throws   Impossible (path "/twig_radius") for more than most_skeleton_nodes rings
 [[nodiscard]] Mesh bark_of(const Tree& tree, int lod);
 

@@ -102,7 +102,7 @@ struct TreePaint {
 };
 static_assert(well_described<TreePaint>());
 
-struct TreeOrder {
+struct TreeSpec {
     std::string preset;  ///< names the file; what it brings is in the parameters
     TreeParams params;
 };

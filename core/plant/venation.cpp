@@ -198,32 +198,32 @@ bool crossing(const Vein& a, const Vein& b) {
     return sides < 0.0 && others < 0.0;
 }
 
-Vein side_vein(const Limb& limb, std::size_t lobe, std::size_t side,
+Vein side_vein(const Lamina& lamina, std::size_t lobe, std::size_t side,
                const HalfLobe::SideVein& vein) {
-    const Lobe& one = limb.lobes[lobe];
+    const Lobe& one = lamina.lobes[lobe];
     return {lobe, false, side, one.place(side, vein.foot, 0.0),
             one.place(side, vein.foot, vein.length)};
 }
 
-Vein main_vein(const Limb& limb, std::size_t lobe) {
+Vein main_vein(const Lamina& lamina, std::size_t lobe) {
     return {lobe, true, 0, glm::dvec2(0.0),
-            limb.lobes[lobe].place(0, limb.lobes[lobe].nodes.back(), 0.0)};
+            lamina.lobes[lobe].place(0, lamina.lobes[lobe].nodes.back(), 0.0)};
 }
 
 // Goes through the lobes from the middle out; what crosses anything that stays is deleted.
-void delete_crossings(Limb& limb) {
-    const std::size_t count = limb.lobes.size(), middle = count / 2;
+void delete_crossings(Lamina& lamina) {
+    const std::size_t count = lamina.lobes.size(), middle = count / 2;
     std::vector<Vein> kept;
-    for (std::size_t lobe = 0; lobe < count; ++lobe) kept.push_back(main_vein(limb, lobe));
+    for (std::size_t lobe = 0; lobe < count; ++lobe) kept.push_back(main_vein(lamina, lobe));
     for (std::size_t out = 0; out <= middle; ++out)
         for (const std::size_t lobe : {middle - out, middle + out}) {
             if (out == 0 && lobe != middle) continue;
             const std::size_t before = kept.size();
             for (std::size_t side = 0; side < 2; ++side) {
-                std::vector<HalfLobe::SideVein>& veins = limb.lobes[lobe].halves[side].side_veins;
+                std::vector<HalfLobe::SideVein>& veins = lamina.lobes[lobe].halves[side].side_veins;
                 std::vector<HalfLobe::SideVein> stay;
                 for (const HalfLobe::SideVein& vein : veins) {
-                    const Vein line = side_vein(limb, lobe, side, vein);
+                    const Vein line = side_vein(lamina, lobe, side, vein);
                     // Veins of one lobe do not cross: their rays part.
                     const bool crosses =
                         std::any_of(kept.begin(), kept.begin() + static_cast<long>(before),
@@ -279,13 +279,13 @@ glm::dvec2 Lobe::place(std::size_t side, double foot, double height) const {
             turned.cosine * along - turned.sine * left};
 }
 
-Limb limb_of(const Venation& venation, int steps) {
+Lamina lamina_of(const Venation& venation, int steps) {
     std::vector<Problem> problems;
     sporeprint::check(venation, Info{.name = ""}, "", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     const int pairs = venation.lobes.value / 2;
     const double between = radians(venation.vein_deg), rim = radians(behind_deg);
-    Limb limb;
+    Lamina lamina;
     double unit = 1.0;
     // The middle lobe is laid out first: its reach is the unit.
     for (int j = 0; j <= pairs; ++j) {
@@ -327,29 +327,29 @@ Limb limb_of(const Venation& venation, int steps) {
             lobe.base_angle[1] = lobe.base_angle[0];
         }
         for (HalfLobe& half : lobe.halves) half.side_veins = side_veins;
-        limb.lobes.push_back(lobe);
+        lamina.lobes.push_back(lobe);
         if (j == 0) continue;
         std::swap(lobe.side_angle[0], lobe.side_angle[1]);
         std::swap(lobe.base_angle[0], lobe.base_angle[1]);
         lobe.turn = -lobe.turn;
-        limb.lobes.insert(limb.lobes.begin(), lobe);
+        lamina.lobes.insert(lamina.lobes.begin(), lobe);
     }
-    delete_crossings(limb);
+    delete_crossings(lamina);
 
-    const std::size_t count = limb.lobes.size();
+    const std::size_t count = lamina.lobes.size();
     std::vector<std::array<std::vector<Rise>, 2>> drawn(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t side = 0; side < 2; ++side)
-            drawn[i][side] = drawn_border(venation, limb.lobes[i], side, steps);
-    Lobe& first = limb.lobes.front();
-    Lobe& last = limb.lobes.back();
+            drawn[i][side] = drawn_border(venation, lamina.lobes[i], side, steps);
+    Lobe& first = lamina.lobes.front();
+    Lobe& last = lamina.lobes.back();
     first.halves[1].limit = rim + first.turn;
     last.halves[0].limit = rim - last.turn;
     settle(first, 1, 0.0, 0.0, drawn.front()[1], first.halves[1]);
     settle(last, 0, 0.0, 0.0, drawn.back()[0], last.halves[0]);
     for (std::size_t i = 0; i + 1 < count; ++i) {
-        Lobe& right = limb.lobes[i];
-        Lobe& left = limb.lobes[i + 1];
+        Lobe& right = lamina.lobes[i];
+        Lobe& left = lamina.lobes[i + 1];
         // Where both borders cross the ray last at one distance from the root, they meet there.
         const auto reach = [&](const Lobe& lobe, std::size_t side, double limit,
                                const std::vector<Rise>& border) {
@@ -377,27 +377,27 @@ Limb limb_of(const Venation& venation, int steps) {
         settle(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left,
                drawn[i + 1][1], left.halves[1]);
     }
-    for (Lobe& lobe : limb.lobes)
+    for (Lobe& lobe : lamina.lobes)
         for (HalfLobe& half : lobe.halves)
             for (HalfLobe::SideVein& vein : half.side_veins)
                 vein.length = std::min(vein.length, half.height(vein.foot));
-    return limb;
+    return lamina;
 }
 
-std::vector<Vein> veins_of(const Limb& limb) {
+std::vector<Vein> veins_of(const Lamina& lamina) {
     std::vector<Vein> veins;
-    for (std::size_t lobe = 0; lobe < limb.lobes.size(); ++lobe)
-        veins.push_back(main_vein(limb, lobe));
-    for (std::size_t lobe = 0; lobe < limb.lobes.size(); ++lobe)
+    for (std::size_t lobe = 0; lobe < lamina.lobes.size(); ++lobe)
+        veins.push_back(main_vein(lamina, lobe));
+    for (std::size_t lobe = 0; lobe < lamina.lobes.size(); ++lobe)
         for (std::size_t side = 0; side < 2; ++side)
-            for (const HalfLobe::SideVein& vein : limb.lobes[lobe].halves[side].side_veins)
-                veins.push_back(side_vein(limb, lobe, side, vein));
+            for (const HalfLobe::SideVein& vein : lamina.lobes[lobe].halves[side].side_veins)
+                veins.push_back(side_vein(lamina, lobe, side, vein));
     return veins;
 }
 
-std::vector<glm::dvec2> border_of(const Limb& limb) {
+std::vector<glm::dvec2> border_of(const Lamina& lamina) {
     std::vector<glm::dvec2> border = {glm::dvec2(0.0)};
-    for (const Lobe& lobe : limb.lobes) {
+    for (const Lobe& lobe : lamina.lobes) {
         const HalfLobe& right = lobe.halves[1];
         for (std::size_t i = 1; i < right.feet.size(); ++i)
             if (right.feet[i] > right.joined)
@@ -423,9 +423,10 @@ double direction_of(const glm::dvec2& p) { return (arc_tangent(-p.x, p.y) + pi) 
 
 }  // namespace
 
-LimbReader::LimbReader(Limb limb) : limb_(std::move(limb)), reach_(directions + 1, 0.0) {
-    const std::vector<glm::dvec2> border = border_of(limb_);
-    for (const Lobe& lobe : limb_.lobes) {
+LaminaReader::LaminaReader(Lamina lamina)
+    : lamina_(std::move(lamina)), reach_(directions + 1, 0.0) {
+    const std::vector<glm::dvec2> border = border_of(lamina_);
+    for (const Lobe& lobe : lamina_.lobes) {
         turns_.push_back(sine_cosine(lobe.turn));
         for (std::size_t side = 0; side < 2; ++side) {
             const SineCosine root = sine_cosine(lobe.base_angle[side]);
@@ -463,8 +464,8 @@ LimbReader::LimbReader(Limb limb) : limb_(std::move(limb)), reach_(directions + 
 }
 
 // Turn to the left of the middle main vein, and how far the border reaches there.
-double LimbReader::turn_of(const glm::dvec2& point, double distance, Trail& trail,
-                           double& reach) const {
+double LaminaReader::turn_of(const glm::dvec2& point, double distance, Trail& trail,
+                             double& reach) const {
     const glm::dvec2& ray = rays_[trail.direction];
     const double sine = cross(ray, point) / distance, z = sine * sine;
     double where = 0.0;
@@ -484,7 +485,7 @@ double LimbReader::turn_of(const glm::dvec2& point, double distance, Trail& trai
     return where / per_radian - pi;
 }
 
-double LimbReader::border_over(const HalfLobe& half, double foot, Trail& trail) const {
+double LaminaReader::border_over(const HalfLobe& half, double foot, Trail& trail) const {
     if (!(foot >= half.feet.front() && foot < half.feet.back())) return 0.0;
     std::size_t i = std::min(trail.corner, half.feet.size() - 2);
     while (foot < half.feet[i]) --i;
@@ -493,20 +494,20 @@ double LimbReader::border_over(const HalfLobe& half, double foot, Trail& trail) 
     return half.heights[i] + (foot - half.feet[i]) * halves_[trail.half].slopes[i];
 }
 
-LimbPlace LimbReader::at(const glm::dvec2& point) const {
+LaminaPlace LaminaReader::at(const glm::dvec2& point) const {
     Trail trail;
     return at(point, trail);
 }
 
-LimbPlace LimbReader::at(const glm::dvec2& point, Trail& trail) const {
-    LimbPlace place;
+LaminaPlace LaminaReader::at(const glm::dvec2& point, Trail& trail) const {
+    LaminaPlace place;
     const double distance = glm::length(point);
     double reach = reach_[directions / 2], turn = 0.0;
     if (distance > 0.0) turn = turn_of(point, distance, trail, reach);
-    while (place.lobe + 1 < limb_.lobes.size() &&
-           turn > limb_.lobes[place.lobe].turn + limb_.lobes[place.lobe].halves[0].limit)
+    while (place.lobe + 1 < lamina_.lobes.size() &&
+           turn > lamina_.lobes[place.lobe].turn + lamina_.lobes[place.lobe].halves[0].limit)
         ++place.lobe;
-    const Lobe& lobe = limb_.lobes[place.lobe];
+    const Lobe& lobe = lamina_.lobes[place.lobe];
     const SineCosine turned = turns_[place.lobe];
     const double along = -turned.sine * point.x + turned.cosine * point.y;
     const double left = -turned.cosine * point.x - turned.sine * point.y;

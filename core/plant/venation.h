@@ -161,12 +161,12 @@ struct Lobe {
 
     /// Angle of side veins at a foot, left (0) or right (1).
     [[nodiscard]] double angle(std::size_t side, double foot) const;
-    /// In the plane of the limb: x to the right, y along the middle main vein.
+    /// In the plane of the lamina: x to the right, y along the middle main vein.
     [[nodiscard]] glm::dvec2 place(std::size_t side, double foot, double height) const;
 };
 
-/// The limb of a leaf in its plane: root at the origin, the tip of the middle lobe's border at (0, 1).
-struct Limb {
+/// The lamina of a leaf in its plane: root at the origin, the tip of the middle lobe's border at (0, 1).
+struct Lamina {
     std::vector<Lobe> lobes;  ///< from the rightmost to the leftmost
 };
 
@@ -186,16 +186,16 @@ struct Vein {
 /// throws   InvalidInput with what check() finds
 /// source   [Viennot1989] section 6.1; differs: lobes part along the ray on which both borders cross it last at one place,
 ///          not by a search for crossings of their borders
-[[nodiscard]] Limb limb_of(const Venation& venation, int steps);
+[[nodiscard]] Lamina lamina_of(const Venation& venation, int steps);
 
 /// Every vein that was not deleted, main veins first.
-[[nodiscard]] std::vector<Vein> veins_of(const Limb& limb);
+[[nodiscard]] std::vector<Vein> veins_of(const Lamina& lamina);
 
-/// The border of the whole limb, counter-clockwise from the root, no place twice.
-[[nodiscard]] std::vector<glm::dvec2> border_of(const Limb& limb);
+/// The border of the whole lamina, counter-clockwise from the root, no place twice.
+[[nodiscard]] std::vector<glm::dvec2> border_of(const Lamina& lamina);
 
-/// Where in the limb a point of its plane lies: what a colour gradation, a relief or a painter asks for.
-struct LimbPlace {
+/// Where in the lamina a point of its plane lies: what a colour gradation, a relief or a painter asks for.
+struct LaminaPlace {
     bool inside = false;
     std::size_t lobe = 0, side = 0;
     double foot = 0.0, height = 0.0;
@@ -207,8 +207,8 @@ struct LimbPlace {
     double along_side = 0.0;  ///< height over the length of that vein
 };
 
-/// Answers places of one limb; what can be known beforehand is.
-class LimbReader {
+/// Answers places of one lamina; what can be known beforehand is.
+class LaminaReader {
   public:
     /// What is known of the last point asked for, from which one beside it is found at once. A trail is no part of an answer, but for
     /// its rounding.
@@ -218,11 +218,11 @@ class LimbReader {
         std::size_t known = 0;         ///< of them
     };
 
-    explicit LimbReader(Limb limb);
-    [[nodiscard]] LimbPlace at(const glm::dvec2& point) const;
+    explicit LaminaReader(Lamina lamina);
+    [[nodiscard]] LaminaPlace at(const glm::dvec2& point) const;
     /// The same, for points in even steps along a line.
-    [[nodiscard]] LimbPlace at(const glm::dvec2& point, Trail& trail) const;
-    [[nodiscard]] const Limb& limb() const { return limb_; }
+    [[nodiscard]] LaminaPlace at(const glm::dvec2& point, Trail& trail) const;
+    [[nodiscard]] const Lamina& lamina() const { return lamina_; }
 
   private:
     /// Direction of side veins at the root and the tip, and whether they are one; how steep the border is from each corner on.
@@ -236,7 +236,7 @@ class LimbReader {
                                  double& reach) const;
     [[nodiscard]] double border_over(const HalfLobe& half, double foot, Trail& trail) const;
 
-    Limb limb_;
+    Lamina lamina_;
     std::vector<SineCosine> turns_;  ///< of each lobe
     std::vector<Half> halves_;       ///< 2 lobe + side
     std::vector<glm::dvec2> rays_;   ///< directions from the root

@@ -33,7 +33,7 @@ RamificationMatrix self_similar(int order, const auto& sides) {
 }
 
 void refuse_faults(const RamificationMatrix& matrix, int order) {
-    std::vector<Problem> problems = faults_of(matrix);
+    std::vector<Problem> problems = validation_errors(matrix);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     if (order < 1 || order > matrix.order())
         throw InvalidInput("/order", std::to_string(order) + " is outside 1.." +
@@ -108,7 +108,7 @@ bool grow(Ramification& tree, std::uint32_t root, const RamificationMatrix& matr
 
 }  // namespace
 
-std::vector<Problem> faults_of(const RamificationMatrix& matrix, const std::string& path) {
+std::vector<Problem> validation_errors(const RamificationMatrix& matrix, const std::string& path) {
     std::vector<Problem> problems;
     if (matrix.rows.empty() || matrix.order() > most_order)
         report(problems, path,

@@ -40,8 +40,8 @@ inline constexpr int most_order = 12;
 /// Returns why rows 2..order are no ramification matrix: missing rows, wrong lengths, negative
 /// entries, sums that differ from 1 by more than 1e-6, or no forks. Paths are those of the rows
 /// below `path`.
-[[nodiscard]] std::vector<Problem> faults_of(const RamificationMatrix& matrix,
-                                             const std::string& path = "/matrix");
+[[nodiscard]] std::vector<Problem> validation_errors(const RamificationMatrix& matrix,
+                                                     const std::string& path = "/matrix");
 
 /// Returns the matrix of perfect binary trees, with forks only: 2^(order - 1) leaves.
 [[nodiscard]] RamificationMatrix perfect_matrix(int order);

@@ -37,7 +37,8 @@ RamificationMatrix tip_matrix(const TreeTopology& topology) {
 
 void TreeTopology::check(const std::string& path, std::vector<Problem>& problems) const {
     if (!rows.empty()) {
-        const std::vector<Problem> faults = faults_of(RamificationMatrix{rows}, path + "/rows");
+        const std::vector<Problem> faults =
+            validation_errors(RamificationMatrix{rows}, path + "/rows");
         problems.insert(problems.end(), faults.begin(), faults.end());
     }
     if (!uses_rows()) return;

@@ -56,10 +56,10 @@ class Builder {
           ball_half_(ball_half(levels)),
           segments_at_(skeleton.nodes.size()),
           forks_(skeleton.nodes.size(), none),
-          visited_(skeleton.limbs.size(), false) {
-        for (std::uint32_t i = 0; i < skeleton.limbs.size(); ++i) {
-            segments_at_[skeleton.limbs[i].from].push_back(i);
-            segments_at_[skeleton.limbs[i].to].push_back(i);
+          visited_(skeleton.segments.size(), false) {
+        for (std::uint32_t i = 0; i < skeleton.segments.size(); ++i) {
+            segments_at_[skeleton.segments[i].from].push_back(i);
+            segments_at_[skeleton.segments[i].to].push_back(i);
         }
     }
 
@@ -74,14 +74,15 @@ class Builder {
         }
         // The remaining segments form closed loops without fork or end.
         for (std::uint32_t segment = 0; segment < visited_.size(); ++segment)
-            if (!visited_[segment]) add_strip(trace_strip(skeleton_.limbs[segment].from, segment));
+            if (!visited_[segment])
+                add_strip(trace_strip(skeleton_.segments[segment].from, segment));
         return std::move(result_);
     }
 
   private:
     [[nodiscard]] const Skeleton::Node& node(std::uint32_t i) const { return skeleton_.nodes[i]; }
     [[nodiscard]] std::uint32_t other(std::uint32_t segment, std::uint32_t from) const {
-        const Skeleton::Limb& one = skeleton_.limbs[segment];
+        const Skeleton::Segment& one = skeleton_.segments[segment];
         return one.from == from ? one.to : one.from;
     }
     [[nodiscard]] glm::dvec3 direction(std::uint32_t from, std::uint32_t to) const {

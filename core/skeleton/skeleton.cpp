@@ -28,7 +28,7 @@ class Merger {
         // A merged node is not where its parts were, so other segments may have become too short.
         for (bool merged = true; merged;) {
             merged = false;
-            for (const Skeleton::Limb& segment : skeleton.limbs) {
+            for (const Skeleton::Segment& segment : skeleton.segments) {
                 const std::uint32_t a = root(segment.from), b = root(segment.to);
                 if (a == b) continue;
                 const double length = glm::distance(nodes_[a].place, nodes_[b].place);
@@ -70,24 +70,24 @@ class Detacher {
   public:
     Detacher(const Skeleton& skeleton, const SkinLimits& limits)
         : skeleton_(skeleton), limits_(limits), at_(skeleton.nodes.size()) {
-        for (std::uint32_t i = 0; i < skeleton.limbs.size(); ++i) {
-            at_[skeleton.limbs[i].from].push_back({i, false});
-            at_[skeleton.limbs[i].to].push_back({i, true});
+        for (std::uint32_t i = 0; i < skeleton.segments.size(); ++i) {
+            at_[skeleton.segments[i].from].push_back({i, false});
+            at_[skeleton.segments[i].to].push_back({i, true});
         }
         cosine_of_fork_ = cosine(radians(limits.fork_deg));
         cosine_of_bend_ = -cosine(radians(limits.bend_deg));
-        reach_.assign(skeleton.limbs.size(), {0.0, 0.0});
+        reach_.assign(skeleton.segments.size(), {0.0, 0.0});
     }
 
     // Calls on_detach(node, end, why) for every end that breaks a limit, then detaches it.
     void run(const auto& on_detach) {
         std::deque<std::uint32_t> segments;
         for (std::uint32_t node = 0; node < at_.size(); ++node) resolve_node(node, on_detach);
-        for (std::uint32_t i = 0; i < skeleton_.limbs.size(); ++i) segments.push_back(i);
+        for (std::uint32_t i = 0; i < skeleton_.segments.size(); ++i) segments.push_back(i);
         while (!segments.empty()) {
             const std::uint32_t i = segments.front();
             segments.pop_front();
-            const Skeleton::Limb& segment = skeleton_.limbs[i];
+            const Skeleton::Segment& segment = skeleton_.segments[i];
             const double from = radius(segment.from), to = radius(segment.to);
             const double before = reach_[i][0] * from, after = reach_[i][1] * to;
             if (length(i) >= before + after + limits_.clear * (from + to)) continue;
@@ -107,15 +107,15 @@ class Detacher {
   private:
     [[nodiscard]] double radius(std::uint32_t node) const { return skeleton_.nodes[node].radius; }
     [[nodiscard]] std::uint32_t node_of(const End& end) const {
-        const Skeleton::Limb& segment = skeleton_.limbs[end.segment];
+        const Skeleton::Segment& segment = skeleton_.segments[end.segment];
         return end.at_to ? segment.to : segment.from;
     }
     [[nodiscard]] std::uint32_t other_node(const End& end) const {
         return node_of({end.segment, !end.at_to});
     }
     [[nodiscard]] double length(std::uint32_t segment) const {
-        return glm::distance(skeleton_.nodes[skeleton_.limbs[segment].from].place,
-                             skeleton_.nodes[skeleton_.limbs[segment].to].place);
+        return glm::distance(skeleton_.nodes[skeleton_.segments[segment].from].place,
+                             skeleton_.nodes[skeleton_.segments[segment].to].place);
     }
     [[nodiscard]] glm::dvec3 direction(const End& end) const {
         return glm::normalize(skeleton_.nodes[other_node(end)].place -
@@ -195,7 +195,7 @@ class Detacher {
 
 }  // namespace
 
-std::vector<Problem> faults_of(const Skeleton& skeleton) {
+std::vector<Problem> validation_errors(const Skeleton& skeleton) {
     std::vector<Problem> problems;
     if (skeleton.nodes.size() > most_skeleton_nodes)
         report(problems, "/nodes",
@@ -216,8 +216,8 @@ std::vector<Problem> faults_of(const Skeleton& skeleton) {
                    number_text(node.radius) + " is outside " + number_text(smallest_radius) + ".." +
                        number_text(largest_radius) + " m");
     }
-    for (std::size_t i = 0; i < skeleton.limbs.size(); ++i)
-        for (const std::uint32_t node : {skeleton.limbs[i].from, skeleton.limbs[i].to})
+    for (std::size_t i = 0; i < skeleton.segments.size(); ++i)
+        for (const std::uint32_t node : {skeleton.segments[i].from, skeleton.segments[i].to})
             if (node >= skeleton.nodes.size()) {
                 report(problems, "/limbs/" + std::to_string(i),
                        "goes to node " + std::to_string(node) + "; there are " +
@@ -228,7 +228,7 @@ std::vector<Problem> faults_of(const Skeleton& skeleton) {
 }
 
 CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
-    std::vector<Problem> problems = faults_of(skeleton);
+    std::vector<Problem> problems = validation_errors(skeleton);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     Merger merger(skeleton, limits.merge);
     CleanSkeleton result;
@@ -241,10 +241,10 @@ CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
     }
     for (std::uint32_t i = 0; i < skeleton.nodes.size(); ++i)
         result.node_of.push_back(number[merger.root(i)]);
-    std::vector<std::pair<Skeleton::Limb, std::uint32_t>> segments;
-    for (std::uint32_t i = 0; i < skeleton.limbs.size(); ++i) {
-        const std::uint32_t a = result.node_of[skeleton.limbs[i].from];
-        const std::uint32_t b = result.node_of[skeleton.limbs[i].to];
+    std::vector<std::pair<Skeleton::Segment, std::uint32_t>> segments;
+    for (std::uint32_t i = 0; i < skeleton.segments.size(); ++i) {
+        const std::uint32_t a = result.node_of[skeleton.segments[i].from];
+        const std::uint32_t b = result.node_of[skeleton.segments[i].to];
         if (a != b) segments.push_back({{std::min(a, b), std::max(a, b)}, i});
     }
     // Of several segments between the same nodes the first is kept.
@@ -258,15 +258,15 @@ CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
     std::sort(segments.begin(), segments.end(),
               [](const auto& a, const auto& b) { return a.second < b.second; });
     for (const auto& [segment, original] : segments) {
-        const std::uint32_t from = result.node_of[skeleton.limbs[original].from];
-        clean.limbs.push_back({from, segment.from == from ? segment.to : segment.from});
+        const std::uint32_t from = result.node_of[skeleton.segments[original].from];
+        clean.segments.push_back({from, segment.from == from ? segment.to : segment.from});
     }
 
     std::vector<End> detached;
     Detacher detacher(clean, limits);
     detacher.run([&](std::uint32_t, const End& end, const char*) { detached.push_back(end); });
     for (const End& end : detached) {
-        Skeleton::Limb& segment = clean.limbs[end.segment];
+        Skeleton::Segment& segment = clean.segments[end.segment];
         std::uint32_t& here = end.at_to ? segment.to : segment.from;
         const std::uint32_t there = end.at_to ? segment.from : segment.to;
         // A detached twig starts with its own thickness, not the trunk's.
@@ -279,11 +279,11 @@ CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
 }
 
 std::vector<Problem> broken_limits(const Skeleton& skeleton, const SkinLimits& limits) {
-    std::vector<Problem> problems = faults_of(skeleton);
+    std::vector<Problem> problems = validation_errors(skeleton);
     if (!problems.empty()) return problems;
-    for (std::size_t i = 0; i < skeleton.limbs.size(); ++i) {
-        const Skeleton::Node& from = skeleton.nodes[skeleton.limbs[i].from];
-        const Skeleton::Node& to = skeleton.nodes[skeleton.limbs[i].to];
+    for (std::size_t i = 0; i < skeleton.segments.size(); ++i) {
+        const Skeleton::Node& from = skeleton.nodes[skeleton.segments[i].from];
+        const Skeleton::Node& to = skeleton.nodes[skeleton.segments[i].to];
         if (glm::distance(from.place, to.place) < limits.merge * (from.radius + to.radius))
             report(problems, "/limbs/" + std::to_string(i), "joins nodes that lie on each other");
     }

@@ -16,12 +16,12 @@ struct Skeleton {
         glm::dvec3 place{0.0};
         double radius = 0.0;
     };
-    struct Limb {
+    struct Segment {
         std::uint32_t from = 0, to = 0;
-        bool operator==(const Limb&) const = default;
+        bool operator==(const Segment&) const = default;
     };
     std::vector<Node> nodes;
-    std::vector<Limb> limbs;
+    std::vector<Segment> segments;
 };
 
 inline constexpr std::size_t most_skeleton_nodes = 200'000;
@@ -29,7 +29,7 @@ inline constexpr std::size_t most_skeleton_nodes = 200'000;
 /// Returns the errors of a skeleton that cannot be cleaned: too many nodes, a position or radius
 /// that is not finite or out of bounds, a segment to a missing node. Paths are /nodes/i and
 /// /limbs/i.
-[[nodiscard]] std::vector<Problem> faults_of(const Skeleton& skeleton);
+[[nodiscard]] std::vector<Problem> validation_errors(const Skeleton& skeleton);
 
 /// The limits that a skeleton must meet to be skinned without folds.
 struct SkinLimits {
@@ -60,8 +60,8 @@ struct CleanSkeleton {
 /// Prepares a skeleton for skinned(). Of two conflicting segments the thinner is detached, of equal
 /// ones the later.
 ///
-/// throws  InvalidInput with faults_of()
-/// cost    O(nodes + limbs), times the length of the longest run of coincident nodes
+/// throws  InvalidInput with validation_errors()
+/// cost    O(nodes + segments), times the length of the longest run of coincident nodes
 [[nodiscard]] CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits = {});
 
 /// Returns the limits that a skeleton breaks, by node and segment; empty for the result of

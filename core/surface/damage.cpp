@@ -90,53 +90,53 @@ class DamagePlanner {
         const bool has_margin = params_.metrics.hymenium_arc > quantised_length(0.0);
         if (w.creases > 0.0) add_furrows(w.creases);
         if (w.bumps > 0.0) {
-            add_ovals(DamageKind::lump, MarkKind::lump, Part::cap, w.bumps);
-            add_ovals(DamageKind::lump, MarkKind::lump, Part::stem, w.bumps);
+            add_ovals(DamageKind::lump, DamageSpotKind::lump, Part::cap, w.bumps);
+            add_ovals(DamageKind::lump, DamageSpotKind::lump, Part::stem, w.bumps);
         }
         if (w.bruise > 0.0)
             for (const Part part : {Part::cap, Part::hymenium, Part::stem})
-                add_ovals(DamageKind::bruise, MarkKind::bruise, part, w.bruise);
+                add_ovals(DamageKind::bruise, DamageSpotKind::bruise, part, w.bruise);
         if (w.peel > 0.0 && has_margin) add_tongues(w.peel);
         if (w.cracks > 0.0) add_cracks(w.cracks);
         if (w.bites > 0.0) {
-            add_ovals(DamageKind::pit, MarkKind::pit, Part::cap, w.bites);
-            add_ovals(DamageKind::pit, MarkKind::pit, Part::stem, w.bites);
+            add_ovals(DamageKind::pit, DamageSpotKind::pit, Part::cap, w.bites);
+            add_ovals(DamageKind::pit, DamageSpotKind::pit, Part::stem, w.bites);
             if (has_margin) add_notches(bites(params_.seed), DamageKind::bite, w.bites);
         }
         if (w.splits > 0.0 && has_margin)
             add_notches(splits(params_.seed), DamageKind::split, w.splits);
         if (w.dew > 0.0) {
-            add_ovals(DamageKind::drop, MarkKind::dew, Part::cap, w.dew);
-            add_ovals(DamageKind::drop, MarkKind::dew, Part::stem, w.dew);
+            add_ovals(DamageKind::drop, DamageSpotKind::dew, Part::cap, w.dew);
+            add_ovals(DamageKind::drop, DamageSpotKind::dew, Part::stem, w.dew);
         }
     }
 
   private:
-    void add(Part part, DamageMark painted) {
-        plan_.damage.marks[index_of(part)].push_back(painted);
+    void add(Part part, SpotPlan painted) {
+        plan_.damage.damage_spots[index_of(part)].push_back(painted);
         if (part != Part::stem) return;
         // A copy on the other side of the seam.
         const float turn = painted.middle_y < 0.5F ? 1.0F : -1.0F;
         painted.y += turn;
         painted.middle_y += turn;
-        plan_.damage.marks[2].push_back(painted);
+        plan_.damage.damage_spots[2].push_back(painted);
     }
 
-    void add_ovals(DamageKind kind, MarkKind marked, Part part, double amount) {
+    void add_ovals(DamageKind kind, DamageSpotKind spotted, Part part, double amount) {
         const ChartSpace chart(plan_, part);
         const CurveName curve = part == Part::cap        ? CurveName::cap
                                 : part == Part::hymenium ? CurveName::hymenium
                                                          : CurveName::stem;
-        for (const Mark& mark : marks(marked, curve, params_.seed)) {
-            const double scale = grown(mark.onset, amount);
+        for (const DamageSpot& spot : damage_spots(spotted, curve, params_.seed)) {
+            const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
-            const ChartSpace::Place at = chart.place(mark.sigma, mark.theta);
+            const ChartSpace::Place at = chart.place(spot.sigma, spot.theta);
             // Bruises and lumps fade in; all other kinds grow from a point.
             const bool gentle = kind == DamageKind::bruise || kind == DamageKind::lump;
             const double radius =
-                std::max(mark.radius * (gentle ? 0.5 + 0.5 * scale : scale), 1e-4) * chart.unit();
-            const double length = radius * mark.elongation, width = radius / at.widening;
-            DamageMark painted;
+                std::max(spot.radius * (gentle ? 0.5 + 0.5 * scale : scale), 1e-4) * chart.unit();
+            const double length = radius * spot.elongation, width = radius / at.widening;
+            SpotPlan painted;
             painted.kind = kind;
             painted.x = single(at.x);
             painted.y = single(at.y);
@@ -150,7 +150,7 @@ class DamagePlanner {
             painted.rows = single(std::sqrt(static_cast<double>(oval_window(kind))) *
                                   diagonal(length * at.along_y, width * at.along_x));
             painted.seed = Random(params_.seed, purposes::scars + static_cast<std::uint32_t>(part),
-                                  static_cast<std::uint32_t>(kind) * 1000U + mark.id)
+                                  static_cast<std::uint32_t>(kind) * 1000U + spot.id)
                                .bits();
             const double shown = std::min(1.0, radius / chart.texel());
             switch (kind) {
@@ -168,7 +168,7 @@ class DamagePlanner {
                 default:
                     // Every third lump is a hollow. Half of its height is painted, the rest is
                     // geometry.
-                    painted.height = single(lump_height(mark) * scale * 0.5 * chart.unit());
+                    painted.height = single(lump_height(spot) * scale * 0.5 * chart.unit());
                     break;
             }
             add(part, painted);
@@ -195,7 +195,7 @@ class DamagePlanner {
         }
         const double texel = 0.62 * chart.texel();
         const double mean = 0.5 * (width_a + width_b) * stretch;
-        DamageMark painted;
+        SpotPlan painted;
         painted.shape = DamageShape::line;
         painted.kind = kind;
         painted.x = single(ax);
@@ -314,7 +314,7 @@ class DamagePlanner {
                                    (part == Part::cap ? 1.0 : 0.6);
                 // A cut shallower than a texel has the opacity of its share of the texel.
                 const double shown = std::min(1.0, depth * chart.unit() / chart.texel());
-                add_margin_mark(part, kind, notch.theta, notch.half_width, depth * chart.unit(),
+                add_margin_spot(part, kind, notch.theta, notch.half_width, depth * chart.unit(),
                                 rim, notch.id, shown);
             }
         }
@@ -325,22 +325,22 @@ class DamagePlanner {
         for (const Tongue& tongue : tongues(params_.seed)) {
             const double scale = grown(tongue.onset, amount);
             if (scale <= 0.0 || most <= 0.0) continue;
-            add_margin_mark(Part::cap, DamageKind::tongue, tongue.theta,
+            add_margin_spot(Part::cap, DamageKind::tongue, tongue.theta,
                             tongue.half_width * (0.6 + 0.4 * scale),
                             std::min(tongue.reach * most * scale, 0.95), 0.05, 200U + tongue.id,
                             std::min(1.0, 4.0 * scale));
-            DamageMark& painted = plan_.damage.marks[0].back();
+            SpotPlan& painted = plan_.damage.damage_spots[0].back();
             painted.x = single(tongue.phases[0]);
             painted.y = single(tongue.phases[1]);
             painted.length = single(tongue.phases[2]);
         }
     }
 
-    void add_margin_mark(Part part, DamageKind kind, double theta, double half_width, double depth,
+    void add_margin_spot(Part part, DamageKind kind, double theta, double half_width, double depth,
                          double rim, std::uint32_t id, double strength) {
         const SineCosine turn = sine_cosine(theta);
         const double out = depth + 2.5 * rim;
-        DamageMark painted;
+        SpotPlan painted;
         painted.shape = DamageShape::margin;
         painted.kind = kind;
         painted.along_x = single(turn.cosine);
@@ -365,9 +365,9 @@ class DamagePlanner {
 };
 
 void sort_into_rows(PaintPlan& plan, Part part) {
-    const auto& painted_marks = plan.damage.marks[index_of(part)];
+    const auto& painted_spots = plan.damage.damage_spots[index_of(part)];
     auto& by_row = plan.damage.by_row[index_of(part)];
-    if (painted_marks.empty()) return;
+    if (painted_spots.empty()) return;
     const Frame& frame = plan.frames[index_of(part)];
     const double inset = frame.inset;
     const double per = part == Part::stem ? 1.0 - 2.0 * inset : 0.5 - inset;
@@ -376,9 +376,9 @@ void sort_into_rows(PaintPlan& plan, Part part) {
         std::size_t from, to;
     };
     std::vector<Rows> crossed;
-    crossed.reserve(painted_marks.size());
+    crossed.reserve(painted_spots.size());
     by_row.first.assign(static_cast<std::size_t>(frame.height) + 3, 0);
-    for (const DamageMark& painted : painted_marks) {
+    for (const SpotPlan& painted : painted_spots) {
         const double middle =
             (part == Part::stem ? inset + per * static_cast<double>(painted.middle_y)
                                 : 0.5 + per * static_cast<double>(painted.middle_y)) *
@@ -390,11 +390,11 @@ void sort_into_rows(PaintPlan& plan, Part part) {
         for (std::size_t y = rows.from; y < rows.to; ++y) ++by_row.first[y + 1];
     }
     std::partial_sum(by_row.first.begin(), by_row.first.end(), by_row.first.begin());
-    by_row.mark_index.resize(by_row.first.back());
+    by_row.spot_index.resize(by_row.first.back());
     std::vector<std::uint32_t> next = by_row.first;
     for (std::size_t i = 0; i < crossed.size(); ++i)
         for (std::size_t y = crossed[i].from; y < crossed[i].to; ++y)
-            by_row.mark_index[next[y]++] = static_cast<std::uint32_t>(i);
+            by_row.spot_index[next[y]++] = static_cast<std::uint32_t>(i);
 }
 
 }  // namespace

@@ -32,7 +32,7 @@ enum class DamageKind : std::uint8_t {
 
 /// One damage mark on one chart. Lengths are relative to the chart: a disc's radius, or a stem's
 /// circumference.
-struct DamageMark {
+struct SpotPlan {
     DamageShape shape = DamageShape::oval;
     DamageKind kind = DamageKind::pit;
     // Members needed to intersect a row come first, because they are read most often.
@@ -59,16 +59,16 @@ struct DamageMark {
 /// heights give the slopes of the first and the last row.
 struct DamageRows {
     std::vector<std::uint32_t> first;       ///< offsets, one more than rows
-    std::vector<std::uint32_t> mark_index;  ///< indices of marks, row after row
+    std::vector<std::uint32_t> spot_index;  ///< indices of marks, row after row
     [[nodiscard]] std::span<const std::uint32_t> of(int y) const {
         const std::uint32_t* const row = first.data() + y + 1;
-        return {mark_index.data() + row[0], mark_index.data() + row[1]};
+        return {spot_index.data() + row[0], spot_index.data() + row[1]};
     }
 };
 
 /// All damage of a painting, by part: cap, hymenium, stem.
 struct DamagePlan {
-    std::array<std::vector<DamageMark>, 3> marks;
+    std::array<std::vector<SpotPlan>, 3> damage_spots;
     std::array<DamageRows, 3> by_row;
     std::array<float, 3> flesh{};   ///< linear light
     std::array<float, 3> bruise{};  ///< linear light

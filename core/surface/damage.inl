@@ -90,28 +90,28 @@ struct RowSpan {
 ///
 /// whole  interval that the chart represents; texels beyond it repeat the nearest place, within the
 ///        bounding circle
-HWY_INLINE RowSpan damage_span(const DamageMark& mark, float down, const RowSpan& whole) {
-    const RowSpan circle{mark.middle_x - mark.reach, mark.middle_x + mark.reach};
+HWY_INLINE RowSpan damage_span(const SpotPlan& spot, float down, const RowSpan& whole) {
+    const RowSpan circle{spot.middle_x - spot.reach, spot.middle_x + spot.reach};
     RowSpan span = circle;
     const auto narrow = [&](float middle, float half) {
         span.from = std::max(span.from, middle - half);
         span.to = std::min(span.to, middle + half);
     };
-    const float dy = down - mark.y;
-    if (mark.shape == DamageShape::oval) {
-        const Chord chord = chord_of(mark, dy, 1.02F * oval_window(mark.kind));
+    const float dy = down - spot.y;
+    if (spot.shape == DamageShape::oval) {
+        const Chord chord = chord_of(spot, dy, 1.02F * oval_window(spot.kind));
         if (chord.half <= 0.0F) return {0.0F, 0.0F};
-        narrow(mark.x + chord.middle, chord.half);
-    } else if (mark.shape == DamageShape::line) {
-        const float half = 0.5F * mark.length;
+        narrow(spot.x + chord.middle, chord.half);
+    } else if (spot.shape == DamageShape::line) {
+        const float half = 0.5F * spot.length;
         // Distance from the row to the nearest point of the line; the remainder of the radius is
         // its extent along the row.
         const float apart =
-            std::max(std::abs(down - mark.middle_y) - half * std::abs(mark.along_y), 0.0F);
-        const float rest = mark.cover * mark.cover - apart * apart;
+            std::max(std::abs(down - spot.middle_y) - half * std::abs(spot.along_y), 0.0F);
+        const float rest = spot.cover * spot.cover - apart * apart;
         if (rest <= 0.0F) return {0.0F, 0.0F};
-        narrow(mark.middle_x, half * std::abs(mark.along_x) + std::sqrt(rest));
-        narrow(mark.x + dy * mark.lean, mark.breadth);
+        narrow(spot.middle_x, half * std::abs(spot.along_x) + std::sqrt(rest));
+        narrow(spot.x + dy * spot.lean, spot.breadth);
     }
     if (span.to <= span.from) return {0.0F, 0.0F};
     if (span.to < whole.from || span.from > whole.to) return {0.0F, 0.0F};
@@ -124,12 +124,12 @@ struct LinePlace {
     VF square, width;
 };
 
-HWY_INLINE LinePlace line_place(const DamageMark& mark, VF x, VF y) {
-    const VF dx = x - set(mark.x), dy = y - set(mark.y);
-    const VF ax = set(mark.along_x), ay = set(mark.along_y);
-    const VF along = clamped(dx * ax + dy * ay, 0.0F, mark.length);
+HWY_INLINE LinePlace line_place(const SpotPlan& spot, VF x, VF y) {
+    const VF dx = x - set(spot.x), dy = y - set(spot.y);
+    const VF ax = set(spot.along_x), ay = set(spot.along_y);
+    const VF along = clamped(dx * ax + dy * ay, 0.0F, spot.length);
     const VF ex = dx - along * ax, ey = dy - along * ay;
-    return {ex * ex + ey * ey, set(mark.width) + set(mark.width_grow) * along};
+    return {ex * ex + ey * ey, set(spot.width) + set(spot.width_grow) * along};
 }
 
 /// Returns true when a line changes none of these texels.
@@ -138,27 +138,27 @@ HWY_INLINE bool beyond(const LinePlace& line, DamageKind kind) {
     return all_at_least(line.square, reach * reach);
 }
 
-HWY_INLINE void add_furrow(const DamageMark& mark, VF x, VF y, const DamageTarget& at) {
-    const LinePlace line = line_place(mark, x, y);
+HWY_INLINE void add_furrow(const SpotPlan& spot, VF x, VF y, const DamageTarget& at) {
+    const LinePlace line = line_place(spot, x, y);
     if (beyond(line, DamageKind::furrow)) return;
     const VF far = hn::Sqrt(line.square) / line.width;
-    const VF shown = set(mark.strength);
+    const VF shown = set(spot.strength);
     const VF valley = hn::Max(set(1.0F) - far * set(0.42F), set(0.0F));
-    at.raise(damage_sunk, valley * valley * shown * set(1.5F * mark.height));
+    at.raise(damage_sunk, valley * valley * shown * set(1.5F * spot.height));
     at.raise(damage_shade, valley * valley * valley * shown * set(0.8F));
 }
 
-HWY_INLINE void add_crack(const DamageMark& mark, VF x, VF y, const DamageTarget& at) {
-    const LinePlace line = line_place(mark, x, y);
+HWY_INLINE void add_crack(const SpotPlan& spot, VF x, VF y, const DamageTarget& at) {
+    const LinePlace line = line_place(spot, x, y);
     if (beyond(line, DamageKind::crack)) return;
     const VF far = hn::Sqrt(line.square) / line.width;
     const VF zero = set(0.0F);
     // Pieces of one crack overlap, so its appearance is computed once, from the nearest piece.
-    const VF ragged = at.ragged(x, y, mark.seed);
+    const VF ragged = at.ragged(x, y, spot.seed);
     const VF near =
-        hn::Max(set(crack_window) - far - ragged * set(0.30F), zero) * set(mark.strength);
+        hn::Max(set(crack_window) - far - ragged * set(0.30F), zero) * set(spot.strength);
     at.raise(damage_near_crack, near);
-    at.raise(damage_crack_width, hn::IfThenElseZero(near > zero, set(mark.height)));
+    at.raise(damage_crack_width, hn::IfThenElseZero(near > zero, set(spot.height)));
 }
 
 /// Opens the cuticle along cracks. Texels without cracks are unchanged, because a vector may hold
@@ -185,18 +185,18 @@ struct OvalPlace {
     VF a, b, square;
 };
 
-HWY_INLINE OvalPlace oval_place(const DamageMark& mark, VF x, VF y) {
-    const VF dx = x - set(mark.x), dy = y - set(mark.y);
-    const VF a = (dx * set(mark.along_x) + dy * set(mark.along_y)) * set(mark.per_length);
-    const VF b = (dy * set(mark.along_x) - dx * set(mark.along_y)) * set(mark.per_width);
+HWY_INLINE OvalPlace oval_place(const SpotPlan& spot, VF x, VF y) {
+    const VF dx = x - set(spot.x), dy = y - set(spot.y);
+    const VF a = (dx * set(spot.along_x) + dy * set(spot.along_y)) * set(spot.per_length);
+    const VF b = (dy * set(spot.along_x) - dx * set(spot.along_y)) * set(spot.per_width);
     return {a, b, a * a + b * b};
 }
 
-HWY_INLINE void add_pit(const DamageMark& mark, VF x, VF y, const DamageTarget& at) {
-    const OvalPlace oval = oval_place(mark, x, y);
+HWY_INLINE void add_pit(const SpotPlan& spot, VF x, VF y, const DamageTarget& at) {
+    const OvalPlace oval = oval_place(spot, x, y);
     if (all_at_least(oval.square, set(oval_window(DamageKind::pit)))) return;
-    const VF one = set(1.0F), zero = set(0.0F), shown = set(mark.strength);
-    const VF ragged = noise2(oval.a * set(2.7F), oval.b * set(2.7F), mark.seed);
+    const VF one = set(1.0F), zero = set(0.0F), shown = set(spot.strength);
+    const VF ragged = noise2(oval.a * set(2.7F), oval.b * set(2.7F), spot.seed);
     const VF far = hn::Sqrt(oval.square) + ragged * set(0.10F);
     const VF open = (one - smooth(far, 0.90F, 9.0F)) * shown;
     at.raise(damage_open, open);
@@ -204,7 +204,7 @@ HWY_INLINE void add_pit(const DamageMark& mark, VF x, VF y, const DamageTarget& 
     const VF rasp =
         wave(oval.a * set(4.5F) + hn::Abs(wave(oval.b * set(1.6F))) * set(0.5F)) * set(0.11F);
     const VF floor = one - smooth(far, 0.55F, 2.6F);
-    at.raise(damage_sunk, hn::Max(floor + rasp * open, zero) * set(mark.height) * shown);
+    at.raise(damage_sunk, hn::Max(floor + rasp * open, zero) * set(spot.height) * shown);
     const VF wall = hn::Max(one - hn::Abs(far - set(0.86F)) * set(5.0F), zero);
     at.raise(damage_shade, (wall * set(0.42F) + hn::Max(rasp, zero) * set(1.5F) * open) * shown);
 }
@@ -218,42 +218,42 @@ struct NoisePair {
     }
 };
 
-HWY_INLINE void add_bruise(const DamageMark& mark, VF x, VF y, const DamageTarget& at,
+HWY_INLINE void add_bruise(const SpotPlan& spot, VF x, VF y, const DamageTarget& at,
                            NoisePair& noise) {
-    const OvalPlace oval = oval_place(mark, x, y);
+    const OvalPlace oval = oval_place(spot, x, y);
     if (all_at_least(oval.square, set(oval_window(DamageKind::bruise)))) return;
-    const VF one = set(1.0F), shown = set(mark.strength);
+    const VF one = set(1.0F), shown = set(spot.strength);
     const VF window = one - smooth(oval.square, 1.6F, 1.6F);
     // Bruises overlap: where another is already as dark as this one could be, its noise need not be
     // computed.
     if (all_at_least(at.of(damage_stain), shown * window)) return;
-    const VF coarse = noise2(oval.a * set(1.7F), oval.b * set(1.7F), mark.seed, noise.coarse);
+    const VF coarse = noise2(oval.a * set(1.7F), oval.b * set(1.7F), spot.seed, noise.coarse);
     const VF round_far = hn::Sqrt(oval.square);
     constexpr float beyond = 0.35F + 1.0F / 1.5F + 0.01F + 0.42F * 0.5F * most_noise;
     if (all_at_least(round_far + coarse * set(0.42F), set(beyond))) return;
     const VF cloud =
         coarse +
-        noise2(oval.a * set(4.9F), oval.b * set(4.9F), mark.seed + 1U, noise.fine) * set(0.5F);
+        noise2(oval.a * set(4.9F), oval.b * set(4.9F), spot.seed + 1U, noise.fine) * set(0.5F);
     const VF far = round_far + cloud * set(0.42F);
     at.raise(damage_stain, (one - smooth(far, 0.35F, 1.5F)) * shown * window);
 }
 
-HWY_INLINE void add_drop(const DamageMark& mark, VF x, VF y, const DamageTarget& at) {
-    const OvalPlace oval = oval_place(mark, x, y);
+HWY_INLINE void add_drop(const SpotPlan& spot, VF x, VF y, const DamageTarget& at) {
+    const OvalPlace oval = oval_place(spot, x, y);
     if (all_at_least(oval.square, set(oval_window(DamageKind::drop)))) return;
-    const VF one = set(1.0F), zero = set(0.0F), shown = set(mark.strength);
+    const VF one = set(1.0F), zero = set(0.0F), shown = set(spot.strength);
     const VF inside = hn::Max(one - oval.square, zero);
     const VF dome = hn::Sqrt(inside);
-    at.raise(damage_raised, dome * set(mark.height) * shown);
+    at.raise(damage_raised, dome * set(spot.height) * shown);
     at.raise(damage_water, smooth(inside, 0.0F, 7.0F) * shown);
     const VF foot = hn::Max(one - hn::Abs(hn::Sqrt(oval.square) - set(1.04F)) * set(5.5F), zero);
     at.raise(damage_shade, foot * shown * set(0.45F));
 }
 
-HWY_INLINE void add_lump(const DamageMark& mark, VF x, VF y, const DamageTarget& at) {
-    const OvalPlace oval = oval_place(mark, x, y);
+HWY_INLINE void add_lump(const SpotPlan& spot, VF x, VF y, const DamageTarget& at) {
+    const OvalPlace oval = oval_place(spot, x, y);
     const VF inside = hn::Max(set(1.0F) - oval.square, set(0.0F));
-    at.add(damage_lumps, inside * inside * set(mark.height));
+    at.add(damage_lumps, inside * inside * set(spot.height));
 }
 
 /// Interval of distances from the centre of a margin mark in which its border lies: everything is
@@ -262,78 +262,78 @@ struct MarginBorder {
     float from, until;
 };
 
-HWY_INLINE MarginBorder margin_border(const DamageMark& mark) {
+HWY_INLINE MarginBorder margin_border(const SpotPlan& spot) {
     constexpr float slack = 0.002F;
-    const float stray = 0.5F * most_noise * mark.rim + slack;
-    switch (mark.kind) {
+    const float stray = 0.5F * most_noise * spot.rim + slack;
+    switch (spot.kind) {
         case DamageKind::split:
-            return {1.0F - stray, 1.0F + mark.rim + stray};
+            return {1.0F - stray, 1.0F + spot.rim + stray};
         case DamageKind::bite:
-            return {1.0F + 0.25F * mark.rim - stray, 1.0F + 1.41F * mark.rim + stray};
+            return {1.0F + 0.25F * spot.rim - stray, 1.0F + 1.41F * spot.rim + stray};
         default: {
             // Waves of the border, and the roll of cuticle and its shade on both sides.
             const float waves = 0.08F + 0.06F + 0.035F + 0.4F * stray + slack;
-            return {std::min(0.985F, 1.0F - 0.59F * mark.rim) - waves,
-                    std::max(1.017F, 1.0F + 1.64F * mark.rim) + waves};
+            return {std::min(0.985F, 1.0F - 0.59F * spot.rim) - waves,
+                    std::max(1.017F, 1.0F + 1.64F * spot.rim) + waves};
         }
     }
 }
 
 // cosine, sine: of the texel's angle about the pole; inward: distance from the margin in disc
 // radii.
-HWY_INLINE void add_margin(const DamageMark& mark, VF cosine, VF sine, VF inward,
+HWY_INLINE void add_margin(const SpotPlan& spot, VF cosine, VF sine, VF inward,
                            const DamageTarget& at) {
     const VF zero = set(0.0F), one = set(1.0F);
-    const VF c = set(mark.along_x), s = set(mark.along_y);
+    const VF c = set(spot.along_x), s = set(spot.along_y);
     const VF round = sine * c - cosine * s;
     const VF ahead = cosine * c + sine * s;
     // Arc sine to third order: within 0.5 % over the widest mark.
     const VF angle = round * (one + round * round * set(1.0F / 6.0F));
-    const VF across = hn::IfThenElse(ahead > zero, angle * set(mark.per_width), set(9.0F));
-    const VF deep = inward * set(mark.per_length);
-    const VF shown = set(mark.strength);
+    const VF across = hn::IfThenElse(ahead > zero, angle * set(spot.per_width), set(9.0F));
+    const VF deep = inward * set(spot.per_length);
+    const VF shown = set(spot.strength);
     const VF inner = hn::Max(deep, zero);
-    const VF round_far = mark.kind == DamageKind::split ? hn::Abs(across) + inner
+    const VF round_far = spot.kind == DamageKind::split ? hn::Abs(across) + inner
                                                         : hn::Sqrt(across * across + inner * inner);
     // The noise of the border is needed only near the border.
-    const MarginBorder border = margin_border(mark);
+    const MarginBorder border = margin_border(spot);
     if (all_at_least(round_far, set(border.until))) return;
     if (all_at_least(set(border.from), round_far)) {
         at.raise(damage_open, shown);
-        if (mark.kind != DamageKind::split)
-            at.raise(damage_sunk, mark.kind == DamageKind::bite ? set(0.35F * mark.height) * shown
+        if (spot.kind != DamageKind::split)
+            at.raise(damage_sunk, spot.kind == DamageKind::bite ? set(0.35F * spot.height) * shown
                                                                 : shown * set(0.012F));
         return;
     }
     const VF ragged =
-        noise2(across * set(4.0F), deep * set(4.0F), mark.seed) * set(0.5F * mark.rim);
+        noise2(across * set(4.0F), deep * set(4.0F), spot.seed) * set(0.5F * spot.rim);
     VF far = round_far + ragged;
-    if (mark.kind == DamageKind::split) {
-        const VF open = one - smooth(far, 1.0F, 1.0F / mark.rim);
+    if (spot.kind == DamageKind::split) {
+        const VF open = one - smooth(far, 1.0F, 1.0F / spot.rim);
         at.raise(damage_open, open * shown);
         return;
     }
-    if (mark.kind == DamageKind::bite) {
+    if (spot.kind == DamageKind::bite) {
         // Teeth of the slug scallop the edge.
-        const VF teeth = wave((across - inner) * set(4.5F)) * set(0.35F * mark.rim);
-        const VF open = one - smooth(far + teeth, 1.0F + 0.6F * mark.rim, 2.2F / mark.rim);
+        const VF teeth = wave((across - inner) * set(4.5F)) * set(0.35F * spot.rim);
+        const VF open = one - smooth(far + teeth, 1.0F + 0.6F * spot.rim, 2.2F / spot.rim);
         at.raise(damage_open, open * shown);
-        at.raise(damage_sunk, open * set(0.35F * mark.height) * shown);
+        at.raise(damage_sunk, open * set(0.35F * spot.height) * shown);
         return;
     }
     // Same border as tongue_ragged() in core/individual/damage.h.
     const VF inverse = one / hn::Max(round_far, set(1e-6F));
     const VF turn = turn_of(across * inverse, inner * inverse);
-    far = round_far + ragged * set(0.4F) + wave(turn * set(3.0F) + set(mark.x)) * set(0.08F) +
-          wave(turn * set(7.0F) + set(mark.y)) * set(0.06F) +
-          wave(turn * set(15.0F) + set(mark.length)) * set(0.035F);
+    far = round_far + ragged * set(0.4F) + wave(turn * set(3.0F) + set(spot.x)) * set(0.08F) +
+          wave(turn * set(7.0F) + set(spot.y)) * set(0.06F) +
+          wave(turn * set(15.0F) + set(spot.length)) * set(0.035F);
     const VF bare = one - smooth(far, 0.985F, 32.0F);
     at.raise(damage_open, bare * shown);
     at.raise(damage_sunk, bare * shown * set(0.012F));
     // The border is rolled back onto the cuticle, and shades the flesh in front of it.
-    const VF roll = (far - set(1.0F)) * set(1.0F / mark.rim) - set(0.55F);
+    const VF roll = (far - set(1.0F)) * set(1.0F / spot.rim) - set(0.55F);
     const VF curl = hn::Max(one - roll * roll * set(3.0F), zero);
-    at.raise(damage_raised, hn::Sqrt(curl) * set(0.45F * mark.height) * shown);
+    at.raise(damage_raised, hn::Sqrt(curl) * set(0.45F * spot.height) * shown);
     const VF before = hn::Max(one - hn::Abs(roll + set(0.72F)) * set(2.4F), zero);
     const VF behind = hn::Max(one - hn::Abs(roll - set(0.75F)) * set(3.0F), zero);
     at.raise(damage_shade, hn::Max(before, behind * set(0.6F)) * shown);

@@ -22,7 +22,7 @@ struct GillPosition {
 /// Returns the slot of blade k, the one nearest to its even place. The offset is not exactly a
 /// half, so that a tie is resolved the same way under any rounding.
 HWY_INLINE VF slot_of(const GillLayoutPlan& plan, VF k) {
-    return hn::Floor(k * set(plan.slots / plan.stands) + set(0.501F));
+    return hn::Floor(k * set(plan.slots / plan.occupied) + set(0.501F));
 }
 
 /// Returns the position among evenly spaced blades or, on a gill layout with more slots, among
@@ -34,13 +34,13 @@ HWY_INLINE GillPosition blades_at(const GillLayoutPlan& plan, VF turn, VF wander
     }
     const VF one = set(1.0F);
     const VF x = turn * set(plan.slots) + wander * set(plan.slots * plan.bend);
-    VF k = hn::Floor(x * set(plan.stands / plan.slots));
+    VF k = hn::Floor(x * set(plan.occupied / plan.slots));
     k = k - hn::IfThenElseZero(slot_of(plan, k) > x, one);
     k = k + hn::IfThenElseZero(slot_of(plan, k + one) <= x, one);
     const VF from = slot_of(plan, k);
     const VF wide = slot_of(plan, k + one) - from;
     return {(k + (x - from) / wide) * set(1.0F / plan.stride),
-            wide * set(plan.stands / plan.slots)};
+            wide * set(plan.occupied / plan.slots)};
 }
 
 /// Returns the lateral displacement of blades from their meridians, -1..1.

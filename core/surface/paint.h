@@ -35,7 +35,7 @@ struct PaintParams {
     SurfaceMetrics metrics;
     Surface surface;
     HymeniumOf<Plain> hymenium;
-    int comb = 0;
+    int gill_layout = 0;
     CellRows cells;
     PatchStyle warts;
     PatchStyle scales;
@@ -62,7 +62,7 @@ struct PaintParams {
         visit(&P::metrics, Info{.name = "metrics", .doc = "Lengths of the shape."});
         visit(&P::surface, Info{.name = "surface", .doc = "What is painted."});
         visit(&P::hymenium, Info{.name = "hymenium", .doc = "Gills, ridges or pores."});
-        visit(&P::comb,
+        visit(&P::gill_layout,
               Info{.name = "comb",
                    .min = 0,
                    .max = 400,

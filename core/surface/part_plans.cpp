@@ -46,17 +46,17 @@ ReliefPlan relief_plan(const PaintParams& params) {
     return plan;
 }
 
-Stand stand_of(const PaintParams& params) {
-    return stand_on(params.comb, params.surface.hymenium.pattern, params.hymenium.blades,
-                    params.hymenium.tiers);
+SlotAssignment slot_assignment_of(const PaintParams& params) {
+    return slot_assignment(params.gill_layout, params.surface.hymenium.pattern,
+                           params.hymenium.blades, params.hymenium.tiers);
 }
 
-GillLayoutPlan gill_layout_plan(const PaintParams& params, const Stand& stand) {
+GillLayoutPlan gill_layout_plan(const PaintParams& params, const SlotAssignment& assignment) {
     GillLayoutPlan plan;
-    plan.blades = stand.blades;
-    plan.slots = static_cast<float>(stand.slots);
-    plan.stands = static_cast<float>(stand.stands);
-    plan.stride = static_cast<float>(stand.stride);
+    plan.blades = assignment.blades;
+    plan.slots = static_cast<float>(assignment.slots);
+    plan.occupied = static_cast<float>(assignment.occupied);
+    plan.stride = static_cast<float>(assignment.stride);
     const bool ridges = params.surface.hymenium.pattern == HymeniumPattern::ridges;
     plan.bend = single(ridges ? ridge_wander : gill_wander);
     const Wander wander = wander_of(params.seed);
@@ -203,14 +203,14 @@ HymeniumPlan hymenium_plan(const PaintParams& params, const Frame& frame) {
     if (!face.image.empty()) return plan;
     plan.pattern = static_cast<int>(face.pattern);
     plan.mottle = single(face.mottle);
-    const Stand stand = stand_of(params);
-    plan.layout = gill_layout_plan(params, stand);
-    plan.tiers = stand.tiers;
-    plan.last_tier = single(stand.last_tier);
+    const SlotAssignment assignment = slot_assignment_of(params);
+    plan.layout = gill_layout_plan(params, assignment);
+    plan.tiers = assignment.tiers;
+    plan.last_tier = single(assignment.last_tier);
     plan.inner_gap = single(params.hymenium.inner_gap);
     plan.bare_slope = single(1.0 / std::max(0.9 * params.hymenium.inner_gap, 1e-3));
     plan.forking = single(params.hymenium.forking);
-    plan.vein_rows = cross_vein_rows(stand.blades);
+    plan.vein_rows = cross_vein_rows(assignment.blades);
     plan.veins_there = single(veins_there(params.hymenium.forking));
     plan.slot_occlusion = single(slot_occlusion(params));
     plan.blade = single(0.5 * params.hymenium.thickness * 2.0 * pi * outer / unit /
@@ -277,15 +277,16 @@ StemPlan stem_plan(const PaintParams& params, const Frame& frame) {
     plan.net = single(stem.net);
     const HymeniumSurface& face = params.surface.hymenium;
     if (is_bladed(face.pattern) && params.hymenium.decurrent > 0.0) {
-        const Stand stand = stand_of(params);
-        plan.layout = gill_layout_plan(params, stand);
+        const SlotAssignment assignment = slot_assignment_of(params);
+        plan.layout = gill_layout_plan(params, assignment);
         plan.gills = single(params.hymenium.decurrent);
         plan.gill_half = single(std::min(
             0.36, 0.5 * params.hymenium.thickness * length_of_step(params.metrics.cap_radius) *
                       2.0 * pi / circumference / (1 << params.hymenium.tiers)));
-        plan.gill_relief = single(0.22 * params.hymenium.relief / stand.blades);
+        plan.gill_relief = single(0.22 * params.hymenium.relief / assignment.blades);
         plan.gill_occlusion = single(slot_occlusion(params));
-        plan.gill_shown = single(std::clamp((1.0 / (stand.blades * round) - 2.0) / 2.0, 0.0, 1.0));
+        plan.gill_shown =
+            single(std::clamp((1.0 / (assignment.blades * round) - 2.0) / 2.0, 0.0, 1.0));
         plan.gill_colour = light_of(face.colour);
         plan.gill_edge = light_of(face.edge);
         plan.gill_depth = light_of(face.depth);

@@ -405,7 +405,7 @@ DamageChart damage_chart(const PaintPlan& plan, Part part) {
 // Draws a mark over texels `from` to `until` of a row. There is one loop per kind, because most
 // marks cross few texels. The mark is passed by value, so that stores to texels cannot alias it and
 // it stays in registers.
-HWY_INLINE void add_mark(DamageMark mark, VF down, const Row& row, const TexelRange& range,
+HWY_INLINE void add_spot(SpotPlan spot, VF down, const Row& row, const TexelRange& range,
                          DamageRow& planes) {
     const Floats f;
     NoisePair noise;
@@ -413,33 +413,33 @@ HWY_INLINE void add_mark(DamageMark mark, VF down, const Row& row, const TexelRa
         for (std::size_t x = range.from; x < range.until; x += hn::Lanes(f))
             add(hn::Load(f, planes.place + x), DamageTarget{planes, x});
     };
-    switch (mark.kind) {
+    switch (spot.kind) {
         case DamageKind::crack:
-            each([&](VF across, const DamageTarget& at) { add_crack(mark, across, down, at); });
+            each([&](VF across, const DamageTarget& at) { add_crack(spot, across, down, at); });
             return;
         case DamageKind::furrow:
-            each([&](VF across, const DamageTarget& at) { add_furrow(mark, across, down, at); });
+            each([&](VF across, const DamageTarget& at) { add_furrow(spot, across, down, at); });
             return;
         case DamageKind::pit:
-            each([&](VF across, const DamageTarget& at) { add_pit(mark, across, down, at); });
+            each([&](VF across, const DamageTarget& at) { add_pit(spot, across, down, at); });
             return;
         case DamageKind::bruise:
             noise.begin();
             each([&](VF across, const DamageTarget& at) {
-                add_bruise(mark, across, down, at, noise);
+                add_bruise(spot, across, down, at, noise);
             });
             return;
         case DamageKind::drop:
-            each([&](VF across, const DamageTarget& at) { add_drop(mark, across, down, at); });
+            each([&](VF across, const DamageTarget& at) { add_drop(spot, across, down, at); });
             return;
         case DamageKind::lump:
-            each([&](VF across, const DamageTarget& at) { add_lump(mark, across, down, at); });
+            each([&](VF across, const DamageTarget& at) { add_lump(spot, across, down, at); });
             return;
         case DamageKind::bite:
         case DamageKind::split:
         case DamageKind::tongue:
             each([&](VF across, const DamageTarget& at) {
-                add_margin(mark, hn::Load(f, row.cosine + at.x), hn::Load(f, row.sine + at.x),
+                add_margin(spot, hn::Load(f, row.cosine + at.x), hn::Load(f, row.sine + at.x),
                            set(1.0F) - hn::Sqrt(across * across + down * down), at);
             });
             return;
@@ -450,7 +450,7 @@ HWY_INLINE void add_mark(DamageMark mark, VF down, const Row& row, const TexelRa
 bool collect_damage(const PaintPlan& plan, Part part, int y, const Row& row, DamageRow& planes) {
     const DamagePlan& damage = plan.damage;
     const std::size_t place = index_of(part);
-    if (!has_damage(part) || damage.marks[place].empty()) return false;
+    if (!has_damage(part) || damage.damage_spots[place].empty()) return false;
     const std::span<const std::uint32_t> crossing = damage.by_row[place].of(y);
     if (crossing.empty()) return false;
     const Floats f;
@@ -466,8 +466,8 @@ bool collect_damage(const PaintPlan& plan, Part part, int y, const Row& row, Dam
     const float per_unit = chart.per_unit();
     const float first = chart.first();
     for (const std::uint32_t index : crossing) {
-        const DamageMark& mark = damage.marks[place][index];
-        const RowSpan span = damage_span(mark, down_place, whole);
+        const SpotPlan& spot = damage.damage_spots[place][index];
+        const RowSpan span = damage_span(spot, down_place, whole);
         if (span.to <= span.from) continue;
         const float begin = first + span.from * per_unit - 1.0F;
         const float end = first + span.to * per_unit + 1.0F;
@@ -478,7 +478,7 @@ bool collect_damage(const PaintPlan& plan, Part part, int y, const Row& row, Dam
         const float rest = std::max(end - static_cast<float>(from), 0.0F);
         const std::size_t until =
             std::min(painted.until, from + (static_cast<std::size_t>(std::ceil(rest)) + 7) / 8 * 8);
-        add_mark(mark, down, row, {from, until}, planes);
+        add_spot(spot, down, row, {from, until}, planes);
     }
     return true;
 }

@@ -335,29 +335,29 @@ struct Measured {
 Measured measured(const Case& one) {
     Service service(built_in_atlas(), {});
     if (!one.before.empty()) {
-        const Answer answer = handle(service, get(one.before));
-        EXPECT_EQ(answer.status, 200) << one.before;
+        const Response response = handle(service, get(one.before));
+        EXPECT_EQ(response.status, 200) << one.before;
     }
     Measured found;
     if (!one.request.body.empty())
         found.charged = static_cast<double>(service.cost_of_reading(one.request).work());
     const double begin = processor_time();
-    std::variant<Answer, Job> planned = service.plan(one.request);
+    std::variant<Response, Job> planned = service.plan(one.request);
     for (Job* job = std::get_if<Job>(&planned); job; job = std::get_if<Job>(&planned)) {
         found.charged += static_cast<double>(job->cost.work());
-        const bool prepares = job->prepares;
+        const bool is_warm_up = job->is_warm_up;
         try {
-            Answer made = job->run(
+            Response generated = job->run(
                 {}, [](Step) {}, in_turn);
-            if (prepares)
+            if (is_warm_up)
                 planned = service.plan(one.request, true);
             else
-                planned = std::move(made);
+                planned = std::move(generated);
         } catch (...) {
             planned = service.problem(one.request, std::current_exception());
         }
     }
-    found.status = std::get<Answer>(planned).status;
+    found.status = std::get<Response>(planned).status;
     found.taken = processor_time() - begin;
     return found;
 }

@@ -7,7 +7,7 @@
 namespace sporeprint::api::test {
 namespace {
 
-class LinksTest : public AskedService {};
+class LinksTest : public RequestedService {};
 
 // A reference that begins with a segment that holds ':' would be a scheme.
 void expect_relative(const std::string& reference) {
@@ -15,7 +15,7 @@ void expect_relative(const std::string& reference) {
     EXPECT_EQ(reference.substr(0, reference.find('/')).find(':'), std::string::npos) << reference;
 }
 
-std::vector<std::string> references_in(const Answer& file) {
+std::vector<std::string> references_in(const Response& file) {
     const std::string text = text_of(file);
     std::vector<std::string> found;
     constexpr std::string_view begin = "\"uri\":\"";
@@ -26,13 +26,13 @@ std::vector<std::string> references_in(const Answer& file) {
     return found;
 }
 
-TEST(Resolved, goes_up_and_down_as_clients_do) {
+TEST(Resolved, GoesUpAndDownAsClientsDo) {
     EXPECT_EQ(resolved("../b/c:d.jpg?x=../y", "/v1/a/x.glb?q=/z"), "/v1/b/c:d.jpg?x=../y");
     EXPECT_EQ(resolved("b/c.jpg", "/v1/a.glb"), "/v1/b/c.jpg");
     EXPECT_EQ(resolved("../../b", "/p/v1/m/a/b.glb"), "/p/v1/b");
 }
 
-TEST_F(LinksTest, hold_wherever_a_file_was_fetched_from) {
+TEST_F(LinksTest, HoldWhereverAFileWasFetchedFrom) {
     struct Case {
         Request request;
         std::size_t images;
@@ -64,7 +64,7 @@ TEST_F(LinksTest, hold_wherever_a_file_was_fetched_from) {
             if (absolute && !base.empty()) continue;
             if (!absolute) request.target = base + request.target;
             SCOPED_TRACE(request.method + ' ' + request.target);
-            const Answer file = handle(service, request);
+            const Response file = handle(service, request);
             ASSERT_EQ(file.status, 200) << text_of(file);
             for (const std::string& reference : references_in(file)) expect_relative(reference);
             const std::string from =
@@ -74,7 +74,7 @@ TEST_F(LinksTest, hold_wherever_a_file_was_fetched_from) {
             EXPECT_EQ(images.size(), one.images);
             for (const std::string& address : images) {
                 EXPECT_TRUE(address.starts_with(base + "/v1/surfaces/")) << address;
-                const Answer image = handle(service, get(address));
+                const Response image = handle(service, get(address));
                 EXPECT_EQ(image.status, 200) << address << text_of(image);
                 EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
                 EXPECT_EQ(header(image, "Content-Location"), address);
@@ -84,7 +84,7 @@ TEST_F(LinksTest, hold_wherever_a_file_was_fetched_from) {
 }
 
 // The bytes of a file that links depend on how deep its address lies; no other's do.
-TEST_F(LinksTest, are_another_representation_where_they_are_written_otherwise) {
+TEST_F(LinksTest, AreAnotherRepresentationWhereTheyAreWrittenOtherwise) {
     const auto body = [](const std::string& textures) {
         return R"({"mix":{"amanita_muscaria":0.7,"boletus_edulis":0.3},"lod":3,"texture_size":128,)"
                R"("textures":")" +
@@ -95,13 +95,13 @@ TEST_F(LinksTest, are_another_representation_where_they_are_written_otherwise) {
         "amanita_muscaria:0.7,boletus_edulis:0.3.glb?lod=3&texture_size=128&textures=";
     const std::string morph = R"({"t":0.3,"lod":3,"texture_size":128,"textures":"linked"})";
     for (const std::string textures : {"embedded", "none"}) {
-        const Answer got = ask(address + textures), posted = ask(post(body(textures)));
+        const Response got = ask(address + textures), posted = ask(post(body(textures)));
         EXPECT_EQ(header(got, "ETag"), header(posted, "ETag"));
         EXPECT_EQ(text_of(got), text_of(posted));
         EXPECT_EQ(header(got, "Content-Location"), header(posted, "Content-Location"));
     }
-    const Answer got = ask(address + "linked"), posted = ask(post(body("linked"))),
-                 between = ask(post(morph, "/v1/morphs/amanita_muscaria/boletus_edulis.glb"));
+    const Response got = ask(address + "linked"), posted = ask(post(body("linked"))),
+                   between = ask(post(morph, "/v1/morphs/amanita_muscaria/boletus_edulis.glb"));
     EXPECT_NE(header(got, "ETag"), header(posted, "ETag"));
     EXPECT_NE(header(got, "ETag"), header(between, "ETag"));
     EXPECT_NE(header(posted, "ETag"), header(between, "ETag"));
@@ -122,20 +122,20 @@ class BasePathTest : public testing::Test {
         options.base_path = base;
         return options;
     }
-    Answer ask(const std::string& target) { return handle(service_, get(target)); }
-    Answer plain(const std::string& target) { return handle(other_, get(target)); }
+    Response ask(const std::string& target) { return handle(service_, get(target)); }
+    Response plain(const std::string& target) { return handle(other_, get(target)); }
 
     const std::string base_ = "/forest/spore";
     Service service_{built_in_atlas(), under(base_)};
     Service other_{built_in_atlas(), ServiceOptions{}};
 };
 
-TEST_F(BasePathTest, files_are_the_same_with_and_without_it) {
+TEST_F(BasePathTest, FilesAreTheSameWithAndWithoutIt) {
     const std::string target = "/v1/leaves/oak.glb?lod=3&texture_size=128";
-    const Answer bare = plain(target);
-    for (const std::string& asked : {base_ + target, target}) {
-        const Answer file = ask(asked);
-        ASSERT_EQ(file.status, 200) << asked;
+    const Response bare = plain(target);
+    for (const std::string& requested : {base_ + target, target}) {
+        const Response file = ask(requested);
+        ASSERT_EQ(file.status, 200) << requested;
         EXPECT_EQ(text_of(file), text_of(bare));
         EXPECT_EQ(header(file, "ETag"), header(bare, "ETag"));
         EXPECT_EQ(header(file, "Content-Location"), base_ + header(bare, "Content-Location"));
@@ -149,9 +149,9 @@ TEST_F(BasePathTest, files_are_the_same_with_and_without_it) {
               header(plain("/v1/leaves/oak.json"), "ETag"));
 }
 
-TEST_F(BasePathTest, links_are_told_with_it) {
-    const auto link = [](const Answer& answer, const char* pointer) {
-        const Value body = json_of(answer);
+TEST_F(BasePathTest, LinksAreToldWithIt) {
+    const auto link = [](const Response& response, const char* pointer) {
+        const Value body = json_of(response);
         const Value* found = body.at_pointer(pointer);
         return found ? found->as_string() : std::string();
     };
@@ -171,7 +171,7 @@ TEST_F(BasePathTest, links_are_told_with_it) {
     // A document is another one with other links; one without is not.
     EXPECT_NE(header(ask("/v1/leaves"), "ETag"), header(plain("/v1/leaves"), "ETag"));
     EXPECT_EQ(header(ask("/v1/leaves/schema"), "ETag"), header(plain("/v1/leaves/schema"), "ETag"));
-    const Answer old = ask(base_ + "/v1/leaves/oak.glb?v=1-00000000");
+    const Response old = ask(base_ + "/v1/leaves/oak.glb?v=1-00000000");
     EXPECT_EQ(old.status, 410);
     EXPECT_EQ(link(old, "/type"), base_ + "/problems/" + problem_type(410).slug);
     EXPECT_EQ(link(old, "/canonical").find(base_ + "/v1/leaves/oak.glb?v="), 0U);
@@ -179,7 +179,7 @@ TEST_F(BasePathTest, links_are_told_with_it) {
     EXPECT_EQ(link(ask(base_ + "/v1/nothing"), "/type").find(base_ + "/problems/"), 0U);
 }
 
-TEST_F(BasePathTest, what_only_begins_like_it_is_not_under_it) {
+TEST_F(BasePathTest, WhatOnlyBeginsLikeItIsNotUnderIt) {
     EXPECT_EQ(ask("/forest/sporeprint/v1/species").status, 404);
     EXPECT_EQ(ask(base_ + base_ + "/v1/species").status, 404) << "it is taken off once";
     EXPECT_EQ(plain(base_ + "/v1/species").status, 404);
@@ -187,15 +187,15 @@ TEST_F(BasePathTest, what_only_begins_like_it_is_not_under_it) {
 }
 
 // The page's links are relative, and without a '/' at the end they would leave the base path.
-TEST_F(BasePathTest, the_bare_path_leads_to_the_page) {
-    const Answer answer = ask(base_ + "?leaf=oak");
-    EXPECT_EQ(answer.status, 308);
-    EXPECT_EQ(header(answer, "Location"), base_ + "/?leaf=oak");
+TEST_F(BasePathTest, TheBarePathLeadsToThePage) {
+    const Response response = ask(base_ + "?leaf=oak");
+    EXPECT_EQ(response.status, 308);
+    EXPECT_EQ(header(response, "Location"), base_ + "/?leaf=oak");
     EXPECT_EQ(ask(base_ + "/").status, 200);
     EXPECT_EQ(ask(header(ask(base_), "Location")).status, 200);
 }
 
-TEST_F(BasePathTest, bodies_are_as_large_as_elsewhere) {
+TEST_F(BasePathTest, BodiesAreAsLargeAsElsewhere) {
     EXPECT_EQ(service_.most_body("POST", base_ + "/v1/inspect"),
               other_.most_body("POST", "/v1/inspect"));
     EXPECT_EQ(service_.most_body("POST", "/v1/inspect"), other_.most_body("POST", "/v1/inspect"));

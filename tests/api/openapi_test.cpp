@@ -5,11 +5,11 @@
 #include <functional>
 #include <set>
 
-#include "api/errors.h"
-#include "api/morphs.h"
-#include "api/presets.h"
-#include "api/routes.h"
-#include "api/surfaces.h"
+#include "api/http/errors.h"
+#include "api/http/routes.h"
+#include "api/products/morphs.h"
+#include "api/products/presets.h"
+#include "api/products/surfaces.h"
 #include "core/individual/mushroom_spec.h"
 #include "tests/api/support.h"
 
@@ -41,7 +41,7 @@ std::set<std::string> query_names(const Value& operation) {
     return out;
 }
 
-TEST(OpenApi, holds_every_route_of_the_table) {
+TEST(OpenApi, HoldsEveryRouteOfTheTable) {
     const Value api = document();
     std::set<std::string> ids;
     for (const Route& route : routes()) {
@@ -63,7 +63,7 @@ TEST(OpenApi, holds_every_route_of_the_table) {
     EXPECT_EQ(api.find("paths")->members().size(), ids.size());
 }
 
-TEST(OpenApi, names_each_path_parameter_of_a_pattern) {
+TEST(OpenApi, NamesEachPathParameterOfAPattern) {
     const Value api = document();
     for (const Route& route : routes()) {
         const std::string pattern = route.pattern;
@@ -80,7 +80,7 @@ TEST(OpenApi, names_each_path_parameter_of_a_pattern) {
     }
 }
 
-TEST(OpenApi, names_every_query_parameter) {
+TEST(OpenApi, NamesEveryQueryParameter) {
     const Value api = document();
     std::set<std::string> mushroom = {"v"}, surface = {"v"};
     leaf_names<MushroomParams>("", mushroom);
@@ -110,7 +110,7 @@ TEST(OpenApi, names_every_query_parameter) {
                                      "min_diameter_m", "max_diameter_m"}));
 }
 
-TEST(OpenApi, names_every_member_of_a_body) {
+TEST(OpenApi, NamesEveryMemberOfABody) {
     const Value api = document();
     const auto properties = [&](const char* schema) {
         std::set<std::string> out;
@@ -141,7 +141,7 @@ TEST(OpenApi, names_every_member_of_a_body) {
     EXPECT_EQ(api.at_pointer(arcs + "/maxItems")->as_number(), static_cast<double>(most_arcs));
 }
 
-TEST(OpenApi, tells_ranges_units_and_whose_default_it_is) {
+TEST(OpenApi, TellsRangesUnitsAndWhoseDefaultItIs) {
     const Value api = document();
     for (const Value& parameter : api.find("paths")
                                       ->find("/v1/mushrooms/{mix}.glb")
@@ -162,7 +162,7 @@ TEST(OpenApi, tells_ranges_units_and_whose_default_it_is) {
     }
 }
 
-TEST(OpenApi, every_reference_leads_somewhere) {
+TEST(OpenApi, EveryReferenceLeadsSomewhere) {
     const Value api = document();
     int references = 0;
     const std::function<void(const Value&)> walk = [&](const Value& value) {
@@ -182,7 +182,7 @@ TEST(OpenApi, every_reference_leads_somewhere) {
     EXPECT_GT(references, 50);
 }
 
-TEST(OpenApi, every_kind_of_problem_has_a_response) {
+TEST(OpenApi, EveryKindOfProblemHasAResponse) {
     const Value api = openapi(*built_in_atlas(), "0.0.0", true);
     for (const ProblemType& type : problem_types()) {
         if (type.status == 501) continue;  // no operation has such a method
@@ -209,7 +209,7 @@ const Value& responses(const Value& api, const char* path, const char* method) {
     return *api.find("paths")->find(path)->find(method)->find("responses");
 }
 
-TEST(OpenApi, tells_conditions_and_ranges_where_they_are_answered) {
+TEST(OpenApi, TellsConditionsAndRangesWhereTheyAreAnswered) {
     const Value api = document();
     for (const Route& route : routes()) {
         const bool posted = std::string_view(route.method) == "POST";
@@ -218,19 +218,19 @@ TEST(OpenApi, tells_conditions_and_ranges_where_they_are_answered) {
             EXPECT_EQ(all.find("304"), nullptr) << route.pattern;
             EXPECT_EQ(all.find("412") != nullptr, route.endpoint != Endpoint::inspect);
         }
-        const bool is_file = !posted && (std::string_view(route.answers) == "model/gltf-binary" ||
-                                         std::string_view(route.answers) == "image/jpeg" ||
+        const bool is_file = !posted && (std::string_view(route.responses) == "model/gltf-binary" ||
+                                         std::string_view(route.responses) == "image/jpeg" ||
                                          route.endpoint == Endpoint::asset);
         for (const char* status : {"206", "416"})
             EXPECT_EQ(all.find(status) != nullptr, is_file) << route.pattern << status;
     }
-    const Value& made = responses(api, "/v1/mushrooms/{mix}.glb", "get");
+    const Value& generated = responses(api, "/v1/mushrooms/{mix}.glb", "get");
     for (const char* name : {"ETag", "Cache-Control", "Cache-Status", "Content-Location",
                              "Accept-Ranges", "RateLimit", "RateLimit-Policy", "X-Request-Id"})
-        EXPECT_NE(made.find("200")->find("headers")->find(name), nullptr) << name;
+        EXPECT_NE(generated.find("200")->find("headers")->find(name), nullptr) << name;
 }
 
-TEST(OpenApi, asks_for_signatures_only_where_they_are_asked_for) {
+TEST(OpenApi, AsksForSignaturesOnlyWhereTheyAreAskedFor) {
     const Value plain = document();
     const Value protected_api = openapi(*built_in_atlas(), "0.0.0", true);
     EXPECT_EQ(plain.at_pointer("/components/securitySchemes"), nullptr);
@@ -240,17 +240,18 @@ TEST(OpenApi, asks_for_signatures_only_where_they_are_asked_for) {
     for (const Route& route : routes()) {
         const char* method = std::string_view(route.method) == "GET" ? "get" : "post";
         const Value& operation = *protected_api.find("paths")->find(route.pattern)->find(method);
-        EXPECT_EQ(operation.find("security") != nullptr, makes(route.endpoint)) << route.pattern;
-        EXPECT_EQ(operation.at_pointer("/responses/403") != nullptr, makes(route.endpoint));
+        EXPECT_EQ(operation.find("security") != nullptr, is_generated(route.endpoint))
+            << route.pattern;
+        EXPECT_EQ(operation.at_pointer("/responses/403") != nullptr, is_generated(route.endpoint));
         std::set<std::string> names;
         if (operation.find("parameters")) names = query_names(operation);
         for (const char* name : {"key", "expires", "sig"})
-            EXPECT_EQ(names.contains(name), makes(route.endpoint)) << route.pattern << name;
+            EXPECT_EQ(names.contains(name), is_generated(route.endpoint)) << route.pattern << name;
         EXPECT_EQ(responses(plain, route.pattern, method).find("403"), nullptr);
     }
 }
 
-TEST(OpenApi, tells_the_types_that_are_answered) {
+TEST(OpenApi, TellsTheTypesThatAreAnswered) {
     const Value api = document();
     EXPECT_NE(api.at_pointer("/paths/~1readyz/get/responses/200/content/text~1plain"), nullptr);
     EXPECT_EQ(api.at_pointer("/paths/~1readyz/get/responses/503/$ref")->as_string(),
@@ -259,16 +260,16 @@ TEST(OpenApi, tells_the_types_that_are_answered) {
               R"(["string","null"])");
 }
 
-TEST(OpenApi, a_body_requires_only_what_has_no_default_and_an_answer_tells_all) {
+TEST(OpenApi, ABodyRequiresOnlyWhatHasNoDefaultAndAnAnswerTellsAll) {
     const Value api = document();
-    const std::function<void(const Value&)> none_in_answers = [&](const Value& value) {
+    const std::function<void(const Value&)> none_in_responses = [&](const Value& value) {
         if (value.is_array())
-            for (const Value& item : value.items()) none_in_answers(item);
+            for (const Value& item : value.items()) none_in_responses(item);
         if (!value.is_object()) return;
         EXPECT_EQ(value.find("default"), nullptr) << dump(value);
-        for (const auto& [key, member] : value.members()) none_in_answers(member);
+        for (const auto& [key, member] : value.members()) none_in_responses(member);
     };
-    none_in_answers(*api.at_pointer("/components/schemas"));
+    none_in_responses(*api.at_pointer("/components/schemas"));
     const std::string body = "/content/application~1json/schema";
     EXPECT_EQ(api.at_pointer("/components/requestBodies/mushroom_order" + body +
                              "/properties/age/default")
@@ -283,7 +284,7 @@ TEST(OpenApi, a_body_requires_only_what_has_no_default_and_an_answer_tells_all) 
 }
 
 /// The orders that the document allows a branched model are those that are grown.
-TEST(OpenApi, allows_a_bush_the_orders_that_it_can_have) {
+TEST(OpenApi, AllowsABushTheOrdersThatItCanHave) {
     const Value api = document();
     const Value* model = api.at_pointer(
         "/components/requestBodies/mushroom_order/content/application~1json/schema/properties/"
@@ -295,16 +296,16 @@ TEST(OpenApi, allows_a_bush_the_orders_that_it_can_have) {
             least = static_cast<int>(found->find("minimum")->as_number());
     ASSERT_GT(least, 1);
     Service service(built_in_atlas(), ServiceOptions{});
-    const auto grown = [&](int order) {
+    const auto grown = [&](int spec) {
         return handle(service, test::post(R"({"lod":3,"texture_size":128,"model":{"form":)"
                                           R"("branched","ramification":{"order":)" +
-                                          std::to_string(order) + "}}}"));
+                                          std::to_string(spec) + "}}}"));
     };
     EXPECT_EQ(grown(least).status, 200) << test::text_of(grown(least));
     EXPECT_EQ(grown(least - 1).status, 422);
 }
 
-TEST(MushroomSchema, has_every_parameter_and_no_version) {
+TEST(MushroomSchema, HasEveryParameterAndNoVersion) {
     const Value schema = mushroom_schema();
     std::set<std::string> names, found;
     leaf_names<MushroomParams>("", names);

@@ -10,9 +10,9 @@
 #include <fstream>
 #include <thread>
 
-#include "api/encoding.h"
-#include "api/errors.h"
-#include "api/mushrooms.h"
+#include "api/http/encoding.h"
+#include "api/http/errors.h"
+#include "api/products/mushrooms.h"
 #include "core/gltf/inspect.h"
 #include "core/grow/mushroom.h"
 #include "core/params/query.h"
@@ -35,11 +35,11 @@ using test::request;
 using test::small;
 using test::text_of;
 
-class ServiceTest : public test::AskedService {};
+class ServiceTest : public test::RequestedService {};
 
 // --- Errors -----------------------------------------------------------------------------
 
-TEST_F(ServiceTest, faults_of_an_address_are_named) {
+TEST_F(ServiceTest, FaultsOfAnAddressAreNamed) {
     const struct {
         std::string query;
         int status;
@@ -76,32 +76,32 @@ TEST_F(ServiceTest, faults_of_an_address_are_named) {
     };
     for (const auto& [query, status, parameter, words] : cases) {
         for (const char* ending : {".glb?", ".json?"}) {
-            const Answer answer = ask("/v1/mushrooms/" + first_species() + ending + query);
-            expect_problem(answer, status);
-            EXPECT_TRUE(names(answer, parameter, words)) << query << '\n' << text_of(answer);
+            const Response response = ask("/v1/mushrooms/" + first_species() + ending + query);
+            expect_problem(response, status);
+            EXPECT_TRUE(names(response, parameter, words)) << query << '\n' << text_of(response);
         }
     }
 }
 
-TEST_F(ServiceTest, all_problems_come_in_one_answer_and_the_strongest_status_wins) {
-    const Answer answer = ask("/v1/mushrooms/xyzzy.glb?age=1.7&sed=3&v=old");
-    expect_problem(answer, 404);
-    EXPECT_EQ(errors_of(answer).size(), 3u) << text_of(answer);
-    EXPECT_TRUE(names(answer, "mix", "unknown species"));
-    EXPECT_TRUE(names(answer, "age"));
-    EXPECT_TRUE(names(answer, "sed"));
+TEST_F(ServiceTest, AllProblemsComeInOneAnswerAndTheStrongestStatusWins) {
+    const Response response = ask("/v1/mushrooms/xyzzy.glb?age=1.7&sed=3&v=old");
+    expect_problem(response, 404);
+    EXPECT_EQ(errors_of(response).size(), 3u) << text_of(response);
+    EXPECT_TRUE(names(response, "mix", "unknown species"));
+    EXPECT_TRUE(names(response, "age"));
+    EXPECT_TRUE(names(response, "sed"));
 
-    const Answer two = ask("/v1/mushrooms/" + first_species() + ".glb?age=1.7&sed=3");
+    const Response two = ask("/v1/mushrooms/" + first_species() + ".glb?age=1.7&sed=3");
     expect_problem(two, 400);
     EXPECT_EQ(json_of(two).find("detail")->as_string(), "2 parameters are invalid");
 }
 
-TEST_F(ServiceTest, unknown_species_and_routes_are_told_what_was_probably_meant) {
+TEST_F(ServiceTest, UnknownSpeciesAndRoutesAreToldWhatWasProbablyMeant) {
     const std::string id = first_species();
-    const Answer species = ask("/v1/mushrooms/" + id.substr(0, id.size() - 2) + ".glb");
+    const Response species = ask("/v1/mushrooms/" + id.substr(0, id.size() - 2) + ".glb");
     expect_problem(species, 404);
     EXPECT_TRUE(names(species, "mix", "did you mean '" + id + "'?")) << text_of(species);
-    const Answer route = ask("/v1/specis");
+    const Response route = ask("/v1/specis");
     expect_problem(route, 404);
     EXPECT_NE(text_of(route).find("did you mean '/v1/species'?"), std::string::npos);
     expect_problem(ask("/v1/species/xyzzy"), 404);
@@ -110,7 +110,7 @@ TEST_F(ServiceTest, unknown_species_and_routes_are_told_what_was_probably_meant)
     expect_problem(ask("/assets/none.js"), 404);
 }
 
-TEST_F(ServiceTest, methods_are_405_with_allow) {
+TEST_F(ServiceTest, MethodsAre405WithAllow) {
     const std::pair<Request, const char*> cases[] = {
         {request("POST", "/v1/species"), "GET, HEAD, OPTIONS"},
         {request("DELETE", small()), "GET, HEAD, OPTIONS"},
@@ -119,33 +119,33 @@ TEST_F(ServiceTest, methods_are_405_with_allow) {
         {request("BREW", "/"), "GET, HEAD, OPTIONS"},
     };
     for (const auto& [one, allow] : cases) {
-        const Answer answer = ask(one);
-        expect_problem(answer, 405);
-        EXPECT_EQ(header(answer, "Allow"), allow);
+        const Response response = ask(one);
+        expect_problem(response, 405);
+        EXPECT_EQ(header(response, "Allow"), allow);
     }
 }
 
-TEST_F(ServiceTest, preflights_are_answered) {
-    const Answer answer = ask(
+TEST_F(ServiceTest, PreflightsAreAnswered) {
+    const Response response = ask(
         request("OPTIONS", "/v1/mushrooms.glb",
                 {{"Origin", "https://example.org"}, {"Access-Control-Request-Method", "POST"}}));
-    EXPECT_EQ(answer.status, 204);
-    EXPECT_FALSE(answer.has_body);
-    EXPECT_EQ(header(answer, "Access-Control-Allow-Methods"), "POST, OPTIONS");
-    EXPECT_EQ(header(answer, "Access-Control-Allow-Origin"), "*");
-    EXPECT_NE(header(answer, "Access-Control-Allow-Headers").find("Content-Type"),
+    EXPECT_EQ(response.status, 204);
+    EXPECT_FALSE(response.has_body);
+    EXPECT_EQ(header(response, "Access-Control-Allow-Methods"), "POST, OPTIONS");
+    EXPECT_EQ(header(response, "Access-Control-Allow-Origin"), "*");
+    EXPECT_NE(header(response, "Access-Control-Allow-Headers").find("Content-Type"),
               std::string::npos);
-    EXPECT_EQ(header(answer, "Access-Control-Max-Age"), "86400");
+    EXPECT_EQ(header(response, "Access-Control-Max-Age"), "86400");
     EXPECT_EQ(ask(request("OPTIONS", "*")).status, 204);
     EXPECT_EQ(ask(request("OPTIONS", small("&age=9"))).status, 204);
 }
 
-TEST_F(ServiceTest, a_long_address_is_414) {
+TEST_F(ServiceTest, ALongAddressIs414) {
     expect_problem(ask("/v1/species?x=" + std::string(4096, 'a')), 414);
     EXPECT_NE(ask("/v1/species?x=" + std::string(4096 - 14, 'a')).status, 414);
 }
 
-TEST_F(ServiceTest, bodies_of_another_type_or_encoding_are_415_and_large_ones_413) {
+TEST_F(ServiceTest, BodiesOfAnotherTypeOrEncodingAre415AndLargeOnes413) {
     expect_problem(ask(post("{}", "/v1/mushrooms.glb", "text/plain")), 415);
     expect_problem(ask(post("{}", "/v1/mushrooms.glb", "")), 415);
     expect_problem(ask(post("x", "/v1/inspect", "application/json")), 415);
@@ -158,7 +158,7 @@ TEST_F(ServiceTest, bodies_of_another_type_or_encoding_are_415_and_large_ones_41
     EXPECT_EQ(service_.most_body("POST", "/nothing"), 256u << 10);
 }
 
-TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
+TEST_F(ServiceTest, FaultsOfABodyArePointersIntoIt) {
     const std::string mix = "\"mix\":{\"" + first_species() + "\":1}";
     const struct {
         std::string body;
@@ -204,60 +204,60 @@ TEST_F(ServiceTest, faults_of_a_body_are_pointers_into_it) {
          "/model/ramification/rows", "no rows are given"},
     };
     for (const auto& [body, status, parameter, words] : cases) {
-        const Answer answer = ask(post(body));
-        expect_problem(answer, status);
-        EXPECT_TRUE(names(answer, parameter, words)) << body.substr(0, 200) << '\n'
-                                                     << text_of(answer);
+        const Response response = ask(post(body));
+        expect_problem(response, status);
+        EXPECT_TRUE(names(response, parameter, words)) << body.substr(0, 200) << '\n'
+                                                       << text_of(response);
     }
     expect_problem(ask(post("{" + mix + "}", "/v1/mushrooms.glb?age=0.5")), 400);
 }
 
-TEST_F(ServiceTest, what_is_impossible_is_422) {
+TEST_F(ServiceTest, WhatIsImpossibleIs422) {
     const Value model = write(built_in_atlas()->entries()[0].species.stages[0].model);
-    const Answer linked = ask(post("{\"textures\":\"linked\",\"model\":" + dump(model) + "}"));
+    const Response linked = ask(post("{\"textures\":\"linked\",\"model\":" + dump(model) + "}"));
     expect_problem(linked, 422);
     EXPECT_TRUE(names(linked, "/textures"));
 
     // Pores asked of a species without pores, or gills of one without gills: one of the two each species lacks.
-    const Answer anatomy = ask(small("&hymenium.pores_per_mm=2&hymenium.blades=20"));
+    const Response anatomy = ask(small("&hymenium.pores_per_mm=2&hymenium.blades=20"));
     expect_problem(anatomy, 422);
     EXPECT_TRUE(names(anatomy, "hymenium.pores_per_mm") || names(anatomy, "hymenium.blades"))
         << text_of(anatomy);
     EXPECT_EQ(generated(), 0u);
 }
 
-TEST_F(ServiceTest, a_crossing_outline_is_422_and_points_into_the_model) {
+TEST_F(ServiceTest, ACrossingOutlineIs422AndPointsIntoTheModel) {
     Value model = write(built_in_atlas()->entries()[0].species.stages[0].model);
     Value* cap = model.find("silhouette")->find("cap");
     const double r = cap->items()[1].find("r")->as_number();
     cap->items()[1].set("r", cap->items()[cap->items().size() - 2].find("r")->as_number());
     cap->items()[cap->items().size() - 2].set("r", r);
-    const Answer answer = ask(post("{\"model\":" + dump(model) + "}"));
-    EXPECT_EQ(answer.status, 422) << text_of(answer);
+    const Response response = ask(post("{\"model\":" + dump(model) + "}"));
+    EXPECT_EQ(response.status, 422) << text_of(response);
     bool points = false;
-    for (const std::string& error : errors_of(answer))
+    for (const std::string& error : errors_of(response))
         points = points || error.starts_with("/model/silhouette");
-    EXPECT_TRUE(points) << text_of(answer);
+    EXPECT_TRUE(points) << text_of(response);
 }
 
-TEST(ServiceBudget, what_costs_too_much_is_422_before_any_work) {
+TEST(ServiceBudget, WhatCostsTooMuchIs422BeforeAnyWork) {
     ServiceOptions options;
     options.most_vertices = 100;
     options.most_texels = 3 * 256 * 256;
     Service service(built_in_atlas(), options);
     const std::string address = "/v1/mushrooms/" + first_species() + ".glb";
-    const Answer answer = handle(service, get(address));
-    expect_problem(answer, 422);
-    EXPECT_TRUE(names(answer, "lod"));
-    EXPECT_TRUE(names(answer, "texture_size"));
-    const Answer posted = handle(service, post("{\"mix\":{\"" + first_species() + "\":1}}"));
+    const Response response = handle(service, get(address));
+    expect_problem(response, 422);
+    EXPECT_TRUE(names(response, "lod"));
+    EXPECT_TRUE(names(response, "texture_size"));
+    const Response posted = handle(service, post("{\"mix\":{\"" + first_species() + "\":1}}"));
     EXPECT_TRUE(names(posted, "/lod"));
-    EXPECT_FALSE(names(answer, "frames"));
-    const Answer clip = handle(service, get(address + "?animation=growth&texture_size=128"));
+    EXPECT_FALSE(names(response, "frames"));
+    const Response clip = handle(service, get(address + "?animation=growth&texture_size=128"));
     expect_problem(clip, 422);
     EXPECT_TRUE(names(clip, "lod"));
     EXPECT_TRUE(names(clip, "frames"));
-    const Answer image =
+    const Response image =
         handle(service, get("/v1/surfaces/mushrooms/" + first_species() + "/normal.jpg"));
     expect_problem(image, 422);
     EXPECT_TRUE(names(image, "texture_size"));
@@ -266,7 +266,7 @@ TEST(ServiceBudget, what_costs_too_much_is_422_before_any_work) {
 
 // --- Documents --------------------------------------------------------------------------
 
-TEST_F(ServiceTest, the_root_tells_who_it_is) {
+TEST_F(ServiceTest, TheRootTellsWhoItIs) {
     const Value root = json_of(ask("/v1"));
     EXPECT_EQ(root.find("name")->as_string(), "sporeprint");
     EXPECT_EQ(root.find("generator_version")->as_number(), generator_version);
@@ -274,7 +274,7 @@ TEST_F(ServiceTest, the_root_tells_who_it_is) {
         EXPECT_EQ(ask(link.as_string()).status, name == "docs" ? 404 : 200) << link.as_string();
 }
 
-TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
+TEST_F(ServiceTest, SpeciesAreListedWithLinksThatWork) {
     const Value body = json_of(ask("/v1/species"));
     const auto& list = body.find("species")->items();
     ASSERT_EQ(list.size(), built_in_atlas()->entries().size());
@@ -283,7 +283,7 @@ TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
              {"id", "scientific_name", "common_name", "family", "form", "cap_diameter_m",
               "height_m", "substrate", "habit", "season", "links"})
             EXPECT_NE(row.find(member), nullptr) << member;
-        const Answer self = ask(row.find("links")->find("self")->as_string());
+        const Response self = ask(row.find("links")->find("self")->as_string());
         EXPECT_EQ(self.status, 200);
         std::vector<Problem> problems;
         static_cast<void>(read_json<Species>(text_of(self), problems));
@@ -293,11 +293,11 @@ TEST_F(ServiceTest, species_are_listed_with_links_that_work) {
     }
 }
 
-TEST_F(ServiceTest, mushrooms_and_colonies_are_listed_with_links_that_work) {
+TEST_F(ServiceTest, MushroomsAndColoniesAreListedWithLinksThatWork) {
     for (const std::string product : {"mushrooms", "colonies"}) {
-        const Answer answer = ask("/v1/" + product);
-        ASSERT_EQ(answer.status, 200) << text_of(answer);
-        const Value body = json_of(answer);
+        const Response response = ask("/v1/" + product);
+        ASSERT_EQ(response.status, 200) << text_of(response);
+        const Value body = json_of(response);
         const auto& list = body.find(product)->items();
         ASSERT_EQ(list.size(), built_in_atlas()->entries().size());
         for (const Value& item : list) {
@@ -315,9 +315,9 @@ TEST_F(ServiceTest, mushrooms_and_colonies_are_listed_with_links_that_work) {
     }
 }
 
-TEST_F(ServiceTest, every_type_of_problem_leads_to_a_page_that_tells_of_it) {
+TEST_F(ServiceTest, EveryTypeOfProblemLeadsToAPageThatTellsOfIt) {
     for (const ProblemType& type : problem_types()) {
-        const Answer page = ask(std::string("/problems/") + type.slug);
+        const Response page = ask(std::string("/problems/") + type.slug);
         ASSERT_EQ(page.status, 200) << type.slug;
         EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
         EXPECT_FALSE(header(page, "ETag").empty());
@@ -327,18 +327,18 @@ TEST_F(ServiceTest, every_type_of_problem_leads_to_a_page_that_tells_of_it) {
     }
     const Value problem = json_of(ask(small("&age=2")));
     EXPECT_EQ(ask(problem.find("type")->as_string()).status, 200);
-    const Answer unknown = ask("/problems/imposible");
+    const Response unknown = ask("/problems/imposible");
     expect_problem(unknown, 404);
     EXPECT_TRUE(names(unknown, "type", "did you mean 'impossible'?"));
     expect_problem(ask("/problems/impossible?lod=1"), 400);
 }
 
-TEST_F(ServiceTest, species_are_filtered) {
+TEST_F(ServiceTest, SpeciesAreFiltered) {
     const auto ids = [&](const std::string& query) {
         std::vector<std::string> out;
-        const Answer answer = ask("/v1/species?" + query);
-        EXPECT_EQ(answer.status, 200) << query;
-        const Value body = json_of(answer);
+        const Response response = ask("/v1/species?" + query);
+        EXPECT_EQ(response.status, 200) << query;
+        const Value body = json_of(response);
         for (const Value& row : body.find("species")->items())
             out.push_back(row.find("id")->as_string());
         return out;
@@ -378,12 +378,12 @@ TEST_F(ServiceTest, species_are_filtered) {
     expect_problem(ask("/v1/species?min_diameter_m=0.2&max_diameter_m=0.1"), 422);
 }
 
-TEST_F(ServiceTest, documents_are_conditional_and_compressed) {
+TEST_F(ServiceTest, DocumentsAreConditionalAndCompressed) {
     for (const std::string& target : std::vector<std::string>{
              "/v1", "/v1/species", "/v1/species?form=agaric", "/v1/mushrooms/schema",
              "/openapi.json", "/v1/species/" + first_species(),
              "/v1/mushrooms/" + first_species() + ".json"}) {
-        const Answer plain = ask(target);
+        const Response plain = ask(target);
         ASSERT_EQ(plain.status, 200) << target;
         EXPECT_EQ(header(plain, "Vary"), "Accept-Encoding") << target;
         EXPECT_EQ(header(plain, "Content-Encoding"), "");
@@ -391,18 +391,18 @@ TEST_F(ServiceTest, documents_are_conditional_and_compressed) {
                   "public, max-age=3600, stale-while-revalidate=86400");
         const std::string etag = header(plain, "ETag");
 
-        const Answer zipped = ask(target, {{"Accept-Encoding", "br, gzip"}});
+        const Response zipped = ask(target, {{"Accept-Encoding", "br, gzip"}});
         EXPECT_EQ(header(zipped, "Content-Encoding"), "gzip") << target;
         EXPECT_EQ(header(zipped, "ETag"), etag.substr(0, etag.size() - 1) + "-gz\"") << target;
         EXPECT_EQ(text_of(zipped).substr(0, 2), "\x1f\x8b");
         EXPECT_LT(size_of(zipped.body), size_of(plain.body));
 
-        const Answer unchanged = ask(target, {{"If-None-Match", "\"x\", W/" + etag}});
+        const Response unchanged = ask(target, {{"If-None-Match", "\"x\", W/" + etag}});
         EXPECT_EQ(unchanged.status, 304) << target;
         EXPECT_FALSE(unchanged.has_body);
         EXPECT_EQ(header(unchanged, "ETag"), etag);
         EXPECT_EQ(header(unchanged, "Vary"), "Accept-Encoding");
-        const Answer unchanged_zipped =
+        const Response unchanged_zipped =
             ask(target, {{"If-None-Match", header(zipped, "ETag")}, {"Accept-Encoding", "gzip"}});
         EXPECT_EQ(unchanged_zipped.status, 304);
         EXPECT_EQ(header(unchanged_zipped, "ETag"), header(zipped, "ETag"));
@@ -414,7 +414,7 @@ TEST_F(ServiceTest, documents_are_conditional_and_compressed) {
     }
 }
 
-TEST(ServiceAssets, the_page_and_its_files_are_served) {
+TEST(ServiceAssets, ThePageAndItsFilesAreServed) {
     const std::filesystem::path folder =
         std::filesystem::temp_directory_path() /
         ("sporeprint-assets-" + std::to_string(reinterpret_cast<std::uintptr_t>(&folder)));
@@ -432,7 +432,7 @@ TEST(ServiceAssets, the_page_and_its_files_are_served) {
     Service service(built_in_atlas(), options);
     std::filesystem::remove_all(folder);  // read once, at start
 
-    const Answer page = handle(service, get("/?species=x&age=0.5"));
+    const Response page = handle(service, get("/?species=x&age=0.5"));
     EXPECT_EQ(page.status, 200);
     EXPECT_EQ(header(page, "Content-Type"), "text/html; charset=utf-8");
     const std::string policy = header(page, "Content-Security-Policy");
@@ -445,19 +445,19 @@ TEST(ServiceAssets, the_page_and_its_files_are_served) {
     EXPECT_EQ(header(handle(service, get("/assets/favicon.svg")), "Content-Security-Policy"), "");
     EXPECT_NE(text_of(page).find("page"), std::string::npos);
     EXPECT_NE(text_of(handle(service, get("/docs"))).find("docs"), std::string::npos);
-    const Answer script = handle(service, get("/assets/app-3F9A1C02.js"));
+    const Response script = handle(service, get("/assets/app-3F9A1C02.js"));
     EXPECT_EQ(header(script, "Content-Type"), "text/javascript; charset=utf-8");
     EXPECT_EQ(header(script, "Cache-Control"), "public, max-age=31536000, immutable");
     EXPECT_EQ(header(handle(service, get("/assets/favicon.svg")), "Content-Type"), "image/svg+xml");
     for (const char* target :
          {"/assets/.hidden", "/assets/..%2Findex.html", "/assets/../index.html", "/assets/"})
         EXPECT_EQ(handle(service, get(target)).status, 404) << target;
-    const Answer head = handle(service, request("HEAD", "/"));
+    const Response head = handle(service, request("HEAD", "/"));
     EXPECT_TRUE(head.has_body);
     EXPECT_EQ(size_of(head.body), size_of(page.body));
 }
 
-TEST(ServiceAssets, a_folder_that_is_not_there_is_named) {
+TEST(ServiceAssets, AFolderThatIsNotThereIsNamed) {
     ServiceOptions options;
     options.assets = "/there/is/no/such/page";
     try {
@@ -468,38 +468,38 @@ TEST(ServiceAssets, a_folder_that_is_not_there_is_named) {
     }
 }
 
-TEST_F(ServiceTest, without_a_page_the_root_gives_a_hint) {
-    const Answer answer = ask("/");
-    EXPECT_EQ(answer.status, 200);
-    EXPECT_NE(text_of(answer).find("/v1/species"), std::string::npos);
+TEST_F(ServiceTest, WithoutAPageTheRootGivesAHint) {
+    const Response response = ask("/");
+    EXPECT_EQ(response.status, 200);
+    EXPECT_NE(text_of(response).find("/v1/species"), std::string::npos);
     expect_problem(ask("/docs"), 404);
 }
 
 // --- Mushrooms --------------------------------------------------------------------------
 
-TEST_F(ServiceTest, a_mushroom_comes_with_all_its_headers) {
-    const Answer answer = ask(small("&seed=7"));
-    ASSERT_EQ(answer.status, 200) << text_of(answer);
-    EXPECT_EQ(text_of(answer).substr(0, 4), "glTF");
-    EXPECT_EQ(header(answer, "Content-Type"), "model/gltf-binary");
-    EXPECT_EQ(header(answer, "Content-Disposition"),
+TEST_F(ServiceTest, AMushroomComesWithAllItsHeaders) {
+    const Response response = ask(small("&seed=7"));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    EXPECT_EQ(text_of(response).substr(0, 4), "glTF");
+    EXPECT_EQ(header(response, "Content-Type"), "model/gltf-binary");
+    EXPECT_EQ(header(response, "Content-Disposition"),
               "inline; filename=\"" + first_species() + "-7.glb\"");
-    EXPECT_EQ(header(answer, "Cache-Control"),
+    EXPECT_EQ(header(response, "Cache-Control"),
               "public, max-age=3600, stale-while-revalidate=86400");
-    EXPECT_EQ(header(answer, "Cache-Status"),
+    EXPECT_EQ(header(response, "Cache-Status"),
               "sporeprint-morph; fwd=miss; stored, sporeprint-images; fwd=miss; stored, "
               "sporeprint; fwd=miss; stored");
-    EXPECT_EQ(header(answer, "Cross-Origin-Resource-Policy"), "cross-origin");
-    EXPECT_EQ(header(answer, "Timing-Allow-Origin"), "*");
-    EXPECT_EQ(header(answer, "X-Request-Id"), "test-1");
-    EXPECT_NE(header(answer, "Access-Control-Expose-Headers").find("Content-Location"),
+    EXPECT_EQ(header(response, "Cross-Origin-Resource-Policy"), "cross-origin");
+    EXPECT_EQ(header(response, "Timing-Allow-Origin"), "*");
+    EXPECT_EQ(header(response, "X-Request-Id"), "test-1");
+    EXPECT_NE(header(response, "Access-Control-Expose-Headers").find("Content-Location"),
               std::string::npos);
-    EXPECT_EQ(header(answer, "Vary"), "");
-    const std::string timing = header(answer, "Server-Timing");
+    EXPECT_EQ(header(response, "Vary"), "");
+    const std::string timing = header(response, "Server-Timing");
     for (const char* step : {"resolve;dur=", "build;dur=", "paint;dur=", "pack;dur="})
         EXPECT_NE(timing.find(step), std::string::npos) << timing;
     EXPECT_EQ(timing.find("queue"), std::string::npos);
-    const std::string where = header(answer, "Content-Location");
+    const std::string where = header(response, "Content-Location");
     EXPECT_TRUE(where.starts_with("/v1/mushrooms/" + first_species() +
                                   ".glb?seed=7&lod=3&texture_size=128&v="))
         << where;
@@ -507,8 +507,8 @@ TEST_F(ServiceTest, a_mushroom_comes_with_all_its_headers) {
     EXPECT_EQ(header(ask(small("&seed=7"), {{"Accept-Encoding", "gzip"}}), "Content-Encoding"), "");
 }
 
-TEST_F(ServiceTest, a_second_request_is_a_hit_that_shares_the_bytes) {
-    const Answer first = ask(small()), second = ask(small());
+TEST_F(ServiceTest, ASecondRequestIsAHitThatSharesTheBytes) {
+    const Response first = ask(small()), second = ask(small());
     EXPECT_EQ(header(second, "Cache-Status"), "sporeprint; hit");
     EXPECT_EQ(header(second, "Server-Timing"), "");
     ASSERT_EQ(first.body.size(), second.body.size());
@@ -521,9 +521,9 @@ TEST_F(ServiceTest, a_second_request_is_a_hit_that_shares_the_bytes) {
     EXPECT_GE(service_.counters().glb_cache_bytes, size_of(first.body));
 }
 
-TEST_F(ServiceTest, a_change_of_shape_finds_its_images) {
+TEST_F(ServiceTest, AChangeOfShapeFindsItsImages) {
     static_cast<void>(ask(small()));
-    const Answer bent = ask(small("&deformation.lean_deg=20"));
+    const Response bent = ask(small("&deformation.lean_deg=20"));
     ASSERT_EQ(bent.status, 200) << text_of(bent);
     EXPECT_EQ(header(bent, "Cache-Status"),
               "sporeprint-morph; hit, sporeprint-images; hit, sporeprint; fwd=miss; stored");
@@ -531,31 +531,31 @@ TEST_F(ServiceTest, a_change_of_shape_finds_its_images) {
     EXPECT_EQ(service_.counters().image_hits, 1u);
 }
 
-TEST_F(ServiceTest, a_conditional_request_generates_nothing) {
-    const MushroomOrder order = [&] {
-        MushroomOrder one;
+TEST_F(ServiceTest, AConditionalRequestGeneratesNothing) {
+    const MushroomSpec spec = [&] {
+        MushroomSpec one;
         one.mix = {{first_species(), 1000}};
         one.params.lod = 3;
         one.params.texture_size = {128};
         one.params.seed = 77;
         return one;
     }();
-    const std::string version = version_token(order.mix, *built_in_atlas());
-    const std::string etag = etag_of(key_of(order, Product::glb, version));
+    const std::string version = version_token(spec.mix, *built_in_atlas());
+    const std::string etag = etag_of(key_of(spec, Product::glb, version));
     for (const Request& one : {get(small("&seed=77"), {{"If-None-Match", etag}}),
                                get(small("&seed=77"), {{"if-none-match", "W/" + etag}}),
                                get(small("&seed=77"), {{"If-None-Match", "*"}}),
                                request("HEAD", small("&seed=77"), {{"If-None-Match", etag}})}) {
-        const Answer answer = ask(one);
-        EXPECT_EQ(answer.status, 304);
-        EXPECT_FALSE(answer.has_body);
-        EXPECT_TRUE(answer.body.empty());
-        EXPECT_EQ(header(answer, "ETag"), etag);
-        EXPECT_EQ(header(answer, "Cache-Status"), "sporeprint; hit; detail=not-modified");
-        EXPECT_EQ(header(answer, "Content-Type"), "");
-        EXPECT_EQ(header(answer, "Content-Location"),
-                  with_version(canonical_address(order), version));
-        EXPECT_NE(header(answer, "Cache-Control"), "");
+        const Response response = ask(one);
+        EXPECT_EQ(response.status, 304);
+        EXPECT_FALSE(response.has_body);
+        EXPECT_TRUE(response.body.empty());
+        EXPECT_EQ(header(response, "ETag"), etag);
+        EXPECT_EQ(header(response, "Cache-Status"), "sporeprint; hit; detail=not-modified");
+        EXPECT_EQ(header(response, "Content-Type"), "");
+        EXPECT_EQ(header(response, "Content-Location"),
+                  with_version(canonical_address(spec), version));
+        EXPECT_NE(header(response, "Cache-Control"), "");
     }
     EXPECT_EQ(generated(), 0u);
     EXPECT_EQ(service_.counters().glb_not_modified, 4u);
@@ -567,13 +567,13 @@ TEST_F(ServiceTest, a_conditional_request_generates_nothing) {
         422);
 }
 
-TEST_F(ServiceTest, head_agrees_with_get_and_never_generates) {
-    const Answer cold = ask(request("HEAD", small()));
+TEST_F(ServiceTest, HeadAgreesWithGetAndNeverGenerates) {
+    const Response cold = ask(request("HEAD", small()));
     EXPECT_EQ(cold.status, 200);
     EXPECT_FALSE(cold.has_body);
     EXPECT_EQ(generated(), 0u);
-    const Answer got = ask(small());
-    const Answer warm = ask(request("HEAD", small()));
+    const Response got = ask(small());
+    const Response warm = ask(request("HEAD", small()));
     EXPECT_TRUE(warm.has_body);
     EXPECT_EQ(size_of(warm.body), size_of(got.body));
     for (const char* same :
@@ -584,8 +584,8 @@ TEST_F(ServiceTest, head_agrees_with_get_and_never_generates) {
     EXPECT_EQ(ask(request("HEAD", small("&age=9"))).status, 400);
     EXPECT_EQ(ask(request("HEAD", small("&hymenium.pores_per_mm=2&hymenium.blades=20"))).status,
               422);
-    const Answer described = ask(request("HEAD", "/v1/mushrooms/" + first_species() + ".json",
-                                         {{"Accept-Encoding", "gzip"}}));
+    const Response described = ask(request("HEAD", "/v1/mushrooms/" + first_species() + ".json",
+                                           {{"Accept-Encoding", "gzip"}}));
     EXPECT_FALSE(described.has_body);
     EXPECT_EQ(header(described, "Content-Encoding"), "gzip");
     EXPECT_EQ(header(described, "ETag"), header(ask("/v1/mushrooms/" + first_species() + ".json",
@@ -594,9 +594,9 @@ TEST_F(ServiceTest, head_agrees_with_get_and_never_generates) {
     EXPECT_EQ(generated(), 2u);
 }
 
-TEST_F(ServiceTest, a_post_equal_to_a_get_is_the_same_resource) {
-    const Answer got = ask(small("&age=0.25&weathering.fade=0.5&seed=9"));
-    const Answer posted =
+TEST_F(ServiceTest, APostEqualToAGetIsTheSameResource) {
+    const Response got = ask(small("&age=0.25&weathering.fade=0.5&seed=9"));
+    const Response posted =
         ask(post("{\"weathering\":{\"fade\":5e-1},\"seed\":9,\"mix\":{\"" + first_species() +
                  "\":17},\"lod\":3,\"texture_size\":128,\"age\":0.250}"));
     ASSERT_EQ(posted.status, 200) << text_of(posted);
@@ -606,74 +606,75 @@ TEST_F(ServiceTest, a_post_equal_to_a_get_is_the_same_resource) {
     EXPECT_EQ(text_of(posted), text_of(got));
 
     Service fresh(built_in_atlas(), ServiceOptions{});
-    const Answer elsewhere = handle(fresh, post("{\"mix\":{\"" + first_species() +
-                                                "\":1},\"lod\":3,\"texture_size\":128,\"age\":0.25,"
-                                                "\"seed\":9,\"weathering\":{\"fade\":0.5}}"));
+    const Response elsewhere =
+        handle(fresh, post("{\"mix\":{\"" + first_species() +
+                           "\":1},\"lod\":3,\"texture_size\":128,\"age\":0.25,"
+                           "\"seed\":9,\"weathering\":{\"fade\":0.5}}"));
     EXPECT_EQ(text_of(elsewhere), text_of(got));
 }
 
-TEST_F(ServiceTest, a_model_of_ones_own_is_grown) {
+TEST_F(ServiceTest, AModelOfOnesOwnIsGrown) {
     const Value model = write(built_in_atlas()->entries()[0].species.stages.back().model);
     const std::string body =
         "{\"lod\":3,\"texture_size\":128,\"seed\":3,\"model\":" + dump(model) + "}";
-    const Answer answer = ask(post(body));
-    ASSERT_EQ(answer.status, 200) << text_of(answer);
-    EXPECT_EQ(header(answer, "Content-Location"), "");
-    EXPECT_EQ(header(answer, "Content-Disposition"), "inline; filename=\"model-3.glb\"");
-    const Answer inspected = ask(post(text_of(answer), "/v1/inspect", "model/gltf-binary"));
+    const Response response = ask(post(body));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    EXPECT_EQ(header(response, "Content-Location"), "");
+    EXPECT_EQ(header(response, "Content-Disposition"), "inline; filename=\"model-3.glb\"");
+    const Response inspected = ask(post(text_of(response), "/v1/inspect", "model/gltf-binary"));
     ASSERT_EQ(inspected.status, 200) << text_of(inspected);
     EXPECT_TRUE(json_of(inspected).find("canonical")->is_null());
     EXPECT_EQ(header(ask(post(body)), "Cache-Status"), "sporeprint; hit");
     Request conditional = post(body);
-    conditional.headers.emplace_back("If-None-Match", header(answer, "ETag"));
+    conditional.headers.emplace_back("If-None-Match", header(response, "ETag"));
     expect_problem(ask(conditional), 412);
 }
 
-TEST_F(ServiceTest, images_of_ones_own_are_painted_and_what_is_no_image_is_named) {
+TEST_F(ServiceTest, ImagesOfOnesOwnArePaintedAndWhatIsNoImageIsNamed) {
     Value model = write(built_in_atlas()->entries()[0].species.stages.back().model);
     const auto with_image = [&](const std::string& base64) {
         model.find("surface")->find("cap")->set("image", base64);
         return post("{\"lod\":3,\"texture_size\":128,\"model\":" + dump(model) + "}");
     };
-    const Answer plain =
+    const Response plain =
         ask(post("{\"lod\":3,\"texture_size\":128,\"model\":" + dump(model) + "}"));
     // A red PNG of one pixel.
-    const Answer red =
+    const Response red =
         ask(with_image("iVBORw0KGgoAAAANSUhEUgAAAAEAAAABCAYAAAAfFcSJAAAADUlEQVR42mP8z8DwHwAFBQIAX8j"
                        "x0gAAAABJRU5ErkJggg=="));
     ASSERT_EQ(red.status, 200) << text_of(red);
     EXPECT_NE(header(red, "ETag"), header(plain, "ETag"));
     EXPECT_NE(text_of(red), text_of(plain));
-    const Answer noise = ask(with_image("AAAABBBBCCCC"));
+    const Response noise = ask(with_image("AAAABBBBCCCC"));
     expect_problem(noise, 400);
     EXPECT_TRUE(names(noise, "/model/surface/cap/image")) << text_of(noise);
 }
 
-TEST_F(ServiceTest, versions_of_yesterday_are_410_with_the_address_of_today) {
+TEST_F(ServiceTest, VersionsOfYesterdayAre410WithTheAddressOfToday) {
     const std::string canonical = header(ask(request("HEAD", small())), "Content-Location");
     for (const char* version : {"0-00000000", "", "x", "%3Cscript%3E"}) {
-        const Answer answer = ask(small(std::string("&v=") + version));
-        expect_problem(answer, 410);
-        EXPECT_EQ(json_of(answer).find("canonical")->as_string(), canonical);
+        const Response response = ask(small(std::string("&v=") + version));
+        expect_problem(response, 410);
+        EXPECT_EQ(json_of(response).find("canonical")->as_string(), canonical);
     }
     EXPECT_EQ(ask(canonical).status, 200);
     EXPECT_EQ(header(ask(canonical), "ETag"), header(ask(small()), "ETag"))
         << "v is no part of the request";
-    const Answer stronger = ask(small("&v=x&hymenium.pores_per_mm=2&hymenium.blades=20"));
+    const Response stronger = ask(small("&v=x&hymenium.pores_per_mm=2&hymenium.blades=20"));
     expect_problem(stronger, 422);
     EXPECT_TRUE(names(stronger, "v"));
-    const Answer posted = ask(post("{\"v\":\"x\",\"mix\":{\"" + first_species() + "\":1}}"));
+    const Response posted = ask(post("{\"v\":\"x\",\"mix\":{\"" + first_species() + "\":1}}"));
     expect_problem(posted, 410);
     EXPECT_TRUE(names(posted, "/v"));
 }
 
-TEST_F(ServiceTest, the_description_tells_what_would_be_made) {
+TEST_F(ServiceTest, TheDescriptionTellsWhatWouldBeMade) {
     const std::string address =
         "/v1/mushrooms/" + first_species() + ":3.json?lod=2&age=0.9&texture_size=256";
-    const Answer answer = ask(address);
-    ASSERT_EQ(answer.status, 200) << text_of(answer);
-    const Value body = json_of(answer);
-    const Answer glb =
+    const Response response = ask(address);
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    const Value body = json_of(response);
+    const Response glb =
         ask(body.find("canonical")->as_string() + "&v=" + body.find("v")->as_string());
     EXPECT_EQ(glb.status, 200);
     EXPECT_EQ(header(glb, "Cache-Control"), "public, max-age=31536000, immutable");
@@ -688,7 +689,7 @@ TEST_F(ServiceTest, the_description_tells_what_would_be_made) {
         EXPECT_LT(body.at_pointer("/bounds_m/min" + at)->as_number(),
                   body.at_pointer("/bounds_m/max" + at)->as_number());
     }
-    const Answer inspected = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
+    const Response inspected = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
     ASSERT_EQ(inspected.status, 200) << text_of(inspected);
     const Value found = json_of(inspected);
     EXPECT_EQ(body.at_pointer("/estimate/vertices")->as_number(),
@@ -701,7 +702,7 @@ TEST_F(ServiceTest, the_description_tells_what_would_be_made) {
                 0.5 * static_cast<double>(size_of(glb.body)));
 }
 
-TEST_F(ServiceTest, collapsed_requests_say_so_and_keep_their_own_headers) {
+TEST_F(ServiceTest, CollapsedRequestsSaySoAndKeepTheirOwnHeaders) {
     const Request plain = get(small());
     const Request versioned = get(header(ask(request("HEAD", small())), "Content-Location"));
     auto first = service_.plan(plain), second = service_.plan(versioned);
@@ -710,30 +711,31 @@ TEST_F(ServiceTest, collapsed_requests_say_so_and_keep_their_own_headers) {
     EXPECT_EQ(std::get<Job>(first).key, std::get<Job>(second).key);
     EXPECT_GT(std::get<Job>(first).cost.vertices, 0u);
     EXPECT_GT(std::get<Job>(first).cost.texels, 0u);
-    const Answer shared = std::get<Job>(first).run(
+    const Response shared = std::get<Job>(first).run(
         {}, [](Step) {}, in_turn);
     service_.finish(std::get<Job>(first).key, shared);
-    const Answer made = service_.deliver(plain, shared, Outcome::made, {.queue = 1.25});
-    const Answer collapsed =
+    const Response generated = service_.deliver(plain, shared, Outcome::generated, {.queue = 1.25});
+    const Response collapsed =
         service_.deliver(versioned, shared, Outcome::collapsed, {.queue = 0.5});
-    EXPECT_EQ(header(made, "Cache-Control"), "public, max-age=3600, stale-while-revalidate=86400");
+    EXPECT_EQ(header(generated, "Cache-Control"),
+              "public, max-age=3600, stale-while-revalidate=86400");
     EXPECT_EQ(header(collapsed, "Cache-Control"), "public, max-age=31536000, immutable");
-    EXPECT_EQ(header(made, "Server-Timing"), "queue;dur=1.25");
-    EXPECT_TRUE(header(made, "Cache-Status").ends_with("sporeprint; fwd=miss; stored"));
+    EXPECT_EQ(header(generated, "Server-Timing"), "queue;dur=1.25");
+    EXPECT_TRUE(header(generated, "Cache-Status").ends_with("sporeprint; fwd=miss; stored"));
     EXPECT_TRUE(header(collapsed, "Cache-Status").ends_with("sporeprint; fwd=miss; collapsed"));
 }
 
-TEST(ServiceCache, an_answer_too_large_to_keep_is_not_said_to_be_stored) {
+TEST(ServiceCache, AnAnswerTooLargeToKeepIsNotSaidToBeStored) {
     ServiceOptions options;
     options.cache_bytes = 8'000;
     Service service(built_in_atlas(), options);
-    const Answer answer = handle(service, get(small("&textures=none")));
-    EXPECT_EQ(header(answer, "Cache-Status"),
+    const Response response = handle(service, get(small("&textures=none")));
+    EXPECT_EQ(header(response, "Cache-Status"),
               "sporeprint-morph; fwd=miss; stored, sporeprint; fwd=miss");
     EXPECT_EQ(service.counters().glb_cache_entries, 0u);
 }
 
-TEST_F(ServiceTest, a_stopped_job_is_503_and_leaves_nothing_behind) {
+TEST_F(ServiceTest, AStoppedJobIs503AndLeavesNothingBehind) {
     auto planned = service_.plan(get(small()));
     ASSERT_TRUE(std::holds_alternative<Job>(planned));
     std::stop_source stop;
@@ -743,21 +745,21 @@ TEST_F(ServiceTest, a_stopped_job_is_503_and_leaves_nothing_behind) {
             stop.get_token(), [](Step) {}, in_turn));
         FAIL() << "not cancelled";
     } catch (...) {
-        const Answer answer = service_.problem(get(small()), std::current_exception());
-        expect_problem(answer, 503);
-        EXPECT_EQ(header(answer, "Retry-After"), "1");
+        const Response response = service_.problem(get(small()), std::current_exception());
+        expect_problem(response, 503);
+        EXPECT_EQ(header(response, "Retry-After"), "1");
     }
     EXPECT_EQ(ask(small()).status, 200);
 }
 
-TEST_F(ServiceTest, unknown_exceptions_are_500_without_details) {
-    const Answer answer =
+TEST_F(ServiceTest, UnknownExceptionsAre500WithoutDetails) {
+    const Response response =
         service_.problem(get("/"), std::make_exception_ptr(std::runtime_error("secret path")));
-    expect_problem(answer, 500);
-    EXPECT_EQ(text_of(answer).find("secret"), std::string::npos);
+    expect_problem(response, 500);
+    EXPECT_EQ(text_of(response).find("secret"), std::string::npos);
     expect_problem(service_.problem(get("/"), std::make_exception_ptr(GenerationError("secret"))),
                    500);
-    const Answer saturated =
+    const Response saturated =
         service_.problem(get("/"), 503, "the queue is full", {{"Retry-After", "2"}});
     expect_problem(saturated, 503);
     EXPECT_EQ(header(saturated, "Retry-After"), "2");
@@ -769,7 +771,7 @@ TEST_F(ServiceTest, unknown_exceptions_are_500_without_details) {
         "");
 }
 
-TEST_F(ServiceTest, the_self_test_grows_a_mushroom) { EXPECT_TRUE(service_.self_test()); }
+TEST_F(ServiceTest, TheSelfTestGrowsAMushroom) { EXPECT_TRUE(service_.self_test()); }
 
 // --- One meaning, one address -----------------------------------------------------------
 
@@ -823,33 +825,32 @@ Spelling random_spelling() {
     return out;
 }
 
-RC_GTEST_PROP(CanonicalAddressProperty,
-              equal_meaning_has_one_key_one_tag_and_one_address_that_is_its_own, ()) {
+RC_GTEST_PROP(CanonicalAddressProperty, EqualMeaningHasOneKeyOneTagAndOneAddressThatIsItsOwn, ()) {
     static Service service(built_in_atlas(), ServiceOptions{});
     const auto [target, other] = random_spelling();
     auto one = service.plan(get(target)), two = service.plan(get(other));
     RC_ASSERT(one.index() == two.index());
     if (std::holds_alternative<Job>(one))
         RC_ASSERT(std::get<Job>(one).key == std::get<Job>(two).key);
-    const Answer first = handle(service, request("HEAD", target)),
-                 second = handle(service, request("HEAD", other));
+    const Response first = handle(service, request("HEAD", target)),
+                   second = handle(service, request("HEAD", other));
     RC_ASSERT(first.status == second.status);
     if (first.status != 200) return;
     RC_ASSERT(header(first, "ETag") == header(second, "ETag"));
     const std::string canonical = header(first, "Content-Location");
     RC_ASSERT(canonical == header(second, "Content-Location"));
-    const Answer again = handle(service, request("HEAD", canonical));
+    const Response again = handle(service, request("HEAD", canonical));
     RC_ASSERT(header(again, "Content-Location") == canonical);
     RC_ASSERT(header(again, "ETag") == header(first, "ETag"));
     // Another meaning, another tag.
-    const Answer changed = handle(
+    const Response changed = handle(
         service, request("HEAD", canonical.substr(0, canonical.rfind("v=")) + "textures=none"));
     RC_ASSERT(header(changed, "ETag") != header(first, "ETag"));
 }
 
-TEST_F(ServiceTest, a_negative_zero_is_zero) {
-    const Answer plus = ask(request("HEAD", small("&deformation.twist_deg=0"))),
-                 minus = ask(request("HEAD", small("&deformation.twist_deg=-0.0")));
+TEST_F(ServiceTest, ANegativeZeroIsZero) {
+    const Response plus = ask(request("HEAD", small("&deformation.twist_deg=0"))),
+                   minus = ask(request("HEAD", small("&deformation.twist_deg=-0.0")));
     EXPECT_EQ(header(plus, "ETag"), header(minus, "ETag"));
     EXPECT_EQ(header(plus, "Content-Location"), header(minus, "Content-Location"));
     Service other(built_in_atlas(), ServiceOptions{});
@@ -859,57 +860,57 @@ TEST_F(ServiceTest, a_negative_zero_is_zero) {
 
 // --- Surfaces and inspection ------------------------------------------------------------
 
-TEST_F(ServiceTest, linked_textures_are_where_the_file_says) {
-    const Answer embedded = ask(small());
-    const Answer linked = ask(small("&textures=linked"));
+TEST_F(ServiceTest, LinkedTexturesAreWhereTheFileSays) {
+    const Response embedded = ask(small());
+    const Response linked = ask(small("&textures=linked"));
     EXPECT_EQ(header(linked, "Cache-Status"),
               "sporeprint-morph; hit, sporeprint; fwd=miss; stored");
     expect_linked_images(service_, linked, embedded);
 }
 
-TEST_F(ServiceTest, the_three_images_of_an_atlas_are_one_flight) {
+TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneFlight) {
     const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
     const std::string query = ".jpg?texture_size=128";
     auto colour = plan_here(service_, get(path + "base_color" + query)),
          normal = plan_here(service_, get(path + "normal" + query));
     ASSERT_TRUE(std::holds_alternative<Job>(colour));
     EXPECT_EQ(std::get<Job>(colour).key, std::get<Job>(normal).key);
-    const Answer shared = std::get<Job>(colour).run(
+    const Response shared = std::get<Job>(colour).run(
         {}, [](Step) {}, in_turn);
-    const Answer one =
-        service_.deliver(get(path + "base_color" + query), shared, Outcome::made, {});
-    const Answer two =
+    const Response one =
+        service_.deliver(get(path + "base_color" + query), shared, Outcome::generated, {});
+    const Response two =
         service_.deliver(get(path + "normal" + query), shared, Outcome::collapsed, {});
     EXPECT_NE(text_of(one), text_of(two));
     EXPECT_NE(header(one, "ETag"), header(two, "ETag"));
     EXPECT_EQ(header(one, ":digest"), "");
     EXPECT_EQ(header(two, "Cache-Status"), "sporeprint-images; fwd=miss; collapsed");
     EXPECT_EQ(text_of(ask(path + "normal" + query)), text_of(two));
-    const Answer head = ask(request("HEAD", path + "orm" + query));
+    const Response head = ask(request("HEAD", path + "orm" + query));
     EXPECT_EQ(size_of(head.body), size_of(ask(path + "orm" + query).body));
 }
 
-TEST_F(ServiceTest, faults_of_image_addresses_are_named) {
+TEST_F(ServiceTest, FaultsOfImageAddressesAreNamed) {
     const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
     expect_problem(ask(path + "colour.jpg"), 404);
     expect_problem(ask("/v1/surfaces/mushrooms/xyzzy/normal.jpg"), 404);
     for (const char* query : {"age=2", "texture_size=100", "textures=none", "weathering.waves=0.5",
                               "size=1.5", "size=71", "metrics.cap=1", "seed=1&seed=1"})
         expect_problem(ask(path + "normal.jpg?" + query), 400);
-    const Answer old = ask(path + "normal.jpg?age=0.6&v=x");
+    const Response old = ask(path + "normal.jpg?age=0.6&v=x");
     expect_problem(old, 410);
     EXPECT_TRUE(json_of(old).find("canonical")->as_string().starts_with(path + "normal.jpg?v="));
 }
 
-TEST_F(ServiceTest, inspection_gives_the_request_back) {
-    const std::string asked = small("&seed=5&age=0.3&weathering.fade=0.25");
-    const Answer glb = ask(asked);
+TEST_F(ServiceTest, InspectionGivesTheRequestBack) {
+    const std::string requested = small("&seed=5&age=0.3&weathering.fade=0.25");
+    const Response glb = ask(requested);
     ASSERT_EQ(glb.status, 200);
-    const Answer answer = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
-    ASSERT_EQ(answer.status, 200) << text_of(answer);
-    EXPECT_EQ(header(answer, "Cache-Control"), "no-store");
-    EXPECT_EQ(header(answer, "ETag"), "");
-    const Value body = json_of(answer);
+    const Response response = ask(post(text_of(glb), "/v1/inspect", "model/gltf-binary"));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    EXPECT_EQ(header(response, "Cache-Control"), "no-store");
+    EXPECT_EQ(header(response, "ETag"), "");
+    const Value body = json_of(response);
     const std::string canonical = body.find("canonical")->as_string();
     EXPECT_EQ(canonical.find("v="), std::string::npos);
     EXPECT_EQ(text_of(ask(canonical)), text_of(glb));
@@ -921,7 +922,7 @@ TEST_F(ServiceTest, inspection_gives_the_request_back) {
     EXPECT_EQ(body.at_pointer("/counts/images")->as_number(), 3);
 }
 
-TEST_F(ServiceTest, what_is_no_glb_of_ours_is_400) {
+TEST_F(ServiceTest, WhatIsNoGlbOfOursIs400) {
     const std::string glb = text_of(ask(small()));
     std::string another = glb;
     const std::size_t at = another.find("/v1/mushrooms/");
@@ -955,27 +956,27 @@ Request inspection_of(std::string file) {
     return post(std::move(file), "/v1/inspect", "model/gltf-binary");
 }
 
-TEST_F(ServiceTest, a_json_chunk_that_is_too_long_to_inspect_is_413_before_it_is_read) {
+TEST_F(ServiceTest, AJsonChunkThatIsTooLongToInspectIs413BeforeItIsRead) {
     const std::string space(most_inspected_json - json_of_ours("{}").size(), ' ');
     EXPECT_EQ(ask(inspection_of(glb_of(json_of_ours("{}") + space, 8))).status, 200);
     const Request longer = inspection_of(glb_of(json_of_ours("{}") + space + "    ", 8));
     const auto planned = service_.plan(longer);
-    ASSERT_TRUE(std::holds_alternative<Answer>(planned)) << "no job is made of it";
-    expect_problem(std::get<Answer>(planned), 413);
-    const std::string detail = json_of(std::get<Answer>(planned)).find("detail")->as_string();
+    ASSERT_TRUE(std::holds_alternative<Response>(planned)) << "no job is made of it";
+    expect_problem(std::get<Response>(planned), 413);
+    const std::string detail = json_of(std::get<Response>(planned)).find("detail")->as_string();
     EXPECT_NE(detail.find("the JSON chunk"), std::string::npos) << detail;
     EXPECT_NE(detail.find(std::to_string(most_inspected_json + 4)), std::string::npos) << detail;
     EXPECT_NE(detail.find(std::to_string(most_inspected_json)), std::string::npos) << detail;
 }
 
-TEST_F(ServiceTest, an_inspection_holds_the_json_chunk_and_not_the_upload) {
+TEST_F(ServiceTest, AnInspectionHoldsTheJsonChunkAndNotTheUpload) {
     auto planned = service_.plan(inspection_of(glb_of(json_of_ours("{}"), 60u << 20)));
     ASSERT_TRUE(std::holds_alternative<Job>(planned));
     const Job& job = std::get<Job>(planned);  // the upload is gone
     EXPECT_LT(job.cost.work(), 200u) << "nor is it charged by the length of what is not read";
-    const Answer answer = job.run(
+    const Response response = job.run(
         {}, [](Step) {}, in_turn);
-    EXPECT_EQ(json_of(answer).at_pointer("/counts/bytes")->as_number(),
+    EXPECT_EQ(json_of(response).at_pointer("/counts/bytes")->as_number(),
               static_cast<double>(glb_of(json_of_ours("{}"), 60u << 20).size()));
     std::stop_source stop;
     stop.request_stop();
@@ -984,22 +985,22 @@ TEST_F(ServiceTest, an_inspection_holds_the_json_chunk_and_not_the_upload) {
                  Cancelled);
 }
 
-TEST_F(ServiceTest, an_inspection_gives_no_more_back_than_files_of_ours_hold) {
+TEST_F(ServiceTest, AnInspectionGivesNoMoreBackThanFilesOfOursHold) {
     const std::string text(most_effective_json, 'x');
-    const Answer large = ask(inspection_of(glb_of(json_of_ours("{\"a\":\"" + text + "\"}"), 0)));
+    const Response large = ask(inspection_of(glb_of(json_of_ours("{\"a\":\"" + text + "\"}"), 0)));
     expect_problem(large, 400);
     EXPECT_LT(text_of(large).size(), 1000u);
     std::string named = json_of_ours("{}");
     named.replace(named.find("Sporeprint 1"), 12, "Sporeprint 1 " + text);
-    const Answer answer = ask(inspection_of(glb_of(named, 0)));
-    ASSERT_EQ(answer.status, 200);
-    EXPECT_LT(text_of(answer).size(), 1000u);
+    const Response response = ask(inspection_of(glb_of(named, 0)));
+    ASSERT_EQ(response.status, 200);
+    EXPECT_LT(text_of(response).size(), 1000u);
     std::string addressed = json_of_ours("{}");
     addressed.replace(addressed.find("canonical\":\"") + 12, 0, "/v1/species?form=" + text);
     expect_problem(ask(inspection_of(glb_of(addressed, 0))), 400);
 }
 
-TEST_F(ServiceTest, the_largest_json_chunks_of_ours_are_far_from_the_limit) {
+TEST_F(ServiceTest, TheLargestJsonChunksOfOursAreFarFromTheLimit) {
     for (const char* target :
          {"/v1/colonies/marasmius_oreades.glb?count=256&distinct=16&lod=3&texture_size=128",
           "/v1/colonies/marasmius_oreades.glb?count=256&lod=3&textures=none&instancing=gpu",
@@ -1009,23 +1010,23 @@ TEST_F(ServiceTest, the_largest_json_chunks_of_ours_are_far_from_the_limit) {
         std::uint32_t length = 0;
         std::memcpy(&length, file.data() + 12, 4);
         EXPECT_LT(length, most_inspected_json / 8) << target;
-        const Answer answer = ask(inspection_of(file));
-        ASSERT_EQ(answer.status, 200) << target << text_of(answer);
-        EXPECT_LT(dump(*json_of(answer).find("effective")).size(), most_effective_json / 8)
+        const Response response = ask(inspection_of(file));
+        ASSERT_EQ(response.status, 200) << target << text_of(response);
+        EXPECT_LT(dump(*json_of(response).find("effective")).size(), most_effective_json / 8)
             << target;
-        EXPECT_GT(json_of(answer).at_pointer("/counts/triangles")->as_number(), 0) << target;
+        EXPECT_GT(json_of(response).at_pointer("/counts/triangles")->as_number(), 0) << target;
     }
 }
 
-TEST_F(ServiceTest, any_thread_may_ask_at_any_time) {
+TEST_F(ServiceTest, AnyThreadMayAskAtAnyTime) {
     std::atomic<int> wrong{0};
     std::vector<std::jthread> threads;
     for (int t = 0; t < 8; ++t)
         threads.emplace_back([&, t] {
             for (int i = 0; i < 12; ++i) {
-                const Answer answer = handle(
+                const Response response = handle(
                     service_, get(small("&textures=none&seed=" + std::to_string((t + i) % 4))));
-                if (answer.status != 200 || text_of(answer).substr(0, 4) != "glTF") ++wrong;
+                if (response.status != 200 || text_of(response).substr(0, 4) != "glTF") ++wrong;
                 static_cast<void>(service_.counters().glb_cache_bytes.load());
             }
         });

@@ -10,8 +10,8 @@
 #include <string_view>
 #include <vector>
 
-#include "api/catalogue.h"
-#include "api/errors.h"
+#include "api/http/errors.h"
+#include "api/products/catalogue.h"
 #include "api/service.h"
 #include "core/atlas/atlas.h"
 #include "core/params/value.h"
@@ -32,10 +32,10 @@ inline Request post(std::string body, std::string target = "/v1/mushrooms.glb",
     return request("POST", std::move(target), {{"Content-Type", std::move(type)}}, std::move(body));
 }
 
-inline std::string header(const Answer& answer, std::string_view name) {
+inline std::string header(const Response& response, std::string_view name) {
     std::string found;
     int count = 0;
-    for (const auto& [key, value] : answer.headers)
+    for (const auto& [key, value] : response.headers)
         if (key == name) {
             found = value;
             ++count;
@@ -44,25 +44,25 @@ inline std::string header(const Answer& answer, std::string_view name) {
     return found;
 }
 
-inline std::string text_of(const Answer& answer) {
+inline std::string text_of(const Response& response) {
     std::string out;
-    for (const Slice& slice : answer.body)
+    for (const Slice& slice : response.body)
         out.append(reinterpret_cast<const char*>(slice.data()), slice.size);
     return out;
 }
 
-inline Value json_of(const Answer& answer) {
+inline Value json_of(const Response& response) {
     std::vector<Problem> problems;
-    Value value = parse(text_of(answer), problems);
-    EXPECT_TRUE(problems.empty()) << text_of(answer);
+    Value value = parse(text_of(response), problems);
+    EXPECT_TRUE(problems.empty()) << text_of(response);
     return value;
 }
 
 /// A service with the built-in atlas, for one test.
-class AskedService : public testing::Test {
+class RequestedService : public testing::Test {
   protected:
-    Answer ask(const Request& one) { return handle(service_, one); }
-    Answer ask(std::string target, std::vector<Header> headers = {}) {
+    Response ask(const Request& one) { return handle(service_, one); }
+    Response ask(std::string target, std::vector<Header> headers = {}) {
         return handle(service_, get(std::move(target), std::move(headers)));
     }
     [[nodiscard]] std::uint64_t generated() const { return service_.counters().generated; }
@@ -71,9 +71,9 @@ class AskedService : public testing::Test {
 };
 
 /// "parameter: detail" of each of a problem's errors.
-inline std::vector<std::string> errors_of(const Answer& answer) {
+inline std::vector<std::string> errors_of(const Response& response) {
     std::vector<std::string> out;
-    const Value body = json_of(answer);
+    const Value body = json_of(response);
     if (const Value* errors = body.find("errors"))
         for (const Value& error : errors->items())
             out.push_back(error.find("parameter")->as_string() + ": " +
@@ -82,8 +82,9 @@ inline std::vector<std::string> errors_of(const Answer& answer) {
 }
 
 /// Whether any of the errors is about `parameter` (or what is below it) and holds `words`.
-inline bool names(const Answer& answer, std::string_view parameter, std::string_view words = "") {
-    for (const std::string& error : errors_of(answer))
+inline bool names(const Response& response, std::string_view parameter,
+                  std::string_view words = "") {
+    for (const std::string& error : errors_of(response))
         if ((error.starts_with(std::string(parameter) + ": ") ||
              error.starts_with(std::string(parameter) + "/")) &&
             error.find(words) != std::string::npos)
@@ -92,30 +93,30 @@ inline bool names(const Answer& answer, std::string_view parameter, std::string_
 }
 
 /// Expects problem+json as the contract has it.
-inline void expect_problem(const Answer& answer, int status) {
-    EXPECT_EQ(answer.status, status) << text_of(answer);
-    EXPECT_EQ(header(answer, "Content-Type"), "application/problem+json");
-    EXPECT_EQ(header(answer, "Cache-Control"), "no-store");
+inline void expect_problem(const Response& response, int status) {
+    EXPECT_EQ(response.status, status) << text_of(response);
+    EXPECT_EQ(header(response, "Content-Type"), "application/problem+json");
+    EXPECT_EQ(header(response, "Cache-Control"), "no-store");
     for (const char* absent : {"ETag", "Cache-Status", "Content-Location"})
-        EXPECT_EQ(header(answer, absent), "") << absent;
-    const Value body = json_of(answer);
+        EXPECT_EQ(header(response, absent), "") << absent;
+    const Value body = json_of(response);
     EXPECT_EQ(body.find("status")->as_number(), status);
     EXPECT_EQ(body.find("type")->as_string(),
               std::string("/problems/") + problem_type(status).slug);
     EXPECT_EQ(body.find("title")->as_string(), problem_type(status).title);
     EXPECT_FALSE(body.find("detail")->as_string().empty());
     EXPECT_EQ(body.find("instance")->as_string(), "test-1");
-    EXPECT_EQ(header(answer, "X-Request-Id"), "test-1");
-    EXPECT_EQ(header(answer, "Access-Control-Allow-Origin"), "*");
-    EXPECT_EQ(header(answer, "X-Content-Type-Options"), "nosniff");
+    EXPECT_EQ(header(response, "X-Request-Id"), "test-1");
+    EXPECT_EQ(header(response, "Access-Control-Allow-Origin"), "*");
+    EXPECT_EQ(header(response, "X-Content-Type-Options"), "nosniff");
 }
 
 /// What a reference without scheme and host means in a document at `base`: RFC 3986, 5.2.
 inline std::string resolved(const std::string& reference, const std::string& base) {
     if (reference.starts_with('/')) return reference;
     const std::string path = base.substr(0, base.find('?'));
-    const std::size_t mark = std::min(reference.find('?'), reference.size());
-    std::string rest = path.substr(0, path.rfind('/') + 1) + reference.substr(0, mark), out;
+    const std::size_t spot = std::min(reference.find('?'), reference.size());
+    std::string rest = path.substr(0, path.rfind('/') + 1) + reference.substr(0, spot), out;
     while (!rest.empty()) {
         const std::size_t end = std::min(rest.find('/', 1), rest.size());
         const std::string segment = rest.substr(0, end);
@@ -125,11 +126,11 @@ inline std::string resolved(const std::string& reference, const std::string& bas
         else
             out += segment;
     }
-    return out + reference.substr(mark);
+    return out + reference.substr(spot);
 }
 
 /// The addresses of the images that a file links, as a client resolves them that has fetched it from `from`.
-inline std::vector<std::string> linked_images(const Answer& file, const std::string& from) {
+inline std::vector<std::string> linked_images(const Response& file, const std::string& from) {
     const std::string text = text_of(file);
     std::vector<std::string> found;
     constexpr std::string_view begin = "\"uri\":\"";
@@ -144,12 +145,12 @@ inline std::vector<std::string> linked_images(const Answer& file, const std::str
 /// painted alike by a service that has never seen the file.
 ///
 /// returns  their addresses
-inline std::vector<std::string> expect_linked_images(Service& service, const Answer& linked,
-                                                     const Answer& embedded) {
+inline std::vector<std::string> expect_linked_images(Service& service, const Response& linked,
+                                                     const Response& embedded) {
     EXPECT_EQ(linked.status, 200) << text_of(linked);
     std::vector<std::string> found;
     for (const std::string& address : linked_images(linked, header(linked, "Content-Location"))) {
-        const Answer image = handle(service, get(address));
+        const Response image = handle(service, get(address));
         EXPECT_EQ(image.status, 200) << address << text_of(image);
         EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
         EXPECT_EQ(header(image, "Cache-Control"), "public, max-age=31536000, immutable");
@@ -159,11 +160,11 @@ inline std::vector<std::string> expect_linked_images(Service& service, const Ans
         EXPECT_EQ(text_of(image).substr(0, 2), "\xff\xd8");
         EXPECT_NE(text_of(embedded).find(text_of(image)), std::string::npos)
             << address << ": the same bytes as embedded";
-        const Answer again =
+        const Response again =
             handle(service, get(address, {{"If-None-Match", header(image, "ETag")}}));
         EXPECT_EQ(again.status, 304);
         Service other(built_in_atlas(), ServiceOptions{});
-        const Answer elsewhere = handle(other, get(address));
+        const Response elsewhere = handle(other, get(address));
         EXPECT_EQ(header(elsewhere, "Cache-Status"), "sporeprint-images; fwd=miss; stored");
         EXPECT_EQ(text_of(elsewhere), text_of(image));
         EXPECT_EQ(header(elsewhere, "ETag"), header(image, "ETag"));

@@ -18,52 +18,52 @@ struct Everything {
     std::map<std::string, std::shared_ptr<const RawImages>> paintings;
     std::map<std::string, std::shared_ptr<const MorphSet>> morphs;
     int hits = 0, misses = 0;
-    Workshop workshop;
+    ExecutionContext execution;
 
     Everything() {
-        const auto keep = [](auto& kept, const std::string& key, const auto& make) {
-            auto& one = kept[key];
+        const auto keep = [](auto& cached, const std::string& key, const auto& make) {
+            auto& one = cached[key];
             const bool hit = static_cast<bool>(one);
             if (!hit) one = make();
             return hit;
         };
-        workshop.memo.images = [this, keep](const std::string& key, const auto& make) {
+        execution.caches.images = [this, keep](const std::string& key, const auto& make) {
             keep(images, key, make);
             return images[key];
         };
-        workshop.memo.paintings = [this, keep](const std::string& key, const auto& make) {
+        execution.caches.paintings = [this, keep](const std::string& key, const auto& make) {
             ++(keep(paintings, key, make) ? hits : misses);
             return paintings[key];
         };
-        workshop.memo.morphs = [this, keep](const std::string& key, const auto& make) {
+        execution.caches.morphs = [this, keep](const std::string& key, const auto& make) {
             keep(morphs, key, make);
             return morphs[key];
         };
     }
 };
 
-MushroomOrder order_of(int side) {
-    MushroomOrder order;
-    order.mix = {{"amanita_muscaria", 500}, {"boletus_edulis", 500}};
-    order.params.texture_size.value = side;
-    order.params.lod = 1;
-    return order;
+MushroomSpec order_of(int side) {
+    MushroomSpec spec;
+    spec.mix = {{"amanita_muscaria", 500}, {"boletus_edulis", 500}};
+    spec.params.texture_size.value = side;
+    spec.params.lod = 1;
+    return spec;
 }
 
 /// Sixty-three steps of the weight from one species to the other, as a drag makes them; time is that of one step.
 void weight(benchmark::State& state) {
     const auto atlas = built_in_atlas();
-    MushroomOrder order = order_of(static_cast<int>(2 * state.range(0)));
+    MushroomSpec spec = order_of(static_cast<int>(2 * state.range(0)));
     double hits = 0.0, misses = 0.0;
     for (auto _ : state) {
         state.PauseTiming();
         auto memory = std::make_unique<Everything>();
         state.ResumeTiming();
         for (int step = 1; step < 64; ++step) {
-            order.mix[0].weight = 1000 - step * 1000 / 64;
-            order.mix[1].weight = step * 1000 / 64;
+            spec.mix[0].weight = 1000 - step * 1000 / 64;
+            spec.mix[1].weight = step * 1000 / 64;
             benchmark::DoNotOptimize(
-                grow_mushroom(order, *atlas, {"/v1/bench", {}}, memory->workshop));
+                grow_mushroom(spec, *atlas, {"/v1/bench", {}}, memory->execution));
         }
         state.PauseTiming();
         hits = memory->hits;
@@ -81,16 +81,16 @@ BENCHMARK(weight)->Name("drag_of_weight")->Arg(512)->Arg(1024)->Unit(benchmark::
 /// Sixty-four steps of the age, first those of a lone species, then those of a mix.
 void age(benchmark::State& state) {
     const auto atlas = built_in_atlas();
-    MushroomOrder order = order_of(static_cast<int>(2 * state.range(0)));
-    if (state.range(1) == 1) order.mix = {{"amanita_muscaria", 1000}};
+    MushroomSpec spec = order_of(static_cast<int>(2 * state.range(0)));
+    if (state.range(1) == 1) spec.mix = {{"amanita_muscaria", 1000}};
     for (auto _ : state) {
         state.PauseTiming();
         auto memory = std::make_unique<Everything>();
         state.ResumeTiming();
         for (int step = 1; step <= 64; ++step) {
-            order.params.age = step / 64.0;
+            spec.params.age = step / 64.0;
             benchmark::DoNotOptimize(
-                grow_mushroom(order, *atlas, {"/v1/bench", {}}, memory->workshop));
+                grow_mushroom(spec, *atlas, {"/v1/bench", {}}, memory->execution));
         }
         state.PauseTiming();
         memory.reset();

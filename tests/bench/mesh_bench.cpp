@@ -12,31 +12,31 @@ namespace {
 
 using namespace sporeprint;
 
-MushroomOrder order_of(const std::string& id, int lod) {
-    MushroomOrder order;
-    order.mix.push_back({id});
-    order.params.lod = lod;
-    order.params.textures = Textures::linked;  // texture coordinates and tangents, no painting
-    return order;
+MushroomSpec order_of(const std::string& id, int lod) {
+    MushroomSpec spec;
+    spec.mix.push_back({id});
+    spec.params.lod = lod;
+    spec.params.textures = Textures::linked;  // texture coordinates and tangents, no painting
+    return spec;
 }
 
 void mesh(benchmark::State& state, const std::string& id, int lod) {
     const auto atlas = built_in_atlas();
-    const MushroomOrder order = order_of(id, lod);
-    const Individual individual = resolve(order, *atlas);
+    const MushroomSpec spec = order_of(id, lod);
+    const Individual individual = resolve(spec, *atlas);
     std::size_t triangles = 0;
     for (auto _ : state) {
-        const Mesh made = mushroom_mesh(order, individual);
-        triangles = made.triangles();
-        benchmark::DoNotOptimize(made.positions.data());
+        const Mesh generated = mushroom_mesh(spec, individual);
+        triangles = generated.triangles();
+        benchmark::DoNotOptimize(generated.positions.data());
     }
     state.counters["triangles"] = static_cast<double>(triangles);
 }
 
 void resolved(benchmark::State& state, const std::string& id) {
     const auto atlas = built_in_atlas();
-    const MushroomOrder order = order_of(id, 0);
-    for (auto _ : state) benchmark::DoNotOptimize(resolve(order, *atlas));
+    const MushroomSpec spec = order_of(id, 0);
+    for (auto _ : state) benchmark::DoNotOptimize(resolve(spec, *atlas));
 }
 
 void outlined(benchmark::State& state, const std::string& id) {
@@ -48,11 +48,11 @@ void outlined(benchmark::State& state, const std::string& id) {
 
 void packed(benchmark::State& state, const std::string& id) {
     const auto atlas = built_in_atlas();
-    const MushroomOrder order = order_of(id, 0);
-    const Mesh made = mushroom_mesh(order, resolve(order, *atlas));
+    const MushroomSpec spec = order_of(id, 0);
+    const Mesh generated = mushroom_mesh(spec, resolve(spec, *atlas));
     const GlbParts parts{
         .name = id, .images = nullptr, .image_addresses = {"a", "b", "c"}, .extras_json = "{}"};
-    for (auto _ : state) benchmark::DoNotOptimize(glb(made, parts));
+    for (auto _ : state) benchmark::DoNotOptimize(glb(generated, parts));
 }
 
 [[maybe_unused]] const bool registered = [] {

@@ -74,44 +74,44 @@ void mixed_outline(benchmark::State& state, const std::vector<std::string>& ids)
     for (auto _ : state) benchmark::DoNotOptimize(Outline(set.nodes(weights)));
 }
 
-MushroomOrder pair_of(const std::string& a, const std::string& b, int lod) {
-    MushroomOrder order;
-    order.mix = {{a, 500}, {b, 500}};
-    order.params.lod = lod;
-    return order;
+MushroomSpec pair_of(const std::string& a, const std::string& b, int lod) {
+    MushroomSpec spec;
+    spec.mix = {{a, 500}, {b, 500}};
+    spec.params.lod = lod;
+    return spec;
 }
 
 /// Everything that a mix of a pair never seen before needs decided, correspondence and proof included.
 void new_pair(benchmark::State& state, const std::string& a, const std::string& b) {
     const auto atlas = built_in_atlas();
-    const MushroomOrder order = pair_of(a, b, 0);
-    for (auto _ : state) benchmark::DoNotOptimize(resolve(order, *atlas));
+    const MushroomSpec spec = pair_of(a, b, 0);
+    for (auto _ : state) benchmark::DoNotOptimize(resolve(spec, *atlas));
 }
 
 /// A drag of the weight: correspondence and images from the cache, everything else anew.
 void dragged(benchmark::State& state, const std::string& a, const std::string& b, int lod) {
     const auto atlas = built_in_atlas();
-    MushroomOrder order = pair_of(a, b, lod);
+    MushroomSpec spec = pair_of(a, b, lod);
     std::shared_ptr<const ImageSet> images;
     std::map<std::string, std::shared_ptr<const MorphSet>> morphs;
-    Workshop workshop;
-    workshop.memo.images = [&](const std::string&, const auto& make) {
+    ExecutionContext execution;
+    execution.caches.images = [&](const std::string&, const auto& make) {
         if (!images) images = make();
         return images;
     };
-    workshop.memo.morphs = [&](const std::string& key, const auto& make) {
+    execution.caches.morphs = [&](const std::string& key, const auto& make) {
         // A mix whose lesser part is not worth a sixty-fourth is painted as a lone species: another set.
-        std::shared_ptr<const MorphSet>& kept = morphs[key];
-        if (!kept) kept = make();
-        return kept;
+        std::shared_ptr<const MorphSet>& cached = morphs[key];
+        if (!cached) cached = make();
+        return cached;
     };
-    (void)grow_mushroom(order, *atlas, {"/v1/bench", {}}, workshop);
+    (void)grow_mushroom(spec, *atlas, {"/v1/bench", {}}, execution);
     int t = 1;
     for (auto _ : state) {
-        order.mix[0].weight = 1000 - t;
-        order.mix[1].weight = t;
+        spec.mix[0].weight = 1000 - t;
+        spec.mix[1].weight = t;
         t = t < 999 ? t + 1 : 1;
-        benchmark::DoNotOptimize(grow_mushroom(order, *atlas, {"/v1/bench", {}}, workshop));
+        benchmark::DoNotOptimize(grow_mushroom(spec, *atlas, {"/v1/bench", {}}, execution));
     }
 }
 

@@ -11,54 +11,54 @@ namespace {
 
 using namespace sporeprint;
 
-MushroomOrder order_of(const std::string& id, int side) {
-    MushroomOrder order;
-    order.mix.push_back({id});
-    order.params.texture_size.value = side;
-    return order;
+MushroomSpec order_of(const std::string& id, int side) {
+    MushroomSpec spec;
+    spec.mix.push_back({id});
+    spec.params.texture_size.value = side;
+    return spec;
 }
 
 void cold(benchmark::State& state, const std::string& id, int side) {
     const auto atlas = built_in_atlas();
-    MushroomOrder order = order_of(id, side);
+    MushroomSpec spec = order_of(id, side);
     std::size_t bytes = 0;
     for (auto _ : state) {
-        ++order.params.seed;
-        const Mushroom made = grow_mushroom(order, *atlas, {"/v1/bench", {}});
-        bytes = size_of(made.glb);
+        ++spec.params.seed;
+        const Mushroom generated = grow_mushroom(spec, *atlas, {"/v1/bench", {}});
+        bytes = size_of(generated.glb);
     }
     state.counters["bytes"] = static_cast<double>(bytes);
 }
 
 void shape_only(benchmark::State& state, const std::string& id) {
     const auto atlas = built_in_atlas();
-    MushroomOrder order = order_of(id, 1024);
-    std::shared_ptr<const ImageSet> kept;
+    MushroomSpec spec = order_of(id, 1024);
+    std::shared_ptr<const ImageSet> cached;
     std::shared_ptr<const MorphSet> morphs;
-    Workshop workshop;
-    workshop.memo.morphs = [&](const std::string&, const auto& make) {
+    ExecutionContext execution;
+    execution.caches.morphs = [&](const std::string&, const auto& make) {
         if (!morphs) morphs = make();
         return morphs;
     };
-    workshop.memo.images = [&](const std::string&, const auto& make) {
-        if (!kept) kept = make();
-        return kept;
+    execution.caches.images = [&](const std::string&, const auto& make) {
+        if (!cached) cached = make();
+        return cached;
     };
-    (void)grow_mushroom(order, *atlas, {"/v1/bench", {}}, workshop);
+    (void)grow_mushroom(spec, *atlas, {"/v1/bench", {}}, execution);
     double bend = 0.0;
     for (auto _ : state) {
-        order.params.deformation.bend_deg = bend = bend > 20.0 ? 0.0 : bend + 0.01;
-        benchmark::DoNotOptimize(grow_mushroom(order, *atlas, {"/v1/bench", {}}, workshop));
+        spec.params.deformation.bend_deg = bend = bend > 20.0 ? 0.0 : bend + 0.01;
+        benchmark::DoNotOptimize(grow_mushroom(spec, *atlas, {"/v1/bench", {}}, execution));
     }
 }
 
 void without_images(benchmark::State& state, const std::string& id) {
     const auto atlas = built_in_atlas();
-    MushroomOrder order = order_of(id, 1024);
-    order.params.textures = Textures::none;
+    MushroomSpec spec = order_of(id, 1024);
+    spec.params.textures = Textures::none;
     for (auto _ : state) {
-        ++order.params.seed;
-        benchmark::DoNotOptimize(grow_mushroom(order, *atlas, {"/v1/bench", {}}));
+        ++spec.params.seed;
+        benchmark::DoNotOptimize(grow_mushroom(spec, *atlas, {"/v1/bench", {}}));
     }
 }
 

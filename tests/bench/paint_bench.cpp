@@ -116,10 +116,10 @@ void paint_pixels_with(benchmark::State& state, const std::string& simd) {
 
 // A species of the atlas with every effect of weathering at one amount, painted and encoded.
 void paint_weathered(benchmark::State& state, const std::string& id, double amount) {
-    MushroomOrder order;
-    order.mix.push_back({id});
-    order.params.texture_size.value = 512;
-    PaintParams params = paint_recipe(order, *built_in_atlas()).front().painting;
+    MushroomSpec spec;
+    spec.mix.push_back({id});
+    spec.params.texture_size.value = 512;
+    PaintParams params = paint_spec_of(spec, *built_in_atlas()).front().painting;
     PaintedWeathering<Plain>::fields(
         [&](auto effect, const Info&) { params.weathering.*effect = amount; });
     for (auto _ : state) benchmark::DoNotOptimize(paint(params).bytes());

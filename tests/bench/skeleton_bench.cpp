@@ -26,7 +26,7 @@ Skeleton roots(std::uint32_t nodes) {
             {skeleton.nodes[parent].place +
                  0.08 * glm::dvec3(std::cos(headings.back()), 0.0, std::sin(headings.back())),
              0.01});
-        skeleton.limbs.push_back({parent, i});
+        skeleton.segments.push_back({parent, i});
     }
     return skeleton;
 }
@@ -35,9 +35,9 @@ void skin_of_roots(benchmark::State& state) {
     const Skeleton skeleton = roots(static_cast<std::uint32_t>(state.range(0)));
     std::size_t triangles = 0;
     for (auto _ : state) {
-        const SkinnedSkeleton made = skinned(cleaned(skeleton).skeleton, 2);
-        triangles = made.mesh.triangles();
-        benchmark::DoNotOptimize(made.mesh.positions.data());
+        const SkinnedSkeleton generated = skinned(cleaned(skeleton).skeleton, 2);
+        triangles = generated.mesh.triangles();
+        benchmark::DoNotOptimize(generated.mesh.positions.data());
     }
     state.counters["triangles"] = static_cast<double>(triangles);
     state.SetComplexityN(state.range(0));
@@ -54,9 +54,10 @@ void skeleton_to_glb(benchmark::State& state) {
     const Skeleton skeleton = roots(static_cast<std::uint32_t>(state.range(0)));
     std::size_t bytes = 0;
     for (auto _ : state) {
-        const SkinnedSkeleton made = skinned(cleaned(skeleton).skeleton, 2, SkinPlaces::left_out);
-        bytes =
-            size_of(glb(made.mesh, {.name = "roots", .image_addresses = {}, .extras_json = ""}));
+        const SkinnedSkeleton generated =
+            skinned(cleaned(skeleton).skeleton, 2, SkinPlaces::left_out);
+        bytes = size_of(
+            glb(generated.mesh, {.name = "roots", .image_addresses = {}, .extras_json = ""}));
     }
     state.counters["bytes"] = static_cast<double>(bytes);
 }

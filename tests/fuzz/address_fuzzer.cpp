@@ -7,7 +7,7 @@
 #include <string_view>
 #include <variant>
 
-#include "api/answers.h"
+#include "api/http/response_builder.h"
 #include "api/service.h"
 #include "core/atlas/atlas.h"
 #include "tests/fuzz/expect.h"
@@ -21,8 +21,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     };
     const std::string target = '/' + std::string(reinterpret_cast<const char*>(data), size);
     const auto plan = ask("GET", target);
-    if (const auto* answer = std::get_if<api::Answer>(&plan)) {
-        expect(answer->status >= 200 && answer->status < 500, "no address is the server's fault");
+    if (const auto* response = std::get_if<api::Response>(&plan)) {
+        expect(response->status >= 200 && response->status < 500,
+               "no address is the server's fault");
         return 0;
     }
     const api::Key key = std::get<api::Job>(plan).key;
@@ -30,18 +31,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
 
     // HEAD is answered without work, and says the canonical address.
     const auto head = ask("HEAD", target);
-    const auto* answer = std::get_if<api::Answer>(&head);
-    if (answer == nullptr) return 0;  // a document whose length is not known yet
-    expect(answer->status == 200, "HEAD of what GET would make");
-    const std::string canonical(api::header_of(*answer, "Content-Location"));
+    const auto* response = std::get_if<api::Response>(&head);
+    if (response == nullptr) return 0;  // a document whose length is not known yet
+    expect(response->status == 200, "HEAD of what GET would make");
+    const std::string canonical(api::header_of(*response, "Content-Location"));
     if (canonical.empty()) return 0;
     const auto again = ask("GET", canonical);
     const auto* job = std::get_if<api::Job>(&again);
     expect(job != nullptr && job->key == key, "the canonical address means the same");
     const auto own = ask("HEAD", canonical);
-    expect(api::header_of(std::get<api::Answer>(own), "Content-Location") == canonical,
+    expect(api::header_of(std::get<api::Response>(own), "Content-Location") == canonical,
            "and is its own canonical address");
-    expect(api::header_of(std::get<api::Answer>(own), "ETag") == api::header_of(*answer, "ETag"),
-           "with the same tag");
+    expect(
+        api::header_of(std::get<api::Response>(own), "ETag") == api::header_of(*response, "ETag"),
+        "with the same tag");
     return 0;
 }

@@ -5,11 +5,11 @@
 #include <string>
 #include <string_view>
 
-#include "api/colonies.h"
-#include "api/morphs.h"
-#include "api/mushrooms.h"
-#include "api/presets.h"
-#include "api/query.h"
+#include "api/http/query.h"
+#include "api/products/colonies.h"
+#include "api/products/morphs.h"
+#include "api/products/mushrooms.h"
+#include "api/products/presets.h"
 #include "core/atlas/atlas.h"
 #include "core/params/reader.h"
 #include "tests/fuzz/expect.h"
@@ -18,106 +18,106 @@ using namespace sporeprint;
 
 namespace {
 
-std::string key(const MushroomOrder& order, const Atlas& atlas) {
-    return api::key_of(order, api::Product::glb, api::version_token(order.mix, atlas));
+std::string key(const MushroomSpec& spec, const Atlas& atlas) {
+    return api::key_of(spec, api::Product::glb, api::version_token(spec.mix, atlas));
 }
 
 void read_as_mushroom(std::string_view text, const Atlas& atlas) {
-    api::Faults faults;
-    const MushroomOrder order = api::read_mushroom(text, atlas, faults).order;
-    if (!faults.empty()) return;
-    Value own = write(order.params);
-    if (order.model) {
+    api::ValidationErrors errors;
+    const MushroomSpec spec = api::read_mushroom(text, atlas, errors).spec;
+    if (!errors.empty()) return;
+    Value own = write(spec.params);
+    if (spec.model) {
         // What is left out is looked at when the individual is decided.
         std::vector<Problem> problems;
-        check(*order.model, Info{.name = ""}, "/model", problems);
+        check(*spec.model, Info{.name = ""}, "/model", problems);
         if (!problems.empty()) return;
-        own.set("model", write(*order.model));
+        own.set("model", write(*spec.model));
     } else {
         Value mix = Value::object();
         int sum = 0;
-        for (const MixPart& part : order.mix) {
+        for (const MixPart& part : spec.mix) {
             mix.set(part.id, part.weight);
             sum += part.weight;
         }
         expect(sum == 1000, "weights sum to a thousand");
         own.set("mix", std::move(mix));
     }
-    api::Faults none;
-    const MushroomOrder again = api::read_mushroom(dump(own), atlas, none).order;
-    expect(none.empty() && key(again, atlas) == key(order, atlas),
+    api::ValidationErrors none;
+    const MushroomSpec again = api::read_mushroom(dump(own), atlas, none).spec;
+    expect(none.empty() && key(again, atlas) == key(spec, atlas),
            "an order reads back from its own text");
 }
 
 void read_as_morph(std::string_view text, const Atlas& atlas) {
     const api::SpeciesPair pair = {atlas.entries()[0].species.id.string(),
                                    atlas.entries()[1].species.id.string()};
-    api::Faults faults;
-    const MushroomOrder order = api::read_morph(pair, text, faults).order;
-    if (!faults.empty()) return;
-    Value own = write(order.params);
+    api::ValidationErrors errors;
+    const MushroomSpec spec = api::read_morph(pair, text, errors).spec;
+    if (!errors.empty()) return;
+    Value own = write(spec.params);
     double t = 0.0;
-    for (const MixPart& part : order.mix)
+    for (const MixPart& part : spec.mix)
         if (part.id == pair[1]) t = part.weight / 1000.0;
     own.set("t", t);
-    own.set("arcs", write(order.arcs));
-    api::Faults none;
-    const MushroomOrder again = api::read_morph(pair, dump(own), none).order;
-    expect(none.empty() && key(again, atlas) == key(order, atlas),
+    own.set("arcs", write(spec.arcs));
+    api::ValidationErrors none;
+    const MushroomSpec again = api::read_morph(pair, dump(own), none).spec;
+    expect(none.empty() && key(again, atlas) == key(spec, atlas),
            "a morph reads back from its own text");
 
     // Seen from the other species it is the same.
     Value mirrored = Value::array();
-    for (Arc arc : order.arcs) {
+    for (Arc arc : spec.arcs) {
         std::swap(arc.a, arc.b);
         mirrored.push(write(arc));
     }
     own.set("t", (1000 - static_cast<int>(t * 1000.0 + 0.5)) / 1000.0);
     own.set("arcs", std::move(mirrored));
-    const MushroomOrder other = api::read_morph({pair[1], pair[0]}, dump(own), none).order;
-    expect(none.empty() && key(other, atlas) == key(order, atlas),
+    const MushroomSpec other = api::read_morph({pair[1], pair[0]}, dump(own), none).spec;
+    expect(none.empty() && key(other, atlas) == key(spec, atlas),
            "a morph is the same from either side");
 }
 
 void read_as_colony(std::string_view text, const Atlas& atlas) {
-    const auto key = [&](const ColonyOrder& one) {
+    const auto key = [&](const ColonySpec& one) {
         return api::key_of(one, api::Product::glb, api::version_token(one.mix, atlas));
     };
-    api::Faults faults;
-    const ColonyOrder order = api::read_colony(text, atlas, faults).order;
-    if (!faults.empty()) return;
-    Value own = write(order.params);
+    api::ValidationErrors errors;
+    const ColonySpec spec = api::read_colony(text, atlas, errors).spec;
+    if (!errors.empty()) return;
+    Value own = write(spec.params);
     Value mix = Value::object();
-    for (const MixPart& part : order.mix) mix.set(part.id, part.weight);
+    for (const MixPart& part : spec.mix) mix.set(part.id, part.weight);
     own.set("mix", std::move(mix));
-    api::Faults none;
-    const ColonyOrder again = api::read_colony(dump(own), atlas, none).order;
-    expect(none.empty() && key(again) == key(order), "a colony reads back from its own text");
+    api::ValidationErrors none;
+    const ColonySpec again = api::read_colony(dump(own), atlas, none).spec;
+    expect(none.empty() && key(again) == key(spec), "a colony reads back from its own text");
 }
 
 template <class Kind>
 void read_as(std::string_view text) {
     using Order = typename Kind::Order;
-    api::Faults faults;
-    const Order order = api::read_preset<Kind>(text, faults).order;
-    if (!faults.empty()) return;
+    api::ValidationErrors errors;
+    const Order spec = api::read_preset<Kind>(text, errors).spec;
+    if (!errors.empty()) return;
     const auto key = [](const Order& one) {
         return api::key_of<Kind>(one, api::Product::glb, "v");
     };
-    Value own = write(order.params);
+    Value own = write(spec.params);
     // Rows that are not there ask for no matrix.
     if (const Value* rows = own.find("rows"); rows && rows->items().empty()) own.erase("rows");
-    own.set("preset", order.preset);
-    api::Faults none;
-    const Order again = api::read_preset<Kind>(dump(own), none).order;
-    expect(none.empty() && key(again) == key(order), "it reads back from its own text");
+    own.set("preset", spec.preset);
+    api::ValidationErrors none;
+    const Order again = api::read_preset<Kind>(dump(own), none).spec;
+    expect(none.empty() && key(again) == key(spec), "it reads back from its own text");
     // And from its address, where it has one.
-    const std::string address = api::canonical_address<Kind>(order, api::Product::glb);
+    const std::string address = api::canonical_address<Kind>(spec, api::Product::glb);
     if (address.empty()) return;
     std::vector<Problem> problems;
     const api::Target target = api::split_target(address, problems);
-    const Order there = api::read_preset<Kind>(order.preset, target.query, none).order;
-    expect(problems.empty() && none.empty() && key(there) == key(order),
+    const Order there = api::read_preset<Kind>(spec.preset, target.query, none).spec;
+    expect(problems.empty() && none.empty() && key(there) == key(spec),
            "it reads back from its address");
 }
 

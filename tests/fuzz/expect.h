@@ -4,8 +4,8 @@
 #include <cstdio>
 #include <cstdlib>
 
-inline void expect(bool kept, const char* promise) {
-    if (kept) return;
+inline void expect(bool cached, const char* promise) {
+    if (cached) return;
     std::fprintf(stderr, "broken promise: %s\n", promise);
     std::abort();
 }

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <string_view>
 
-#include "server/head.h"
-#include "server/hot_table.h"
+#include "server/http/head.h"
+#include "server/http/hot_table.h"
 #include "tests/fuzz/expect.h"
 
 using namespace sporeprint::server;
@@ -53,9 +53,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         }
         expect(lengths <= 1 && (lengths == 1) == head.content_length.has_value(),
                "one length, or none");
-        const HotQuestion question = hot_question(head);
-        expect(!question.simple || ((head.method == "GET" || head.method == "HEAD") &&
-                                    head.content_length.value_or(0) == 0),
+        const HotLookup lookup = hot_lookup(head);
+        expect(!lookup.simple || ((head.method == "GET" || head.method == "HEAD") &&
+                                  head.content_length.value_or(0) == 0),
                "a simple question has no body");
         rest.remove_prefix(scan.used);
     }

@@ -4,9 +4,9 @@
 #include <cstdint>
 #include <string_view>
 
-#include "api/errors.h"
-#include "api/mix.h"
-#include "api/query.h"
+#include "api/http/errors.h"
+#include "api/http/query.h"
+#include "api/products/mix.h"
 #include "core/atlas/atlas.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/params/canonical.h"
@@ -22,10 +22,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     std::vector<Problem> problems;
     const api::Target target = api::split_target(text, problems);
     if (!target.segments.empty()) {
-        api::Faults faults;
-        const Mix mix = api::read_mix(std::string_view(target.segments.back()), *atlas, faults);
+        api::ValidationErrors errors;
+        const Mix mix = api::read_mix(std::string_view(target.segments.back()), *atlas, errors);
         if (!mix.empty()) {
-            api::Faults none;
+            api::ValidationErrors none;
             const Mix again = api::read_mix(std::string_view(api::mix_text(mix)), *atlas, none);
             expect(again == mix, "a canonical mix is its own canonical form");
         }

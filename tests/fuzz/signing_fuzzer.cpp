@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "core/problems.h"
-#include "server/signatures.h"
+#include "server/operations/signatures.h"
 #include "tests/fuzz/expect.h"
 
 using namespace sporeprint;
@@ -29,9 +29,9 @@ void read_keys(std::string_view text) {
         const Signatures keys = Signatures::from_text("keys", file);
         expect(keys.check("GET", keys.signed_target("GET", "/", "", std::nullopt), "", now).good,
                "keys that are taken sign");
-    } catch (const InvalidInput& faults) {
-        expect(!faults.problems().empty(), "keys are refused with a reason");
-        for (const Problem& problem : faults.problems())
+    } catch (const InvalidInput& errors) {
+        expect(!errors.problems().empty(), "keys are refused with a reason");
+        for (const Problem& problem : errors.problems())
             expect((problem.path + problem.message).find(secret_hex) == std::string::npos,
                    "no secret is told");
     }
@@ -58,19 +58,19 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (const std::string_view method : {"GET", "POST"})
         for (const std::optional<std::int64_t> expires :
              {std::optional<std::int64_t>{}, std::optional(now + 1)}) {
-            const std::string made = signatures.signed_target(method, target, body, expires);
-            const Checked good = signatures.check(method, made, body, now);
+            const std::string generated = signatures.signed_target(method, target, body, expires);
+            const Checked good = signatures.check(method, generated, body, now);
             expect(good.good && good.expires == expires.has_value(), "what was signed is good");
             expect(good.target == target, "and is what was signed");
-            expect(!expires || !signatures.check(method, made, body, now + 1).good,
+            expect(!expires || !signatures.check(method, generated, body, now + 1).good,
                    "until it ends");
-            expect(!signatures.check(method == "GET" ? "POST" : "GET", made, body, now).good,
+            expect(!signatures.check(method == "GET" ? "POST" : "GET", generated, body, now).good,
                    "by its own method");
-            std::string other = made;
+            std::string other = generated;
             other[size % other.size()] = static_cast<char>(other[size % other.size()] ^ 1);
             expect(!signatures.check(method, other, body, now).good, "and no other address is");
             if (method == "POST")
-                expect(!signatures.check(method, made, std::string(body) + 'x', now).good,
+                expect(!signatures.check(method, generated, std::string(body) + 'x', now).good,
                        "nor another body");
         }
     return 0;

@@ -73,19 +73,19 @@ std::string line_of(const std::string& id, double age, int lod, int side) {
 }
 
 /// Returns the order of a species or mix, painted small.
-MushroomOrder order_of(Mix mix, double age, int lod, int side = small_side) {
-    MushroomOrder order{.mix = std::move(mix), .model = {}, .params = {}};
-    order.params.age = age;
-    order.params.lod = lod;
-    order.params.texture_size.value = side;
-    return order;
+MushroomSpec order_of(Mix mix, double age, int lod, int side = small_side) {
+    MushroomSpec spec{.mix = std::move(mix), .model = {}, .params = {}};
+    spec.params.age = age;
+    spec.params.lod = lod;
+    spec.params.texture_size.value = side;
+    return spec;
 }
 
 /// Adds a mushroom under the name `called`.
 void add_mushroom(Requests& requests, const std::shared_ptr<const Atlas>& atlas,
-                  const std::string& called, const MushroomOrder& order) {
-    requests[line_of(called, order.params.age, order.params.lod, order.params.texture_size.value)] =
-        [order, atlas] { return grow_mushroom(order, *atlas).glb; };
+                  const std::string& called, const MushroomSpec& spec) {
+    requests[line_of(called, spec.params.age, spec.params.lod, spec.params.texture_size.value)] =
+        [spec, atlas] { return grow_mushroom(spec, *atlas).glb; };
 }
 
 /// Adds each species at several ages and every level of detail, small; and once as a game would ask for it.
@@ -145,10 +145,10 @@ void add_morphs(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
     for (const auto& [a, b] : pairs)
         for (const int weight : {1, 250, 500, 750, 999})
             for (const int lod : {0, 2}) {
-                const MushroomOrder order = order_of({{a, 1000 - weight}, {b, weight}}, 0.6, lod);
+                const MushroomSpec spec = order_of({{a, 1000 - weight}, {b, weight}}, 0.6, lod);
                 requests[line_of(std::string("morph/") + a + '~' + b, weight / 1000.0, lod,
-                                 small_side)] = [order, atlas] {
-                    return grow_mushroom(order, *atlas).glb;
+                                 small_side)] = [spec, atlas] {
+                    return grow_mushroom(spec, *atlas).glb;
                 };
             }
 }
@@ -156,11 +156,11 @@ void add_morphs(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
 /// Adds the growth clip of each species and of some mixes, with few and many frames.
 void add_clips(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
     const auto add = [&](const Mix& mix, double age, int lod, int frames) {
-        MushroomOrder order = order_of(mix, age, lod);
-        order.params.animation = Animation::growth;
-        order.params.frames = frames;
+        MushroomSpec spec = order_of(mix, age, lod);
+        spec.params.animation = Animation::growth;
+        spec.params.frames = frames;
         const std::string whose = mix.size() == 1 ? mix.front().id : name_of(mix);
-        add_mushroom(requests, atlas, "clip/" + whose + '/' + std::to_string(frames), order);
+        add_mushroom(requests, atlas, "clip/" + whose + '/' + std::to_string(frames), spec);
     };
     for (const AtlasEntry& entry : atlas->entries()) {
         const std::string id = entry.species.id.string();
@@ -185,10 +185,10 @@ void add_weathering(Requests& requests, const std::shared_ptr<const Atlas>& atla
         for (const char* id : species)
             for (const double strength : {0.5, 1.0})
                 for (const int lod : {0, 2}) {
-                    MushroomOrder order = order_of({{id, 1000}}, 0.85, lod);
-                    order.params.weathering.*effect = strength;
+                    MushroomSpec spec = order_of({{id, 1000}}, 0.85, lod);
+                    spec.params.weathering.*effect = strength;
                     try {
-                        static_cast<void>(estimate(order, *atlas));
+                        static_cast<void>(estimate(spec, *atlas));
                     } catch (const InvalidInput&) {
                         continue;  // This species cannot have the effect.
                     }
@@ -196,7 +196,7 @@ void add_weathering(Requests& requests, const std::shared_ptr<const Atlas>& atla
                     add_mushroom(requests, atlas,
                                  std::string("weathering/") + std::string(info.name) + '/' +
                                      number_text(strength) + '/' + id,
-                                 order);
+                                 spec);
                 }
         if (!found)
             throw std::logic_error("no species of the list can have " + std::string(info.name));
@@ -208,12 +208,12 @@ void add_leaves(Requests& requests) {
     for (const LeafPreset& preset : leaf_presets())
         for (const double autumn : {0.0, 0.5, 1.0})
             for (int lod = 0; lod < leaf_lods; ++lod) {
-                LeafOrder order{preset.id, params_of(preset)};
-                order.params.autumn = autumn;
-                order.params.lod = lod;
-                order.params.texture_size.value = small_side;
+                LeafSpec spec{preset.id, params_of(preset)};
+                spec.params.autumn = autumn;
+                spec.params.lod = lod;
+                spec.params.texture_size.value = small_side;
                 requests[line_of(std::string("leaf/") + preset.id, autumn, lod, small_side)] =
-                    [order] { return grow_leaf(order).glb; };
+                    [spec] { return grow_leaf(spec).glb; };
             }
 }
 
@@ -222,12 +222,12 @@ void add_trees(Requests& requests) {
     for (const TreePreset& preset : tree_presets())
         for (const std::uint32_t seed : {1u, 2u, 3u})
             for (int lod = 0; lod < tree_lods; ++lod) {
-                TreeOrder order{preset.id, params_of(preset)};
-                order.params.seed = seed;
-                order.params.lod = lod;
-                order.params.texture_size.value = small_side;
+                TreeSpec spec{preset.id, params_of(preset)};
+                spec.params.seed = seed;
+                spec.params.lod = lod;
+                spec.params.texture_size.value = small_side;
                 requests[line_of(std::string("tree/") + preset.id, seed, lod, small_side)] =
-                    [order] { return grow_tree(order).glb; };
+                    [spec] { return grow_tree(spec).glb; };
             }
 }
 
@@ -274,24 +274,24 @@ Requests golden_requests() {
 /// Grows every golden request, on all processors. A request that cannot be grown has its error in place of a hash.
 Hashes hashes_of_this_build() {
     const Requests requests = golden_requests();
-    std::vector<Requests::const_iterator> order;
-    for (auto at = requests.begin(); at != requests.end(); ++at) order.push_back(at);
+    std::vector<Requests::const_iterator> spec;
+    for (auto at = requests.begin(); at != requests.end(); ++at) spec.push_back(at);
     Hashes hashes;
     std::mutex mutex;
     std::atomic<std::size_t> next = 0;
     const auto work = [&] {
-        for (std::size_t i = next++; i < order.size(); i = next++) {
+        for (std::size_t i = next++; i < spec.size(); i = next++) {
             std::string hash;
             try {
-                hash = hash_of(order[i]->second());
+                hash = hash_of(spec[i]->second());
             } catch (const std::exception& error) {
                 hash = std::string("error:") + error.what();
                 std::replace(hash.begin(), hash.end(), ' ', '_');
             }
             const std::lock_guard lock(mutex);
-            hashes[order[i]->first] = hash;
+            hashes[spec[i]->first] = hash;
             if (hashes.size() % 100 == 0)
-                std::fprintf(stderr, "[%zu/%zu]\n", hashes.size(), order.size());
+                std::fprintf(stderr, "[%zu/%zu]\n", hashes.size(), spec.size());
         }
     };
     {
@@ -381,30 +381,30 @@ void draw_overrides(T& value, const Info& info, Random& random) {
     }
 }
 
-MushroomOrder random_order(std::uint32_t number, const Atlas& atlas) {
+MushroomSpec random_order(std::uint32_t number, const Atlas& atlas) {
     Random random(number, 0x68617368);
     const auto& entries = atlas.entries();
     const auto any_species = [&] { return entries[random.bits() % entries.size()].species.id; };
 
-    MushroomOrder order;
-    order.mix.push_back({std::string(any_species().view()), 1000});
-    order.params.seed = random.bits();
-    order.params.age = random.uniform();
-    order.params.size = random.uniform(0.25, 4.0);
-    order.params.variation = random.uniform();
-    order.params.lod = static_cast<int>(random.bits() % 4);
-    order.params.texture_size.value = 128;
+    MushroomSpec spec;
+    spec.mix.push_back({std::string(any_species().view()), 1000});
+    spec.params.seed = random.bits();
+    spec.params.age = random.uniform();
+    spec.params.size = random.uniform(0.25, 4.0);
+    spec.params.variation = random.uniform();
+    spec.params.lod = static_cast<int>(random.bits() % 4);
+    spec.params.texture_size.value = 128;
     const std::uint32_t textures = random.bits() % 8;
-    if (textures == 0) order.params.textures = Textures::none;
-    if (random.bits() % 2 == 0) draw_overrides(order.params, Info{.name = ""}, random);
-    return order;
+    if (textures == 0) spec.params.textures = Textures::none;
+    if (random.bits() % 2 == 0) draw_overrides(spec.params, Info{.name = ""}, random);
+    return spec;
 }
 
 /// Prints the line of one request and returns whether a mushroom was grown.
-bool print_line(const MushroomOrder& order, const Atlas& atlas) {
-    const std::string request = order.mix.front().id + '?' + query_text(order.params);
+bool print_line(const MushroomSpec& spec, const Atlas& atlas) {
+    const std::string request = spec.mix.front().id + '?' + query_text(spec.params);
     try {
-        const Mushroom mushroom = grow_mushroom(order, atlas);
+        const Mushroom mushroom = grow_mushroom(spec, atlas);
         std::printf("%s %8zu  %s\n", hash_of(mushroom.glb).c_str(), size_of(mushroom.glb),
                     request.c_str());
         return true;
@@ -418,8 +418,8 @@ bool print_line(const MushroomOrder& order, const Atlas& atlas) {
 void print_leaf(std::uint32_t number) {
     Random random(number, 0x6c656166);
     const LeafPreset& preset = leaf_presets()[number % leaf_presets().size()];
-    LeafOrder order{preset.id, params_of(preset)};
-    LeafParams& params = order.params;
+    LeafSpec spec{preset.id, params_of(preset)};
+    LeafParams& params = spec.params;
     params.seed = random.bits();
     params.variation = random.uniform();
     params.autumn = random.uniform();
@@ -432,7 +432,7 @@ void print_leaf(std::uint32_t number) {
     const std::string request =
         std::string("leaf/") + preset.id + '?' + query_text(params, params_of(preset));
     try {
-        const Grown leaf = grow_leaf(order);
+        const Grown leaf = grow_leaf(spec);
         std::printf("%s %8zu  %s\n", hash_of(leaf.glb).c_str(), size_of(leaf.glb), request.c_str());
     } catch (const InvalidInput& refusal) {
         std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
@@ -443,8 +443,8 @@ void print_leaf(std::uint32_t number) {
 void print_tree(std::uint32_t number) {
     Random random(number, 0x74726565);
     const TreePreset& preset = tree_presets()[number % tree_presets().size()];
-    TreeOrder order{preset.id, params_of(preset)};
-    TreeParams& params = order.params;
+    TreeSpec spec{preset.id, params_of(preset)};
+    TreeParams& params = spec.params;
     TreeShape& shape = params.look.shape;
     params.seed = random.bits();
     params.autumn = random.uniform();
@@ -465,7 +465,7 @@ void print_tree(std::uint32_t number) {
     const std::string request =
         std::string("tree/") + preset.id + '?' + query_text(params, params_of(preset));
     try {
-        const Grown tree = grow_tree(order);
+        const Grown tree = grow_tree(spec);
         std::printf("%s %8zu  %s\n", hash_of(tree.glb).c_str(), size_of(tree.glb), request.c_str());
     } catch (const InvalidInput& refusal) {
         std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
@@ -476,9 +476,9 @@ void print_tree(std::uint32_t number) {
 void print_colony(std::uint32_t number, const Atlas& atlas) {
     Random random(number, 0x636f6c6f);
     const auto& entries = atlas.entries();
-    ColonyOrder order;
-    order.mix = {{entries[random.bits() % entries.size()].species.id.string(), 1000}};
-    ColonyParams& params = order.params;
+    ColonySpec spec;
+    spec.mix = {{entries[random.bits() % entries.size()].species.id.string(), 1000}};
+    ColonyParams& params = spec.params;
     params.seed = random.bits();
     params.count = static_cast<int>(random.uniform(1.0, 48.0));
     params.distinct = static_cast<int>(random.uniform(1.0, 6.0));
@@ -488,9 +488,9 @@ void print_colony(std::uint32_t number, const Atlas& atlas) {
     params.texture_size.value = 128;
     if (random.bits() % 2 == 0) params.habit = static_cast<Habit>(random.bits() % 5);
     if (random.bits() % 2 == 0) params.instancing = Instancing::gpu;
-    const std::string request = "colony/" + order.mix.front().id + '?' + query_text(params);
+    const std::string request = "colony/" + spec.mix.front().id + '?' + query_text(params);
     try {
-        const Grown colony = grow_colony(order, atlas);
+        const Grown colony = grow_colony(spec, atlas);
         std::printf("%s %8zu  %s\n", hash_of(colony.glb).c_str(), size_of(colony.glb),
                     request.c_str());
     } catch (const InvalidInput& refusal) {

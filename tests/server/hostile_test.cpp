@@ -28,7 +28,7 @@ constexpr long megabyte = 32 << 20;  // shadows, and memory that is not given ba
 #else
 constexpr long megabyte = 1 << 20;
 #endif
-const std::string kept = "/v1/mushrooms/amanita_muscaria.glb?lod=3&textures=none";
+const std::string cached = "/v1/mushrooms/amanita_muscaria.glb?lod=3&textures=none";
 const std::string large = "/v1/mushrooms/amanita_muscaria.glb?lod=0&textures=none";
 const std::string smuggled = "GET /v1/smuggled HTTP/1.1\r\nHost: x\r\n\r\n";
 
@@ -44,7 +44,7 @@ class Hostile : public testing::Test {
         limit.rlim_cur = limit.rlim_max;
         setrlimit(RLIMIT_NOFILE, &limit);
         server = std::make_unique<RealServer>();
-        for (const std::string& target : {kept, large})
+        for (const std::string& target : {cached, large})
             for (int i = 0; i < 2; ++i) RawClient(port()).ask(get(target));
     }
     static void TearDownTestSuite() {
@@ -69,7 +69,7 @@ class Hostile : public testing::Test {
         const auto begun = Clock::now();
         RawClient other(port());
         EXPECT_EQ(other.ask(get("/livez")).body, "alive\n");
-        EXPECT_EQ(other.ask(get(kept)).status, 200);
+        EXPECT_EQ(other.ask(get(cached)).status, 200);
         EXPECT_EQ(other.ask(get("/v1/species?limit=nonsense")).status, 400);
         EXPECT_LT(Clock::now() - begun, 5s) << "milliseconds on a quiet machine";
     }
@@ -121,7 +121,7 @@ TEST_F(Hostile, ClientsThatDoNotReadStopNobodyAndHoldNoCopies) {
 
 TEST_F(Hostile, PipelinedRequestsAreAnsweredInOrderWhateverWayEachTakes) {
     RawClient client(port());
-    const std::vector<std::string> targets = {kept,          "/v1/nowhere", "/livez", kept,
+    const std::vector<std::string> targets = {cached,        "/v1/nowhere", "/livez", cached,
                                               "/v1/species", large,         "/readyz"};
     std::string all;
     for (int i = 0; i < 70; ++i)
@@ -129,9 +129,9 @@ TEST_F(Hostile, PipelinedRequestsAreAnsweredInOrderWhateverWayEachTakes) {
                    "X-Request-Id: n" + std::to_string(i) + "\r\n");
     std::jthread sender([&] { client.send(all); });
     for (int i = 0; i < 70; ++i) {
-        const auto answer = client.receive();
-        EXPECT_EQ(answer.header("X-Request-Id"), "n" + std::to_string(i));
-        EXPECT_EQ(answer.status, i % 7 == 1 ? 404 : 200);
+        const auto response = client.receive();
+        EXPECT_EQ(response.header("X-Request-Id"), "n" + std::to_string(i));
+        EXPECT_EQ(response.status, i % 7 == 1 ? 404 : 200);
     }
 }
 
@@ -163,7 +163,7 @@ TEST_F(Hostile, ResetsAnywhereLeaveNothingBehind) {
 
 TEST_F(Hostile, HalfClosedClientsGetWhatIsThereAndNobodyWorksForThem) {
     RawClient client(port());
-    client.send(get(kept) + get("/v1/species"));
+    client.send(get(cached) + get("/v1/species"));
     client.finish();
     EXPECT_EQ(client.receive().status, 200);
     EXPECT_EQ(client.receive().status, 200);
@@ -171,12 +171,12 @@ TEST_F(Hostile, HalfClosedClientsGetWhatIsThereAndNobodyWorksForThem) {
 
     most_growth = 256 * megabyte;  // what has begun is made
     const long left = metric("sporeprint_queue_rejected_total");
-    Clients gone;
+    Clients is_gone;
     for (int i = 0; i < 16; ++i) {
-        gone.push_back(std::make_unique<RawClient>(port()));
-        gone.back()->send(get("/v1/mushrooms/boletus_edulis.glb?texture_size=2048&seed=" +
-                              std::to_string(7000 + i)));
-        gone.back()->finish();
+        is_gone.push_back(std::make_unique<RawClient>(port()));
+        is_gone.back()->send(get("/v1/mushrooms/boletus_edulis.glb?texture_size=2048&seed=" +
+                                 std::to_string(7000 + i)));
+        is_gone.back()->finish();
     }
     for (int i = 0; i < 2000 && metric("sporeprint_queue_rejected_total") == left; ++i)
         std::this_thread::sleep_for(10ms);
@@ -234,7 +234,7 @@ TEST_F(Hostile, NoFramingSmugglesASecondRequest) {
     }
     RawClient client(port());
     EXPECT_EQ(client
-                  .ask("GET " + kept + " HTTP/1.1\r\nContent-Length: " +
+                  .ask("GET " + cached + " HTTP/1.1\r\nContent-Length: " +
                        std::to_string(smuggled.size()) + "\r\n\r\n" + smuggled)
                   .status,
               200);
@@ -278,9 +278,9 @@ TEST_F(Hostile, LongValuesReachNoRegularExpression) {
     const std::string digits(8100, '9'), document = "/v1/species";
     EXPECT_TRUE(client.ask(get(large, "Range: bytes=0-" + digits + "\r\n")).body == body);
     for (const char* range : {"bytes=", "bytes=1-", "bytes=-"}) {
-        const auto answer = client.ask(get(document, "Range: " + (range + digits) + "\r\n"));
-        EXPECT_EQ(answer.status, 200);
-        EXPECT_EQ(answer.header("Content-Range"), "");
+        const auto response = client.ask(get(document, "Range: " + (range + digits) + "\r\n"));
+        EXPECT_EQ(response.status, 200);
+        EXPECT_EQ(response.header("Content-Range"), "");
     }
 
     const std::string part =
@@ -344,11 +344,12 @@ TEST(HostileLog, UnknownMethodsAreNoFaultOfTheServer) {
     RawClient client(server.port());
     for (const char* method : {"PROPFIND", "BREW", "get", "TRACE", "M-SEARCH"}) {
         const std::string line = std::string(method) + ' ';
-        for (const std::string& path : {std::string("/v1/species"), std::string("/livez"), kept}) {
-            const auto answer = client.ask(line + path + " HTTP/1.1\r\nHost: x\r\n\r\n");
-            EXPECT_EQ(answer.status, 405) << method << ' ' << path;
-            EXPECT_TRUE(answer.header("Allow").starts_with("GET, HEAD")) << path;
-            EXPECT_EQ(answer.header("Content-Type"), "application/problem+json");
+        for (const std::string& path :
+             {std::string("/v1/species"), std::string("/livez"), cached}) {
+            const auto response = client.ask(line + path + " HTTP/1.1\r\nHost: x\r\n\r\n");
+            EXPECT_EQ(response.status, 405) << method << ' ' << path;
+            EXPECT_TRUE(response.header("Allow").starts_with("GET, HEAD")) << path;
+            EXPECT_EQ(response.header("Content-Type"), "application/problem+json");
         }
         EXPECT_EQ(
             client.ask(line + "/v1/inspect HTTP/1.1\r\nContent-Length: 1\r\n\r\nx").header("Allow"),
@@ -366,7 +367,7 @@ TEST(HostileLog, UnknownMethodsAreNoFaultOfTheServer) {
 TEST(HostileLog, ShowsNoSignature) {
     const auto log =
         std::filesystem::temp_directory_path() / ("secrets." + std::to_string(::getpid()));
-    std::ofstream(log.string() + ".list") << kept << "&key=k&sig=LISTED\n";
+    std::ofstream(log.string() + ".list") << cached << "&key=k&sig=LISTED\n";
     RealServer server(0, {"--warm", log.string() + ".list"}, log);
     RawClient client(server.port());
     for (int i = 0; i < 3; ++i) client.ask(get("/v1/species?key=k1&expires=9&sig=SECRET"));
@@ -393,12 +394,12 @@ TEST(HostileLog, SaysThatTheStoreCannotBeWrittenAndWhatIsNotItsOwn) {
     EXPECT_TRUE(server.logs("files in the store's folder that are not its own are left alone"));
     EXPECT_NE(server.log().find(name), std::string::npos);
     RawClient client(server.port());
-    EXPECT_EQ(client.ask(get(kept)).status, 200);
+    EXPECT_EQ(client.ask(get(cached)).status, 200);
     // A file in the place of the folder that files are written in stands for a disk without room.
     fs::remove_all(folder / "store" / "aside");
     std::ofstream(folder / "store" / "aside") << "x";
     for (int i = 0; i < 5; ++i)
-        EXPECT_EQ(client.ask(get(kept + "&seed=" + std::to_string(50 + i))).status, 200);
+        EXPECT_EQ(client.ask(get(cached + "&seed=" + std::to_string(50 + i))).status, 200);
     EXPECT_TRUE(server.logs("finished files cannot be written to the store"));
     const std::string text = server.log();
     EXPECT_NE(text.find("\"why\":\"Not a directory\",\"times\":1"), std::string::npos) << text;
@@ -414,25 +415,25 @@ TEST(HostileLog, SaysThatTheStoreCannotBeWrittenAndWhatIsNotItsOwn) {
 
 TEST(HostileLimits, WhoExpectsToGoOnIsToldWhatTheHeadDecides) {
     const RealServer server;
-    const auto asked = [&](const std::string& line, const std::string& type) {
+    const auto requested = [&](const std::string& line, const std::string& type) {
         return RawClient(server.port())
             .ask(line + " HTTP/1.1\r\nHost: x\r\n" + type +
                  "Expect: 100-continue\r\nContent-Length: 20\r\n\r\n")
             .status;
     };
     const std::string json = "Content-Type: application/json\r\n";
-    EXPECT_EQ(asked("POST /v1/trees.glb", json), 100);
-    EXPECT_EQ(asked("POST /v1/trees.glb", "Content-Type: application/json; charset=utf-8\r\n"),
+    EXPECT_EQ(requested("POST /v1/trees.glb", json), 100);
+    EXPECT_EQ(requested("POST /v1/trees.glb", "Content-Type: application/json; charset=utf-8\r\n"),
               100);
-    EXPECT_EQ(asked("POST /v1/trees.glb", ""), 415);
-    EXPECT_EQ(asked("POST /v1/inspect", json), 415);
-    EXPECT_EQ(asked("POST /v1/trees.glb", json + "Content-Encoding: gzip\r\n"), 415);
-    EXPECT_EQ(asked("POST /v1/nowhere", json), 404);
-    EXPECT_EQ(asked("POST /v1/%zz", json), 400);
-    EXPECT_EQ(asked("POST /v1/species", json), 405);
-    EXPECT_EQ(asked("PUT /v1/trees.glb", json), 405);
-    EXPECT_EQ(asked("POST /livez", json), 405);
-    EXPECT_EQ(asked("GET /v1/species", json), 100) << "a body that nobody reads";
+    EXPECT_EQ(requested("POST /v1/trees.glb", ""), 415);
+    EXPECT_EQ(requested("POST /v1/inspect", json), 415);
+    EXPECT_EQ(requested("POST /v1/trees.glb", json + "Content-Encoding: gzip\r\n"), 415);
+    EXPECT_EQ(requested("POST /v1/nowhere", json), 404);
+    EXPECT_EQ(requested("POST /v1/%zz", json), 400);
+    EXPECT_EQ(requested("POST /v1/species", json), 405);
+    EXPECT_EQ(requested("PUT /v1/trees.glb", json), 405);
+    EXPECT_EQ(requested("POST /livez", json), 405);
+    EXPECT_EQ(requested("GET /v1/species", json), 100) << "a body that nobody reads";
     RawClient announced(server.port());
     EXPECT_EQ(announced
                   .ask("POST /v1/trees.glb HTTP/1.1\r\n" + json +

@@ -15,7 +15,7 @@
 #include "api/service.h"
 #include "core/atlas/atlas.h"
 #include "core/math/random.h"
-#include "server/signatures.h"
+#include "server/operations/signatures.h"
 #include "tests/api/support.h"
 
 namespace sporeprint::server {
@@ -198,9 +198,9 @@ Key key_of(const api::Request& request) {
     static api::Service service(built_in_atlas(), api::ServiceOptions{});
     const auto plan = service.plan(request);
     if (const auto* job = std::get_if<api::Job>(&plan)) return job->key;
-    const auto& answer = std::get<api::Answer>(plan);
-    RC_FAIL(request.target + ' ' + request.body + ": " + std::to_string(answer.status) + ' ' +
-            api::test::text_of(answer));
+    const auto& response = std::get<api::Response>(plan);
+    RC_FAIL(request.target + ' ' + request.body + ": " + std::to_string(response.status) + ' ' +
+            api::test::text_of(response));
     return {};
 }
 
@@ -241,9 +241,9 @@ RC_GTEST_PROP(MeaningProperty, SignaturesAndTheirEndNeverEnterIt, ()) {
     for (const Signatures* by : {&signatures, &before})
         for (const std::int64_t left :
              {std::int64_t{0}, static_cast<std::int64_t>(draws.below(9999))}) {
-            const std::string made = by->signed_target(
+            const std::string generated = by->signed_target(
                 "GET", target, "", left == 0 ? std::nullopt : std::optional(now + left));
-            const Checked checked = signatures.check("GET", made, "", now);
+            const Checked checked = signatures.check("GET", generated, "", now);
             RC_ASSERT(checked.good);
             RC_ASSERT(key_of_get(checked.target) == key);
         }

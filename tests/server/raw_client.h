@@ -66,7 +66,7 @@ class RawClient {
         return true;
     }
 
-    struct Answer {
+    struct Response {
         int status = 0;  ///< 0: the connection ended without an answer
         std::vector<std::pair<std::string, std::string>> headers;
         std::string head, body;
@@ -84,34 +84,34 @@ class RawClient {
     };
 
     /// Reads one answer: as many bytes of body as its length says, none after HEAD, 204 and 304.
-    Answer receive(bool to_head = false) {
-        Answer answer;
+    Response receive(bool to_head = false) {
+        Response response;
         std::size_t end = 0;
         while ((end = buffer_.find("\r\n\r\n")) == std::string::npos)
-            if (!more()) return answer;
-        answer.head = buffer_.substr(0, end + 2);
+            if (!more()) return response;
+        response.head = buffer_.substr(0, end + 2);
         buffer_.erase(0, end + 4);
-        answer.status = std::atoi(answer.head.substr(9, 3).c_str());
-        std::size_t at = answer.head.find("\r\n") + 2;
-        while (at < answer.head.size()) {
-            const std::size_t stop = answer.head.find("\r\n", at);
-            const std::string line = answer.head.substr(at, stop - at);
+        response.status = std::atoi(response.head.substr(9, 3).c_str());
+        std::size_t at = response.head.find("\r\n") + 2;
+        while (at < response.head.size()) {
+            const std::size_t stop = response.head.find("\r\n", at);
+            const std::string line = response.head.substr(at, stop - at);
             const std::size_t colon = line.find(": ");
-            answer.headers.emplace_back(line.substr(0, colon), line.substr(colon + 2));
+            response.headers.emplace_back(line.substr(0, colon), line.substr(colon + 2));
             at = stop + 2;
         }
-        if (to_head || answer.status == 204 || answer.status == 304 || answer.status == 100)
-            return answer;
+        if (to_head || response.status == 204 || response.status == 304 || response.status == 100)
+            return response;
         const std::size_t length =
-            std::strtoull(answer.header("Content-Length").c_str(), nullptr, 10);
+            std::strtoull(response.header("Content-Length").c_str(), nullptr, 10);
         while (buffer_.size() < length)
             if (!more()) break;
-        answer.body = buffer_.substr(0, length);
+        response.body = buffer_.substr(0, length);
         buffer_.erase(0, length);
-        return answer;
+        return response;
     }
 
-    Answer ask(std::string_view request, bool to_head = false) {
+    Response ask(std::string_view request, bool to_head = false) {
         send(request);
         return receive(to_head);
     }

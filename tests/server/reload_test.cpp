@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "core/atlas/atlas.h"
-#include "server/signatures.h"
+#include "server/operations/signatures.h"
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
 
@@ -54,7 +54,7 @@ class Reload : public testing::Test {
     static std::string template_of(const std::string& id) {
         return built_in_atlas()->find(id)->json;
     }
-    RawClient::Answer ask(const RealServer& server, const std::string& target) const {
+    RawClient::Response ask(const RealServer& server, const std::string& target) const {
         return RawClient(server.port()).ask(get(target));
     }
 
@@ -80,9 +80,9 @@ TEST_F(Reload, PutsTemplatesInPlaceOfOthersAndKeepsWhatDidNotChange) {
     server.hang_up();
     EXPECT_TRUE(comes_true([&] { return kinds() == 2; }));
     EXPECT_EQ(ask(server, second).status, 200);
-    const auto kept = ask(server, first);
-    EXPECT_EQ(kept.header("ETag"), tag);
-    EXPECT_NE(kept.header("Cache-Status").find("; hit"), std::string::npos)
+    const auto cached = ask(server, first);
+    EXPECT_EQ(cached.header("ETag"), tag);
+    EXPECT_NE(cached.header("Cache-Status").find("; hit"), std::string::npos)
         << "made of templates that are as they were";
 
     std::string changed = template_of("amanita_muscaria");
@@ -127,13 +127,13 @@ TEST_F(Reload, GoesOnWhileManyAskAndNobodyNotices) {
     write("atlas/a.json", template_of("amanita_muscaria"));
     RealServer server(0, {"--atlas", folder / "atlas"}, folder / "log");
     std::atomic<bool> over{false};
-    std::atomic<int> asked{0}, wrong{0};
+    std::atomic<int> requested{0}, wrong{0};
     {
         std::vector<std::jthread> crowd;
         for (int t = 0; t < 4; ++t)
             crowd.emplace_back([&, t] {
                 RawClient client(server.port());
-                for (int i = 0; !over && i < 900; ++i, ++asked) {
+                for (int i = 0; !over && i < 900; ++i, ++requested) {
                     const std::string target =
                         i % 3 == 0 ? "/v1/species" : first + "&seed=" + std::to_string(t * 900 + i);
                     if (client.ask(get(target)).status != 200) ++wrong;
@@ -151,7 +151,7 @@ TEST_F(Reload, GoesOnWhileManyAskAndNobodyNotices) {
         }
         over = true;
     }
-    EXPECT_GT(asked, 40);
+    EXPECT_GT(requested, 40);
     EXPECT_EQ(wrong, 0);
     EXPECT_EQ(server.stop(), 0);
 }

@@ -19,10 +19,10 @@ namespace sporeprint {
 struct Keeper {
     std::map<std::string, std::shared_ptr<const ImageSet>> kept;
     int asked = 0, made = 0;
-    Workshop workshop;
+    ExecutionContext execution;
 
     Keeper() {
-        workshop.memo.images = [this](const std::string& key, const auto& make) {
+        execution.caches.images = [this](const std::string& key, const auto& make) {
             ++asked;
             auto& place = kept[key];
             if (!place) {

@@ -63,9 +63,9 @@ inline std::vector<std::string> branched_ids() {
 }
 
 /// An order for one species, without images.
-inline MushroomOrder order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
-                              int lod = 0) {
-    MushroomOrder order;
+inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
+                             int lod = 0) {
+    MushroomSpec order;
     order.mix = {{id, 1000}};
     order.params.age = age;
     order.params.seed = seed;
@@ -75,27 +75,27 @@ inline MushroomOrder order_of(const std::string& id, double age = 0.6, std::uint
 }
 
 /// The same order with texture coordinates and tangents, still without painting.
-inline MushroomOrder textured(MushroomOrder order) {
+inline MushroomSpec textured(MushroomSpec order) {
     order.params.textures = Textures::linked;
     return order;
 }
 
 /// The same order with a clip of its growth.
-inline MushroomOrder growing(MushroomOrder order, int frames = 9) {
+inline MushroomSpec growing(MushroomSpec order, int frames = 9) {
     order.params.animation = Animation::growth;
     order.params.frames = frames;
     return order;
 }
 
 /// The same order, painted small.
-inline MushroomOrder painted(MushroomOrder order, int side = 128) {
+inline MushroomSpec painted(MushroomSpec order, int side = 128) {
     order.params.textures = Textures::embedded;
     order.params.texture_size.value = side;
     return order;
 }
 
 /// Keeps every correspondence for the rest of the program.
-inline Remember<MorphSet> kept_morphs() {
+inline GetOrCompute<MorphSet> kept_morphs() {
     struct Shelf {
         std::mutex mutex;
         std::map<std::string, std::shared_ptr<const MorphSet>> sets;
@@ -111,11 +111,11 @@ inline Remember<MorphSet> kept_morphs() {
 }
 
 /// The individual of an order, its correspondence from kept_morphs().
-inline Individual resolved(const MushroomOrder& order) {
+inline Individual resolved(const MushroomSpec& order) {
     return resolve(order, atlas(), kept_morphs());
 }
 
-inline Mesh mesh_of(const MushroomOrder& order) { return mushroom_mesh(order, resolved(order)); }
+inline Mesh mesh_of(const MushroomSpec& order) { return mushroom_mesh(order, resolved(order)); }
 
 inline const Silhouette& silhouette_of(const Model& model) {
     return std::get<Swept>(model.shape).silhouette;
@@ -133,7 +133,7 @@ inline const Silhouette& mature_silhouette(const std::string& id) {
 
 /// The individual of a model of one's own.
 inline Individual individual_of(const Model& model, std::uint32_t seed = 1, int lod = 0) {
-    MushroomOrder order;
+    MushroomSpec order;
     order.model = model;
     order.params.seed = seed;
     order.params.lod = lod;
@@ -141,8 +141,8 @@ inline Individual individual_of(const Model& model, std::uint32_t seed = 1, int 
 }
 
 /// An order for a mix, weights in thousandths, without images.
-inline MushroomOrder mix_of(const Mix& mix, double age = 0.6, std::uint32_t seed = 1, int lod = 0) {
-    MushroomOrder order = order_of("", age, seed, lod);
+inline MushroomSpec mix_of(const Mix& mix, double age = 0.6, std::uint32_t seed = 1, int lod = 0) {
+    MushroomSpec order = order_of("", age, seed, lod);
     order.mix = mix;
     return order;
 }

@@ -91,8 +91,8 @@ TEST(Atlas, GrowthIsMonotoneUntilMaturityAndLossesArePermanent) {
             EXPECT_GE(after.weathering.fade, before.weathering.fade) << id;
             EXPECT_GE(after.surface.stem.base_stain, before.surface.stem.base_stain) << id;
             if (const auto* grown = std::get_if<Branched>(&after.shape)) {
-                const LimbStyle &old = grown->limbs,
-                                &young = std::get<Branched>(before.shape).limbs;
+                const SegmentStyle &old = grown->segments,
+                                   &young = std::get<Branched>(before.shape).segments;
                 // Branches fork as they rise, and no fork closes again.
                 EXPECT_GE(old.unfolding, young.unfolding) << id << " at " << stages[i].age;
                 EXPECT_EQ(old.unfolding == 1.0, stages[i].age >= 0.6) << id;
@@ -177,7 +177,7 @@ TEST(Atlas, ExtremeIndividualsAreValidAtAndBetweenStages) {
                 if (i + 1 == stages.size() && onwards > 0.0) continue;
                 const double next = onwards > 0.0 ? stages[i + 1].age : stages[i].age;
                 for (std::uint32_t seed = 1; seed <= effort(12); ++seed) {
-                    MushroomOrder order =
+                    MushroomSpec order =
                         order_of(entry.species.id.string(),
                                  stages[i].age + onwards * (next - stages[i].age), seed, 2);
                     order.params.variation = 1.0;

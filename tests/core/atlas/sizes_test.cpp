@@ -105,7 +105,7 @@ bool uses_chart(const glm::vec2& uv, Part part) {
 /// Returns the cap's width and the height of its top, from the vertices that use the charts of its
 /// faces: no ring, volva, bulb, wart or bend. The rays of an earthstar are faces too. A fruit body
 /// on a wall has its height from its lowest point, not from the ground.
-Measured measure(MushroomOrder order) {
+Measured measure(MushroomSpec order) {
     order.params.deformation.bend_deg = order.params.deformation.lean_deg = 0.0;
     order = textured(order);
     const Individual individual = resolve(order, straight_atlas());
@@ -148,7 +148,7 @@ TEST(Sizes, MatureMushroomsLieWithinTheRecordedRange) {
     for (const AtlasEntry& entry : atlas().entries()) {
         const Facts& facts = entry.species.facts;
         const std::string id = entry.species.id.string();
-        MushroomOrder order = order_of(id);
+        MushroomSpec order = order_of(id);
         order.params.variation = 0.0;
         const Measured size = measure(order);
         EXPECT_GE(size.height, 100.0 * facts.height_m.from) << id;
@@ -166,7 +166,7 @@ TEST(Sizes, IndividualsSpanTheRecordedRange) {
         Sizes width{1e9, 0.0}, height{1e9, 0.0};
         for (std::uint32_t seed = 1; seed <= 96; ++seed) {
             // The second level of detail of branched forms omits segments.
-            MushroomOrder order = order_of(id, 0.6, seed, is_branched(entry.species) ? 1 : 2);
+            MushroomSpec order = order_of(id, 0.6, seed, is_branched(entry.species) ? 1 : 2);
             order.params.variation = 1.0;
             const Measured size = measure(order);
             width = {std::min(width.from, size.width), std::max(width.to, size.width)};

@@ -18,9 +18,9 @@ namespace {
 std::vector<std::string> with_stems() {
     std::vector<std::string> ids;
     for (const std::string& id : swept_ids()) {
-        ColonyOrder order;
-        order.mix = {{id, 1000}};
-        if (colony_nature(order, atlas()).capped) ids.push_back(id);
+        ColonySpec spec;
+        spec.mix = {{id, 1000}};
+        if (colony_nature(spec, atlas()).capped) ids.push_back(id);
     }
     return ids;
 }
@@ -85,7 +85,7 @@ TEST_P(EveryCap, IsThatOfTheWholeMushroom) {
     individual.model.deformation = {};
     individual.model.deformation.imperfection = 0.0;
     individual.model.weathering = {};
-    individual.wear = {};
+    individual.damage = {};
     individual.layers.clear();
     individual.has_ring = individual.has_sac = false;
     const float junction = static_cast<float>(stem_fit(individual).height);

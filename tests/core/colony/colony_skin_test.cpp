@@ -33,14 +33,14 @@ std::vector<ColonyMember> unmoved(const ColonySite& site) {
 }
 
 Skeleton pole(double length, int nodes, const glm::dvec3& along) {
-    Skeleton limbs;
+    Skeleton segments;
     for (int i = 0; i <= nodes; ++i) {
-        limbs.nodes.push_back({length * i / nodes * along, 0.004});
+        segments.nodes.push_back({length * i / nodes * along, 0.004});
         if (i > 0)
-            limbs.limbs.push_back(
+            segments.segments.push_back(
                 {static_cast<std::uint32_t>(i - 1), static_cast<std::uint32_t>(i)});
     }
-    return limbs;
+    return segments;
 }
 
 TEST(ColonySkin, IsClosedAndWearsTheStemOfItsSpecies) {
@@ -55,7 +55,7 @@ TEST(ColonySkin, IsClosedAndWearsTheStemOfItsSpecies) {
     ASSERT_GT(members.size(), 5U);
     for (int lod = 0; lod < 4; ++lod) {
         const Mesh mesh =
-            colony_skin(colony_limbs(site, members, params, nature, 5), {lod, fit.length, true});
+            colony_skin(colony_skeleton(site, members, params, nature, 5), {lod, fit.length, true});
         expect_valid(mesh);
         for (const glm::vec2& at : mesh.texture_coordinates) {
             EXPECT_GT(static_cast<double>(at.x), chart.u + 0.9 * chart.inset * chart.width);
@@ -120,8 +120,8 @@ TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
             const ColonySite site =
                 colony_site(params, nature, colony_growth(params, nature, fit), fit);
             const std::vector<ColonyMember> members = unmoved(site);
-            const Mesh mesh =
-                colony_skin(colony_limbs(site, members, params, nature, 8), {0, fit.length, true});
+            const Mesh mesh = colony_skin(colony_skeleton(site, members, params, nature, 8),
+                                          {0, fit.length, true});
             expect_valid(mesh);
             EXPECT_EQ(pieces(mesh).size(), members.size())
                 << name(habit) << " " << thick << ": no stem falls apart";

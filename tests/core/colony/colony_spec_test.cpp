@@ -10,15 +10,15 @@
 namespace sporeprint {
 namespace {
 
-ColonyOrder colony_of(const std::string& id) {
-    ColonyOrder order;
-    order.mix = {{id, 1000}};
-    return order;
+ColonySpec colony_of(const std::string& id) {
+    ColonySpec spec;
+    spec.mix = {{id, 1000}};
+    return spec;
 }
 
 Habit recorded(const char* id) { return habit_of(atlas().find(id)->species.facts); }
 
-TEST(ColonyOrder, TheHabitIsTheOneRecordedFirst) {
+TEST(ColonySpec, TheHabitIsTheOneRecordedFirst) {
     EXPECT_EQ(recorded("armillaria_mellea"), Habit::tuft) << "dense tufts";
     EXPECT_EQ(recorded("mycena_haematopus"), Habit::tuft) << "clusters with joined bases";
     EXPECT_EQ(recorded("marasmius_oreades"), Habit::ring) << "rings, arcs, groups";
@@ -33,7 +33,7 @@ TEST(ColonyOrder, TheHabitIsTheOneRecordedFirst) {
     EXPECT_EQ(habit_of(unsaid), Habit::troop);
 }
 
-TEST(ColonyOrder, StemsBearCapsAndTheRestStandsWhole) {
+TEST(ColonySpec, StemsBearCapsAndTheRestStandsWhole) {
     for (const char* id : {"amanita_muscaria", "boletus_edulis", "cantharellus_cibarius",
                            "hydnum_repandum", "morchella_esculenta", "phallus_impudicus"})
         EXPECT_TRUE(colony_nature(colony_of(id), atlas()).capped) << id;
@@ -41,7 +41,7 @@ TEST(ColonyOrder, StemsBearCapsAndTheRestStandsWhole) {
                            "tremella_mesenterica", "trametes_versicolor", "pleurotus_ostreatus"})
         EXPECT_FALSE(colony_nature(colony_of(id), atlas()).capped) << id;
     EXPECT_TRUE(colony_nature(colony_of("fomes_fomentarius"), atlas()).lateral);
-    ColonyOrder mix = colony_of("armillaria_mellea");
+    ColonySpec mix = colony_of("armillaria_mellea");
     mix.mix = {{"armillaria_mellea", 600}, {"lycoperdon_perlatum", 400}};
     EXPECT_FALSE(colony_nature(mix, atlas()).capped);
     EXPECT_EQ(colony_nature(mix, atlas()).habit, Habit::tuft) << "that of the most weight";
@@ -49,20 +49,20 @@ TEST(ColonyOrder, StemsBearCapsAndTheRestStandsWhole) {
     EXPECT_EQ(colony_nature(mix, atlas()).habit, Habit::troop);
 }
 
-TEST(ColonyOrder, RootsAreShownWhereThereAreSome) {
-    ColonyOrder order = colony_of("armillaria_mellea");
-    EXPECT_EQ(colony_nature(order, atlas()).roots, RootsShown::buried);
-    order.params.habit = Habit::rooted;
-    EXPECT_EQ(colony_nature(order, atlas()).roots, RootsShown::shown);
-    order.params.roots = RootsShown::buried;
-    EXPECT_EQ(colony_nature(order, atlas()).roots, RootsShown::buried);
+TEST(ColonySpec, RootsAreShownWhereThereAreSome) {
+    ColonySpec spec = colony_of("armillaria_mellea");
+    EXPECT_EQ(colony_nature(spec, atlas()).roots, RootsShown::buried);
+    spec.params.habit = Habit::rooted;
+    EXPECT_EQ(colony_nature(spec, atlas()).roots, RootsShown::shown);
+    spec.params.roots = RootsShown::buried;
+    EXPECT_EQ(colony_nature(spec, atlas()).roots, RootsShown::buried);
 }
 
-TEST(ColonyOrder, WhatDoesNotGoTogetherIsRefusedByName) {
+TEST(ColonySpec, WhatDoesNotGoTogetherIsRefusedByName) {
     const auto problems = [](const std::string& id, auto change) {
-        ColonyOrder order = colony_of(id);
-        change(order.params);
-        return refusal([&] { (void)colony_nature(order, atlas()); });
+        ColonySpec spec = colony_of(id);
+        change(spec.params);
+        return refusal([&] { (void)colony_nature(spec, atlas()); });
     };
     EXPECT_TRUE(names(problems("trametes_versicolor", [](auto& p) { p.habit = Habit::ring; }),
                       "/habit", "wall"));
@@ -90,7 +90,7 @@ TEST(ColonyOrder, WhatDoesNotGoTogetherIsRefusedByName) {
                          })
                     .empty())
         << "every habit with stems has these";
-    ColonyOrder nobody;
+    ColonySpec nobody;
     EXPECT_TRUE(names(refusal([&] { (void)colony_nature(nobody, atlas()); }), "mix"));
 }
 

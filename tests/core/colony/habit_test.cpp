@@ -36,7 +36,7 @@ TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
     const ColonySite site = colony_site(params, nature, growth, fit);
     ASSERT_EQ(site.places.size(), source.stems.size());
     ASSERT_EQ(site.ground.nodes.size(), source.root_nodes);
-    EXPECT_EQ(site.ground.limbs.size() + 1, site.ground.nodes.size()) << "a tree";
+    EXPECT_EQ(site.ground.segments.size() + 1, site.ground.nodes.size()) << "a tree";
     std::map<std::uint32_t, const ColonySkeleton::Stem*> by_root;
     for (const ColonySkeleton::Stem& stem : source.stems) by_root[stem.root] = &stem;
     for (const ColonyPlace& place : site.places) {

@@ -228,8 +228,8 @@ TEST(ColonyRoots, AtTheEndsOfTheirRangesAreGrownOrRefused) {
     walk_corners(roots, Info{.name = ""}, "", [&](const std::string& path) {
         try {
             const ColonySkeleton colony = colony_skeleton(roots, 1);
-            EXPECT_TRUE(faults_of(colony.skeleton).empty()) << path;
-            EXPECT_EQ(colony.skeleton.limbs.size() + 1, colony.skeleton.nodes.size()) << path;
+            EXPECT_TRUE(validation_errors(colony.skeleton).empty()) << path;
+            EXPECT_EQ(colony.skeleton.segments.size() + 1, colony.skeleton.nodes.size()) << path;
         } catch (const Impossible& refused) {
             EXPECT_TRUE(names(refused.problems(), "/branch_distance", "nodes")) << path;
         }

@@ -19,10 +19,10 @@ Mesh cap_of(const char* id, double age = 0.6) {
     return cap_mesh(resolved(order_of(id, age, 2, 1)), {1, 1.0, false});
 }
 
-TEST(Room, HoldsAllOfItsMeshAndLittleMore) {
+TEST(OccupancyGrid, HoldsAllOfItsMeshAndLittleMore) {
     for (const char* id : {"armillaria_mellea", "mycena_haematopus", "macrolepiota_procera"}) {
         const Mesh mesh = cap_of(id);
-        const Room room(mesh);
+        const OccupancyGrid room(mesh);
         for (const glm::dvec3& point : samples_of(mesh)) EXPECT_TRUE(room.holds(point)) << id;
         const Bounds box = bounds(mesh);
         const double above = box.max.y + 0.2 * room.reach();
@@ -33,14 +33,14 @@ TEST(Room, HoldsAllOfItsMeshAndLittleMore) {
     }
     // What an umbrella covers is free.
     const Mesh umbrella = cap_of("macrolepiota_procera");
-    const Room room(umbrella);
+    const OccupancyGrid room(umbrella);
     const Bounds box = bounds(umbrella);
     EXPECT_FALSE(room.holds({0.6 * box.max.x, box.min.y, 0.0}));
 }
 
-TEST(Room, TwoMeetExactlyWhereTheyTouchOrNearly) {
+TEST(OccupancyGrid, TwoMeetExactlyWhereTheyTouchOrNearly) {
     const Mesh mesh = cap_of("armillaria_mellea");
-    const Room room(mesh);
+    const OccupancyGrid room(mesh);
     const Bounds box = bounds(mesh);
     const double wide = box.max.x - box.min.x, high = box.max.y - box.min.y;
     const Posture here;
@@ -59,7 +59,7 @@ TEST(Room, TwoMeetExactlyWhereTheyTouchOrNearly) {
     EXPECT_TRUE(meets({0.3 * wide, 0.0, 0.0}, upright({1.0, 0.0, 0.0}, 0.3)));
 }
 
-TEST(Room, PosturesAreThereAndBack) {
+TEST(OccupancyGrid, PosturesAreThereAndBack) {
     Random random(5, 7);
     for (int i = 0; i < 50; ++i) {
         const double x = random.symmetric(), z = random.symmetric(), turn = random.uniform(0, 6);
@@ -94,7 +94,7 @@ class TwoStems : public ::testing::Test {
 
     ColonySite site_;
     Mesh large_ = cap_of("armillaria_mellea"), small_ = cap_of("armillaria_mellea", 0.2);
-    ColonyModel wide_{Room(large_), 0.006}, narrow_{Room(small_), 0.009};
+    ColonyModel wide_{OccupancyGrid(large_), 0.006}, narrow_{OccupancyGrid(small_), 0.009};
     double across_ = static_cast<double>(bounds(large_).max.x - bounds(large_).min.x);
 };
 

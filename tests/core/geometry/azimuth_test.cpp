@@ -35,7 +35,7 @@ Azimuth arbitrary_azimuth(Random& random) {
 Individual with(Individual individual, const Azimuth& azimuth) {
     individual.azimuth = azimuth;
     individual.lobes = {azimuth};
-    individual.wear = {};
+    individual.damage = {};
     return individual;
 }
 
@@ -117,7 +117,7 @@ TEST(Azimuth, AnyFanAndAnyLobesAreValidMeshesAtEveryDetail) {
     Random random(7, 1);
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            const MushroomOrder order = order_of(id, random.uniform(), 2, lod);
+            const MushroomSpec order = order_of(id, random.uniform(), 2, lod);
             const Azimuth azimuth = arbitrary_azimuth(random);
             const Individual individual = with(resolve(order, atlas()), azimuth);
             const Mesh mesh = swept_mesh(individual, lod, {.textured = true, .keep_absent = false});
@@ -215,7 +215,7 @@ TEST(Azimuth, AmountsMixByWeightAndFormsStayThoseOfEachSpecies) {
                        renamed("disciotis_venosa", "fan", fan),
                        renamed("disciotis_venosa", "star", star)});
     for (const int weight : {1, 250, 500, 999}) {
-        const MushroomOrder order =
+        const MushroomSpec order =
             mix_of({{"boletus_edulis", 1000 - weight}, {"fan", weight / 2 + 1}, {"star", weight}});
         const auto weights = eased_weights({1000.0 - weight, weight / 2 + 1.0, 1.0 * weight});
         const Individual individual = resolve(order, forms);

@@ -34,7 +34,7 @@ TEST(Branches, AreValidInEveryMixAtEveryLevelAndAge) {
     for (const Mix& mix : mixes())
         for (int lod = 0; lod < 4; ++lod)
             for (const double age : {0.0, 0.45, 0.6, 1.0}) {
-                MushroomOrder order = textured(mix_of(mix, age, 4, lod));
+                MushroomSpec order = textured(mix_of(mix, age, 4, lod));
                 order.params.variation = 1.0;
                 SCOPED_TRACE(text_of(mix) + " lod " + std::to_string(lod) + " age " +
                              std::to_string(age));
@@ -50,16 +50,16 @@ TEST(Branches, KeepTheTriangleLimitAndAreCountedInAdvance) {
         for (int lod = 0; lod < 4; ++lod) {
             const double age = random.uniform();
             const std::uint32_t seed = random.bits();
-            const MushroomOrder order = textured(mix_of(mix, age, seed, lod));
+            const MushroomSpec order = textured(mix_of(mix, age, seed, lod));
             const Individual individual = resolved(order);
-            const MeshCount count = branched_mesh_count(individual.bush, lod);
+            const MeshCount count = branched_mesh_count(individual.branch_graph, lod);
             EXPECT_LE(count.triangles, most_triangles[static_cast<std::size_t>(lod)]);
             EXPECT_GT(count.triangles, 0U);
             const Mesh mesh = branched_mesh(individual, lod);
             EXPECT_EQ(mesh.positions.size(), count.vertices) << text_of(mix);
             EXPECT_EQ(mesh.triangles(), count.triangles) << text_of(mix);
             const Mesh whole = branched_mesh(individual, lod, {.keep_absent = true});
-            const MeshCount most = branched_mesh_count(individual.bush, lod, true);
+            const MeshCount most = branched_mesh_count(individual.branch_graph, lod, true);
             EXPECT_EQ(whole.positions.size(), most.vertices) << text_of(mix);
             EXPECT_EQ(whole.triangles(), most.triangles) << text_of(mix);
         }
@@ -67,7 +67,7 @@ TEST(Branches, KeepTheTriangleLimitAndAreCountedInAdvance) {
 
 TEST(Branches, ScaleWithSize) {
     for (const std::string& id : branched_ids()) {
-        MushroomOrder order = order_of(id, 0.6, 3, 1);
+        MushroomSpec order = order_of(id, 0.6, 3, 1);
         const Mesh one = mesh_of(order);
         order.params.size = 2.0;
         const Mesh two = mesh_of(order);
@@ -82,7 +82,7 @@ TEST(Branches, EveryDeformationIsValidOrRefusedByName) {
     for (const std::string& id : branched_ids())
         for (std::uint32_t i = 0; i < effort(48); ++i) {
             Random random(i, 0x6c696d62);
-            MushroomOrder order = order_of(id, random.uniform(), i, static_cast<int>(i % 4));
+            MushroomSpec order = order_of(id, random.uniform(), i, static_cast<int>(i % 4));
             order.params.deformation.bend_deg = random.uniform(0.0, 90.0);
             order.params.deformation.twist_deg = random.uniform(-180.0, 180.0);
             order.params.deformation.lean_deg = random.uniform(0.0, 45.0);
@@ -104,7 +104,7 @@ TEST(Branches, EveryDeformationIsValidOrRefusedByName) {
 
 TEST(Branches, ParametersOfOtherFamiliesAreRefusedByName) {
     const auto refused = [](auto ask) {
-        MushroomOrder order = order_of("ramaria_formosa");
+        MushroomSpec order = order_of("ramaria_formosa");
         ask(order.params);
         return refusal([&] { (void)resolved(order); });
     };

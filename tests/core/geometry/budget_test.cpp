@@ -75,7 +75,7 @@ TEST(Budget, CountsWhatIsBuilt) {
     Random random(3, 0x62756467);
     for (std::uint32_t i = 0; i < effort(40); ++i) {
         const auto ids = random_species(random);
-        const MushroomOrder order =
+        const MushroomSpec order =
             textured(mix_of(random_mix(ids, random), random.uniform(), 3, static_cast<int>(i % 4)));
         if (!refusal([&] { resolved(order); }).empty()) continue;
         const Budget budget = budget_of(resolved(order), order.params.lod);

@@ -60,7 +60,7 @@ TEST(Hymenium, EveryBladeIsAClosedSolidThatFacesOutwards) {
 }
 
 TEST(Hymenium, GillsAreAsManyAsRequested) {
-    MushroomOrder order = textured(order_of("russula_vinosa"));
+    MushroomSpec order = textured(order_of("russula_vinosa"));
     order.params.hymenium.blades = 48;
     order.params.hymenium.tiers = 2;
     EXPECT_EQ(solids(mesh_of(order)).size(), 48u * 4u);
@@ -69,7 +69,7 @@ TEST(Hymenium, GillsAreAsManyAsRequested) {
 }
 
 TEST(Hymenium, CountsAreThoseOfTheSetWhateverAgeAndWeight) {
-    MushroomOrder order = order_of("amanita_muscaria");
+    MushroomSpec order = order_of("amanita_muscaria");
     const std::size_t own = mesh_of(order).positions.size();
     for (const double age : {0.0, 0.2, 0.4, 0.8, 1.0}) {
         order.params.age = age;
@@ -92,7 +92,7 @@ TEST(Hymenium, CountsAreThoseOfTheSetWhateverAgeAndWeight) {
 TEST(Hymenium, EstimatesAreExactForVerticesAndUpperForTriangles) {
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            const MushroomOrder order = order_of(id, 0.6, 2, lod);
+            const MushroomSpec order = order_of(id, 0.6, 2, lod);
             const Mesh mesh = mesh_of(order);
             const Estimate found = estimate(order, atlas());
             EXPECT_EQ(found.vertices, mesh.positions.size()) << id << lod;
@@ -107,7 +107,7 @@ TEST(Hymenium, EstimatesAreExactForVerticesAndUpperForTriangles) {
 TEST(Hymenium, TheLargestGillLayoutKeepsTheBudget) {
     for (const int blades : {8, 100, 400})
         for (const int tiers : {0, 3}) {
-            MushroomOrder order = order_of("russula_vinosa");
+            MushroomSpec order = order_of("russula_vinosa");
             order.params.hymenium.blades = blades;
             order.params.hymenium.tiers = tiers;
             const Mesh mesh = mesh_of(order);
@@ -121,7 +121,7 @@ TEST(Hymenium, SmallStepsOfAgeMoveBladesALittle) {
         const Bounds box = bounds(mesh_of(order_of(id)));
         std::shared_ptr<const MorphSet> set;
         const auto at = [&](double age) {
-            const MushroomOrder order = order_of(id, age, 5);
+            const MushroomSpec order = order_of(id, age, 5);
             return mushroom_mesh(order,
                                  resolve(order, atlas(), [&](const std::string&, const auto& make) {
                                      return set ? set : set = make();
@@ -142,7 +142,7 @@ TEST(Hymenium, SmallStepsOfAgeMoveBladesALittle) {
 TEST(Hymenium, EdgesStayInsideTheOutlineAndBasesUnderTheCap) {
     for (const char* id : {"amanita_muscaria", "russula_vinosa", "coprinus_comatus"})
         for (const double age : {0.0, 0.1, 0.6}) {
-            MushroomOrder order = textured(order_of(id, age));
+            MushroomSpec order = textured(order_of(id, age));
             order.params.variation = 0.0;
             order.params.deformation.bend_deg = 0.0;
             order.params.deformation.lean_deg = 0.0;
@@ -166,7 +166,7 @@ TEST(Hymenium, EdgesStayInsideTheOutlineAndBasesUnderTheCap) {
 
 TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
     // Under every blade the image of the lower face shows the edge of a gill.
-    MushroomOrder order = order_of("russula_vinosa", 0.6, 4);
+    MushroomSpec order = order_of("russula_vinosa", 0.6, 4);
     order.params.hymenium.blades = 30;
     order.params.hymenium.tiers = 1;
     const Individual individual = resolve(order, atlas());
@@ -180,8 +180,8 @@ TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
     params.surface.hymenium.mottle = 0.0;
     params.weathering = {};
     const RawImages images = paint_raw(params);
-    const BladeRow row(stand_on(0, HymeniumPattern::gills, 30, 1), HymeniumPattern::gills, 0.0, 4,
-                       60);
+    const BladeRow row(slot_assignment(0, HymeniumPattern::gills, 30, 1), HymeniumPattern::gills,
+                       0.0, 4, 60);
     for (const double share : {0.6, 0.75, 0.9})
         for (const Blade& blade : row.blades()) {
             const auto turn = sine_cosine(2.0 * pi * row.turn(blade, share));
@@ -197,7 +197,7 @@ TEST(Hymenium, PaintedGillsLieUnderTheSolids) {
 TEST(Hymenium, CrossVeinsAreSolidsBetweenRidgesAndPaintedUnderThem) {
     // Few ridges, and forks that begin far out, so that nothing else lies between two of them near
     // the stem.
-    MushroomOrder order = textured(order_of("cantharellus_cibarius", 0.6, 5));
+    MushroomSpec order = textured(order_of("cantharellus_cibarius", 0.6, 5));
     order.params.hymenium.blades = 12;
     order.params.hymenium.forking = 0.55;
     const Individual individual = resolve(order, atlas());
@@ -222,8 +222,8 @@ TEST(Hymenium, CrossVeinsAreSolidsBetweenRidgesAndPaintedUnderThem) {
     params.surface.hymenium.mottle = 0.0;
     params.weathering = {};
     const RawImages images = paint_raw(params);
-    const BladeRow row(stand_on(0, HymeniumPattern::ridges, 12, 1), HymeniumPattern::ridges, 0.55,
-                       5, 24);
+    const BladeRow row(slot_assignment(0, HymeniumPattern::ridges, 12, 1), HymeniumPattern::ridges,
+                       0.55, 5, 24);
     const auto blue = [&](const CrossVein& vein, double share) {
         const double gaps = vein.ridge + 0.5;
         const auto turn = sine_cosine(2.0 * pi * row.turn({.from = gaps, .to = gaps}, share));
@@ -250,7 +250,7 @@ TEST(Hymenium, DecurrentGillsLeaveNoStepAtTheStem) {
     // once.
     for (const char* id :
          {"infundibulicybe_geotropa", "infundibulicybe_gibba", "cantharellus_cibarius"}) {
-        MushroomOrder order = order_of(id);
+        MushroomSpec order = order_of(id);
         const LowerFace face(resolve(order, atlas()), 0);
         order.params.hymenium.decurrent = 0.0;
         const LowerFace ending(resolve(order, atlas()), 0);
@@ -293,7 +293,7 @@ TEST(Hymenium, CoarsePoresAreSolidsAndFineOnesArePainted) {
 }
 
 TEST(Hymenium, DepthZeroLeavesTheOutlineAsItIs) {
-    MushroomOrder order = order_of("amanita_muscaria");
+    MushroomSpec order = order_of("amanita_muscaria");
     order.params.hymenium.depth = 0.0;
     const Individual individual = resolve(order, atlas());
     const LowerFace face(individual, 0);

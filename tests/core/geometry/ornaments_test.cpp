@@ -18,7 +18,7 @@ namespace sporeprint {
 namespace {
 
 Mesh amanita(double warts, double ring, int lod = 0, std::uint32_t seed = 4) {
-    MushroomOrder order = textured(order_of("amanita_muscaria", 0.5, seed, lod));
+    MushroomSpec order = textured(order_of("amanita_muscaria", 0.5, seed, lod));
     order.params.ornaments.warts = warts;
     order.params.ornaments.ring = ring;
     order.params.hymenium.depth = 0.0;  // no gills among the pieces
@@ -97,7 +97,7 @@ TEST(Ornaments, CoarseLevelsOfDetailDropThem) {
 TEST(Ornaments, ScalesOfAnInkCapAreClosed) {
     for (const double age : {0.0, 0.3, 0.6, 0.8})
         for (std::uint32_t seed = 1; seed <= 3; ++seed) {
-            MushroomOrder order = textured(order_of("coprinus_comatus", age, seed));
+            MushroomSpec order = textured(order_of("coprinus_comatus", age, seed));
             order.params.ornaments.scales = 1.0;
             order.params.hymenium.depth = 0.0;  // no gills among the pieces
             const Mesh mesh = mesh_of(order);
@@ -107,7 +107,7 @@ TEST(Ornaments, ScalesOfAnInkCapAreClosed) {
 }
 
 TEST(Ornaments, TheirTextureComesFromTheVeilsStrip) {
-    MushroomOrder order = textured(order_of("amanita_muscaria"));
+    MushroomSpec order = textured(order_of("amanita_muscaria"));
     const Mesh mesh = mesh_of(order);
     const Chart& strip = swept_charts[static_cast<std::size_t>(Part::veil)];
     const std::size_t columns = MarginCuts(resolve(order, atlas()), 0).turns().size() + 1;
@@ -163,7 +163,7 @@ double greatest(const Mesh& piece, Of of) {
 double radius_of(const glm::vec3& p) { return std::sqrt(double{p.x} * p.x + double{p.z} * p.z); }
 
 Individual straight_amanita() {
-    MushroomOrder order = order_of("amanita_muscaria", 0.6, 4);
+    MushroomSpec order = order_of("amanita_muscaria", 0.6, 4);
     order.params.variation = 0.0;
     order.params.hymenium.depth = 0.0;  // no gills among the pieces
     Individual individual = resolve(order, atlas());
@@ -228,7 +228,7 @@ TEST(Ornaments, ASacIsAClosedShellOutsideOfTheStem) {
 }
 
 TEST(Ornaments, ASacEnclosesTheWholeBulb) {
-    MushroomOrder order = order_of("amanita_phalloides");
+    MushroomSpec order = order_of("amanita_phalloides");
     order.params.variation = 0.0;
     Individual individual = resolve(order, atlas());
     individual.has_ring = false;
@@ -260,7 +260,7 @@ TEST(Ornaments, ASacGrowsAndVanishesContinuouslyAndKeepsItsVertices) {
         if (vertices == 0) vertices = mesh.positions.size();
         EXPECT_EQ(mesh.positions.size(), vertices);
         EXPECT_EQ(pieces(mesh).size(), height > 0.0 ? 3u : 2u);
-        MushroomOrder order = order_of("amanita_muscaria");
+        MushroomSpec order = order_of("amanita_muscaria");
         EXPECT_EQ(estimate(order, individual).vertices, vertices);
         const Mesh kept = swept_mesh(individual, 0, {.keep_absent = true});
         EXPECT_EQ(kept.positions.size(), vertices);
@@ -270,7 +270,7 @@ TEST(Ornaments, ASacGrowsAndVanishesContinuouslyAndKeepsItsVertices) {
 TEST(Ornaments, ScalesOfTheBulbStayOnItsSurfaceWhileTheStemGrows) {
     // Pieces of the veil are low on the mature stem, and all over the lower half of the egg.
     const auto highest = [](double age) {
-        MushroomOrder order = textured(order_of("amanita_muscaria", age, 4));
+        MushroomSpec order = textured(order_of("amanita_muscaria", age, 4));
         order.params.variation = 0.0;
         order.params.ornaments.warts = 0.0;
         order.params.ornaments.ring = 0.0;

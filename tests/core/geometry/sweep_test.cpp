@@ -187,7 +187,7 @@ TEST(Sweep, AStraightMushroomIsTheSumOfItsFrusta) {
 
 /// Returns the order's individual as a figure of revolution, without ornaments; fans, rays and
 /// relief have their own tests.
-Individual body_of(const MushroomOrder& order) {
+Individual body_of(const MushroomSpec& order) {
     Individual individual = resolve(order, atlas());
     individual.layers.clear();
     individual.has_ring = false;
@@ -195,8 +195,8 @@ Individual body_of(const MushroomOrder& order) {
     individual.lobes.clear();
     individual.reliefs.clear();
     individual.has_sac = false;
-    individual.wear = {};
-    individual.comb = {};
+    individual.damage = {};
+    individual.gill_layout = {};
     for (SpeciesShare& part : individual.parts) {
         part.cells = {};
         part.model.hymenium.depth = 0.0;
@@ -279,7 +279,7 @@ std::pair<double, double> normal_errors(const Individual& individual, std::uint3
 TEST(Sweep, NormalsAgreeWithDifferencesOfTheSurfaceUnderAxialDeformationAndWaves) {
     for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-            MushroomOrder order = order_of(id, 0.25 * seed, seed);
+            MushroomSpec order = order_of(id, 0.25 * seed, seed);
             order.params.deformation.imperfection = 0.0;
             order.params.deformation.twist_deg = 45.0 * seed;
             order.params.deformation.taper = 0.2 * seed - 0.5;
@@ -296,7 +296,7 @@ TEST(Sweep, NormalsAgreeWithDifferencesOfTheSurfaceUnderAxialDeformationAndWaves
 TEST(Sweep, NormalsFollowDentsThroughTheirJacobian) {
     for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 4; ++seed) {
-            MushroomOrder order = order_of(id, 0.6, seed);
+            MushroomSpec order = order_of(id, 0.6, seed);
             order.params.deformation.imperfection = 1.0;
             Individual individual = body_of(order);
             const auto [worst, mean] = normal_errors(individual, seed);
@@ -350,7 +350,7 @@ std::vector<std::pair<std::string, bool>> with_and_without_solids() {
 
 TEST(Sweep, TangentsPointAlongTheTextureAndHandednessUpTheImage) {
     for (const auto& [id, solids] : with_and_without_solids()) {
-        MushroomOrder order = textured(order_of(id, 0.6, 5));
+        MushroomSpec order = textured(order_of(id, 0.6, 5));
         if (!solids) order.params.hymenium.depth = 0.0;
         const Mesh mesh = mesh_of(order);
         expect_valid(mesh);
@@ -400,7 +400,7 @@ TEST(Sweep, PolesPointAlongTheAxis) {
 TEST(Sweep, TheSeamColumnRepeatsColumnZeroBitForBit) {
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            MushroomOrder order = order_of(id, 0.9, 4, lod);
+            MushroomSpec order = order_of(id, 0.9, 4, lod);
             order.params.variation = 1.0;
             const Individual individual = body_of(order);
             const Mesh mesh = swept(individual, lod, true);
@@ -426,7 +426,7 @@ TEST(Sweep, StemHymeniumAndCapAreWeldedBitForBit) {
     for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= effort(5); ++seed)
             for (int lod = 0; lod < 4; ++lod) {
-                MushroomOrder order = order_of(id, 0.2 * seed, seed, lod);
+                MushroomSpec order = order_of(id, 0.2 * seed, seed, lod);
                 order.params.variation = 1.0;
                 if (!mature_silhouette(id).hymenium.empty()) order.params.weathering.waves = 1.0;
                 const Individual individual = body_of(order);
@@ -462,7 +462,7 @@ TEST(Sweep, AStemWithoutHeightIsWeldedUnderAnyDeformation) {
 }
 
 TEST(Sweep, AClubHasNoMarginToWave) {
-    MushroomOrder order = order_of("clavariadelphus_pistillaris");
+    MushroomSpec order = order_of("clavariadelphus_pistillaris");
     order.params.weathering.waves = 0.0;
     const Mesh still = mesh_of(order);
     EXPECT_FALSE(still.positions.empty());
@@ -474,7 +474,7 @@ TEST(Sweep, EveryLevelOfDetailShowsTheSameIndividual) {
     const double allowed[] = {0.0, 0.03, 0.07, 0.14};
     for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 6; ++seed) {
-            MushroomOrder order = order_of(id, seed / 6.0, seed);
+            MushroomSpec order = order_of(id, seed / 6.0, seed);
             order.params.variation = 1.0;
             const Mesh finest = mesh_of(order);
             std::size_t triangles = finest.triangles();
@@ -529,7 +529,7 @@ TEST(Sweep, KeptAbsentTrianglesAreTheSameAtEveryAgeAndHaveNoArea) {
 }
 
 TEST(Sweep, AmountsMoveVerticesAndNeverTheirNumber) {
-    MushroomOrder order = textured(order_of("amanita_muscaria", 0.6, 4));
+    MushroomSpec order = textured(order_of("amanita_muscaria", 0.6, 4));
     const std::size_t count = mesh_of(order).positions.size();
     for (const double amount : {0.0, 0.02, 0.4, 1.0}) {
         order.params.ornaments.warts = order.params.ornaments.ring = amount;
@@ -540,7 +540,7 @@ TEST(Sweep, AmountsMoveVerticesAndNeverTheirNumber) {
 }
 
 TEST(Sweep, AnotherSeedIsAnotherIndividual) {
-    MushroomOrder order = order_of("amanita_muscaria");
+    MushroomSpec order = order_of("amanita_muscaria");
     const Mesh one = mesh_of(order);
     order.params.seed = 2;
     EXPECT_FALSE(same_bits(one, mesh_of(order)));
@@ -576,7 +576,7 @@ TEST(Sweep, WavesTooFineForTheColumnsAreLeftOut) {
 }
 
 TEST(Sweep, AStemThatFoldsIsRefusedWithTheLargestPossibleBend) {
-    MushroomOrder order = order_of("boletus_edulis", 0.6, 3);
+    MushroomSpec order = order_of("boletus_edulis", 0.6, 3);
     order.params.deformation.bend_deg = 90.0;
     order.params.deformation.zone_from = 0.5;
     order.params.deformation.zone_to = 0.6;

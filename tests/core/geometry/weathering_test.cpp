@@ -57,7 +57,7 @@ std::vector<Stop> walk(std::size_t thorough) {
 }
 
 bool can(const std::string& id, const Effect& effect) {
-    MushroomOrder order = order_of(id);
+    MushroomSpec order = order_of(id);
     order.params.weathering.*effect.amount = 1.0;
     return refusal([&] { static_cast<void>(resolve(order, atlas())); }).empty();
 }
@@ -69,12 +69,12 @@ bool same(const Mesh& a, const Mesh& b) {
 
 TEST(Weathering, AmountZeroIsTheUndamagedMeshBitForBit) {
     for (const auto& [id, lod] : walk(4)) {
-        const MushroomOrder clean = textured(order_of(id, 0.5, 3, lod));
+        const MushroomSpec clean = textured(order_of(id, 0.5, 3, lod));
         const Mesh expected = mesh_of(clean);
         const Individual individual = resolve(clean, atlas());
         for (const Effect& effect : shaping) {
             if (!can(id, effect) || individual.effective.weathering.*effect.amount != 0.0) continue;
-            MushroomOrder none = clean;
+            MushroomSpec none = clean;
             none.params.weathering.*effect.amount = 0.0;
             EXPECT_TRUE(same(mesh_of(none), expected)) << id << ' ' << effect.name;
         }
@@ -83,12 +83,12 @@ TEST(Weathering, AmountZeroIsTheUndamagedMeshBitForBit) {
 
 TEST(Weathering, EachEffectAloneIsClosedAndAtMostDoublesTheTriangles) {
     for (const auto& [id, lod] : walk(3)) {
-        const MushroomOrder clean = textured(order_of(id, 0.6, 5, lod));
+        const MushroomSpec clean = textured(order_of(id, 0.6, 5, lod));
         const std::size_t triangles = mesh_of(clean).triangles();
         for (const Effect& effect : shaping) {
             if (!can(id, effect)) continue;
             for (const double amount : {0.002, 1.0}) {
-                MushroomOrder worn = clean;
+                MushroomSpec worn = clean;
                 worn.params.weathering.*effect.amount = amount;
                 const Mesh mesh = mesh_of(worn);
                 SCOPED_TRACE(id + ' ' + effect.name + ' ' + std::to_string(amount) + " lod " +
@@ -105,18 +105,18 @@ TEST(Weathering, EachEffectAloneIsClosedAndAtMostDoublesTheTriangles) {
 }
 
 TEST(Weathering, AmountZeroOfAnyKindIsTheUndamagedFileByteForByte) {
-    const auto file_of = [](const MushroomOrder& order) {
+    const auto file_of = [](const MushroomSpec& order) {
         Bytes file;
         for (const Slice& slice : grow_mushroom(order, atlas()).glb)
             file.insert(file.end(), slice.data(), slice.data() + slice.size);
         return file;
     };
     for (const std::string id : {"amanita_muscaria", "coprinus_comatus", "russula_vinosa"}) {
-        const MushroomOrder clean = painted(order_of(id, 0.5, 3, 1));
+        const MushroomSpec clean = painted(order_of(id, 0.5, 3, 1));
         const Bytes expected = file_of(clean);
         W::fields([&](auto amount, const Info& info) {
             if (resolve(clean, atlas()).effective.weathering.*amount != 0.0) return;
-            MushroomOrder none = clean;
+            MushroomSpec none = clean;
             none.params.weathering.*amount = 0.0;
             EXPECT_EQ(file_of(none), expected) << id << ' ' << info.name;
             none.params.weathering.*amount = 1.0;
@@ -125,7 +125,7 @@ TEST(Weathering, AmountZeroOfAnyKindIsTheUndamagedFileByteForByte) {
     }
 }
 
-RC_GTEST_PROP(WeatheringProperty, any_combination_of_any_mix_is_a_closed_mesh, ()) {
+RC_GTEST_PROP(WeatheringProperty, AnyCombinationOfAnyMixIsAClosedMesh, ()) {
     const std::vector<std::string> ids = swept_ids();
     const auto pick = [&] {
         return ids[static_cast<std::size_t>(
@@ -139,7 +139,7 @@ RC_GTEST_PROP(WeatheringProperty, any_combination_of_any_mix_is_a_closed_mesh, (
         std::sort(mix.begin(), mix.end(),
                   [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
     }
-    MushroomOrder order =
+    MushroomSpec order =
         textured(mix_of(mix, *rc::gen::inRange(0, 65) / 64.0, *rc::gen::arbitrary<std::uint32_t>(),
                         *rc::gen::inRange(0, 4)));
     const Individual bare = resolve(order, atlas());
@@ -163,7 +163,7 @@ TEST(Weathering, AmountsMoveVerticesContinuously) {
             std::optional<Mesh> before;
             double most = 0.0, size = 0.0;
             for (int i = 1; i <= 256; i += i % 64 == 1 ? 1 : 63) {
-                MushroomOrder order = order_of(id, 0.6, 11);
+                MushroomSpec order = order_of(id, 0.6, 11);
                 order.params.weathering.*effect.amount = i / 256.0;
                 order.params.animation = Animation::growth;  // keeps triangles of absent parts
                 const Mesh mesh = mesh_of(order);
@@ -183,7 +183,7 @@ TEST(Weathering, AmountsMoveVerticesContinuously) {
 }
 
 TEST(Weathering, ABiteRemovesItsDepthFromCapAndLowerFace) {
-    MushroomOrder order = order_of("amanita_muscaria", 0.6, 4);
+    MushroomSpec order = order_of("amanita_muscaria", 0.6, 4);
     order.params.weathering.bites = 1.0;
     order.params.weathering.splits = 0.0;
     const Individual individual = resolve(order, atlas());
@@ -209,7 +209,7 @@ TEST(Weathering, AllEvenColumnsExistAndMoreWhereACutNeedsThem) {
     constexpr double apart = 0.0002;
     for (std::uint32_t seed = 0; seed < 30; ++seed)
         for (int lod = 0; lod < 4; ++lod) {
-            MushroomOrder order = order_of("boletus_edulis", 0.6, seed, lod);
+            MushroomSpec order = order_of("boletus_edulis", 0.6, seed, lod);
             order.params.weathering.bites = 0.5;
             order.params.weathering.splits = 0.5;
             const MarginCuts cuts(resolve(order, atlas()), lod);
@@ -246,15 +246,15 @@ TEST(Weathering, AllEvenColumnsExistAndMoreWhereACutNeedsThem) {
 TEST(Weathering, ColumnsOfClosedCutsLieOnTheSurfaceWithoutThem) {
     for (const auto& [id, lod] : walk(3)) {
         if (lod == 3) continue;
-        MushroomOrder order = textured(order_of(id, 0.8, 7, lod));
+        MushroomSpec order = textured(order_of(id, 0.8, 7, lod));
         // Open cuts keep their columns; the surface between them is that of the even ones.
         order.params.weathering.bites = 0.0;
         if (can(id, shaping[1])) order.params.weathering.splits = 0.0;
         Individual individual = resolve(order, atlas());
         if (individual.outline.hymenium.empty()) continue;
-        individual.wear.bites = individual.wear.splits = false;
+        individual.damage.bites = individual.damage.splits = false;
         const Mesh clean = mushroom_mesh(order, individual);
-        individual.wear.bites = individual.wear.splits = true;
+        individual.damage.bites = individual.damage.splits = true;
         const Mesh worn = mushroom_mesh(order, individual);
         SCOPED_TRACE(id + " lod " + std::to_string(lod));
         expect_valid(worn);
@@ -292,7 +292,7 @@ TEST(Weathering, AnyDamageKeepsTheTriangleLimitOfItsLevel) {
     constexpr std::array<std::size_t, 4> most = {60000, 6000, 1200, 200};
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            MushroomOrder order = order_of(id, 0.8, 2, lod);
+            MushroomSpec order = order_of(id, 0.8, 2, lod);
             for (const Effect& effect : shaping)
                 if (can(id, effect)) order.params.weathering.*effect.amount = 1.0;
             EXPECT_LE(mesh_of(order).triangles(), most[static_cast<std::size_t>(lod)])
@@ -311,7 +311,7 @@ TEST(Weathering, AClipHasOneTopologyAtEveryAge) {
 
 TEST(Weathering, ImpossibleDamageIsRefusedByName) {
     const auto refused = [](const std::string& id, Amount amount) {
-        MushroomOrder order = order_of(id);
+        MushroomSpec order = order_of(id);
         order.params.weathering.*amount = 0.5;
         return refusal([&] { static_cast<void>(resolve(order, atlas())); });
     };

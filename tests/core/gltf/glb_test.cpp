@@ -64,10 +64,10 @@ TEST(Glb, TextureCoordinatesAndTangentsAreWrittenExactlyWhenThereAreImages) {
 }
 
 TEST(Glb, EmbeddedImagesDecodeToTheirSizeAndAreNeverCopied) {
-    const MushroomOrder order = painted(order_of("boletus_edulis", 0.6, 2, 1), 256);
+    const MushroomSpec order = painted(order_of("boletus_edulis", 0.6, 2, 1), 256);
     const Individual individual = resolve(order, atlas());
     const Mesh mesh = mushroom_mesh(order, individual);
-    const ImageSet images = *painted_images(paint_recipe(order, atlas()), {});
+    const ImageSet images = *painted_images(paint_spec_of(order, atlas()), {});
     GlbParts parts = parts_of("b");
     parts.images = &images;
     const Body body = glb(mesh, parts);
@@ -136,7 +136,7 @@ TEST(Glb, MaterialExtensionsAreNamedExactlyWhenTheyAreUsed) {
 }
 
 TEST(Glb, AMushroomIsSlimyVelvetyOrGlowsAsItsModelSays) {
-    MushroomOrder order = textured(order_of("x", 0.6, 2, 2));
+    MushroomSpec order = textured(order_of("x", 0.6, 2, 2));
     order.mix.clear();
     order.model = atlas().find("boletus_edulis")->species.stages[2].model;
     order.model->weathering.wetness = 0.0;
@@ -225,10 +225,10 @@ TEST(Glb, MorphTargetsAndTheirClipReadBackAsTheyWere) {
 }
 
 TEST(Glb, ImagesFollowTheClip) {
-    const MushroomOrder order = painted(order_of("boletus_edulis", 0.6, 3, 2));
+    const MushroomSpec order = painted(order_of("boletus_edulis", 0.6, 3, 2));
     const Individual individual = resolve(order, atlas());
     const Mesh mesh = mushroom_mesh(order, individual);
-    const ImageSet images = *painted_images(paint_recipe(order, atlas()), {});
+    const ImageSet images = *painted_images(paint_spec_of(order, atlas()), {});
     const std::vector<MorphTarget> targets = lift_and_turn(mesh);
     const WeightClip clip{"c", {0.0f, 1.0f}, {1, 0, 0, 1}};
     GlbParts parts = parts_of("b");
@@ -279,7 +279,7 @@ struct Group {
     Mesh bare = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
     Mesh painted_mesh = mesh_of(textured(order_of("mycena_sanguinolenta", 0.6, 2, 3)));
     ImageSet images = *painted_images(
-        paint_recipe(painted(order_of("boletus_edulis", 0.6, 1, 3), 128), atlas()), {});
+        paint_spec_of(painted(order_of("boletus_edulis", 0.6, 1, 3), 128), atlas()), {});
     GlbScene scene;
 
     Group() {

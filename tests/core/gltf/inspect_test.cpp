@@ -59,7 +59,7 @@ void expect_refused(const Bytes& file, const std::string& words) {
 }
 
 TEST(Inspect, GivesTheRequestBackThatMadeTheFile) {
-    const MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 7, 1));
+    const MushroomSpec order = painted(order_of("amanita_muscaria", 0.6, 7, 1));
     const Mushroom mushroom = grow_mushroom(order, atlas(), {address, {}});
     const Inspection found = inspect_glb(grown());
     EXPECT_EQ(found.canonical, address);
@@ -88,7 +88,7 @@ TEST(Inspect, CountsTheTargetsAndClipsOfAGrowingMushroom) {
 
 TEST(Inspect, TheParametersItGivesGrowTheSameShapeAgain) {
     std::vector<Problem> problems;
-    MushroomOrder order = order_of("amanita_muscaria");
+    MushroomSpec order = order_of("amanita_muscaria");
     order.params = read_json<MushroomParams>(inspect_glb(grown()).effective_json, problems);
     const Bytes again = joined(grow_mushroom(order, atlas(), {address, {}}).glb);
     // Only the shape: images are painted for the nearest 64th of age, what is asked for by name as it is asked.

@@ -24,23 +24,23 @@
 namespace sporeprint {
 namespace {
 
-Workshop remembering() {
-    Workshop workshop;
-    workshop.memo.morphs = kept_morphs();
-    return workshop;
+ExecutionContext remembering() {
+    ExecutionContext execution;
+    execution.caches.morphs = kept_morphs();
+    return execution;
 }
 
-ColonyOrder colony_of(const std::string& id, int count = 12, int distinct = 4) {
-    ColonyOrder order;
-    order.mix = {{id, 1000}};
-    order.params.count = count;
-    order.params.distinct = distinct;
-    order.params.textures = Textures::none;
-    return order;
+ColonySpec colony_of(const std::string& id, int count = 12, int distinct = 4) {
+    ColonySpec spec;
+    spec.mix = {{id, 1000}};
+    spec.params.count = count;
+    spec.params.distinct = distinct;
+    spec.params.textures = Textures::none;
+    return spec;
 }
 
-Colony parts_of(const ColonyOrder& order) { return colony_parts(order, atlas(), remembering()); }
-Grown grown(const ColonyOrder& order) { return grow_colony(order, atlas(), {}, remembering()); }
+Colony parts_of(const ColonySpec& spec) { return colony_parts(spec, atlas(), remembering()); }
+Grown grown(const ColonySpec& spec) { return grow_colony(spec, atlas(), {}, remembering()); }
 
 class EveryColony : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Species, EveryColony, ::testing::ValuesIn(species_ids()),
@@ -49,9 +49,9 @@ INSTANTIATE_TEST_SUITE_P(Species, EveryColony, ::testing::ValuesIn(species_ids()
 TEST_P(EveryColony, ReadsBackFromItsFileAtEveryLevel) {
     std::size_t before = ~std::size_t{0};
     for (int lod = 0; lod < 4; ++lod) {
-        ColonyOrder order = colony_of(GetParam(), 9, 3);
-        order.params.lod = lod;
-        const Grown colony = grown(order);
+        ColonySpec spec = colony_of(GetParam(), 9, 3);
+        spec.params.lod = lod;
+        const Grown colony = grown(spec);
         const ReadScene found = expect_scene(joined(colony.glb));
         EXPECT_TRUE(found.required.empty());
         EXPECT_LE(found.meshes.size(), 4U) << "three caps and a skin";
@@ -78,20 +78,20 @@ TEST_P(EveryColony, HasFewerTrianglesAtEveryLevel) {
     for (int habit = -1; habit < static_cast<int>(habits) - 1; ++habit)
         for (const int count : {1, 2, 16, 17, 40, 256}) {
             if (count != 17 && habit >= 0) continue;
-            ColonyOrder order = colony_of(GetParam(), count, 3);
-            if (habit >= 0) order.params.habit = static_cast<Habit>(habit);
+            ColonySpec spec = colony_of(GetParam(), count, 3);
+            if (habit >= 0) spec.params.habit = static_cast<Habit>(habit);
             std::uint64_t drawn = 0, stored = 0;
             glm::vec3 size(0.0F);
             for (int lod = 0; lod < 4; ++lod) {
-                order.params.lod = lod;
+                spec.params.lod = lod;
                 Colony colony;
                 try {
-                    colony = parts_of(order);
+                    colony = parts_of(spec);
                 } catch (const InvalidInput&) {
                     break;  // what this species cannot have, or a seed that bears nothing
                 }
                 const std::uint64_t triangles = instanced_triangles(colony),
-                                    own = measured(order, colony).triangles;
+                                    own = measured(spec, colony).triangles;
                 const Bounds box = bounds(colony);
                 if (lod > 0) {
                     // A cup that would touch itself with fewer rings keeps its own; of many stems the skin is nearly all that is
@@ -117,12 +117,12 @@ TEST_P(EveryColony, HasFewerTrianglesAtEveryLevel) {
 TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
     for (const bool rooted : {false, true})
         for (const int lod : {0, 2}) {
-            ColonyOrder order = colony_of(GetParam(), 20, 5);
-            order.params.lod = lod;
-            if (rooted && colony_nature(order, atlas()).lateral) continue;
-            if (rooted) order.params.habit = Habit::rooted;
-            const Estimate e = estimate(order, atlas(), remembering().memo);
-            const Grown colony = grown(order);
+            ColonySpec spec = colony_of(GetParam(), 20, 5);
+            spec.params.lod = lod;
+            if (rooted && colony_nature(spec, atlas()).lateral) continue;
+            if (rooted) spec.params.habit = Habit::rooted;
+            const Estimate e = estimate(spec, atlas(), remembering().caches);
+            const Grown colony = grown(spec);
             const auto bytes = static_cast<double>(size_of(colony.glb));
             EXPECT_GT(static_cast<double>(e.vertices), 0.8 * static_cast<double>(colony.vertices));
             EXPECT_GT(static_cast<double>(e.triangles),
@@ -133,12 +133,12 @@ TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
 }
 
 TEST_P(EveryColony, IsTheSameAtEveryLevelOfDetail) {
-    ColonyOrder order = colony_of(GetParam());
-    const Colony near = parts_of(order);
+    ColonySpec spec = colony_of(GetParam());
+    const Colony near = parts_of(spec);
     ASSERT_FALSE(near.members.empty());
     for (int lod = 1; lod < 4; ++lod) {
-        order.params.lod = lod;
-        const Colony far = parts_of(order);
+        spec.params.lod = lod;
+        const Colony far = parts_of(spec);
         ASSERT_EQ(far.members.size(), near.members.size());
         for (std::size_t i = 0; i < near.members.size(); ++i) {
             EXPECT_EQ(far.members[i].model, near.members[i].model);
@@ -207,16 +207,16 @@ TEST(ColonyCaps, OverlapByAtMostAFiftieth) {
     std::size_t made = 0, steps = 0;
     const auto seeds = static_cast<std::uint32_t>(effort(100));
     for (std::uint32_t seed = 1; seed <= seeds; ++seed) {
-        ColonyOrder order = colony_of(species[seed % species.size()], 24, 6);
-        order.params.seed = seed;
+        ColonySpec spec = colony_of(species[seed % species.size()], 24, 6);
+        spec.params.seed = seed;
         if (seed % 2 == 0) {
-            order.params.habit = Habit::rooted;
-            order.params.growth.stem_probability = 0.5;
+            spec.params.habit = Habit::rooted;
+            spec.params.growth.stem_probability = 0.5;
         } else {
-            order.params.habit = Habit::tuft;
+            spec.params.habit = Habit::tuft;
         }
-        const Colony colony = parts_of(order);
-        EXPECT_LT(deepest(colony), 0.02) << order.mix[0].id << " seed " << seed;
+        const Colony colony = parts_of(spec);
+        EXPECT_LT(deepest(colony), 0.02) << spec.mix[0].id << " seed " << seed;
         made += colony.members.size();
         for (const ColonyMember& member : colony.members) steps += member.steps > 0 ? 1 : 0;
     }
@@ -228,9 +228,9 @@ TEST(ColonyCaps, WholeIndividualsDoNotOverlapEither) {
     for (const char* id : {"lycoperdon_perlatum", "trametes_versicolor", "pleurotus_ostreatus",
                            "geastrum_triplex", "tremella_mesenterica"})
         for (const std::uint32_t seed : {1U, 2U, 3U}) {
-            ColonyOrder order = colony_of(id, 20, 5);
-            order.params.seed = seed;
-            const Colony colony = parts_of(order);
+            ColonySpec spec = colony_of(id, 20, 5);
+            spec.params.seed = seed;
+            const Colony colony = parts_of(spec);
             EXPECT_LT(deepest(colony), 0.02) << id << seed;
             EXPECT_GT(colony.members.size(), 9U) << id;
         }
@@ -238,10 +238,10 @@ TEST(ColonyCaps, WholeIndividualsDoNotOverlapEither) {
 
 // The law of the source holds for every stem that was not moved by placement.
 TEST(ColonyCaps, FollowTheLawOfTheSourceOnTheirStems) {
-    ColonyOrder order = colony_of("hypholoma_fasciculare", 64, 1);
-    order.params.habit = Habit::rooted;
-    order.params.cap_scale = 0.8;
-    const Colony colony = parts_of(order);
+    ColonySpec spec = colony_of("hypholoma_fasciculare", 64, 1);
+    spec.params.habit = Habit::rooted;
+    spec.params.cap_scale = 0.8;
+    const Colony colony = parts_of(spec);
     const ColonyRootsOf<Maybe>& growth = colony.effective.growth;
     std::size_t unmoved = 0;
     for (const ColonyMember& member : colony.members) {
@@ -264,23 +264,23 @@ TEST(ColonyCaps, FollowTheLawOfTheSourceOnTheirStems) {
 }
 
 TEST(ColonyCaps, GrowWithCapScaleAndColoniesWithSize) {
-    ColonyOrder order = colony_of("mycena_galericulata", 1, 1);
-    order.params.habit = Habit::troop;
-    const Colony one = parts_of(order);
-    order.params.cap_scale = 2.0;
-    const Colony wide = parts_of(order);
+    ColonySpec spec = colony_of("mycena_galericulata", 1, 1);
+    spec.params.habit = Habit::troop;
+    const Colony one = parts_of(spec);
+    spec.params.cap_scale = 2.0;
+    const Colony wide = parts_of(spec);
     EXPECT_NEAR(wide.members[0].posture.scale, 2.0 * one.members[0].posture.scale, 1e-12);
-    order.params.size = 3.0;
-    const Colony large = parts_of(order);
+    spec.params.size = 3.0;
+    const Colony large = parts_of(spec);
     EXPECT_LT(distance(bounds(large), {3.0F * bounds(wide).min, 3.0F * bounds(wide).max}), 1e-5);
 }
 
 TEST(ColonyFile, BytesGrowWithDistinctNotWithCount) {
     const auto bytes = [](int count, int distinct, Instancing instancing) {
-        ColonyOrder order = colony_of("lycoperdon_perlatum", count, distinct);
-        order.params.instancing = instancing;
-        order.params.habit = Habit::troop;
-        return static_cast<double>(size_of(grown(order).glb));
+        ColonySpec spec = colony_of("lycoperdon_perlatum", count, distinct);
+        spec.params.instancing = instancing;
+        spec.params.habit = Habit::troop;
+        return static_cast<double>(size_of(grown(spec).glb));
     };
     const double few = bytes(16, 4, Instancing::nodes);
     EXPECT_LT(bytes(128, 4, Instancing::nodes) - few, 112 * 260.0);
@@ -290,10 +290,10 @@ TEST(ColonyFile, BytesGrowWithDistinctNotWithCount) {
 
 TEST(ColonyFile, InstancesHaveTheTransformsOfNodes) {
     for (const char* id : {"armillaria_mellea", "trametes_versicolor"}) {
-        ColonyOrder order = colony_of(id);
-        const ReadScene nodes = expect_scene(joined(grown(order).glb));
-        order.params.instancing = Instancing::gpu;
-        const ReadScene gpu = expect_scene(joined(grown(order).glb));
+        ColonySpec spec = colony_of(id);
+        const ReadScene nodes = expect_scene(joined(grown(spec).glb));
+        spec.params.instancing = Instancing::gpu;
+        const ReadScene gpu = expect_scene(joined(grown(spec).glb));
         EXPECT_EQ(gpu.required, std::vector<std::string>{"EXT_mesh_gpu_instancing"});
         EXPECT_EQ(gpu.meshes.size(), nodes.meshes.size());
         std::map<int, std::vector<ReadInstance>> by_mesh;
@@ -319,9 +319,9 @@ TEST(ColonyFile, InstancesHaveTheTransformsOfNodes) {
 }
 
 TEST(ColonyFile, ItsPosturesAreThoseOfItsNodes) {
-    const ColonyOrder order = colony_of("armillaria_mellea", 6, 2);
-    const Colony colony = parts_of(order);
-    const ReadScene found = expect_scene(joined(grown(order).glb));
+    const ColonySpec spec = colony_of("armillaria_mellea", 6, 2);
+    const Colony colony = parts_of(spec);
+    const ReadScene found = expect_scene(joined(grown(spec).glb));
     ASSERT_EQ(found.nodes.size(), colony.members.size() + 1);
     for (std::size_t i = 0; i < colony.members.size(); ++i) {
         const ReadNode& node = found.nodes[i + 1];
@@ -337,42 +337,42 @@ TEST(ColonyFile, ItsPosturesAreThoseOfItsNodes) {
 }
 
 TEST(ColonyFile, AllMembersUseTheImagesOfOneMushroom) {
-    ColonyOrder order = colony_of("armillaria_mellea", 5, 2);
-    order.params.textures = Textures::embedded;
-    order.params.texture_size.value = 256;
-    order.params.lod = 1;
-    const ReadScene found = expect_scene(joined(grown(order).glb));
+    ColonySpec spec = colony_of("armillaria_mellea", 5, 2);
+    spec.params.textures = Textures::embedded;
+    spec.params.texture_size.value = 256;
+    spec.params.lod = 1;
+    const ReadScene found = expect_scene(joined(grown(spec).glb));
     EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {128, 128})))
         << "the size of the colony's level";
     for (const auto& mesh : found.meshes)
         EXPECT_EQ(mesh[0].attributes,
                   (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
-    order.params.textures = Textures::linked;
-    EXPECT_TRUE(names(refusal([&] { (void)grown(order); }), "/textures"));
+    spec.params.textures = Textures::linked;
+    EXPECT_TRUE(names(refusal([&] { (void)grown(spec); }), "/textures"));
 }
 
 TEST(ColonyFile, IsDeterministicAndDependsOnTheSeed) {
-    ColonyOrder order = colony_of("hypholoma_fasciculare");
-    order.params.habit = Habit::rooted;
-    const Bytes once = joined(grown(order).glb);
-    EXPECT_EQ(once, joined(grown(order).glb));
-    order.params.seed = 2;
-    EXPECT_NE(once, joined(grown(order).glb));
+    ColonySpec spec = colony_of("hypholoma_fasciculare");
+    spec.params.habit = Habit::rooted;
+    const Bytes once = joined(grown(spec).glb);
+    EXPECT_EQ(once, joined(grown(spec).glb));
+    spec.params.seed = 2;
+    EXPECT_NE(once, joined(grown(spec).glb));
 }
 
 TEST(ColonyFile, AMixIsOneMushroomInManyInstances) {
-    ColonyOrder order = colony_of("", 8, 3);
-    order.mix = {{"armillaria_mellea", 500}, {"hypholoma_fasciculare", 500}};
-    (void)expect_scene(joined(grown(order).glb));
-    order.mix = {{"armillaria_mellea", 500}, {"trametes_versicolor", 500}};
-    EXPECT_EQ(colony_nature(order, atlas()).habit, Habit::tier);
-    (void)expect_scene(joined(grown(order).glb));
+    ColonySpec spec = colony_of("", 8, 3);
+    spec.mix = {{"armillaria_mellea", 500}, {"hypholoma_fasciculare", 500}};
+    (void)expect_scene(joined(grown(spec).glb));
+    spec.mix = {{"armillaria_mellea", 500}, {"trametes_versicolor", 500}};
+    EXPECT_EQ(colony_nature(spec, atlas()).habit, Habit::tier);
+    (void)expect_scene(joined(grown(spec).glb));
 }
 
 TEST(ColonyFile, DescribesTheResult) {
-    ColonyOrder order = colony_of("hypholoma_fasciculare", 64, 4);
-    order.params.habit = Habit::rooted;
-    const Colony colony = parts_of(order);
+    ColonySpec spec = colony_of("hypholoma_fasciculare", 64, 4);
+    spec.params.habit = Habit::rooted;
+    const Colony colony = parts_of(spec);
     EXPECT_LT(colony.members.size(), 64U) << "there are not as many stems";
     EXPECT_EQ(colony.effective.count, 64);
     EXPECT_EQ(colony.effective.habit, Habit::rooted);
@@ -380,7 +380,7 @@ TEST(ColonyFile, DescribesTheResult) {
         EXPECT_TRUE(colony.effective.growth.*member) << info.name;
     });
     // Requesting the effective parameters gives the same colony.
-    ColonyOrder again = order;
+    ColonySpec again = spec;
     again.params = colony.effective;
     const Colony second = parts_of(again);
     EXPECT_EQ(second.members.size(), colony.members.size());
@@ -388,14 +388,14 @@ TEST(ColonyFile, DescribesTheResult) {
 }
 
 TEST(ColonyBudget, IsCheckedBeforeAnyWork) {
-    ColonyOrder order = colony_of("hypholoma_fasciculare");
-    order.params.habit = Habit::rooted;
-    order.params.growth.depth = 60;
-    order.params.growth.branch_distance = 0.005;
+    ColonySpec spec = colony_of("hypholoma_fasciculare");
+    spec.params.habit = Habit::rooted;
+    spec.params.growth.depth = 60;
+    spec.params.growth.branch_distance = 0.005;
     EXPECT_TRUE(
-        names(refusal([&] { (void)estimate(order, atlas()); }), "/branch_distance", "nodes"));
-    EXPECT_TRUE(names(refusal([&] { (void)parts_of(order); }), "/branch_distance", "nodes"));
-    Workshop stopped = remembering();
+        names(refusal([&] { (void)estimate(spec, atlas()); }), "/branch_distance", "nodes"));
+    EXPECT_TRUE(names(refusal([&] { (void)parts_of(spec); }), "/branch_distance", "nodes"));
+    ExecutionContext stopped = remembering();
     std::stop_source source;
     source.request_stop();
     stopped.stop = source.get_token();
@@ -407,15 +407,15 @@ TEST(ColonyBudget, IsCheckedBeforeAnyWork) {
 TEST(ColonyCorners, AreValidOrRefusedByName) {
     for (const char* id : {"hypholoma_fasciculare", "lycoperdon_perlatum", "trametes_versicolor"})
         for (const bool rooted : {true, false}) {
-            ColonyOrder order = colony_of(id, 5, 2);
-            order.params.lod = 1;
+            ColonySpec spec = colony_of(id, 5, 2);
+            spec.params.lod = 1;
             if (rooted && std::string(id) == "trametes_versicolor") continue;
-            if (rooted) order.params.habit = Habit::rooted;
-            corners(order.params, [&](const std::string& path) {
+            if (rooted) spec.params.habit = Habit::rooted;
+            corners(spec.params, [&](const std::string& path) {
                 SCOPED_TRACE(std::string(id) + path);
                 if (path == "/textures") return;
                 try {
-                    const Colony colony = parts_of(order);
+                    const Colony colony = parts_of(spec);
                     if (!colony.skin.positions.empty()) expect_valid(colony.skin);
                     for (const ColonyMember& member : colony.members)
                         EXPECT_TRUE(std::isfinite(member.posture.at.y) &&

@@ -31,10 +31,10 @@ struct Level {
 std::vector<Level> levels_of(const std::string& id, double age, std::uint32_t seed) {
     std::vector<Level> levels;
     for (int lod = 0; lod < 4; ++lod) {
-        MushroomOrder order = textured(order_of(id, age, seed, lod));
-        order.params.texture_size.value = 512;
-        const PaintRecipe recipe = paint_recipe(order, atlas());
-        levels.push_back({mesh_of(order), paint_raw(recipe.front().painting)});
+        MushroomSpec spec = textured(order_of(id, age, seed, lod));
+        spec.params.texture_size.value = 512;
+        const PaintSpec paint_spec = paint_spec_of(spec, atlas());
+        levels.push_back({mesh_of(spec), paint_raw(paint_spec.front().painting)});
     }
     return levels;
 }

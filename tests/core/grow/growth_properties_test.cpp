@@ -22,17 +22,17 @@ struct Worst {
     double share = 0.0, age = 0.0;
 };
 
-Worst worst_jump(MushroomOrder order, double from, double to, int frames) {
-    order.params.age = 0.6;
-    const double size = diagonal(bounds(mesh_of(order)));
+Worst worst_jump(MushroomSpec spec, double from, double to, int frames) {
+    spec.params.age = 0.6;
+    const double size = diagonal(bounds(mesh_of(spec)));
     Worst worst;
-    order.params.age = from;
-    Mesh last = mesh_of(order);
+    spec.params.age = from;
+    Mesh last = mesh_of(spec);
     for (int i = 1; i <= frames; ++i) {
-        order.params.age = from + (to - from) * i / frames;
-        Mesh now = mesh_of(order);
+        spec.params.age = from + (to - from) * i / frames;
+        Mesh now = mesh_of(spec);
         const double share = jump(last, now) / size;
-        if (share > worst.share) worst = {share, order.params.age};
+        if (share > worst.share) worst = {share, spec.params.age};
         last = std::move(now);
     }
     return worst;
@@ -45,22 +45,22 @@ TEST_P(Growth, NoVertexMovesByTwoHundredthsOfTheMatureSizeInA256thOfALife) {
         double variation;
     };
     for (const One& one : {One{0, 2, 0.5}, One{1, 7, 1.0}}) {
-        MushroomOrder order = order_of(GetParam(), 0.0, one.seed, one.lod);
-        order.params.variation = one.variation;
+        MushroomSpec spec = order_of(GetParam(), 0.0, one.seed, one.lod);
+        spec.params.variation = one.variation;
         // With sanitizers a twentieth of a life is tested, in equally small steps.
         const int frames = static_cast<int>(effort(256, 1, 256));
-        const Worst worst = worst_jump(order, 0.0, frames / 256.0, frames);
+        const Worst worst = worst_jump(spec, 0.0, frames / 256.0, frames);
         EXPECT_LT(worst.share, 0.02) << "lod " << one.lod << ", age " << worst.age;
     }
 }
 
 TEST_P(Growth, HasNoJumpAtAnyStepSize) {
     // A discontinuity, unlike fast movement, does not shrink in steps sixteen times as short.
-    MushroomOrder order = order_of(GetParam(), 0.0, 7, 1);
+    MushroomSpec spec = order_of(GetParam(), 0.0, 7, 1);
     const int frames = static_cast<int>(effort(64, 2, 128));
     for (const double age : {0.0, 0.1, 0.28, 0.45, 0.59, 0.72, 0.84, 0.95}) {
         const double to = std::min(age + frames / 4096.0, 1.0);
-        const Worst worst = worst_jump(order, age, to, frames);
+        const Worst worst = worst_jump(spec, age, to, frames);
         EXPECT_LT(worst.share, 0.02 / 16.0) << "age " << worst.age;
     }
 }

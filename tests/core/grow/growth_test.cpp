@@ -73,14 +73,14 @@ TEST_P(EverySpeciesClip, FramesAreTheStaticMeshesAtTheirAges) {
     constexpr std::array<std::uint32_t, 2> seeds = {7, 1};
     for (int lod = 0; lod < 4; ++lod)
         for (const std::uint32_t seed : std::span(seeds).first(effort(2, 1, 2))) {
-            const MushroomOrder order = order_of(GetParam(), 0.6, seed, lod);
-            const ReadBack clip = expect_glb(joined(grow_mushroom(growing(order), atlas()).glb));
+            const MushroomSpec spec = order_of(GetParam(), 0.6, seed, lod);
+            const ReadBack clip = expect_glb(joined(grow_mushroom(growing(spec), atlas()).glb));
             const std::vector<double> ages = frame_ages(9);
             ASSERT_EQ(clip.targets.size(), ages.size());
             for (std::size_t k = 0; k < ages.size(); ++k) {
                 SCOPED_TRACE("lod " + std::to_string(lod) + ", seed " + std::to_string(seed) +
                              ", age " + std::to_string(ages[k]));
-                MushroomOrder still = order;
+                MushroomSpec still = spec;
                 still.params.age = ages[k];
                 const Mesh frame = posed(clip, one_hot(ages.size(), k));
                 expect_valid(frame);
@@ -93,16 +93,16 @@ TEST_P(EverySpeciesClip, FramesAreTheStaticMeshesAtTheirAges) {
 TEST_P(EverySpeciesClip, WithoutPlaybackTheMushroomHasTheRequestedAge) {
     for (const double age : {0.0, 0.37, 0.6, 1.0}) {
         SCOPED_TRACE(age);
-        const MushroomOrder order = order_of(GetParam(), age, 3, 1);
-        const ReadBack clip = expect_glb(joined(grow_mushroom(growing(order), atlas()).glb));
-        expect_same_surface(clip.mesh, mesh_of(order));
+        const MushroomSpec spec = order_of(GetParam(), age, 3, 1);
+        const ReadBack clip = expect_glb(joined(grow_mushroom(growing(spec), atlas()).glb));
+        expect_same_surface(clip.mesh, mesh_of(spec));
     }
 }
 
 TEST_P(EverySpeciesClip, WeightsAreOneFrameAtEachKeyEvenlyOverEightSeconds) {
     for (const int frames : {2, 5, 16}) {
-        const MushroomOrder order = growing(order_of(GetParam(), 0.6, 1, 3), frames);
-        const ReadBack found = expect_glb(joined(grow_mushroom(order, atlas()).glb));
+        const MushroomSpec spec = growing(order_of(GetParam(), 0.6, 1, 3), frames);
+        const ReadBack found = expect_glb(joined(grow_mushroom(spec, atlas()).glb));
         const auto n = static_cast<std::size_t>(frames);
         ASSERT_EQ(found.targets.size(), n);
         ASSERT_EQ(found.clips.size(), 1u);
@@ -139,10 +139,10 @@ TEST_P(EverySpeciesClip, HalfWayBetweenTwoFramesIsTheirMean) {
 TEST_P(EverySpeciesClip, ClipsAreEstimatedBeforeAnyWork) {
     for (const int lod : {0, 1, 3})
         for (const int frames : {2, 16}) {
-            const MushroomOrder order =
+            const MushroomSpec spec =
                 growing(painted(order_of(GetParam(), 0.6, 3, lod), 256), frames);
-            const Estimate e = estimate(order, atlas());
-            const Mushroom made = grow_mushroom(order, atlas());
+            const Estimate e = estimate(spec, atlas());
+            const Mushroom made = grow_mushroom(spec, atlas());
             const auto vertices = made.vertices * static_cast<std::uint64_t>(frames + 1);
             EXPECT_GE(e.vertices, vertices) << "every frame is counted";
             EXPECT_LE(e.vertices, 3 * vertices);
@@ -157,12 +157,12 @@ TEST(Clip, MixesGrowAsTheirStaticMeshesDo) {
         {{"amanita_muscaria", 400}, {"coprinus_comatus", 600}},
         {{"boletus_edulis", 300}, {"disciotis_venosa", 200}, {"clavariadelphus_pistillaris", 500}}};
     for (const Mix& mix : mixes) {
-        const MushroomOrder order = mix_of(mix, 0.6, 5, 1);
-        const ReadBack clip = expect_glb(joined(grow_mushroom(growing(order, 5), atlas()).glb));
+        const MushroomSpec spec = mix_of(mix, 0.6, 5, 1);
+        const ReadBack clip = expect_glb(joined(grow_mushroom(growing(spec, 5), atlas()).glb));
         const std::vector<double> ages = frame_ages(5);
         for (std::size_t k = 0; k < ages.size(); ++k) {
             SCOPED_TRACE(mix.front().id + ", age " + std::to_string(ages[k]));
-            MushroomOrder still = order;
+            MushroomSpec still = spec;
             still.params.age = ages[k];
             expect_same_surface(posed(clip, one_hot(ages.size(), k)), mesh_of(still));
         }
@@ -170,35 +170,34 @@ TEST(Clip, MixesGrowAsTheirStaticMeshesDo) {
 }
 
 TEST(Clip, FindsTheCorrespondenceOfItsSpeciesOnce) {
-    Workshop workshop;
+    ExecutionContext execution;
     int asked = 0;
-    workshop.memo.morphs = [&](const std::string&, const auto& make) {
+    execution.caches.morphs = [&](const std::string&, const auto& make) {
         ++asked;
         return make();
     };
-    const MushroomOrder order =
-        growing(mix_of({{"amanita_muscaria", 400}, {"boletus_edulis", 600}}));
-    (void)growth_clip(order, atlas(), mesh_of(order), workshop);
+    const MushroomSpec spec = growing(mix_of({{"amanita_muscaria", 400}, {"boletus_edulis", 600}}));
+    (void)growth_clip(spec, atlas(), mesh_of(spec), execution);
     EXPECT_EQ(asked, 1) << "all ages are weights of one set";
 }
 
 TEST(Clip, ImagesAreThoseOfTheAge) {
-    MushroomOrder order = painted(order_of("boletus_edulis", 0.3, 4, 1));
-    const ReadBack still = expect_glb(joined(grow_mushroom(order, atlas()).glb));
-    const ReadBack clip = expect_glb(joined(grow_mushroom(growing(order), atlas()).glb));
+    MushroomSpec spec = painted(order_of("boletus_edulis", 0.3, 4, 1));
+    const ReadBack still = expect_glb(joined(grow_mushroom(spec, atlas()).glb));
+    const ReadBack clip = expect_glb(joined(grow_mushroom(growing(spec), atlas()).glb));
     EXPECT_EQ(clip.images, still.images);
     EXPECT_EQ(clip.attributes,
               (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
-    order.params.textures = Textures::linked;
+    spec.params.textures = Textures::linked;
     const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
-    const ReadBack linked = expect_glb(joined(grow_mushroom(growing(order), atlas(), extras).glb));
+    const ReadBack linked = expect_glb(joined(grow_mushroom(growing(spec), atlas(), extras).glb));
     EXPECT_EQ(linked.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
     EXPECT_EQ(linked.targets.size(), 9u);
 }
 
 TEST(Clip, AClipContainsTheRequestThatMadeIt) {
-    const MushroomOrder order = growing(painted(order_of("boletus_edulis", 0.6, 7, 1)), 4);
-    const Mushroom made = grow_mushroom(order, atlas(), {"/v1/canonical", {}});
+    const MushroomSpec spec = growing(painted(order_of("boletus_edulis", 0.6, 7, 1)), 4);
+    const Mushroom made = grow_mushroom(spec, atlas(), {"/v1/canonical", {}});
     const Inspection found = inspect_glb(joined(made.glb));
     EXPECT_EQ(found.canonical, "/v1/canonical");
     EXPECT_EQ(found.vertices, made.vertices) << "of the mesh, however many frames it has";
@@ -211,22 +210,22 @@ TEST(Clip, AClipContainsTheRequestThatMadeIt) {
 }
 
 TEST(Clip, GivesEqualBytesTwiceAndWithManyThreads) {
-    const MushroomOrder order = growing(order_of("amanita_muscaria", 0.6, 2, 1));
-    const Bytes once = joined(grow_mushroom(order, atlas()).glb);
-    EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), once);
-    Workshop threads;
+    const MushroomSpec spec = growing(order_of("amanita_muscaria", 0.6, 2, 1));
+    const Bytes once = joined(grow_mushroom(spec, atlas()).glb);
+    EXPECT_EQ(joined(grow_mushroom(spec, atlas()).glb), once);
+    ExecutionContext threads;
     threads.parallel = in_threads;
-    EXPECT_EQ(joined(grow_mushroom(order, atlas(), {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_mushroom(spec, atlas(), {}, threads).glb), once);
 }
 
 TEST(Clip, AnImpossibleAgeIsRefusedByName) {
     // Buttons are stout: a bend that a grown stem allows folds the young one.
     int refused = 0;
     for (const std::string& id : species_ids()) {
-        MushroomOrder order = order_of(id, 0.6, 1, 3);
-        order.params.deformation.bend_deg = 90.0;
-        if (!refusal([&] { (void)mesh_of(order); }).empty()) continue;
-        const auto problems = refusal([&] { (void)grow_mushroom(growing(order), atlas()); });
+        MushroomSpec spec = order_of(id, 0.6, 1, 3);
+        spec.params.deformation.bend_deg = 90.0;
+        if (!refusal([&] { (void)mesh_of(spec); }).empty()) continue;
+        const auto problems = refusal([&] { (void)grow_mushroom(growing(spec), atlas()); });
         if (problems.empty()) continue;
         ++refused;
         EXPECT_TRUE(names(problems, "/deformation/bend_deg", "in the clip, at age 0")) << id;
@@ -235,12 +234,12 @@ TEST(Clip, AnImpossibleAgeIsRefusedByName) {
 }
 
 TEST(Clip, AUserModelHasNoStages) {
-    MushroomOrder order = growing(order_of("x"));
-    order.mix.clear();
-    order.model = atlas().find("russula_vinosa")->species.stages[1].model;
+    MushroomSpec spec = growing(order_of("x"));
+    spec.mix.clear();
+    spec.model = atlas().find("russula_vinosa")->species.stages[1].model;
     EXPECT_TRUE(
-        names(refusal([&] { (void)grow_mushroom(order, atlas()); }), "/animation", "no stages"));
-    EXPECT_TRUE(names(refusal([&] { (void)estimate(order, atlas()); }), "/animation", "no stages"));
+        names(refusal([&] { (void)grow_mushroom(spec, atlas()); }), "/animation", "no stages"));
+    EXPECT_TRUE(names(refusal([&] { (void)estimate(spec, atlas()); }), "/animation", "no stages"));
 }
 
 TEST(Clip, FramesNeedAClipSoThatEqualBytesHaveOneUrl) {
@@ -265,12 +264,12 @@ TEST(Clip, FramesNeedAClipSoThatEqualBytesHaveOneUrl) {
 
 TEST(Clip, StopsWhenCancelled) {
     std::stop_source source;
-    Workshop workshop;
-    workshop.stop = source.get_token();
-    const MushroomOrder order = growing(order_of("boletus_edulis", 0.6, 1, 1));
-    const Mesh mesh = mesh_of(order);
+    ExecutionContext execution;
+    execution.stop = source.get_token();
+    const MushroomSpec spec = growing(order_of("boletus_edulis", 0.6, 1, 1));
+    const Mesh mesh = mesh_of(spec);
     source.request_stop();
-    EXPECT_THROW((void)growth_clip(order, atlas(), mesh, workshop), Cancelled);
+    EXPECT_THROW((void)growth_clip(spec, atlas(), mesh, execution), Cancelled);
 }
 
 }  // namespace

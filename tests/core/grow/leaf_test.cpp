@@ -18,11 +18,11 @@
 namespace sporeprint {
 namespace {
 
-LeafOrder order_of(const char* preset, int lod = 0, int side = 128) {
-    LeafOrder order{preset, params_of(*leaf_preset(preset))};
-    order.params.lod = lod;
-    order.params.texture_size.value = side;
-    return order;
+LeafSpec order_of(const char* preset, int lod = 0, int side = 128) {
+    LeafSpec spec{preset, params_of(*leaf_preset(preset))};
+    spec.params.lod = lod;
+    spec.params.texture_size.value = side;
+    return spec;
 }
 
 class EveryLeaf : public ::testing::TestWithParam<const char*> {};
@@ -72,9 +72,9 @@ TEST_P(EveryLeaf, HasFewerTrianglesAtEveryLevelAndOneOutline) {
 
 TEST_P(EveryLeaf, IsEstimatedBeforeAnyWork) {
     for (int lod = 0; lod < leaf_lods; ++lod) {
-        const LeafOrder order = order_of(GetParam(), lod, 256);
-        const Estimate e = estimate(order);
-        const Grown leaf = grow_leaf(order);
+        const LeafSpec spec = order_of(GetParam(), lod, 256);
+        const Estimate e = estimate(spec);
+        const Grown leaf = grow_leaf(spec);
         EXPECT_GE(e.vertices, leaf.vertices);
         EXPECT_GE(e.triangles, leaf.triangles);
         EXPECT_EQ(e.texels, 3u * (256u >> lod) * (256u >> lod));
@@ -85,19 +85,19 @@ TEST_P(EveryLeaf, IsEstimatedBeforeAnyWork) {
 }
 
 TEST_P(EveryLeaf, GivesEqualBytesTwiceAndWithManyThreads) {
-    const LeafOrder order = order_of(GetParam(), 0, 128);
-    Workshop threads;
+    const LeafSpec spec = order_of(GetParam(), 0, 128);
+    ExecutionContext threads;
     threads.parallel = in_threads;
-    const Bytes once = joined(grow_leaf(order).glb);
-    EXPECT_EQ(joined(grow_leaf(order, {}, threads).glb), once);
-    EXPECT_EQ(joined(grow_leaf(order).glb), once);
+    const Bytes once = joined(grow_leaf(spec).glb);
+    EXPECT_EQ(joined(grow_leaf(spec, {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_leaf(spec).glb), once);
 }
 
 TEST(GrownLeaf, SizeScalesTheMesh) {
-    LeafOrder order = order_of("ivy");
-    const Mesh one = leaf_mesh(order);
-    order.params.size = 2.0;
-    const Mesh twice = leaf_mesh(order);
+    LeafSpec spec = order_of("ivy");
+    const Mesh one = leaf_mesh(spec);
+    spec.params.size = 2.0;
+    const Mesh twice = leaf_mesh(spec);
     ASSERT_EQ(one.positions.size(), twice.positions.size());
     for (std::size_t i = 0; i < one.positions.size(); ++i) {
         ASSERT_LT(glm::distance(2.0F * one.positions[i], twice.positions[i]), 1e-7F);
@@ -106,53 +106,53 @@ TEST(GrownLeaf, SizeScalesTheMesh) {
 }
 
 TEST(GrownLeaf, SeedsAreIndividuals) {
-    LeafOrder order = order_of("maple", 2);
-    const Bytes one = joined(grow_leaf(order).glb);
-    order.params.seed = 2;
-    EXPECT_NE(joined(grow_leaf(order).glb), one);
+    LeafSpec spec = order_of("maple", 2);
+    const Bytes one = joined(grow_leaf(spec).glb);
+    spec.params.seed = 2;
+    EXPECT_NE(joined(grow_leaf(spec).glb), one);
 }
 
 TEST(GrownLeaf, AChangeOfShapeReusesTheImages) {
     Keeper keeper;
-    LeafOrder order = order_of("maple", 1);
-    const Grown flat = grow_leaf(order, {}, keeper.workshop);
-    order.params.shape.curl_deg = 120.0;
-    order.params.shape.petiole = 1.5;
-    order.params.size = 0.5;
-    const Grown curled = grow_leaf(order, {}, keeper.workshop);
+    LeafSpec spec = order_of("maple", 1);
+    const Grown flat = grow_leaf(spec, {}, keeper.execution);
+    spec.params.shape.curl_deg = 120.0;
+    spec.params.shape.petiole = 1.5;
+    spec.params.size = 0.5;
+    const Grown curled = grow_leaf(spec, {}, keeper.execution);
     EXPECT_EQ(keeper.asked, 2);
     EXPECT_EQ(keeper.made, 1);
     for (const Slice& file : keeper.kept.begin()->second->files) {
         EXPECT_TRUE(shares_bytes(flat.glb, file));
         EXPECT_TRUE(shares_bytes(curled.glb, file));
     }
-    EXPECT_EQ(joined(grow_leaf(order).glb), joined(curled.glb));
-    order.params.autumn = 0.5;
-    (void)grow_leaf(order, {}, keeper.workshop);
+    EXPECT_EQ(joined(grow_leaf(spec).glb), joined(curled.glb));
+    spec.params.autumn = 0.5;
+    (void)grow_leaf(spec, {}, keeper.execution);
     EXPECT_EQ(keeper.made, 2);
 }
 
 TEST(GrownLeaf, LinksImagesOrLeavesThemOut) {
-    LeafOrder order = order_of("oak", 2);
-    order.params.textures = Textures::linked;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(order); }), "/textures", "linked"));
+    LeafSpec spec = order_of("oak", 2);
+    spec.params.textures = Textures::linked;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec); }), "/textures", "linked"));
     const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
-    const ReadBack found = expect_glb(joined(grow_leaf(order, extras).glb));
+    const ReadBack found = expect_glb(joined(grow_leaf(spec, extras).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
-    order.params.textures = Textures::none;
-    const ReadBack bare = expect_glb(joined(grow_leaf(order).glb));
+    spec.params.textures = Textures::none;
+    const ReadBack bare = expect_glb(joined(grow_leaf(spec).glb));
     EXPECT_EQ(bare.attributes, (std::vector<std::string>{"NORMAL", "POSITION"}));
     EXPECT_EQ(bare.textures, 0u);
 }
 
 TEST(GrownLeaf, DescribesItselfInExtras) {
-    LeafOrder order = order_of("birch", 1);
-    order.params.shape.venation.nodes = 11;
-    const Value json = json_chunk(joined(grow_leaf(order, {"/v1/canonical", {}}).glb));
+    LeafSpec spec = order_of("birch", 1);
+    spec.params.shape.venation.nodes = 11;
+    const Value json = json_chunk(joined(grow_leaf(spec, {"/v1/canonical", {}}).glb));
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/venation/nodes")->as_number(), 11.0);
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
-              static_cast<double>(leaf_mesh(order).triangles()));
+              static_cast<double>(leaf_mesh(spec).triangles()));
     EXPECT_EQ(json.at_pointer("/meshes/0/primitives")->items().size(), 1u);
     EXPECT_EQ(json.at_pointer("/materials")->items().size(), 1u);
     EXPECT_EQ(json.at_pointer("/extensionsUsed"), nullptr);
@@ -161,26 +161,26 @@ TEST(GrownLeaf, DescribesItselfInExtras) {
 TEST(GrownLeaf, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
-    Workshop workshop;
-    workshop.stop = source.get_token();
-    EXPECT_THROW((void)grow_leaf(order_of("fern"), {}, workshop), Cancelled);
+    ExecutionContext execution;
+    execution.stop = source.get_token();
+    EXPECT_THROW((void)grow_leaf(order_of("fern"), {}, execution), Cancelled);
 }
 
 TEST(GrownLeaf, StepsAreReportedInOrder) {
     std::vector<std::string> steps;
-    Workshop workshop;
-    workshop.observer = [&](Step step) { steps.emplace_back(name(step)); };
-    (void)grow_leaf(order_of("needle", 3), {}, workshop);
+    ExecutionContext execution;
+    execution.observer = [&](Step step) { steps.emplace_back(name(step)); };
+    (void)grow_leaf(order_of("needle", 3), {}, execution);
     EXPECT_EQ(steps, (std::vector<std::string>{"build", "paint", "pack"}));
 }
 
 TEST(GrownLeaf, ImpossibleParametersAreRefusedByName) {
-    LeafOrder order = order_of("maple");
-    order.params.shape.venation.lobes.value = 13;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(order); }), "/venation/vein_deg", "petiole"));
-    order = order_of("maple");
-    order.params.shape.length = 2.0;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(order); }), "/length", "outside"));
+    LeafSpec spec = order_of("maple");
+    spec.params.shape.venation.lobes.value = 13;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec); }), "/venation/vein_deg", "petiole"));
+    spec = order_of("maple");
+    spec.params.shape.length = 2.0;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec); }), "/length", "outside"));
 }
 
 }  // namespace

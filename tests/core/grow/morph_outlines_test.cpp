@@ -72,11 +72,11 @@ TEST_P(PairOutlines, AreRefusedForNoPairOfTheAtlas) {
     for (std::size_t i = GetParam(); i < pairs.size(); i += parts)
         for (const double age : {0.0, 0.25, 0.5, 0.75, 1.0})
             for (const int t : {250, 500, 750}) {
-                MushroomOrder order = mix_of({{pairs[i].first, 1000 - t}, {pairs[i].second, t}},
-                                             age, static_cast<std::uint32_t>(i));
-                order.params.variation = 1.0;
-                EXPECT_NO_THROW((void)resolve(order, atlas(), kept_morphs()))
-                    << text_of(order.mix) << ", age " << age;
+                MushroomSpec spec = mix_of({{pairs[i].first, 1000 - t}, {pairs[i].second, t}}, age,
+                                           static_cast<std::uint32_t>(i));
+                spec.params.variation = 1.0;
+                EXPECT_NO_THROW((void)resolve(spec, atlas(), kept_morphs()))
+                    << text_of(spec.mix) << ", age " << age;
             }
 }
 

@@ -30,32 +30,31 @@ double hairs_breadth_of_flat(const Mesh& mesh) {
     return std::max(hairs_breadth(mesh), 0.0013 * diagonal(bounds(mesh)));
 }
 
-bool has_limbs(const MushroomOrder& order) {
-    return is_branched(atlas().find(order.mix.front().id)->species);
+bool has_segments(const MushroomSpec& spec) {
+    return is_branched(atlas().find(spec.mix.front().id)->species);
 }
 
 /// Returns true when a set has so many triangles that its patches have fewer corners than those of
 /// a single species.
-bool is_crowded(const MushroomOrder& order) {
-    return budget_of(resolved(order), order.params.lod).ornaments.patch_sides <
-           detail_of(order.params.lod).patch_sides;
+bool is_crowded(const MushroomSpec& spec) {
+    return budget_of(resolved(spec), spec.params.lod).ornaments.patch_sides <
+           detail_of(spec.params.lod).patch_sides;
 }
 
 /// Returns the same order without warts and scales, as far as its species can have any.
-MushroomOrder without_patches(MushroomOrder order) {
-    const auto& has = resolved(order).effective.ornaments;
-    auto& asked = order.params.ornaments;
+MushroomSpec without_patches(MushroomSpec spec) {
+    const auto& has = resolved(spec).effective.ornaments;
+    auto& asked = spec.params.ornaments;
     for (const auto amount :
          {&OrnamentsOf<Maybe>::warts, &OrnamentsOf<Maybe>::scales, &OrnamentsOf<Maybe>::volva})
         if (has.*amount) asked.*amount = 0.0;
-    return order;
+    return spec;
 }
 
 /// Expects that a species mixed with a thousandth of another deviates by at most `allowance`,
 /// without its gills; these follow in expect_solids_converge().
-void expect_convergence(MushroomOrder alone, MushroomOrder beside,
-                        double (*allowance)(const Mesh&)) {
-    if (!has_limbs(alone)) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
+void expect_convergence(MushroomSpec alone, MushroomSpec beside, double (*allowance)(const Mesh&)) {
+    if (!has_segments(alone)) alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), allowance(pure))
         << text_of(beside.mix) << ", age " << alone.params.age;
@@ -65,8 +64,8 @@ void expect_convergence(MushroomOrder alone, MushroomOrder beside,
 }
 
 /// The same with gills, pores and spines.
-void expect_solids_converge(const MushroomOrder& alone, const MushroomOrder& beside) {
-    if (has_limbs(alone)) return expect_convergence(alone, beside, hairs_breadth_of_flat);
+void expect_solids_converge(const MushroomSpec& alone, const MushroomSpec& beside) {
+    if (has_segments(alone)) return expect_convergence(alone, beside, hairs_breadth_of_flat);
     const Mesh pure = mesh_of(alone), mixed = mesh_of(beside);
     EXPECT_LT(hausdorff(pure, mixed), hairs_breadth(pure)) << text_of(beside.mix);
     EXPECT_NEAR(area(mixed) / area(pure), 1.0, 0.02) << text_of(beside.mix);
@@ -95,8 +94,8 @@ TEST_P(EveryPair, ConvergesToEitherSpecies) {
 class SomePairs : public ::testing::TestWithParam<SpeciesPair> {
   protected:
     /// Returns the pair at t thousandths from its first species to its second.
-    [[nodiscard]] static MushroomOrder at(int t, double age = 0.6, std::uint32_t seed = 3,
-                                          int lod = 1) {
+    [[nodiscard]] static MushroomSpec at(int t, double age = 0.6, std::uint32_t seed = 3,
+                                         int lod = 1) {
         const auto& [a, b] = GetParam();
         return mix_of(present({{a, 1000 - t}, {b, t}}), age, seed, lod);
     }
@@ -137,7 +136,7 @@ TEST_P(SomePairs, HasNoJumpFromOneSpeciesToTheOther) {
                                  std::min(diagonal(bounds(last)), diagonal(bounds(now)));
             // At coarse levels a mix of branch graphs keeps other small segments than either
             // species alone.
-            if (corner && has_limbs(at(500, age)))
+            if (corner && has_segments(at(500, age)))
                 worst_corner = std::max(worst_corner, share);
             else if (share > worst) {
                 worst = share;
@@ -207,14 +206,14 @@ TEST_P(RandomMixes, AreValidMeshes) {
             const double age = random.uniform();
             const std::uint32_t seed = random.bits();
             const int lod = static_cast<int>(random.bits() % 4);
-            MushroomOrder order = textured(mix_of(mix, age, seed, lod));
-            order.params.variation = random.uniform();
+            MushroomSpec spec = textured(mix_of(mix, age, seed, lod));
+            spec.params.variation = random.uniform();
             SCOPED_TRACE(text_of(mix) + " age " + std::to_string(age) + " seed " +
                          std::to_string(seed) + " lod " + std::to_string(lod) + " variation " +
-                         std::to_string(order.params.variation));
+                         std::to_string(spec.params.variation));
             ++drawn;
             Mesh mesh;
-            const auto problems = refusal([&] { mesh = mesh_of(order); });
+            const auto problems = refusal([&] { mesh = mesh_of(spec); });
             if (!problems.empty()) {  // no valid outline: reported, never served
                 EXPECT_TRUE(problems.front().path.starts_with("/model/silhouette/"));
                 ++refused;
@@ -241,7 +240,7 @@ TEST(Morph, TheSurfaceOfEightSpeciesConvergesTowardsWeightOne) {
         std::sort(mix.begin(), mix.end(),
                   [](const MixPart& a, const MixPart& b) { return a.id < b.id; });
         const std::string& id = ids[corner];
-        MushroomOrder alone = order_of(id, 0.6, 3, 0), beside = mix_of(mix, 0.6, 3, 0);
+        MushroomSpec alone = order_of(id, 0.6, 3, 0), beside = mix_of(mix, 0.6, 3, 0);
         alone.params.hymenium.depth = beside.params.hymenium.depth = 0.0;
         if (is_crowded(beside)) {  // corners of its patches differ
             alone = without_patches(alone);
@@ -255,12 +254,12 @@ TEST(Morph, TheSurfaceOfEightSpeciesConvergesTowardsWeightOne) {
 
 TEST(Morph, TheOrderOfSpeciesDoesNotMatter) {
     Mix mix = {{"amanita_muscaria", 300}, {"boletus_edulis", 300}, {"coprinus_comatus", 400}};
-    MushroomOrder order = painted(mix_of(mix, 0.45, 11, 1));
-    const Bytes first = joined(grow_mushroom(order, atlas()).glb);
+    MushroomSpec spec = painted(mix_of(mix, 0.45, 11, 1));
+    const Bytes first = joined(grow_mushroom(spec, atlas()).glb);
     const auto by_id = [](const MixPart& a, const MixPart& b) { return a.id < b.id; };
     int orders = 0;
-    while (std::next_permutation(order.mix.begin(), order.mix.end(), by_id)) {
-        EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), first) << text_of(order.mix);
+    while (std::next_permutation(spec.mix.begin(), spec.mix.end(), by_id)) {
+        EXPECT_EQ(joined(grow_mushroom(spec, atlas()).glb), first) << text_of(spec.mix);
         ++orders;
     }
     EXPECT_EQ(orders, 5);

@@ -36,9 +36,9 @@ TEST_P(EverySpecies, GrowsToValidMeshesAtEveryAgeLevelOfDetailAndSeed) {
             for (const std::uint32_t seed : std::span(seeds).first(effort(3, 1, 3))) {
                 SCOPED_TRACE("age " + std::to_string(age) + ", lod " + std::to_string(lod) +
                              ", seed " + std::to_string(seed));
-                MushroomOrder order = textured(order_of(GetParam(), age, seed, lod));
-                order.params.variation = 1.0;
-                const Mesh mesh = mesh_of(order);
+                MushroomSpec spec = textured(order_of(GetParam(), age, seed, lod));
+                spec.params.variation = 1.0;
+                const Mesh mesh = mesh_of(spec);
                 expect_valid(mesh);
                 EXPECT_EQ(mesh.tangents.size(), mesh.positions.size());
                 if (HasFailure()) return;
@@ -46,14 +46,14 @@ TEST_P(EverySpecies, GrowsToValidMeshesAtEveryAgeLevelOfDetailAndSeed) {
 }
 
 TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
-    MushroomOrder order = textured(order_of(GetParam(), 0.7, 3, 1));
+    MushroomSpec spec = textured(order_of(GetParam(), 0.7, 3, 1));
     std::set<std::string> refused;
     int grown = 0;
-    corners(order.params, [&](const std::string& path) {
+    corners(spec.params, [&](const std::string& path) {
         SCOPED_TRACE(path);
         const auto start = std::chrono::steady_clock::now();
         const auto problems = refusal([&] {
-            const Mesh mesh = mesh_of(order);
+            const Mesh mesh = mesh_of(spec);
             ++grown;
             expect_valid(mesh);
         });
@@ -94,13 +94,13 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
 }
 
 TEST_P(EverySpecies, AsAUserModelIsValidOrRefusedByNameWithEachFieldAtEachEnd) {
-    MushroomOrder order = textured(order_of("x", 0.5, 3, 1));
-    order.mix.clear();
-    order.model = atlas().find(GetParam())->species.stages[2].model;
-    order.model->deformation.imperfection = 0.5;
-    order.model->weathering.waves = 0.5;
+    MushroomSpec spec = textured(order_of("x", 0.5, 3, 1));
+    spec.mix.clear();
+    spec.model = atlas().find(GetParam())->species.stages[2].model;
+    spec.model->deformation.imperfection = 0.5;
+    spec.model->weathering.waves = 0.5;
     // A form attached by a patch wider than high has no stem to bend.
-    if (auto* swept = std::get_if<Swept>(&order.model->shape)) {
+    if (auto* swept = std::get_if<Swept>(&spec.model->shape)) {
         const auto& stem = swept->silhouette.stem;
         double widest = 0.0;
         for (const OutlinePoint& p : stem) widest = std::max(widest, p.r);
@@ -108,11 +108,11 @@ TEST_P(EverySpecies, AsAUserModelIsValidOrRefusedByNameWithEachFieldAtEachEnd) {
             swept->axis = {{0.0, 0.0, 0.0}, {0.01, 0.5, 0.0}, {0.0, 1.0, 0.01}};
     }
     int grown = 0;
-    corners(*order.model, [&](const std::string& path) {
+    corners(*spec.model, [&](const std::string& path) {
         if (path.starts_with("/surface/")) return;  // does not affect the shape
         SCOPED_TRACE(path);
         const auto problems = refusal([&] {
-            const Mesh mesh = mesh_of(order);
+            const Mesh mesh = mesh_of(spec);
             ++grown;
             expect_valid(mesh);
         });
@@ -130,19 +130,19 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
     int drawn = 0, grown = 0;
     EXPECT_TRUE(rc::check("random parameters", [&] {
         ++drawn;
-        MushroomOrder order = order_of(GetParam());
-        order.params = arbitrary_params();
+        MushroomSpec spec = order_of(GetParam());
+        spec.params = arbitrary_params();
         // Parameters that a species cannot have are refused; they are left out half of the time.
         if (*rc::gen::inRange(0, 2)) {
-            order.params.hymenium = {};
-            order.params.ornaments = {};
-            order.params.deformation.zone_from.reset();
-            order.params.deformation.zone_to.reset();
+            spec.params.hymenium = {};
+            spec.params.ornaments = {};
+            spec.params.deformation.zone_from.reset();
+            spec.params.deformation.zone_to.reset();
         }
-        order.params.textures = Textures::linked;
-        order.params.lod = std::max(order.params.lod, 1);
+        spec.params.textures = Textures::linked;
+        spec.params.lod = std::max(spec.params.lod, 1);
         try {
-            const Mesh mesh = mesh_of(order);
+            const Mesh mesh = mesh_of(spec);
             const auto found = defects(mesh);
             RC_ASSERT(found == std::vector<std::string>{});
             RC_ASSERT(volume(mesh) > 0.0);
@@ -162,8 +162,8 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithRandomParameters) {
 TEST_P(EverySpecies, ReadsBackFromItsFile) {
     for (const double age : {0.0, 0.6, 1.0})
         for (const int lod : {0, 2}) {
-            const MushroomOrder order = painted(order_of(GetParam(), age, 3, lod));
-            const Mushroom mushroom = grow_mushroom(order, atlas());
+            const MushroomSpec spec = painted(order_of(GetParam(), age, 3, lod));
+            const Mushroom mushroom = grow_mushroom(spec, atlas());
             const ReadBack found = expect_glb(joined(mushroom.glb));
             EXPECT_EQ(found.mesh.positions.size(), mushroom.vertices);
             EXPECT_EQ(found.mesh.triangles(), mushroom.triangles);
@@ -176,9 +176,9 @@ TEST_P(EverySpecies, ReadsBackFromItsFile) {
 TEST_P(EverySpecies, IsEstimatedBeforeAnyWork) {
     for (const double age : {0.1, 0.6, 1.0})
         for (int lod = 0; lod < 4; ++lod) {
-            const MushroomOrder order = painted(order_of(GetParam(), age, 3, lod), 256);
-            const Estimate e = estimate(order, atlas());
-            const Mushroom mushroom = grow_mushroom(order, atlas());
+            const MushroomSpec spec = painted(order_of(GetParam(), age, 3, lod), 256);
+            const Estimate e = estimate(spec, atlas());
+            const Mushroom mushroom = grow_mushroom(spec, atlas());
             EXPECT_EQ(e.vertices, mushroom.vertices);
             EXPECT_GE(e.triangles, mushroom.triangles);
             EXPECT_LE(e.triangles, 3 * mushroom.triangles);
@@ -190,30 +190,30 @@ TEST_P(EverySpecies, IsEstimatedBeforeAnyWork) {
 }
 
 TEST_P(EverySpecies, GivesEqualBytesTwiceAndWithEightThreads) {
-    const MushroomOrder order = painted(order_of(GetParam(), 0.7, 9));
-    const Bytes once = joined(grow_mushroom(order, atlas()).glb);
-    EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), once);
-    Workshop threads;
+    const MushroomSpec spec = painted(order_of(GetParam(), 0.7, 9));
+    const Bytes once = joined(grow_mushroom(spec, atlas()).glb);
+    EXPECT_EQ(joined(grow_mushroom(spec, atlas()).glb), once);
+    ExecutionContext threads;
     threads.parallel = in_threads;
-    EXPECT_EQ(joined(grow_mushroom(order, atlas(), {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_mushroom(spec, atlas(), {}, threads).glb), once);
     std::vector<Bytes> together(8);
     {
         std::vector<std::jthread> growers;
         for (Bytes& mine : together)
             growers.emplace_back(
-                [&order, &mine] { mine = joined(grow_mushroom(order, atlas()).glb); });
+                [&spec, &mine] { mine = joined(grow_mushroom(spec, atlas()).glb); });
     }
     for (const Bytes& mine : together) EXPECT_EQ(mine, once);
 }
 
 TEST(Mushroom, AChangeOfShapeReusesTheImages) {
     Keeper keeper;
-    MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 5));
-    const Mushroom straight = grow_mushroom(order, atlas(), {}, keeper.workshop);
-    order.params.deformation.bend_deg = 25.0;
-    order.params.deformation.twist_deg = 10.0;
-    order.params.weathering.waves = 0.7;
-    const Mushroom bent = grow_mushroom(order, atlas(), {}, keeper.workshop);
+    MushroomSpec spec = painted(order_of("amanita_muscaria", 0.6, 5));
+    const Mushroom straight = grow_mushroom(spec, atlas(), {}, keeper.execution);
+    spec.params.deformation.bend_deg = 25.0;
+    spec.params.deformation.twist_deg = 10.0;
+    spec.params.weathering.waves = 0.7;
+    const Mushroom bent = grow_mushroom(spec, atlas(), {}, keeper.execution);
     EXPECT_EQ(keeper.asked, 2);
     EXPECT_EQ(keeper.made, 1);
     ASSERT_EQ(keeper.kept.size(), 1u);
@@ -223,17 +223,17 @@ TEST(Mushroom, AChangeOfShapeReusesTheImages) {
     }
     EXPECT_NE(joined(straight.glb), joined(bent.glb));
     // The cached images equal newly painted ones.
-    EXPECT_EQ(joined(grow_mushroom(order, atlas()).glb), joined(bent.glb));
+    EXPECT_EQ(joined(grow_mushroom(spec, atlas()).glb), joined(bent.glb));
 }
 
 TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
     Keeper keeper;
-    MushroomOrder order = painted(order_of("amanita_muscaria", 0.6, 5, 1));
+    MushroomSpec spec = painted(order_of("amanita_muscaria", 0.6, 5, 1));
     const auto made_by = [&](auto change) {
-        MushroomOrder changed = order;
+        MushroomSpec changed = spec;
         change(changed.params);
         const int before = keeper.made;
-        (void)grow_mushroom(changed, atlas(), {}, keeper.workshop);
+        (void)grow_mushroom(changed, atlas(), {}, keeper.execution);
         return keeper.made - before;
     };
     EXPECT_EQ(made_by([](MushroomParams&) {}), 1);
@@ -250,21 +250,21 @@ TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
 // The estimate decides what a request may cost: it must not be too low for any request, and not so
 // high that it refuses cheap ones.
 TEST(Mushroom, IsEstimatedBeforeAnyWorkForAnyRequest) {
-    Workshop workshop;
-    workshop.memo.morphs = kept_morphs();
+    ExecutionContext execution;
+    execution.caches.morphs = kept_morphs();
     for (std::uint32_t i = 0; i < effort(240, 24); ++i) {
         Random random(i, 0x65737469);
-        MushroomOrder order = mix_of(
+        MushroomSpec spec = mix_of(
             i % 3 == 0 ? Mix{{species_ids()[i % species_ids().size()], 1000}} : random_mix(random),
             random.uniform(), random.bits(), static_cast<int>(i % 4));
-        order.params.variation = random.uniform();
-        if (i % 2 == 0) order = painted(std::move(order), 128 << (i / 2 % 2));
-        if (i % 5 == 0) order = growing(std::move(order), static_cast<int>(2 + random.bits() % 15));
-        SCOPED_TRACE(text_of(order.mix) + ", draw " + std::to_string(i));
-        const Estimate e = estimate(order, atlas(), workshop.memo);
-        const Mushroom made = grow_mushroom(order, atlas(), {}, workshop);
-        const bool clip = order.params.animation != Animation::none;
-        const auto frames = static_cast<std::uint64_t>(clip ? order.params.frames : 0);
+        spec.params.variation = random.uniform();
+        if (i % 2 == 0) spec = painted(std::move(spec), 128 << (i / 2 % 2));
+        if (i % 5 == 0) spec = growing(std::move(spec), static_cast<int>(2 + random.bits() % 15));
+        SCOPED_TRACE(text_of(spec.mix) + ", draw " + std::to_string(i));
+        const Estimate e = estimate(spec, atlas(), execution.caches);
+        const Mushroom made = grow_mushroom(spec, atlas(), {}, execution);
+        const bool clip = spec.params.animation != Animation::none;
+        const auto frames = static_cast<std::uint64_t>(clip ? spec.params.frames : 0);
         EXPECT_EQ(e.vertices, made.vertices * (frames + 1));
         EXPECT_GE(e.triangles, made.triangles);
         EXPECT_LE(e.triangles, 3 * made.triangles);
@@ -277,54 +277,53 @@ TEST(Mushroom, IsEstimatedBeforeAnyWorkForAnyRequest) {
 
 TEST(Mushroom, StepsAreReportedInOrder) {
     std::vector<std::string> steps;
-    Workshop workshop;
-    workshop.observer = [&](Step step) { steps.emplace_back(name(step)); };
-    (void)grow_mushroom(painted(order_of("boletus_edulis", 0.6, 1, 3)), atlas(), {}, workshop);
+    ExecutionContext execution;
+    execution.observer = [&](Step step) { steps.emplace_back(name(step)); };
+    (void)grow_mushroom(painted(order_of("boletus_edulis", 0.6, 1, 3)), atlas(), {}, execution);
     EXPECT_EQ(steps, (std::vector<std::string>{"resolve", "build", "paint", "pack"}));
     steps.clear();
-    (void)grow_mushroom(order_of("boletus_edulis", 0.6, 1, 3), atlas(), {}, workshop);
+    (void)grow_mushroom(order_of("boletus_edulis", 0.6, 1, 3), atlas(), {}, execution);
     EXPECT_EQ(steps, (std::vector<std::string>{"resolve", "build", "pack"}));
 }
 
 TEST(Mushroom, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
-    Workshop workshop;
-    workshop.stop = source.get_token();
+    ExecutionContext execution;
+    execution.stop = source.get_token();
     bool painted_anyway = false;
-    workshop.observer = [&](Step step) { painted_anyway |= step == Step::paint; };
+    execution.observer = [&](Step step) { painted_anyway |= step == Step::paint; };
     const auto grow = [&] {
-        (void)grow_mushroom(painted(order_of("boletus_edulis")), atlas(), {}, workshop);
+        (void)grow_mushroom(painted(order_of("boletus_edulis")), atlas(), {}, execution);
     };
     EXPECT_THROW(grow(), Cancelled);
     EXPECT_FALSE(painted_anyway);
 }
 
 TEST(Mushroom, AFailureOfTheCacheIsRethrown) {
-    Workshop workshop;
-    workshop.memo.images = [](const auto&, const auto&) -> std::shared_ptr<const ImageSet> {
+    ExecutionContext execution;
+    execution.caches.images = [](const auto&, const auto&) -> std::shared_ptr<const ImageSet> {
         throw GenerationError("no");
     };
     const auto grow = [&] {
-        (void)grow_mushroom(painted(order_of("boletus_edulis")), atlas(), {}, workshop);
+        (void)grow_mushroom(painted(order_of("boletus_edulis")), atlas(), {}, execution);
     };
     EXPECT_THROW(grow(), GenerationError);
 }
 
 TEST(Mushroom, LinkedTexturesNeedUrls) {
-    const MushroomOrder order = textured(order_of("boletus_edulis", 0.6, 1, 2));
-    EXPECT_TRUE(
-        names(refusal([&] { (void)grow_mushroom(order, atlas()); }), "/textures", "linked"));
+    const MushroomSpec spec = textured(order_of("boletus_edulis", 0.6, 1, 2));
+    EXPECT_TRUE(names(refusal([&] { (void)grow_mushroom(spec, atlas()); }), "/textures", "linked"));
     const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
-    const ReadBack found = expect_glb(joined(grow_mushroom(order, atlas(), extras).glb));
+    const ReadBack found = expect_glb(joined(grow_mushroom(spec, atlas(), extras).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
 }
 
 TEST(Mushroom, DescribesItselfInExtras) {
-    const MushroomOrder order = order_of("boletus_edulis", 0.6, 1, 2);
-    const Bytes file = joined(grow_mushroom(order, atlas(), {"/v1/canonical", {}}).glb);
+    const MushroomSpec spec = order_of("boletus_edulis", 0.6, 1, 2);
+    const Bytes file = joined(grow_mushroom(spec, atlas(), {"/v1/canonical", {}}).glb);
     const Value json = json_chunk(file);
-    const Mesh mesh = mesh_of(order);
+    const Mesh mesh = mesh_of(spec);
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
               static_cast<double>(mesh.triangles()));
@@ -336,21 +335,21 @@ TEST(Mushroom, DescribesItselfInExtras) {
 }
 
 TEST(Mushroom, AUserModelNeedsNoSpecies) {
-    MushroomOrder order = painted(order_of("x", 0.5, 4, 1));
-    order.mix.clear();
-    order.model = atlas().find("russula_vinosa")->species.stages[1].model;
-    const ReadBack found = expect_glb(joined(grow_mushroom(order, Atlas({})).glb));
+    MushroomSpec spec = painted(order_of("x", 0.5, 4, 1));
+    spec.mix.clear();
+    spec.model = atlas().find("russula_vinosa")->species.stages[1].model;
+    const ReadBack found = expect_glb(joined(grow_mushroom(spec, Atlas({})).glb));
     EXPECT_EQ(found.node, "mushroom");
     EXPECT_EQ(found.images.size(), 3u);
 }
 
 TEST(Mushroom, CrossingModelsAreRefusedByName) {
-    MushroomOrder order = order_of("x");
-    order.mix.clear();
-    order.model = atlas().find("russula_vinosa")->species.stages[1].model;
-    auto& silhouette = std::get<Swept>(order.model->shape).silhouette;
+    MushroomSpec spec = order_of("x");
+    spec.mix.clear();
+    spec.model = atlas().find("russula_vinosa")->species.stages[1].model;
+    auto& silhouette = std::get<Swept>(spec.model->shape).silhouette;
     std::swap(silhouette.cap[1], silhouette.cap[3]);
-    const auto problems = refusal([&] { (void)grow_mushroom(order, atlas()); });
+    const auto problems = refusal([&] { (void)grow_mushroom(spec, atlas()); });
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_TRUE(problems[0].path.starts_with("/model/silhouette/")) << problems[0].path;
 }

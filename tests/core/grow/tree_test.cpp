@@ -22,11 +22,11 @@
 namespace sporeprint {
 namespace {
 
-TreeOrder order_of(const char* preset, int lod = 0, int side = 128) {
-    TreeOrder order{preset, params_of(*tree_preset(preset))};
-    order.params.lod = lod;
-    order.params.texture_size.value = side;
-    return order;
+TreeSpec order_of(const char* preset, int lod = 0, int side = 128) {
+    TreeSpec spec{preset, params_of(*tree_preset(preset))};
+    spec.params.lod = lod;
+    spec.params.texture_size.value = side;
+    return spec;
 }
 
 class EveryTree : public ::testing::TestWithParam<const char*> {};
@@ -95,10 +95,10 @@ TEST_P(EveryTree, ReachesEquallyFarAtNeighbouringLevels) {
     for (std::uint32_t seed = 1; seed <= effort(6, 1); ++seed) {
         Bounds before;
         for (int lod = 0; lod < tree_lods; ++lod) {
-            TreeOrder order = order_of(GetParam(), lod);
-            order.params.seed = seed;
-            order.params.autumn = std::min(1.0, 0.2 * (seed - 1.0));
-            const Bounds box = bounds(tree_meshes(order));
+            TreeSpec spec = order_of(GetParam(), lod);
+            spec.params.seed = seed;
+            spec.params.autumn = std::min(1.0, 0.2 * (seed - 1.0));
+            const Bounds box = bounds(tree_meshes(spec));
             const glm::vec3 size = box.max - box.min, last = before.max - before.min;
             for (int axis = 0; lod > 0 && axis < 3; ++axis)
                 EXPECT_NEAR(static_cast<double>(size[axis] / last[axis]), 1.0, 0.03)
@@ -111,10 +111,10 @@ TEST_P(EveryTree, ReachesEquallyFarAtNeighbouringLevels) {
 TEST_P(EveryTree, IsEstimatedBeforeAnyWork) {
     for (int lod = 0; lod < tree_lods; ++lod)
         for (std::uint32_t seed = 1; seed <= effort(4, 1); ++seed) {
-            TreeOrder order = order_of(GetParam(), lod, 256);
-            order.params.seed = seed;
-            const Estimate e = estimate(order);
-            const Grown tree = grow_tree(order);
+            TreeSpec spec = order_of(GetParam(), lod, 256);
+            spec.params.seed = seed;
+            const Estimate e = estimate(spec);
+            const Grown tree = grow_tree(spec);
             EXPECT_GE(1.15 * static_cast<double>(e.vertices), static_cast<double>(tree.vertices));
             EXPECT_GE(1.15 * static_cast<double>(e.triangles), static_cast<double>(tree.triangles));
             EXPECT_LT(static_cast<double>(e.vertices), 4.5 * static_cast<double>(tree.vertices));
@@ -126,12 +126,12 @@ TEST_P(EveryTree, IsEstimatedBeforeAnyWork) {
 }
 
 TEST_P(EveryTree, GivesEqualBytesTwiceAndWithManyThreads) {
-    const TreeOrder order = order_of(GetParam(), 1, 128);
-    Workshop threads;
+    const TreeSpec spec = order_of(GetParam(), 1, 128);
+    ExecutionContext threads;
     threads.parallel = in_threads;
-    const Bytes once = joined(grow_tree(order).glb);
-    EXPECT_EQ(joined(grow_tree(order, {}, {}, threads).glb), once);
-    EXPECT_EQ(joined(grow_tree(order).glb), once);
+    const Bytes once = joined(grow_tree(spec).glb);
+    EXPECT_EQ(joined(grow_tree(spec, {}, {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_tree(spec).glb), once);
 }
 
 TEST_P(EveryTree, LeavesSitOnItsTwigs) {
@@ -139,7 +139,7 @@ TEST_P(EveryTree, LeavesSitOnItsTwigs) {
     const Tree tree = grown_tree(preset.shape, 3);
     for (const PlacedLeaf& leaf : placed_leaves(tree, preset.leaves, 3)) {
         const std::uint32_t twig = leaf.id / 64;
-        const glm::dvec3 from = tree.skeleton.nodes[tree.skeleton.limbs[twig].from].place;
+        const glm::dvec3 from = tree.skeleton.nodes[tree.skeleton.segments[twig].from].place;
         const glm::dvec3 to = tree.skeleton.nodes[twig + 1].place;
         const glm::dvec3 way = to - from;
         const double t =
@@ -150,10 +150,10 @@ TEST_P(EveryTree, LeavesSitOnItsTwigs) {
 }
 
 TEST(GrownTree, SizeScalesTheMeshes) {
-    TreeOrder order = order_of("herb");
-    const TreeMeshes one = tree_meshes(order);
-    order.params.size = 2.0;
-    const TreeMeshes twice = tree_meshes(order);
+    TreeSpec spec = order_of("herb");
+    const TreeMeshes one = tree_meshes(spec);
+    spec.params.size = 2.0;
+    const TreeMeshes twice = tree_meshes(spec);
     ASSERT_EQ(one.bark.positions.size(), twice.bark.positions.size());
     for (std::size_t i = 0; i < one.bark.positions.size(); ++i)
         ASSERT_EQ(2.0F * one.bark.positions[i], twice.bark.positions[i]);
@@ -163,57 +163,57 @@ TEST(GrownTree, SizeScalesTheMeshes) {
 
 TEST(GrownTree, SeedsDifferInShapeAndShareImages) {
     Keeper keeper;
-    TreeOrder order = order_of("shrub", 2);
-    const Bytes one = joined(grow_tree(order, {}, {}, keeper.workshop).glb);
+    TreeSpec spec = order_of("shrub", 2);
+    const Bytes one = joined(grow_tree(spec, {}, {}, keeper.execution).glb);
     EXPECT_EQ(keeper.made, 2) << "bark and leaves";
-    order.params.seed = 2;
-    order.params.look.shape.fork_deg = 40.0;
-    EXPECT_NE(joined(grow_tree(order, {}, {}, keeper.workshop).glb), one);
+    spec.params.seed = 2;
+    spec.params.look.shape.fork_deg = 40.0;
+    EXPECT_NE(joined(grow_tree(spec, {}, {}, keeper.execution).glb), one);
     EXPECT_EQ(keeper.made, 2);
     // Only the leaf uses the cached images.
-    LeafOrder leaf{"maple", leaf_of(order.params)};
-    (void)grow_leaf(leaf, {}, keeper.workshop);
+    LeafSpec leaf{"maple", leaf_of(spec.params)};
+    (void)grow_leaf(leaf, {}, keeper.execution);
     EXPECT_EQ(keeper.made, 2);
-    order.params.autumn = 0.5;
-    (void)grow_tree(order, {}, {}, keeper.workshop);
+    spec.params.autumn = 0.5;
+    (void)grow_tree(spec, {}, {}, keeper.execution);
     EXPECT_EQ(keeper.made, 3) << "leaves turn, bark does not";
 }
 
 TEST(GrownTree, LinksImagesOrLeavesThemOut) {
-    TreeOrder order = order_of("poplar", 2);
-    order.params.textures = Textures::linked;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_tree(order); }), "/textures", "linked"));
+    TreeSpec spec = order_of("poplar", 2);
+    spec.params.textures = Textures::linked;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_tree(spec); }), "/textures", "linked"));
     const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
     const ReadScene found =
-        expect_scene(joined(grow_tree(order, extras, {"/d.jpg", "/e.jpg", "/f.jpg"}).glb));
+        expect_scene(joined(grow_tree(spec, extras, {"/d.jpg", "/e.jpg", "/f.jpg"}).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg", "/d.jpg",
                                                     "/e.jpg", "/f.jpg"}));
-    order.params.textures = Textures::none;
-    const ReadScene bare = expect_scene(joined(grow_tree(order).glb));
+    spec.params.textures = Textures::none;
+    const ReadScene bare = expect_scene(joined(grow_tree(spec).glb));
     for (const ReadPrimitive& part : bare.meshes[0])
         EXPECT_EQ(part.attributes, (std::vector<std::string>{"NORMAL", "POSITION"}));
     EXPECT_TRUE(bare.images.empty());
 }
 
 TEST(GrownTree, WithoutLeavesItIsBarkAlone) {
-    TreeOrder order = order_of("birch", 2);
-    order.params.look.leaves.per_tip = 0;
-    const Grown tree = grow_tree(order);
+    TreeSpec spec = order_of("birch", 2);
+    spec.params.look.leaves.per_tip = 0;
+    const Grown tree = grow_tree(spec);
     const ReadScene found = expect_scene(joined(tree.glb));
     EXPECT_EQ(found.meshes[0].size(), 1u);
     EXPECT_EQ(found.materials.size(), 1u);
     EXPECT_EQ(found.images.size(), 3u);
-    EXPECT_EQ(estimate(order).texels, 3u * 32u * 32u);
+    EXPECT_EQ(estimate(spec).texels, 3u * 32u * 32u);
 }
 
 TEST(GrownTree, DescribesItselfInExtras) {
-    TreeOrder order = order_of("birch", 2);
-    order.params.look.shape.main_deg = 11.0;
-    const Value json = json_chunk(joined(grow_tree(order, {"/v1/canonical", {}}).glb));
+    TreeSpec spec = order_of("birch", 2);
+    spec.params.look.shape.main_deg = 11.0;
+    const Value json = json_chunk(joined(grow_tree(spec, {"/v1/canonical", {}}).glb));
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/main_deg")->as_number(), 11.0);
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/rows/0/1")->as_number(), 0.3);
-    const TreeMeshes meshes = tree_meshes(order);
+    const TreeMeshes meshes = tree_meshes(spec);
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
               static_cast<double>(meshes.triangles()));
     EXPECT_EQ(static_cast<float>(json.at_pointer("/asset/extras/bounds_m/max/1")->as_number()),
@@ -224,16 +224,16 @@ TEST(GrownTree, DescribesItselfInExtras) {
 TEST(GrownTree, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
-    Workshop workshop;
-    workshop.stop = source.get_token();
-    EXPECT_THROW((void)grow_tree(order_of("herb"), {}, {}, workshop), Cancelled);
+    ExecutionContext execution;
+    execution.stop = source.get_token();
+    EXPECT_THROW((void)grow_tree(order_of("herb"), {}, {}, execution), Cancelled);
 }
 
 TEST(GrownTree, ImpossibleParametersAreRefusedByNameBeforeAnyWork) {
     const auto refused = [](auto change) {
-        TreeOrder order = order_of("broadleaf");
-        change(order.params.look);
-        return refusal([&] { (void)estimate(order); });
+        TreeSpec spec = order_of("broadleaf");
+        change(spec.params.look);
+        return refusal([&] { (void)estimate(spec); });
     };
     EXPECT_TRUE(names(refused([](TreeLook& look) { look.shape.topology.order = 12; }), "/order",
                       "at most 40000"));
@@ -250,10 +250,10 @@ TEST(GrownTree, ImpossibleParametersAreRefusedByNameBeforeAnyWork) {
                           look.shape.width_law = OrderLaw::constant;
                       }),
                       "/twig_radius", "so thin for their length"));
-    TreeOrder order = order_of("broadleaf");
-    order.params.look.shape.topology.matrix = MatrixKind::own;
-    order.params.look.shape.topology.rows = {{0.5, 0.25}};
-    const auto found = refusal([&] { (void)grow_tree(order); });
+    TreeSpec spec = order_of("broadleaf");
+    spec.params.look.shape.topology.matrix = MatrixKind::own;
+    spec.params.look.shape.topology.rows = {{0.5, 0.25}};
+    const auto found = refusal([&] { (void)grow_tree(spec); });
     EXPECT_TRUE(names(found, "/rows/0", "sum to 0.75"));
     EXPECT_TRUE(names(found, "/order", "7 needs 6 rows"));
 }

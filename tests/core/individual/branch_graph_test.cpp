@@ -14,31 +14,32 @@
 namespace sporeprint {
 namespace {
 
-Branched forks(int order, MatrixKind matrix = MatrixKind::perfect) {
+Branched forks(int spec, MatrixKind matrix = MatrixKind::perfect) {
     Branched shape;
     shape.ramification.matrix = matrix;
-    shape.ramification.order = order;
+    shape.ramification.order = spec;
     return shape;
 }
 
-Bush grown(const Branched& shape, std::uint32_t seed = 1, const BushProportions& own = {},
-           double bites = 0.0) {
-    return bush_of({{&shape, 1.0}}, own, bites, seed);
+BranchGraph grown(const Branched& shape, std::uint32_t seed = 1,
+                  const BranchGraphProportions& own = {}, double bites = 0.0) {
+    return branch_graph_of({{&shape, 1.0}}, own, bites, seed);
 }
 
-std::size_t tips_of(const Bush& bush) {
+std::size_t tips_of(const BranchGraph& branch_graph) {
     std::size_t tips = 0;
-    for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) tips += bush.is_tip(i) ? 1 : 0;
+    for (std::uint32_t i = 0; i < branch_graph.nodes.size(); ++i)
+        tips += branch_graph.is_tip(i) ? 1 : 0;
     return tips;
 }
 
-double highest(const Bush& bush) {
+double highest(const BranchGraph& branch_graph) {
     double high = 0.0;
-    for (const Bush::Node& node : bush.nodes) high = std::max(high, node.place.y);
+    for (const BranchGraph::Node& node : branch_graph.nodes) high = std::max(high, node.place.y);
     return high;
 }
 
-double farthest(const Bush& a, const Bush& b) {
+double farthest(const BranchGraph& a, const BranchGraph& b) {
     double far = 0.0;
     for (std::size_t i = 0; i < a.nodes.size(); ++i)
         far = std::max(far, glm::distance(a.nodes[i].place, b.nodes[i].place));
@@ -46,16 +47,16 @@ double farthest(const Bush& a, const Bush& b) {
 }
 
 TEST(BranchGraph, HasTheTipsOfItsMatrixPerTrunk) {
-    for (const int order : {2, 3, 5, 8}) {
-        Branched shape = forks(order);
-        shape.limbs.trunks = order == 8 ? 1 : 3;
-        const Bush bush = grown(shape);
-        const auto trunks = static_cast<std::size_t>(shape.limbs.trunks);
-        EXPECT_EQ(tips_of(bush), trunks << (order - 1));
-        EXPECT_EQ(bush.nodes.size(), 2 * tips_of(bush) - trunks);
+    for (const int spec : {2, 3, 5, 8}) {
+        Branched shape = forks(spec);
+        shape.segments.trunks = spec == 8 ? 1 : 3;
+        const BranchGraph branch_graph = grown(shape);
+        const auto trunks = static_cast<std::size_t>(shape.segments.trunks);
+        EXPECT_EQ(tips_of(branch_graph), trunks << (spec - 1));
+        EXPECT_EQ(branch_graph.nodes.size(), 2 * tips_of(branch_graph) - trunks);
         int borne = 0;
-        for (const std::uint32_t root : bush.roots) borne += bush.nodes[root].tips;
-        EXPECT_EQ(static_cast<std::size_t>(borne), tips_of(bush));
+        for (const std::uint32_t root : branch_graph.roots) borne += branch_graph.nodes[root].tips;
+        EXPECT_EQ(static_cast<std::size_t>(borne), tips_of(branch_graph));
     }
     const Branched random = forks(4, MatrixKind::random_binary);
     EXPECT_EQ(static_cast<double>(tips_of(grown(random))), expected_tips(random.ramification));
@@ -67,8 +68,8 @@ TEST(BranchGraph, HasTheStatedHeightForAllAngles) {
             Branched shape = forks(6, MatrixKind::tokunaga);
             shape.ramification.blend = 0.8;
             shape.ramification.toward = MatrixKind::perfect;
-            shape.limbs.fork_deg = shape.limbs.tip_fork_deg = fork;
-            shape.limbs.height = 0.05;
+            shape.segments.fork_deg = shape.segments.tip_fork_deg = fork;
+            shape.segments.height = 0.05;
             EXPECT_NEAR(highest(grown(shape, seed)), 0.05, 1e-12) << fork << ' ' << seed;
             EXPECT_NEAR(highest(grown(shape, seed, {.size = 3.0})), 0.15, 1e-12);
         }
@@ -76,21 +77,22 @@ TEST(BranchGraph, HasTheStatedHeightForAllAngles) {
 
 TEST(BranchGraph, RadiiArePowersOfTheNumberOfTips) {
     Branched shape = forks(7);
-    shape.limbs.trunk_radius = 0.008;
-    shape.limbs.tip_radius = 0.001;
-    const Bush bush = grown(shape);
+    shape.segments.trunk_radius = 0.008;
+    shape.segments.tip_radius = 0.001;
+    const BranchGraph branch_graph = grown(shape);
     // 64 tips make the radius 8 times as large: the square root.
-    for (const Bush::Node& node : bush.nodes)
+    for (const BranchGraph::Node& node : branch_graph.nodes)
         EXPECT_NEAR(node.radius, 0.001 * std::sqrt(node.tips), 1e-12);
 }
 
 TEST(BranchGraph, UnfoldsFromTheLowestForkUpwards) {
     Branched shape = forks(6);
     const auto present = [&](double unfolding) {
-        shape.limbs.unfolding = unfolding;
+        shape.segments.unfolding = unfolding;
         double left = 0.0;
-        for (const Bush& bush = grown(shape); const std::uint32_t root : bush.roots)
-            left += bush.nodes[root].left;
+        for (const BranchGraph& branch_graph = grown(shape);
+             const std::uint32_t root : branch_graph.roots)
+            left += branch_graph.nodes[root].left;
         return left;
     };
     EXPECT_EQ(present(0.0), 1.0);
@@ -104,36 +106,37 @@ TEST(BranchGraph, UnfoldsFromTheLowestForkUpwards) {
     // At a fifth the lowest fork is complete, and no other has begun.
     EXPECT_NEAR(present(0.2), 2.0, 1e-9);
     // Absent segments have neither length nor radius.
-    shape.limbs.unfolding = 0.2;
-    const Bush bush = grown(shape);
-    for (const Bush::Node& node : bush.nodes) {
+    shape.segments.unfolding = 0.2;
+    const BranchGraph branch_graph = grown(shape);
+    for (const BranchGraph::Node& node : branch_graph.nodes) {
         if (node.presence > 0.0) continue;
         EXPECT_EQ(node.radius, 0.0);
-        EXPECT_LT(glm::distance(node.place - node.beside, bush.nodes[node.parent].place), 1e-12);
+        EXPECT_LT(glm::distance(node.place - node.beside, branch_graph.nodes[node.parent].place),
+                  1e-12);
     }
 }
 
 TEST(BranchGraph, WeightsKeepTheNodesAndWeightOneReproducesTheSpecies) {
     const Branched coral = forks(6), antler = forks(3, MatrixKind::random_binary);
-    const Bush one = grown(coral, 5), other = grown(antler, 5);
+    const BranchGraph one = grown(coral, 5), other = grown(antler, 5);
     const auto mixed = [&](double t) {
-        return bush_of({{&coral, 1.0 - t}, {&antler, t}}, {}, 0.0, 5);
+        return branch_graph_of({{&coral, 1.0 - t}, {&antler, t}}, {}, 0.0, 5);
     };
-    const Bush first = mixed(0.0), last = mixed(1.0);
+    const BranchGraph first = mixed(0.0), last = mixed(1.0);
     EXPECT_GE(first.nodes.size(), std::max(one.nodes.size(), other.nodes.size()));
     EXPECT_LE(first.nodes.size(), one.nodes.size() + other.nodes.size());
     EXPECT_NEAR(first.reach, one.reach, 1e-9);
     EXPECT_NEAR(last.reach, other.reach, 1e-9);
-    const auto there = [](const Bush& bush) {
+    const auto there = [](const BranchGraph& branch_graph) {
         double left = 0.0;
-        for (const std::uint32_t root : bush.roots) left += bush.nodes[root].left;
+        for (const std::uint32_t root : branch_graph.roots) left += branch_graph.nodes[root].left;
         return left;
     };
     EXPECT_NEAR(there(first), there(one), 1e-9);
     EXPECT_NEAR(there(last), there(other), 1e-9);
-    Bush before = first;
+    BranchGraph before = first;
     for (int step = 1; step <= 64; ++step) {
-        const Bush now = mixed(step / 64.0);
+        const BranchGraph now = mixed(step / 64.0);
         ASSERT_EQ(now.nodes.size(), before.nodes.size());
         EXPECT_LT(farthest(before, now), 0.08 * now.height) << step;
         before = now;
@@ -142,8 +145,8 @@ TEST(BranchGraph, WeightsKeepTheNodesAndWeightOneReproducesTheSpecies) {
 
 TEST(BranchGraph, TheOrderOfSpeciesDoesNotMatter) {
     const Branched coral = forks(5), antler = forks(4, MatrixKind::random_increasing);
-    const Bush there = bush_of({{&coral, 0.3}, {&antler, 0.7}}, {}, 0.0, 3);
-    const Bush back = bush_of({{&antler, 0.7}, {&coral, 0.3}}, {}, 0.0, 3);
+    const BranchGraph there = branch_graph_of({{&coral, 0.3}, {&antler, 0.7}}, {}, 0.0, 3);
+    const BranchGraph back = branch_graph_of({{&antler, 0.7}, {&coral, 0.3}}, {}, 0.0, 3);
     EXPECT_NEAR(there.height, back.height, 1e-12);
     EXPECT_NEAR(there.reach, back.reach, 1e-12);
     EXPECT_EQ(there.nodes.size(), back.nodes.size());
@@ -151,18 +154,18 @@ TEST(BranchGraph, TheOrderOfSpeciesDoesNotMatter) {
 
 TEST(BranchGraph, BitesShortenTheSameTipsProgressively) {
     const Branched shape = forks(7);
-    const Bush whole = grown(shape);
+    const BranchGraph whole = grown(shape);
     std::vector<double> last(whole.nodes.size(), 0.0);
     for (const double bites : {0.2, 0.5, 1.0}) {
-        const Bush bush = grown(shape, 1, {}, bites);
+        const BranchGraph branch_graph = grown(shape, 1, {}, bites);
         std::size_t eaten = 0;
-        for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) {
-            if (!bush.is_tip(i)) {
-                EXPECT_EQ(bush.nodes[i].place, whole.nodes[i].place);
+        for (std::uint32_t i = 0; i < branch_graph.nodes.size(); ++i) {
+            if (!branch_graph.is_tip(i)) {
+                EXPECT_EQ(branch_graph.nodes[i].place, whole.nodes[i].place);
                 continue;
             }
-            EXPECT_GE(bush.nodes[i].eaten, last[i]);
-            last[i] = bush.nodes[i].eaten;
+            EXPECT_GE(branch_graph.nodes[i].eaten, last[i]);
+            last[i] = branch_graph.nodes[i].eaten;
             eaten += last[i] > 0.0 ? 1 : 0;
         }
         EXPECT_GT(eaten, 0U) << bites;
@@ -170,15 +173,15 @@ TEST(BranchGraph, BitesShortenTheSameTipsProgressively) {
 }
 
 TEST(BranchGraph, ColourCoordinatesRunFromTheTrunkTopToEveryTip) {
-    const Bush bush = grown(forks(5, MatrixKind::tokunaga));
-    for (std::uint32_t i = 0; i < bush.nodes.size(); ++i) {
-        const Bush::Node& node = bush.nodes[i];
-        if (node.parent == Bush::none) {
+    const BranchGraph branch_graph = grown(forks(5, MatrixKind::tokunaga));
+    for (std::uint32_t i = 0; i < branch_graph.nodes.size(); ++i) {
+        const BranchGraph::Node& node = branch_graph.nodes[i];
+        if (node.parent == BranchGraph::none) {
             EXPECT_EQ(node.from_tip, 1.0);
         } else {
-            EXPECT_LE(node.from_tip, bush.nodes[node.parent].from_tip);
+            EXPECT_LE(node.from_tip, branch_graph.nodes[node.parent].from_tip);
         }
-        if (bush.is_tip(i)) {
+        if (branch_graph.is_tip(i)) {
             EXPECT_EQ(node.from_tip, 0.0);
         }
     }
@@ -191,9 +194,9 @@ TEST(Branched, TooManyTipsAndNoForkAreRefused) {
     shape = forks(1);
     EXPECT_EQ(problems_in(shape).at(0).path, "/ramification/order");
     shape = forks(8);
-    shape.limbs.trunks = 9;
+    shape.segments.trunks = 9;
     EXPECT_FALSE(problems_in(shape).empty());
-    shape.limbs.trunks = 4;
+    shape.segments.trunks = 4;
     EXPECT_TRUE(problems_in(shape).empty());
 }
 

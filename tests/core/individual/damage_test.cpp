@@ -14,30 +14,32 @@ namespace {
 constexpr std::uint32_t many_seeds = 40;
 
 TEST(Damage, LieOnTheirPartWithAscendingOnset) {
-    for (const MarkKind kind : {MarkKind::pit, MarkKind::bruise, MarkKind::dew, MarkKind::lump})
+    for (const DamageSpotKind kind :
+         {DamageSpotKind::pit, DamageSpotKind::bruise, DamageSpotKind::dew, DamageSpotKind::lump})
         for (const CurveName part : curve_names)
             for (std::uint32_t seed = 0; seed < many_seeds; ++seed) {
                 double onset = 0.0;
-                for (const Mark& mark : marks(kind, part, seed)) {
-                    EXPECT_GE(mark.sigma, 0.0);
-                    EXPECT_LE(mark.sigma, 1.0);
-                    EXPECT_GE(mark.theta, 0.0);
-                    EXPECT_LT(mark.theta, 2.0 * pi);
-                    EXPECT_GT(mark.radius, 0.0);
-                    EXPECT_GE(mark.elongation, 1.0);
-                    EXPECT_GE(mark.onset, onset);
-                    EXPECT_LT(mark.onset, 1.0);
-                    onset = mark.onset;
+                for (const DamageSpot& spot : damage_spots(kind, part, seed)) {
+                    EXPECT_GE(spot.sigma, 0.0);
+                    EXPECT_LE(spot.sigma, 1.0);
+                    EXPECT_GE(spot.theta, 0.0);
+                    EXPECT_LT(spot.theta, 2.0 * pi);
+                    EXPECT_GT(spot.radius, 0.0);
+                    EXPECT_GE(spot.elongation, 1.0);
+                    EXPECT_GE(spot.onset, onset);
+                    EXPECT_LT(spot.onset, 1.0);
+                    onset = spot.onset;
                 }
             }
-    EXPECT_TRUE(marks(MarkKind::pit, CurveName::hymenium, 1).empty()) << "slugs rasp skin";
+    EXPECT_TRUE(damage_spots(DamageSpotKind::pit, CurveName::hymenium, 1).empty())
+        << "slugs rasp skin";
 }
 
 TEST(Damage, DependOnTheSeed) {
-    const auto first = marks(MarkKind::bruise, CurveName::cap, 7),
-               again = marks(MarkKind::bruise, CurveName::cap, 7),
-               other = marks(MarkKind::bruise, CurveName::cap, 8),
-               pits = marks(MarkKind::pit, CurveName::cap, 7);
+    const auto first = damage_spots(DamageSpotKind::bruise, CurveName::cap, 7),
+               again = damage_spots(DamageSpotKind::bruise, CurveName::cap, 7),
+               other = damage_spots(DamageSpotKind::bruise, CurveName::cap, 8),
+               pits = damage_spots(DamageSpotKind::pit, CurveName::cap, 7);
     ASSERT_EQ(first.size(), again.size());
     for (std::size_t i = 0; i < first.size(); ++i) {
         EXPECT_EQ(first[i].theta, again[i].theta);

@@ -16,8 +16,8 @@ int there(const BladeRow& row) {
 }
 
 TEST(GillLayout, ASingleSpeciesIsEvenlySpacedOnAllTiers) {
-    const BladeRow row(stand_on(0, HymeniumPattern::gills, 40, 2), HymeniumPattern::gills, 0.0, 7,
-                       160);
+    const BladeRow row(slot_assignment(0, HymeniumPattern::gills, 40, 2), HymeniumPattern::gills,
+                       0.0, 7, 160);
     EXPECT_EQ(there(row), 160);
     for (int slot = 0; slot < 160; ++slot) {
         const Blade& blade = row.blades()[static_cast<std::size_t>(slot)];
@@ -32,21 +32,22 @@ TEST(GillLayout, ASingleSpeciesIsEvenlySpacedOnAllTiers) {
 }
 
 TEST(GillLayout, InADenserLayoutEveryBladeHasItsOwnSlot) {
-    for (const int comb : {60, 84, 100})
+    for (const int gill_layout : {60, 84, 100})
         for (const int own : {12, 23, 40, 59})
             for (const int tiers : {0, 1, 2}) {
-                if (own << tiers > comb << 2) continue;
-                const Stand stand = stand_on(comb, HymeniumPattern::gills, own, tiers);
-                const BladeRow row(stand, HymeniumPattern::gills, 0.0, 3, comb << 2);
+                if (own << tiers > gill_layout << 2) continue;
+                const SlotAssignment assignment =
+                    slot_assignment(gill_layout, HymeniumPattern::gills, own, tiers);
+                const BladeRow row(assignment, HymeniumPattern::gills, 0.0, 3, gill_layout << 2);
                 const int expected = own << tiers;
-                EXPECT_NEAR(there(row), expected, expected >= comb ? 1 : 0)
-                    << comb << ' ' << own << ' ' << tiers;
+                EXPECT_NEAR(there(row), expected, expected >= gill_layout ? 1 : 0)
+                    << gill_layout << ' ' << own << ' ' << tiers;
             }
 }
 
 TEST(GillLayout, ForksStartAtTheirRidgeAndEndBetweenTwo) {
-    const BladeRow row(stand_on(0, HymeniumPattern::ridges, 30, 1), HymeniumPattern::ridges, 1.0, 5,
-                       120);
+    const BladeRow row(slot_assignment(0, HymeniumPattern::ridges, 30, 1), HymeniumPattern::ridges,
+                       1.0, 5, 120);
     int forks = 0;
     for (int slot = 0; slot < 120; ++slot) {
         const Blade& blade = row.blades()[static_cast<std::size_t>(slot)];
@@ -59,16 +60,16 @@ TEST(GillLayout, ForksStartAtTheirRidgeAndEndBetweenTwo) {
         EXPECT_LT(std::abs(from - row.turn(blade, 1.0)), 1.0 / 30.0);
     }
     EXPECT_GT(forks, 60);
-    const BladeRow plain(stand_on(0, HymeniumPattern::ridges, 30, 1), HymeniumPattern::ridges, 0.0,
-                         5, 120);
+    const BladeRow plain(slot_assignment(0, HymeniumPattern::ridges, 30, 1),
+                         HymeniumPattern::ridges, 0.0, 5, 120);
     EXPECT_EQ(there(plain), 30) << "nothing forks";
 }
 
 TEST(GillLayout, PresenceOfForksIsContinuousInForking) {
     std::vector<double> before;
     for (double forking = 0.0; forking <= 1.0; forking += 0.004) {
-        const BladeRow row(stand_on(0, HymeniumPattern::ridges, 34, 1), HymeniumPattern::ridges,
-                           forking, 9, 136);
+        const BladeRow row(slot_assignment(0, HymeniumPattern::ridges, 34, 1),
+                           HymeniumPattern::ridges, forking, 9, 136);
         std::vector<double> now;
         for (const Blade& blade : row.blades()) now.push_back(blade.presence);
         for (std::size_t i = 0; i < before.size(); ++i)
@@ -79,8 +80,8 @@ TEST(GillLayout, PresenceOfForksIsContinuousInForking) {
 
 TEST(GillLayout, BladesKeepTheirOrderUnderWander) {
     for (const std::uint32_t seed : {1U, 2U, 77U}) {
-        const BladeRow row(stand_on(0, HymeniumPattern::gills, 96, 1), HymeniumPattern::gills, 0.0,
-                           seed, 192);
+        const BladeRow row(slot_assignment(0, HymeniumPattern::gills, 96, 1),
+                           HymeniumPattern::gills, 0.0, seed, 192);
         for (const double share : {0.0, 0.3, 0.7, 1.0})
             for (std::size_t i = 0; i + 1 < 192; ++i)
                 EXPECT_LT(row.turn(row.blades()[i], share), row.turn(row.blades()[i + 1], share));

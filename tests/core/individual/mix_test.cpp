@@ -52,16 +52,16 @@ TEST(Mix, OfTwinsIsTheSpecies) {
     for (const std::string& id : swept_ids()) {
         const Atlas twins = with_twin(id);
         for (const double age : {0.0, 0.45, 1.0}) {
-            MushroomOrder order = mix_of({{id, 300}, {"twin", 700}}, age, 5);
-            order.params.variation = 1.0;
-            const Individual both = resolve(order, twins);
-            order.mix = {{id, 1000}};
-            const Individual lone = resolve(order, twins);
+            MushroomSpec spec = mix_of({{id, 300}, {"twin", 700}}, age, 5);
+            spec.params.variation = 1.0;
+            const Individual both = resolve(spec, twins);
+            spec.mix = {{id, 1000}};
+            const Individual lone = resolve(spec, twins);
             EXPECT_LT(largest_move(lone, both), 1e-3 * places_of(lone).back().y) << id << age;
             EXPECT_EQ(both.layers.size(), lone.layers.size()) << "equal places share a layer";
             for (const PatchLayer& layer : both.layers) EXPECT_NEAR(layer.weight, 1.0, 1e-15);
             EXPECT_NEAR(both.ring.width, lone.ring.width, 1e-12);
-            EXPECT_EQ(both.comb, lone.comb);
+            EXPECT_EQ(both.gill_layout, lone.gill_layout);
             EXPECT_EQ(both.has_ring, lone.has_ring);
             EXPECT_NEAR(both.lightness, lone.lightness, 1e-12);
             EXPECT_NEAR(both.model.deformation.bend_deg, lone.model.deformation.bend_deg, 1e-3);
@@ -71,10 +71,10 @@ TEST(Mix, OfTwinsIsTheSpecies) {
 
 TEST(Mix, OfASingleSpeciesDoesNotDependOnItsWeight) {
     for (const int weight : {1, 7, 1000}) {
-        MushroomOrder order = order_of("boletus_edulis", 0.5, 4);
-        const Individual thousand = resolve(order, atlas());
-        order.mix[0].weight = weight;
-        const Individual other = resolve(order, atlas());
+        MushroomSpec spec = order_of("boletus_edulis", 0.5, 4);
+        const Individual thousand = resolve(spec, atlas());
+        spec.mix[0].weight = weight;
+        const Individual other = resolve(spec, atlas());
         EXPECT_EQ(places_of(other), places_of(thousand));
         EXPECT_EQ(other.model, thousand.model);
     }
@@ -85,12 +85,12 @@ TEST(Mix, SizesBlendGeometrically) {
         for (auto* part : {&drawn(model).stem, &drawn(model).hymenium, &drawn(model).cap})
             for (OutlinePoint& p : *part) p = {4.0 * p.r, 4.0 * p.y};
     });
-    MushroomOrder order = order_of("russula_vinosa");
-    order.params.variation = 0.0;
-    const Individual one = resolve(order, twins);
+    MushroomSpec spec = order_of("russula_vinosa");
+    spec.params.variation = 0.0;
+    const Individual one = resolve(spec, twins);
     for (const int weight : {250, 500, 900}) {
-        order.mix = {{"russula_vinosa", 1000 - weight}, {"twin", weight}};
-        const Individual mixed = resolve(order, twins);
+        spec.mix = {{"russula_vinosa", 1000 - weight}, {"twin", weight}};
+        const Individual mixed = resolve(spec, twins);
         const double scale = std::pow(4.0, eased_weights({1000.0 - weight, 1.0 * weight})[1]);
         EXPECT_LT(largest_move(one, mixed, scale), 2e-3 * scale * places_of(one).back().y);
     }
@@ -107,10 +107,10 @@ TEST(Mix, OppositeAxesCancelAndTheStemKeepsItsLength) {
     for (Stage& stage : species.stages) bend(0.15)(stage.model);
     for (Stage& stage : other.stages) bend(-0.15)(stage.model);
     const Atlas twins({dump(write(species)), dump(write(other))});
-    MushroomOrder order = mix_of({{"mycena_sanguinolenta", 1000}});
-    const Individual bent = resolve(order, twins);
-    order.mix = {{"mycena_sanguinolenta", 500}, {"twin", 500}};
-    const Individual straight = resolve(order, twins);
+    MushroomSpec spec = mix_of({{"mycena_sanguinolenta", 1000}});
+    const Individual bent = resolve(spec, twins);
+    spec.mix = {{"mycena_sanguinolenta", 500}, {"twin", 500}};
+    const Individual straight = resolve(spec, twins);
     EXPECT_GT(bent.axis.greatest_turn(), 0.5);
     EXPECT_LT(straight.axis.greatest_turn(), 1e-12);
     EXPECT_NEAR(straight.stem_top - straight.stem_base, bent.stem_top - bent.stem_base,
@@ -122,8 +122,8 @@ TEST(Mix, EachSpeciesAddsItsPatchesAtItsWeight) {
         model.warts.count = 30;
         model.warts.height = 1.5;
     });
-    const MushroomOrder order = mix_of({{"amanita_muscaria", 600}, {"twin", 400}});
-    const Individual mixed = resolve(order, twins);
+    const MushroomSpec spec = mix_of({{"amanita_muscaria", 600}, {"twin", 400}});
+    const Individual mixed = resolve(spec, twins);
     std::vector<PatchLayer> warts;
     for (const PatchLayer& layer : mixed.layers)
         if (layer.purpose == purposes::warts) warts.push_back(layer);
@@ -141,20 +141,20 @@ TEST(Mix, TheWidthOfARingIsTheWeightedSum) {
     const Atlas twins = with_twin("amanita_muscaria", [](Model& model) {
         model.ring = {0.2, 0.0, 0.0, 0.01, 1.0};
     });
-    MushroomOrder order = order_of("amanita_muscaria");
-    const Individual whole = resolve(order, twins);
+    MushroomSpec spec = order_of("amanita_muscaria");
+    const Individual whole = resolve(spec, twins);
     ASSERT_GT(whole.ring.width, 0.0);
     for (const int weight : {1, 500, 900, 999}) {
-        order.mix = {{"amanita_muscaria", 1000 - weight}, {"twin", weight}};
-        const Individual mixed = resolve(order, twins);
+        spec.mix = {{"amanita_muscaria", 1000 - weight}, {"twin", weight}};
+        const Individual mixed = resolve(spec, twins);
         EXPECT_TRUE(mixed.has_ring);
         EXPECT_NEAR(mixed.ring.width,
                     eased_weights({1000.0 - weight, 1.0 * weight})[0] * whole.ring.width, 1e-12);
         EXPECT_EQ(mixed.ring.height, whole.ring.height) << "where the wider one is";
         EXPECT_NEAR(mixed.ring.thickness, whole.ring.thickness, 1e-12);
     }
-    order.mix = {{"twin", 1000}};
-    EXPECT_FALSE(resolve(order, twins).has_ring);
+    spec.mix = {{"twin", 1000}};
+    EXPECT_FALSE(resolve(spec, twins).has_ring);
 }
 
 TEST(Mix, TheGillLayoutIsTheDensestOfTheSetForAllWeights) {
@@ -163,37 +163,38 @@ TEST(Mix, TheGillLayoutIsTheDensestOfTheSetForAllWeights) {
         model.hymenium.tiers = 3;
     });
     const Model& own = atlas().find("russula_vinosa")->species.stages[0].model;
-    ASSERT_LT((Comb{own.hymenium.blades, own.hymenium.tiers}.at_margin()), 40L << 3);
+    ASSERT_LT((GillLayout{own.hymenium.blades, own.hymenium.tiers}.at_margin()), 40L << 3);
     for (const int weight : {1, 500, 999})
         for (const double age : {0.0, 0.6, 1.0}) {
             const Individual mixed =
                 resolve(mix_of({{"russula_vinosa", 1000 - weight}, {"twin", weight}}, age), twins);
-            EXPECT_EQ(mixed.comb, (Comb{40, 3}));
+            EXPECT_EQ(mixed.gill_layout, (GillLayout{40, 3}));
             EXPECT_EQ(mixed.effective.hymenium.blades, 40);
             EXPECT_EQ(mixed.parts[0].model.hymenium.blades, own.hymenium.blades)
                 << "each is painted with its own";
         }
     // An override applies to all species.
-    MushroomOrder order = mix_of({{"russula_vinosa", 500}, {"twin", 500}});
-    order.params.hymenium.blades = 100;
-    order.params.hymenium.tiers = 0;
-    EXPECT_EQ(resolve(order, twins).comb, (Comb{100, 0}));
-    EXPECT_EQ(resolve(order_of("boletus_edulis"), atlas()).comb, Comb{}) << "pores have none";
+    MushroomSpec spec = mix_of({{"russula_vinosa", 500}, {"twin", 500}});
+    spec.params.hymenium.blades = 100;
+    spec.params.hymenium.tiers = 0;
+    EXPECT_EQ(resolve(spec, twins).gill_layout, (GillLayout{100, 0}));
+    EXPECT_EQ(resolve(order_of("boletus_edulis"), atlas()).gill_layout, GillLayout{})
+        << "pores have none";
 }
 
 TEST(Mix, OverridesThatNoSpeciesCanHaveAreRefused) {
-    MushroomOrder order = mix_of({{"amanita_muscaria", 500}, {"russula_vinosa", 500}});
-    order.params.hymenium.pores_per_mm = 2.0;
-    order.params.ornaments.scales = 0.5;
-    const auto problems = refusal([&] { (void)resolve(order, atlas()); });
+    MushroomSpec spec = mix_of({{"amanita_muscaria", 500}, {"russula_vinosa", 500}});
+    spec.params.hymenium.pores_per_mm = 2.0;
+    spec.params.ornaments.scales = 0.5;
+    const auto problems = refusal([&] { (void)resolve(spec, atlas()); });
     EXPECT_EQ(problems.size(), 2u);
     EXPECT_TRUE(names(problems, "/hymenium/pores_per_mm", "no species of this mix carries pores"));
     EXPECT_TRUE(names(problems, "/ornaments/scales", "no species of this mix"));
     // What one of them can have is granted to that one only.
-    order.mix[1].id = "boletus_edulis";
-    order.params.ornaments = {};
-    order.params.ornaments.warts = 0.25;
-    const Individual mixed = resolve(order, atlas());
+    spec.mix[1].id = "boletus_edulis";
+    spec.params.ornaments = {};
+    spec.params.ornaments.warts = 0.25;
+    const Individual mixed = resolve(spec, atlas());
     EXPECT_EQ(mixed.effective.hymenium.pores_per_mm, 2.0);
     EXPECT_EQ(mixed.effective.ornaments.warts, 0.25);
     EXPECT_FALSE(mixed.effective.ornaments.scales.has_value());
@@ -202,23 +203,23 @@ TEST(Mix, OverridesThatNoSpeciesCanHaveAreRefused) {
 }
 
 TEST(Mix, OnlyMarginsHaveWaves) {
-    MushroomOrder order = mix_of({{"clavariadelphus_pistillaris", 750}, {"russula_vinosa", 250}});
-    order.params.weathering.waves = 0.8;
-    EXPECT_NEAR(resolve(order, atlas()).waves, 0.8 * eased_weights({0.75, 0.25})[1], 1e-12);
+    MushroomSpec spec = mix_of({{"clavariadelphus_pistillaris", 750}, {"russula_vinosa", 250}});
+    spec.params.weathering.waves = 0.8;
+    EXPECT_NEAR(resolve(spec, atlas()).waves, 0.8 * eased_weights({0.75, 0.25})[1], 1e-12);
 }
 
 TEST(Mix, TheOrderHasNoEffectAndArcsFollowTheirSpecies) {
-    MushroomOrder order = mix_of({{"amanita_muscaria", 400}, {"russula_vinosa", 600}}, 0.6, 9);
-    order.arcs = {{CurveName::cap, 0.3, 0.45}, {CurveName::stem, 0.5, 0.4}};
-    const Individual first = resolve(order, atlas());
-    std::swap(order.mix[0], order.mix[1]);
-    for (Arc& arc : order.arcs) std::swap(arc.a, arc.b);
-    const Individual second = resolve(order, atlas());
+    MushroomSpec spec = mix_of({{"amanita_muscaria", 400}, {"russula_vinosa", 600}}, 0.6, 9);
+    spec.arcs = {{CurveName::cap, 0.3, 0.45}, {CurveName::stem, 0.5, 0.4}};
+    const Individual first = resolve(spec, atlas());
+    std::swap(spec.mix[0], spec.mix[1]);
+    for (Arc& arc : spec.arcs) std::swap(arc.a, arc.b);
+    const Individual second = resolve(spec, atlas());
     EXPECT_EQ(places_of(second), places_of(first));
     EXPECT_EQ(second.model, first.model);
     EXPECT_EQ(second.layers, first.layers);
-    order.arcs.clear();
-    EXPECT_GT(largest_move(resolve(order, atlas()), first), 1e-4) << "arcs change the way";
+    spec.arcs.clear();
+    EXPECT_GT(largest_move(resolve(spec, atlas()), first), 1e-4) << "arcs change the way";
 }
 
 TEST(Mix, EightSpeciesAreBlendedAtOnce) {
@@ -236,24 +237,24 @@ TEST(Mix, EightSpeciesAreBlendedAtOnce) {
 
 TEST(Mix, CacheKeysOfTheCorrespondenceCoverItsInputs) {
     std::vector<std::string> keys;
-    const Remember<MorphSet> listening = [&](const std::string& key, const auto& make) {
+    const GetOrCompute<MorphSet> listening = [&](const std::string& key, const auto& make) {
         keys.push_back(key);
         return make();
     };
-    MushroomOrder order = mix_of({{"amanita_muscaria", 400}, {"russula_vinosa", 600}});
+    MushroomSpec spec = mix_of({{"amanita_muscaria", 400}, {"russula_vinosa", 600}});
     const auto key_after = [&](auto change) {
         change();
-        (void)resolve(order, atlas(), listening);
+        (void)resolve(spec, atlas(), listening);
         return keys.back();
     };
     const std::string first = key_after([] {});
-    EXPECT_EQ(key_after([&] { order.mix[0].weight = 30; }), first);
-    EXPECT_EQ(key_after([&] { order.params.age = 0.1; }), first);
-    EXPECT_EQ(key_after([&] { order.params.seed = 8; }), first);
-    EXPECT_EQ(key_after([&] { order.params.lod = 3; }), first);
-    EXPECT_EQ(key_after([&] { order.params.deformation.bend_deg = 8.0; }), first);
-    EXPECT_NE(key_after([&] { order.arcs = {{CurveName::cap, 0.3, 0.45}}; }), first);
-    EXPECT_NE(key_after([&] { order.mix[0].id = "boletus_edulis"; }), first);
+    EXPECT_EQ(key_after([&] { spec.mix[0].weight = 30; }), first);
+    EXPECT_EQ(key_after([&] { spec.params.age = 0.1; }), first);
+    EXPECT_EQ(key_after([&] { spec.params.seed = 8; }), first);
+    EXPECT_EQ(key_after([&] { spec.params.lod = 3; }), first);
+    EXPECT_EQ(key_after([&] { spec.params.deformation.bend_deg = 8.0; }), first);
+    EXPECT_NE(key_after([&] { spec.arcs = {{CurveName::cap, 0.3, 0.45}}; }), first);
+    EXPECT_NE(key_after([&] { spec.mix[0].id = "boletus_edulis"; }), first);
 }
 
 }  // namespace

@@ -18,7 +18,7 @@
 namespace sporeprint {
 namespace {
 
-Model model_of(const MushroomOrder& order) { return resolve(order, atlas()).model; }
+Model model_of(const MushroomSpec& spec) { return resolve(spec, atlas()).model; }
 
 /// Returns the positions of all rings of LOD 0, base to apex.
 std::vector<glm::dvec2> places_of(const Individual& individual) {
@@ -50,9 +50,9 @@ Model with_counts_of(Model model, const Model& set) {
 TEST(Resolve, WithoutVariationStagesEqualTheirTemplates) {
     for (const AtlasEntry& entry : swept_atlas().entries())
         for (const Stage& stage : entry.species.stages) {
-            MushroomOrder order = order_of(entry.species.id.string(), stage.age);
-            order.params.variation = 0.0;
-            const Individual found = resolve(order, atlas());
+            MushroomSpec spec = order_of(entry.species.id.string(), stage.age);
+            spec.params.variation = 0.0;
+            const Individual found = resolve(spec, atlas());
             const Outline drawn(silhouette_of(stage.model));
             const double size = drawn.stem.length() + drawn.cap.length();
             for (const CurveName curve : curve_names) {
@@ -79,9 +79,9 @@ TEST(Resolve, BetweenStagesAgesBlendLinearly) {
     // Rings follow the outline's bends; points at equal values of the parameter move along straight
     // lines.
     const auto at = [](double age) {
-        MushroomOrder order = order_of("boletus_edulis", age);
-        order.params.variation = 0.0;
-        const Outline outline = resolve(order, atlas()).outline;
+        MushroomSpec spec = order_of("boletus_edulis", age);
+        spec.params.variation = 0.0;
+        const Outline outline = resolve(spec, atlas()).outline;
         std::vector<double> even;
         for (int i = 0; i <= 20; ++i) even.push_back(i / 20.0);
         std::vector<glm::dvec2> places;
@@ -98,16 +98,16 @@ TEST(Resolve, BetweenStagesAgesBlendLinearly) {
 
 TEST(Resolve, GrowthIsContinuous) {
     for (const std::string& id : swept_ids()) {
-        MushroomOrder order = order_of(id, 0.0, 5);
-        order.params.variation = 1.0;
+        MushroomSpec spec = order_of(id, 0.0, 5);
+        spec.params.variation = 1.0;
         const int steps = static_cast<int>(effort(400, 20, 400));
-        order.params.age = (400 - steps) / 400.0;
-        auto last = places_of(resolved(order));
+        spec.params.age = (400 - steps) / 400.0;
+        auto last = places_of(resolved(spec));
         for (int step = 400 - steps + 1; step <= 400; ++step) {
-            order.params.age = step / 400.0;
-            const auto next = places_of(resolved(order));
+            spec.params.age = step / 400.0;
+            const auto next = places_of(resolved(spec));
             EXPECT_LT(largest_move(last, next), 0.05 * std::max(0.01, next.back().y))
-                << id << " at age " << order.params.age;
+                << id << " at age " << spec.params.age;
             last = next;
         }
     }
@@ -115,12 +115,12 @@ TEST(Resolve, GrowthIsContinuous) {
 
 TEST(Resolve, WithoutVariationAllSeedsHaveTheSameProportions) {
     for (const std::string& id : species_ids()) {
-        MushroomOrder order = order_of(id, 0.45, 1);
-        order.params.variation = 0.0;
-        const Individual first = resolved(order);
+        MushroomSpec spec = order_of(id, 0.45, 1);
+        spec.params.variation = 0.0;
+        const Individual first = resolved(spec);
         for (std::uint32_t seed = 2; seed < 20; ++seed) {
-            order.params.seed = seed;
-            const Individual other = resolved(order);
+            spec.params.seed = seed;
+            const Individual other = resolved(spec);
             EXPECT_EQ(other.model, first.model);
             EXPECT_EQ(other.lightness, 1.0);
         }
@@ -131,19 +131,19 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
     for (const AtlasEntry& entry : swept_atlas().entries()) {
         const Species& species = entry.species;
         const Spread& spread = species.spread;
-        MushroomOrder order = order_of(species.id.string(), 0.6);
-        order.params.variation = 0.0;
-        const Individual plain = resolved(order);
+        MushroomSpec spec = order_of(species.id.string(), 0.6);
+        spec.params.variation = 0.0;
+        const Individual plain = resolved(spec);
         const auto stem_length = [](const Individual& i) { return i.stem_top; };
         const auto cap_height = [](const Individual& i) {
             return i.outline.cap.at(1.0).y - i.outline.cap.at(0.0).y;
         };
-        order.params.variation = 1.0;
+        spec.params.variation = 1.0;
         double most_length = 0.0, least_length = 1e9;
         const std::size_t seeds = effort(300);
         for (std::uint32_t seed = 0; seed < seeds; ++seed) {
-            order.params.seed = seed;
-            const Individual individual = resolved(order);
+            spec.params.seed = seed;
+            const Individual individual = resolved(spec);
             const auto within = [&](double factor, double log_spread) {
                 return std::abs(std::log(factor)) <= log_spread + 1e-3;
             };
@@ -178,10 +178,10 @@ TEST(Resolve, VariationStaysWithinTheSpreadOfItsSpecies) {
 
 TEST(Resolve, SizeScalesUniformly) {
     for (const std::string& id : swept_ids()) {
-        MushroomOrder order = order_of(id, 0.6, 8);
-        const Individual one = resolved(order);
-        order.params.size = 4.0;
-        const Individual four = resolved(order);
+        MushroomSpec spec = order_of(id, 0.6, 8);
+        const Individual one = resolved(spec);
+        spec.params.size = 4.0;
+        const Individual four = resolved(spec);
         const auto a = places_of(one), b = places_of(four);
         for (std::size_t i = 0; i < a.size(); ++i)
             EXPECT_LT(glm::distance(b[i], 4.0 * a[i]), 1e-12);
@@ -195,11 +195,11 @@ TEST(Resolve, SizeScalesUniformly) {
 
 TEST(Resolve, ImpossibleOverridesAreRefusedAndNamed) {
     const auto refused = [](const std::string& id, auto member, auto field, auto amount) {
-        MushroomOrder order = order_of(id);
-        (order.params.*member).*field = amount;
+        MushroomSpec spec = order_of(id);
+        (spec.params.*member).*field = amount;
         std::vector<Problem> problems;
         try {
-            (void)resolve(order, atlas());
+            (void)resolve(spec, atlas());
         } catch (const Impossible& impossible) {
             problems = impossible.problems();
         }
@@ -244,59 +244,59 @@ TEST(Resolve, ImpossibleOverridesAreRefusedAndNamed) {
 }
 
 TEST(Resolve, AllImpossibleOverridesAreReportedAtOnce) {
-    MushroomOrder order = order_of("boletus_edulis");
-    order.params.hymenium.blades = 60;
-    order.params.ornaments.warts = 1.0;
-    order.params.ornaments.ring = 1.0;
-    EXPECT_EQ(refusal([&] { (void)resolved(order); }).size(), 3u);
+    MushroomSpec spec = order_of("boletus_edulis");
+    spec.params.hymenium.blades = 60;
+    spec.params.ornaments.warts = 1.0;
+    spec.params.ornaments.ring = 1.0;
+    EXPECT_EQ(refusal([&] { (void)resolved(spec); }).size(), 3u);
 }
 
 TEST(Resolve, InvalidRequestsAreRefusedAndNamed) {
     EXPECT_TRUE(names(refusal([] { (void)resolve(order_of("toadstool"), atlas()); }), "mix",
                       "'toadstool'"));
-    MushroomOrder order = order_of("boletus_edulis");
-    order.mix.push_back({"boletus_edulis", 500});
-    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "mix", "named twice"));
-    order.mix.back() = {"amanita_muscaria", 0};
-    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "mix", "not positive"));
-    order.mix.clear();
-    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "mix", "1 to 8"));
-    order = order_of("boletus_edulis");
-    order.arcs.push_back({CurveName::cap, 0.3, 0.5});
-    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/arcs", "two species"));
-    order = order_of("boletus_edulis", 1.2);
-    order.params.size = std::nan("");
-    order.params.deformation.bend_deg = 91.0;
-    const auto problems = refusal([&] { (void)resolved(order); });
+    MushroomSpec spec = order_of("boletus_edulis");
+    spec.mix.push_back({"boletus_edulis", 500});
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(spec); }), "mix", "named twice"));
+    spec.mix.back() = {"amanita_muscaria", 0};
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(spec); }), "mix", "not positive"));
+    spec.mix.clear();
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(spec); }), "mix", "1 to 8"));
+    spec = order_of("boletus_edulis");
+    spec.arcs.push_back({CurveName::cap, 0.3, 0.5});
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(spec); }), "/arcs", "two species"));
+    spec = order_of("boletus_edulis", 1.2);
+    spec.params.size = std::nan("");
+    spec.params.deformation.bend_deg = 91.0;
+    const auto problems = refusal([&] { (void)resolved(spec); });
     EXPECT_TRUE(names(problems, "/age", "1.2"));
     EXPECT_TRUE(names(problems, "/size"));
     EXPECT_TRUE(names(problems, "/deformation/bend_deg", "91"));
-    order = order_of("boletus_edulis");
-    order.params.deformation.zone_from = 0.5;
-    order.params.deformation.zone_to = 0.5;
-    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/deformation/zone_to"));
+    spec = order_of("boletus_edulis");
+    spec.params.deformation.zone_from = 0.5;
+    spec.params.deformation.zone_to = 0.5;
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(spec); }), "/deformation/zone_to"));
     // The rule holds across the overrides and the values of the species.
-    order.params.deformation.zone_to.reset();
-    order.params.deformation.zone_from = 0.9;
-    EXPECT_TRUE(refusal([&] { (void)resolved(order); }).empty()) << "0.9 to 1 is a zone";
-    order.params.deformation.zone_from.reset();
-    order.params.deformation.zone_to = 0.1;
-    EXPECT_TRUE(refusal([&] { (void)resolved(order); }).empty()) << "0 to 0.1 is a zone";
+    spec.params.deformation.zone_to.reset();
+    spec.params.deformation.zone_from = 0.9;
+    EXPECT_TRUE(refusal([&] { (void)resolved(spec); }).empty()) << "0.9 to 1 is a zone";
+    spec.params.deformation.zone_from.reset();
+    spec.params.deformation.zone_to = 0.1;
+    EXPECT_TRUE(refusal([&] { (void)resolved(spec); }).empty()) << "0 to 0.1 is a zone";
 }
 
 TEST(Resolve, ACustomModelIsNotVaried) {
-    MushroomOrder order = order_of("x", 0.2, 77);
-    order.mix.clear();
-    order.model = atlas().find("cantharellus_cibarius")->species.stages[1].model;
-    order.params.variation = 1.0;
-    Model bodiless = *order.model;
+    MushroomSpec spec = order_of("x", 0.2, 77);
+    spec.mix.clear();
+    spec.model = atlas().find("cantharellus_cibarius")->species.stages[1].model;
+    spec.params.variation = 1.0;
+    Model bodiless = *spec.model;
     bodiless.shape = Swept{};
-    EXPECT_EQ(model_of(order), bodiless) << "age and variation do not touch it";
-    EXPECT_EQ(resolved(order).parts[0].model, *order.model);
-    order.params.weathering.fade = 0.3;
-    EXPECT_EQ(model_of(order).weathering.fade, 0.3);
-    std::get<Swept>(order.model->shape).silhouette.stem[0].r = 0.001;
-    EXPECT_TRUE(names(refusal([&] { (void)resolved(order); }), "/model/silhouette/stem/0/r",
+    EXPECT_EQ(model_of(spec), bodiless) << "age and variation do not touch it";
+    EXPECT_EQ(resolved(spec).parts[0].model, *spec.model);
+    spec.params.weathering.fade = 0.3;
+    EXPECT_EQ(model_of(spec).weathering.fade, 0.3);
+    std::get<Swept>(spec.model->shape).silhouette.stem[0].r = 0.001;
+    EXPECT_TRUE(names(refusal([&] { (void)resolved(spec); }), "/model/silhouette/stem/0/r",
                       "off the axis"));
 }
 
@@ -317,20 +317,20 @@ void each_wish(const T& asked, const T& effective, const std::string& path, cons
 TEST(Resolve, GrantedOverridesAreExact) {
     int granted = 0;
     EXPECT_TRUE(rc::check("random overrides", [&] {
-        MushroomOrder order = order_of(*rc::gen::elementOf(species_ids()));
-        order.params = arbitrary_params();
+        MushroomSpec spec = order_of(*rc::gen::elementOf(species_ids()));
+        spec.params = arbitrary_params();
         try {
-            const Individual individual = resolved(order);
+            const Individual individual = resolved(spec);
             ++granted;
-            each_wish(order.params, individual.effective, "",
+            each_wish(spec.params, individual.effective, "",
                       [](const auto& asked, const auto& effective, const std::string& path) {
                           // A zero override of something that the species lacks is the same as
                           // none.
                           if (asked && effective && *asked != *effective) RC_FAIL(path);
                           if (asked && !effective && *asked != 0) RC_FAIL(path + " is lost");
                       });
-            RC_ASSERT(individual.effective.age == order.params.age);
-            RC_ASSERT(individual.effective.seed == order.params.seed);
+            RC_ASSERT(individual.effective.age == spec.params.age);
+            RC_ASSERT(individual.effective.seed == spec.params.seed);
             RC_ASSERT(problems_in(individual.effective).empty());
         } catch (const InvalidInput& refused) {
             for (const Problem& problem : refused.problems())
@@ -347,18 +347,18 @@ TEST(Resolve, GrantedOverridesAreExact) {
 TEST(Resolve, EffectiveParametersReproduceTheIndividual) {
     for (const std::string& id : swept_ids())
         for (std::uint32_t seed = 1; seed <= 8; ++seed) {
-            MushroomOrder order = textured(order_of(id, seed / 8.0, seed, 1));
-            order.params.variation = 1.0;
-            order.params.deformation.twist_deg = 30.0;
-            const Individual first = resolved(order);
-            MushroomOrder again = order;
+            MushroomSpec spec = textured(order_of(id, seed / 8.0, seed, 1));
+            spec.params.variation = 1.0;
+            spec.params.deformation.twist_deg = 30.0;
+            const Individual first = resolved(spec);
+            MushroomSpec again = spec;
             again.params = first.effective;
             const Individual second = resolve(again, atlas());
             EXPECT_EQ(second.model, first.model) << id << ' ' << seed;
             EXPECT_EQ(places_of(second), places_of(first));
             EXPECT_EQ(second.lightness, first.lightness);
             EXPECT_EQ(canonical_text(second.effective), canonical_text(first.effective));
-            EXPECT_TRUE(same_bits(mushroom_mesh(order, first), mushroom_mesh(again, second)));
+            EXPECT_TRUE(same_bits(mushroom_mesh(spec, first), mushroom_mesh(again, second)));
         }
 }
 
@@ -366,12 +366,11 @@ TEST(Resolve, NaturalBendsNeverFoldTheStem) {
     for (const std::string& id : species_ids())
         for (int step = 0; step <= 8; ++step)
             for (std::uint32_t seed = 0; seed < effort(12); ++seed) {
-                MushroomOrder order = order_of(id, step / 8.0, seed, 3);
-                order.params.variation = 1.0;
-                const auto problems = refusal([&] { (void)mesh_of(order); });
-                EXPECT_TRUE(problems.empty())
-                    << id << ' ' << order.params.age << ' ' << seed << ": " << problems[0].path
-                    << ' ' << problems[0].message;
+                MushroomSpec spec = order_of(id, step / 8.0, seed, 3);
+                spec.params.variation = 1.0;
+                const auto problems = refusal([&] { (void)mesh_of(spec); });
+                EXPECT_TRUE(problems.empty()) << id << ' ' << spec.params.age << ' ' << seed << ": "
+                                              << problems[0].path << ' ' << problems[0].message;
             }
 }
 

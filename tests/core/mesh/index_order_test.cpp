@@ -81,7 +81,7 @@ TEST(IndexOrder, ASheetNeedsTwoThirdsOfAVertexPerTriangle) {
 TEST(IndexOrder, AppliesToEveryMushroom) {
     for (const std::string& id : species_ids())
         for (const int lod : {0, 1}) {
-            const MushroomOrder order = textured(order_of(id, 0.6, 3, lod));
+            const MushroomSpec order = textured(order_of(id, 0.6, 3, lod));
             const Individual individual = resolved(order);
             const Mesh body = body_mesh(individual, lod), drawn = mushroom_mesh(order, individual);
             EXPECT_EQ(triangles_of(drawn), triangles_of(body)) << id;

@@ -17,8 +17,8 @@ glm::dvec3 linear(const Colour& colour) {
 }
 
 // Between veins: where a leaf shows its gradation alone.
-LimbPlace between(double affinity, double homothety) {
-    LimbPlace place;
+LaminaPlace between(double affinity, double homothety) {
+    LaminaPlace place;
     place.inside = true;
     place.affinity = affinity;
     place.homothety = homothety;
@@ -43,7 +43,7 @@ TEST(LeafColour, AffinityGoesFromTheMainVeinToTheBorderAndHomothetyToTheTip) {
     palette.summer.affinity = palette.summer.homothety = GradationLaw::linear;
     palette.summer.homothety_share = 0.0;
     const LeafColours& summer = palette.summer;
-    const auto expect_colour = [&](const LimbPlace& place, const glm::dvec3& wanted) {
+    const auto expect_colour = [&](const LaminaPlace& place, const glm::dvec3& wanted) {
         EXPECT_LT(glm::distance(leaf_colour(palette, place, 0.0, true), wanted), 1e-12);
     };
     expect_colour(between(0.0, 0.2), linear(summer.inner));
@@ -51,7 +51,7 @@ TEST(LeafColour, AffinityGoesFromTheMainVeinToTheBorderAndHomothetyToTheTip) {
     expect_colour(between(0.5, 0.2), 0.5 * (linear(summer.inner) + linear(summer.border)));
     palette.summer.homothety_share = 1.0;
     expect_colour(between(0.3, 1.0), linear(summer.tip));
-    LimbPlace on_vein = between(0.0, 0.0);
+    LaminaPlace on_vein = between(0.0, 0.0);
     on_vein.from_main = 0.0;
     expect_colour(on_vein, linear(summer.vein));
 }
@@ -81,7 +81,7 @@ TEST(LeafColour, ColoursAreColours) {
         for (double autumn = 0.0; autumn <= 1.0; autumn += 0.05)
             for (double at = 0.0; at <= 1.0; at += 0.1)
                 for (const bool upper : {true, false}) {
-                    LimbPlace place = between(at, 1.0 - at);
+                    LaminaPlace place = between(at, 1.0 - at);
                     place.from_main = 0.01 * at;
                     place.from_side = 0.002;
                     place.along_side = at;

@@ -25,9 +25,10 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
     for (const LeafPreset& preset : leaf_presets()) {
         SCOPED_TRACE(preset.id);
         const RawImages images = leaf_images(preset.shape, preset.palette, 0.0, 1, side);
-        const Limb limb = limb_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0));
-        const LeafChart chart = chart_of(limb);
-        const LimbReader reader(limb);
+        const Lamina lamina =
+            lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0));
+        const LeafChart chart = chart_of(lamina);
+        const LaminaReader reader(lamina);
         for (const bool upper : {true, false}) {
             // The middle of a texel.
             glm::dvec2 at = chart.texture_point({0.0, 0.45}, upper);
@@ -38,7 +39,7 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
             for (int i = 0; i < 16; ++i) {
                 const glm::dvec2 offset(i % 4 - 1.5, i / 4 - 1.5);
                 bool face = false;
-                const LimbPlace place = reader.at(chart.place(at + offset / (4.0 * side), face));
+                const LaminaPlace place = reader.at(chart.place(at + offset / (4.0 * side), face));
                 EXPECT_EQ(face, upper);
                 wanted += leaf_colour(preset.palette, place, 0.0, upper) / 16.0;
             }
@@ -52,9 +53,9 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
 TEST(LeafImage, IsFlatWhereNoLeafIsAndPaintedBesideIt) {
     const LeafPreset& maple = *leaf_preset("maple");
     const RawImages images = leaf_images(maple.shape, maple.palette, 0.5, 1, side);
-    const Limb limb = limb_of(maple.shape.venation, leaf_steps(maple.shape.venation, 0));
-    const LeafChart chart = chart_of(limb);
-    LimbPlace beyond;
+    const Lamina lamina = lamina_of(maple.shape.venation, leaf_steps(maple.shape.venation, 0));
+    const LeafChart chart = chart_of(lamina);
+    LaminaPlace beyond;
     beyond.affinity = beyond.homothety = 1.0;
     beyond.from_main = 1e9;
     for (const bool upper : {true, false}) {
@@ -66,7 +67,7 @@ TEST(LeafImage, IsFlatWhereNoLeafIsAndPaintedBesideIt) {
         EXPECT_EQ(texel(images, 1, away), glm::dvec3(128.0, 128.0, 255.0) / 255.0);
         // What lies beside the border is as bright and dark as the leaf.
         std::size_t flat = 0, beside = 0;
-        for (const glm::dvec2& place : border_of(limb)) {
+        for (const glm::dvec2& place : border_of(lamina)) {
             const glm::dvec2 at = chart.texture_point(1.01 * place, upper);
             flat += texel(images, 0, at) == texel(images, 0, away);
             ++beside;
@@ -87,7 +88,7 @@ TEST(LeafImage, NormalsAreUnitVectorsThatLeanFromVeins) {
     }
     // Right of the middle vein of the upper face, which lies deeper, the face leans to the left.
     const LeafChart chart =
-        chart_of(limb_of(birch.shape.venation, leaf_steps(birch.shape.venation, 0)));
+        chart_of(lamina_of(birch.shape.venation, leaf_steps(birch.shape.venation, 0)));
     EXPECT_LT(texel(images, 1, chart.texture_point({0.01, 0.35}, true)).x, 0.48);
     EXPECT_GT(texel(images, 1, chart.texture_point({-0.01, 0.35}, true)).x, 0.52);
     EXPECT_GT(texel(images, 1, chart.texture_point({0.01, 0.35}, false)).x, 0.52);

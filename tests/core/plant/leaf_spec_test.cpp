@@ -14,7 +14,7 @@
 namespace sporeprint {
 namespace {
 
-TEST(LeafOrder, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
+TEST(LeafSpec, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
     for (const LeafPreset& preset : leaf_presets()) {
         const LeafParams params = params_of(preset);
         EXPECT_EQ(params.shape, preset.shape) << preset.id;
@@ -26,7 +26,7 @@ TEST(LeafOrder, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
     }
 }
 
-TEST(LeafOrder, IsReadBackFromItsQuery) {
+TEST(LeafSpec, IsReadBackFromItsQuery) {
     Random random(3, 1);
     for (std::size_t i = 0; i < effort(200, 20); ++i) {
         const LeafParams own = params_of(leaf_presets()[i % leaf_presets().size()]);
@@ -50,7 +50,7 @@ TEST(LeafOrder, IsReadBackFromItsQuery) {
     }
 }
 
-TEST(LeafOrder, IndividualsOfAnyShapeAreShapes) {
+TEST(LeafSpec, IndividualsOfAnyShapeAreShapes) {
     Random random(9, 1);
     for (std::size_t i = 0; i < effort(5000, 300); ++i) {
         const auto shape = drawn<LeafShape>(random);
@@ -62,14 +62,14 @@ TEST(LeafOrder, IndividualsOfAnyShapeAreShapes) {
     }
 }
 
-TEST(LeafOrder, WithoutVariationEveryIndividualIsTheShapeItself) {
+TEST(LeafSpec, WithoutVariationEveryIndividualIsTheShapeItself) {
     for (const LeafPreset& preset : leaf_presets())
         EXPECT_EQ(individual_leaf(preset.shape, 7, 0.0), preset.shape) << preset.id;
     const LeafShape shape = leaf_preset("maple")->shape;
     EXPECT_NE(individual_leaf(shape, 7, 0.5), individual_leaf(shape, 8, 0.5));
 }
 
-TEST(LeafOrder, IndividualsDepartAsFarToEitherSideAsTheyVary) {
+TEST(LeafSpec, IndividualsDepartAsFarToEitherSideAsTheyVary) {
     const LeafShape shape = leaf_preset("birch")->shape;
     double mean = 0.0, squares = 0.0;
     constexpr int count = 2000;
@@ -82,7 +82,7 @@ TEST(LeafOrder, IndividualsDepartAsFarToEitherSideAsTheyVary) {
     EXPECT_NEAR(std::sqrt(squares), 12.0, 1.0);
 }
 
-TEST(LeafOrder, ImagesDependOnNothingThatOnlyShapes) {
+TEST(LeafSpec, ImagesDependOnNothingThatOnlyShapes) {
     const LeafParams params = params_of(*leaf_preset("oak"));
     LeafParams other = params;
     other.size = 2.0;
@@ -99,7 +99,7 @@ TEST(LeafOrder, ImagesDependOnNothingThatOnlyShapes) {
     EXPECT_NE(paint_of(other), paint_of(params));
 }
 
-TEST(LeafOrder, IsNeverMoreThanWasEstimated) {
+TEST(LeafSpec, IsNeverMoreThanWasEstimated) {
     const auto expect_enough = [](const LeafShape& shape, int lod) {
         const LeafCount most = most_of_leaf(shape.venation, lod);
         const Mesh mesh = leaf_mesh(shape, lod);

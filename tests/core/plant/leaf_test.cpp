@@ -87,7 +87,7 @@ TEST(Leaf, FoliageKeepsTheAreaOfTheLimb) {
         for (const std::size_t triangles : {8U, 12U, 16U}) {
             const Mesh mesh = foliage_leaf(flat, triangles);
             EXPECT_LE(mesh.triangles(), triangles) << preset.id;
-            EXPECT_NEAR(seen_area(mesh) / limb_area(flat), 1.0, 1e-4) << preset.id;
+            EXPECT_NEAR(seen_area(mesh) / lamina_area(flat), 1.0, 1e-4) << preset.id;
         }
     }
 }
@@ -130,7 +130,7 @@ TEST(Leaf, TheMiddleVeinKeepsItsLengthHoweverItCurls) {
     for (const double curl : {0.0, 90.0, -90.0, 180.0}) {
         shape.curl_deg = curl;
         const Mesh mesh = leaf_mesh(shape, 0);
-        // The tip is the middle of an arc that turns by the curl over the limb's length.
+        // The tip is the middle of an arc that turns by the curl over the lamina's length.
         const double turn = radians(curl);
         const glm::dvec3 wanted =
             shape.length * (curl == 0.0 ? glm::dvec3(0.0, 0.0, 1.0)
@@ -146,7 +146,7 @@ TEST(Leaf, TheMiddleVeinKeepsItsLengthHoweverItCurls) {
 
 TEST(Leaf, FacesLieOnTheirHalvesOfTheImage) {
     const LeafShape shape = pressed(leaf_preset("maple")->shape);
-    const LeafChart chart = chart_of(limb_of(shape.venation, leaf_steps(shape.venation, 0)));
+    const LeafChart chart = chart_of(lamina_of(shape.venation, leaf_steps(shape.venation, 0)));
     Random random(2, 1);
     for (int i = 0; i < 200; ++i) {
         const double x = random.uniform(0.02, 0.98), y = random.uniform(0.02, 0.9);

@@ -13,7 +13,7 @@
 namespace sporeprint {
 namespace {
 
-TEST(TreeOrder, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
+TEST(TreeSpec, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
     for (const TreePreset& preset : tree_presets()) {
         const TreeParams params = params_of(preset);
         EXPECT_EQ(params.look.shape, preset.shape) << preset.id;
@@ -28,14 +28,14 @@ TEST(TreeOrder, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
     }
 }
 
-TEST(TreeOrder, KindsOfLeavesAreThePresetsOfLeaves) {
+TEST(TreeSpec, KindsOfLeavesAreThePresetsOfLeaves) {
     std::size_t kinds = 0;
     for (; const char* one = name(static_cast<LeafKind>(kinds)); ++kinds)
         EXPECT_STREQ(one, leaf_presets()[kinds].id);
     EXPECT_EQ(kinds, leaf_presets().size());
 }
 
-TEST(TreeOrder, ImagesDependOnNothingThatOnlyShapes) {
+TEST(TreeSpec, ImagesDependOnNothingThatOnlyShapes) {
     const TreeParams params = params_of(*tree_preset("birch"));
     TreeParams other = params;
     other.seed = 9;
@@ -53,7 +53,7 @@ TEST(TreeOrder, ImagesDependOnNothingThatOnlyShapes) {
     EXPECT_NE(paint_of(other), paint_of(params));
 }
 
-TEST(TreeOrder, WearsTheImagesOfItsLeafAlone) {
+TEST(TreeSpec, WearsTheImagesOfItsLeafAlone) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.seed = 77;
     params.autumn = 0.4;
@@ -66,7 +66,7 @@ TEST(TreeOrder, WearsTheImagesOfItsLeafAlone) {
     EXPECT_EQ(paint_of(leaf_of(params)), paint_of(alone));
 }
 
-TEST(TreeOrder, LevelsOfDetailHaveFewerLeavesOfFewerTriangles) {
+TEST(TreeSpec, LevelsOfDetailHaveFewerLeavesOfFewerTriangles) {
     for (int lod = 1; lod < tree_lods; ++lod) {
         EXPECT_LT(leaf_share(lod, 9000), 0.5 * leaf_share(lod - 1, 9000));
         EXPECT_GE(leaf_share(lod, 100) * 100, 50.0) << "few leaves stay";
@@ -78,7 +78,7 @@ TEST(TreeOrder, LevelsOfDetailHaveFewerLeavesOfFewerTriangles) {
     EXPECT_EQ(leaf_triangles(0, most_leaves), 8u) << "a crown of many leaves has simple ones";
 }
 
-TEST(TreeOrder, RowsCountWhereAMatrixIsCalledOwn) {
+TEST(TreeSpec, RowsCountWhereAMatrixIsCalledOwn) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.look.shape.topology.rows = {{0.5, 0.5}};
     EXPECT_EQ(problems_in(params), std::vector<Problem>{}) << "there, but not asked for";
@@ -104,7 +104,7 @@ TEST(TreeOrder, RowsCountWhereAMatrixIsCalledOwn) {
         << "half way from one's own to only forks";
 }
 
-TEST(TreeOrder, EveryFaultOfAMatrixIsNamedByItsRow) {
+TEST(TreeSpec, EveryFaultOfAMatrixIsNamedByItsRow) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     TreeTopology& topology = params.look.shape.topology;
     topology.matrix = MatrixKind::own;
@@ -118,7 +118,7 @@ TEST(TreeOrder, EveryFaultOfAMatrixIsNamedByItsRow) {
     EXPECT_TRUE(names(problems_in(params), "/rows/0/1", "-0.25 is outside 0..1"));
 }
 
-TEST(TreeOrder, OrdersAreExpectedAsTheyGrow) {
+TEST(TreeSpec, OrdersAreExpectedAsTheyGrow) {
     for (const TreePreset& preset : tree_presets()) {
         SCOPED_TRACE(preset.id);
         const std::vector<ExpectedOrder> expected = expected_orders(preset.shape);

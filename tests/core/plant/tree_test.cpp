@@ -33,7 +33,7 @@ double degrees_between(const glm::dvec3& a, const glm::dvec3& b) {
 
 glm::dvec3 edge(const Tree& tree, std::uint32_t node) {
     return tree.skeleton.nodes[node + 1].place -
-           tree.skeleton.nodes[tree.skeleton.limbs[node].from].place;
+           tree.skeleton.nodes[tree.skeleton.segments[node].from].place;
 }
 
 // The whole tree, node by node: what each is told of its number and its own.

@@ -62,15 +62,15 @@ TEST(Venation, LobesAndNodesAreAsManyAsAskedFor) {
         venation.nodes = 9;
         venation.node_loss = 2.0;
         venation.vein_deg = 40;
-        const Limb limb = limb_of(venation, 2);
-        ASSERT_EQ(limb.lobes.size(), static_cast<std::size_t>(lobes));
+        const Lamina lamina = lamina_of(venation, 2);
+        ASSERT_EQ(lamina.lobes.size(), static_cast<std::size_t>(lobes));
         for (int i = 0; i < lobes; ++i) {
-            const Lobe& lobe = limb.lobes[static_cast<std::size_t>(i)];
+            const Lobe& lobe = lamina.lobes[static_cast<std::size_t>(i)];
             const int out = i - lobes / 2;
             EXPECT_EQ(lobe.nodes.size(), static_cast<std::size_t>(9 - 2 * std::abs(out)));
             EXPECT_NEAR(lobe.turn, out * radians(40), 1e-12);
         }
-        EXPECT_NEAR(limb.lobes[static_cast<std::size_t>(lobes / 2)].reach, 1.0, 1e-12);
+        EXPECT_NEAR(lamina.lobes[static_cast<std::size_t>(lobes / 2)].reach, 1.0, 1e-12);
     }
 }
 
@@ -87,8 +87,8 @@ TEST(Venation, EdgesFollowTheirLaw) {
         venation.law = law;
         venation.rise = 0.7;
         venation.side_length = 1.3;
-        const Limb limb = limb_of(venation, 1);
-        const Lobe& lobe = limb.lobes[0];
+        const Lamina lamina = lamina_of(venation, 1);
+        const Lobe& lobe = lamina.lobes[0];
         ASSERT_EQ(lobe.halves[0].side_veins.size(), 7U);
         double before = 0.0;
         const double unit = lobe.nodes[0] / length(law, 8);
@@ -108,12 +108,12 @@ TEST(Venation, SideVeinsStandAtTheirAngleOnBothSides) {
     Venation venation;
     venation.lobes.value = 3;
     venation.side_deg = 50;
-    const Limb limb = limb_of(venation, 1);
+    const Lamina lamina = lamina_of(venation, 1);
     std::size_t sides = 0;
-    for (const Vein& vein : veins_of(limb)) {
+    for (const Vein& vein : veins_of(lamina)) {
         if (vein.main) continue;
         ++sides;
-        const Lobe& lobe = limb.lobes[vein.lobe];
+        const Lobe& lobe = lamina.lobes[vein.lobe];
         const glm::dvec2 main(-std::sin(lobe.turn), std::cos(lobe.turn));
         const glm::dvec2 along = glm::normalize(vein.to - vein.from);
         EXPECT_NEAR(glm::dot(along, main), std::cos(radians(50)), 1e-9);
@@ -127,8 +127,8 @@ TEST(Venation, ThePolygonOfTheSourceGoesThroughTheLiftedEnds) {
     Venation venation;
     venation.nodes = 6;
     venation.border = 1.25;
-    const Limb limb = limb_of(venation, 1);
-    const Lobe& lobe = limb.lobes[0];
+    const Lamina lamina = lamina_of(venation, 1);
+    const Lobe& lobe = lamina.lobes[0];
     const HalfLobe& half = lobe.halves[1];
     ASSERT_EQ(half.feet.size(), 7U);
     for (std::size_t i = 0; i < 5; ++i) {
@@ -136,7 +136,7 @@ TEST(Venation, ThePolygonOfTheSourceGoesThroughTheLiftedEnds) {
         EXPECT_NEAR(half.heights[i + 1], 1.25 * half.side_veins[i].length, 1e-12);
     }
     EXPECT_NEAR(lobe.reach, lobe.nodes[5] + 0.25 * (lobe.nodes[5] - lobe.nodes[4]), 1e-12);
-    EXPECT_EQ(border_of(limb).size(), 12U);
+    EXPECT_EQ(border_of(lamina).size(), 12U);
 }
 
 TEST(Venation, VeinsThatWouldCrossAreDeleted) {
@@ -145,7 +145,7 @@ TEST(Venation, VeinsThatWouldCrossAreDeleted) {
     venation.nodes = 8;
     venation.vein_deg = 30;
     venation.side_length = 2.0;
-    const Limb crowded = limb_of(venation, 1);
+    const Lamina crowded = lamina_of(venation, 1);
     std::size_t sides = 0, whole = 0;
     for (const Lobe& lobe : crowded.lobes) {
         whole += 2 * (lobe.nodes.size() - 1);
@@ -153,7 +153,7 @@ TEST(Venation, VeinsThatWouldCrossAreDeleted) {
     }
     EXPECT_LT(sides, whole);
     venation.side_length = 0.2;
-    for (const Lobe& lobe : limb_of(venation, 1).lobes)
+    for (const Lobe& lobe : lamina_of(venation, 1).lobes)
         for (const HalfLobe& half : lobe.halves)
             EXPECT_EQ(half.side_veins.size(), lobe.nodes.size() - 1);
 }
@@ -165,11 +165,11 @@ TEST(Venation, BordersAreSimpleAndVeinsApartWhateverIsAskedFor) {
     for (std::size_t i = 0; i < draws; ++i) {
         const auto venation = drawn<Venation>(random);
         const auto steps = 1 + static_cast<int>(4.0 * random.uniform());
-        const Limb limb = limb_of(venation, steps);
-        const std::vector<glm::dvec2> border = border_of(limb);
+        const Lamina lamina = lamina_of(venation, steps);
+        const std::vector<glm::dvec2> border = border_of(lamina);
         ASSERT_EQ(meetings(border), 0U) << i;
         ASSERT_GT(area(border), 0.0) << i;
-        for (const Lobe& lobe : limb.lobes)
+        for (const Lobe& lobe : lamina.lobes)
             for (const HalfLobe& half : lobe.halves) {
                 ASSERT_EQ(half.feet.size(), half.heights.size());
                 for (std::size_t k = 1; k < half.feet.size(); ++k) {
@@ -182,7 +182,7 @@ TEST(Venation, BordersAreSimpleAndVeinsApartWhateverIsAskedFor) {
                     ASSERT_LE(vein.length, half.height(vein.foot) + 1e-12) << i;
             }
         if (i % 20 != 0) continue;
-        const std::vector<Vein> veins = veins_of(limb);
+        const std::vector<Vein> veins = veins_of(lamina);
         for (std::size_t a = 0; a < veins.size(); ++a)
             for (std::size_t b = a + 1; b < veins.size(); ++b)
                 if (veins[a].lobe != veins[b].lobe) {
@@ -198,7 +198,7 @@ TEST(Venation, BordersOfPresetsAreSimpleAtEveryLevelOfDetail) {
     for (const LeafPreset& preset : leaf_presets())
         for (int lod = 0; lod < leaf_lods; ++lod) {
             const std::vector<glm::dvec2> border =
-                border_of(limb_of(preset.shape.venation, leaf_steps(preset.shape.venation, lod)));
+                border_of(lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, lod)));
             EXPECT_EQ(meetings(border), 0U) << preset.id << ", " << lod;
             EXPECT_GT(area(border), 0.0) << preset.id << ", " << lod;
         }
@@ -208,17 +208,17 @@ TEST(Venation, PlacesOfTheLimbAreReadBack) {
     Random random(8, 1);
     const std::size_t draws = effort(300, 30);
     for (std::size_t i = 0; i < draws; ++i) {
-        const LimbReader reader(limb_of(drawn<Venation>(random), 2));
+        const LaminaReader reader(lamina_of(drawn<Venation>(random), 2));
         for (std::size_t k = 0; k < 20; ++k) {
             const double pick = random.uniform(), side_pick = random.uniform();
             const double along = random.uniform(0.02, 0.98), up = random.uniform(0.05, 0.95);
             const auto l =
-                static_cast<std::size_t>(pick * static_cast<double>(reader.limb().lobes.size()));
+                static_cast<std::size_t>(pick * static_cast<double>(reader.lamina().lobes.size()));
             const std::size_t side = side_pick < 0.5 ? 0 : 1;
-            const Lobe& lobe = reader.limb().lobes[l];
+            const Lobe& lobe = reader.lamina().lobes[l];
             const double foot = along * lobe.reach;
             const double height = up * lobe.halves[side].height(foot);
-            const LimbPlace place = reader.at(lobe.place(side, foot, height));
+            const LaminaPlace place = reader.at(lobe.place(side, foot, height));
             EXPECT_TRUE(place.inside);
             EXPECT_EQ(place.lobe, l);
             EXPECT_EQ(place.side, side);
@@ -236,11 +236,11 @@ TEST(Venation, PlacesAreTheSameByWhateverTrail) {
     Random random(9, 1);
     const std::size_t draws = effort(1000, 40);
     for (std::size_t i = 0; i < draws; ++i) {
-        const LimbReader reader(limb_of(drawn<Venation>(random), 2));
+        const LaminaReader reader(lamina_of(drawn<Venation>(random), 2));
         const double y = random.uniform(-0.3, 1.1), step = random.uniform(0.0005, 0.05);
-        LimbReader::Trail trail;
+        LaminaReader::Trail trail;
         for (double x = -1.2; x < 1.2; x += step) {
-            const LimbPlace on = reader.at({x, y}, trail), alone = reader.at({x, y});
+            const LaminaPlace on = reader.at({x, y}, trail), alone = reader.at({x, y});
             SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
             ASSERT_EQ(on.lobe, alone.lobe);
             ASSERT_EQ(on.side, alone.side);
@@ -258,9 +258,9 @@ TEST(Venation, PlacesAreTheSameByWhateverTrail) {
 TEST(Venation, HomothetyIsOneOnTheBorder) {
     Venation venation;
     venation.lobes.value = 3;
-    const Limb limb = limb_of(venation, 3);
-    const LimbReader reader(limb);
-    const std::vector<glm::dvec2> border = border_of(limb);
+    const Lamina lamina = lamina_of(venation, 3);
+    const LaminaReader reader(lamina);
+    const std::vector<glm::dvec2> border = border_of(lamina);
     for (std::size_t i = 1; i < border.size(); ++i) {
         EXPECT_NEAR(reader.at(0.999 * border[i]).homothety, 1.0, 0.03);
         EXPECT_NEAR(reader.at(0.5 * border[i]).homothety, 0.5, 0.03);
@@ -271,13 +271,13 @@ TEST(Venation, ImpossibleLeavesAreRefusedByName) {
     Venation venation;
     venation.lobes.value = 13;
     venation.vein_deg = 40;
-    EXPECT_TRUE(names(refusal([&] { (void)limb_of(venation, 1); }), "/vein_deg", "at most 27"));
+    EXPECT_TRUE(names(refusal([&] { (void)lamina_of(venation, 1); }), "/vein_deg", "at most 27"));
     venation.lobes.value = 3;
     venation.vein_deg = 80;
     venation.side_deg = 30;
-    EXPECT_TRUE(names(refusal([&] { (void)limb_of(venation, 1); }), "/side_deg", "too flat"));
+    EXPECT_TRUE(names(refusal([&] { (void)lamina_of(venation, 1); }), "/side_deg", "too flat"));
     venation.nodes = 100;
-    EXPECT_TRUE(names(refusal([&] { (void)limb_of(venation, 1); }), "/nodes", "outside 2..24"));
+    EXPECT_TRUE(names(refusal([&] { (void)lamina_of(venation, 1); }), "/nodes", "outside 2..24"));
 }
 
 }  // namespace

@@ -58,7 +58,7 @@ void expect_tree(const Ramification& tree) {
 TEST(Ramification, RowsOfTheCatalogueAreStochastic) {
     for (int order = 2; order <= most_order; ++order)
         for (const Named& one : catalogue(order)) {
-            EXPECT_TRUE(faults_of(one.matrix).empty()) << one.name;
+            EXPECT_TRUE(validation_errors(one.matrix).empty()) << one.name;
             EXPECT_EQ(one.matrix.order(), order);
         }
 }
@@ -168,9 +168,9 @@ TEST(Ramification, MeanNumbersOfLeavesFollowTheFormula) {
 
 TEST(Ramification, TipsReplaceLeavesAndKeepOrdersRight) {
     const Ramification tree = exact_ramification(random_binary_matrix(5), 5, 4, plenty);
-    const Ramification bushy = with_tips(tree, fishbone_matrix(3, 0.3), 3, 9, plenty);
-    expect_tree(bushy);
-    EXPECT_GT(bushy.leaves(), tree.leaves());
+    const Ramification branched = with_tips(tree, fishbone_matrix(3, 0.3), 3, 9, plenty);
+    expect_tree(branched);
+    EXPECT_GT(branched.leaves(), tree.leaves());
     EXPECT_EQ(with_tips(tree, fishbone_matrix(3, 0.3), 1, 9, plenty).nodes, tree.nodes);
     EXPECT_THROW((void)with_tips(tree, fishbone_matrix(3, 0.3), 3, 9, tree.leaves()), Impossible);
 }
@@ -191,14 +191,14 @@ TEST(Ramification, TooManyLeavesAreRefusedWithTheExpectedNumber) {
 }
 
 TEST(Ramification, ErrorsOfMatricesAreNamed) {
-    EXPECT_TRUE(names(faults_of({}), "/matrix", "0 rows"));
-    EXPECT_TRUE(names(faults_of({{{0.5, 0.5}, {1.0}}}), "/matrix/1",
+    EXPECT_TRUE(names(validation_errors({}), "/matrix", "0 rows"));
+    EXPECT_TRUE(names(validation_errors({{{0.5, 0.5}, {1.0}}}), "/matrix/1",
                       "1 entries; the row of order 3 has 3"));
-    EXPECT_TRUE(names(faults_of({{{0.6, 0.5}}}), "/matrix/0", "sum to 1.1"));
-    EXPECT_TRUE(names(faults_of({{{-0.5, 1.5}}}), "/matrix/0/0", "-0.5 is outside 0..1"));
-    EXPECT_TRUE(names(faults_of({{{1.0, 0.0}}}), "/matrix/0/1", "would hardly ever end"));
+    EXPECT_TRUE(names(validation_errors({{{0.6, 0.5}}}), "/matrix/0", "sum to 1.1"));
+    EXPECT_TRUE(names(validation_errors({{{-0.5, 1.5}}}), "/matrix/0/0", "-0.5 is outside 0..1"));
+    EXPECT_TRUE(names(validation_errors({{{1.0, 0.0}}}), "/matrix/0/1", "would hardly ever end"));
     const double nan = std::numeric_limits<double>::quiet_NaN();
-    EXPECT_FALSE(faults_of({{{nan, 1.0}}}).empty());
+    EXPECT_FALSE(validation_errors({{{nan, 1.0}}}).empty());
     EXPECT_TRUE(names(refusal([] { (void)sampled_ramification(perfect_matrix(3), 4, 1, plenty); }),
                       "/order", "4 is outside 1..3"));
     EXPECT_TRUE(names(refusal([] { (void)exact_ramification(perfect_matrix(3), 0, 1, plenty); }),

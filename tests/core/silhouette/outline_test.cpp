@@ -243,7 +243,7 @@ TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
     for (const std::string& id : swept_ids())
         for (int step = 0; step < 64; ++step)
             for (std::uint32_t seed = 0; seed < effort(6); ++seed) {
-                MushroomOrder order = order_of(id, step / 63.0, 1000 * seed + 7);
+                MushroomSpec order = order_of(id, step / 63.0, 1000 * seed + 7);
                 order.params.variation = 1.0;
                 const auto problems = refusal([&] { (void)resolved(order); });
                 EXPECT_TRUE(problems.empty())

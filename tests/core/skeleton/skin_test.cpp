@@ -29,7 +29,7 @@ Skeleton star(const std::vector<glm::dvec3>& tips, double radius) {
     Skeleton skeleton;
     skeleton.nodes.push_back({{0, 0, 0}, radius});
     for (const glm::dvec3& tip : tips) {
-        skeleton.limbs.push_back({0, static_cast<std::uint32_t>(skeleton.nodes.size())});
+        skeleton.segments.push_back({0, static_cast<std::uint32_t>(skeleton.nodes.size())});
         skeleton.nodes.push_back({tip, radius});
     }
     return skeleton;
@@ -42,7 +42,7 @@ Skeleton ring_of(int nodes, double size, double radius) {
         skeleton.nodes.push_back(
             {{size * std::cos(angle), 0.1 * size * std::cos(3 * angle), size * std::sin(angle)},
              radius});
-        skeleton.limbs.push_back(
+        skeleton.segments.push_back(
             {static_cast<std::uint32_t>(i), static_cast<std::uint32_t>((i + 1) % nodes)});
     }
     return skeleton;
@@ -62,10 +62,10 @@ Skeleton random_graph(std::uint32_t seed) {
         skeleton.nodes.push_back({{x, flat * y, z}, 0.003 * std::pow(20.0, thick)});
         if (i == 0) continue;
         const auto to = static_cast<std::uint32_t>(draw(0, i));
-        skeleton.limbs.push_back({to, static_cast<std::uint32_t>(i)});
+        skeleton.segments.push_back({to, static_cast<std::uint32_t>(i)});
         if (draw(0, 1) < loops) {
             const auto other = static_cast<std::uint32_t>(draw(0, i + 1));
-            skeleton.limbs.push_back({static_cast<std::uint32_t>(i), other});
+            skeleton.segments.push_back({static_cast<std::uint32_t>(i), other});
         }
         if (draw(0, 1) < 0.05) skeleton.nodes.back().place = skeleton.nodes[to].place;
     }
@@ -90,7 +90,7 @@ void expect_manifold(const Skeleton& skeleton, const Scaffold& coarse) {
                                 static_cast<long>(half_edges.size() / 2) +
                                 static_cast<long>(coarse.quads.size());
     EXPECT_EQ(characteristic, 2 * (static_cast<long>(skeleton.nodes.size()) -
-                                   static_cast<long>(skeleton.limbs.size())));
+                                   static_cast<long>(skeleton.segments.size())));
 }
 
 // Returns the number of quads of a scaffold two of whose corners face opposite directions.
@@ -199,9 +199,9 @@ TEST(SkinnedSkeleton, RadiiAreLinearAlongSegments) {
         const CleanSkeleton clean = cleaned(skeletons[i / 2]);
         const int levels = 2 + static_cast<int>(i % 2);
         const SkinnedSkeleton made = skinned(clean.skeleton, levels);
-        for (const Skeleton::Limb& limb : clean.skeleton.limbs) {
-            const Skeleton::Node &a = clean.skeleton.nodes[limb.from],
-                                 &b = clean.skeleton.nodes[limb.to];
+        for (const Skeleton::Segment& segment : clean.skeleton.segments) {
+            const Skeleton::Node &a = clean.skeleton.nodes[segment.from],
+                                 &b = clean.skeleton.nodes[segment.to];
             const double length = glm::distance(a.place, b.place);
             const glm::dvec3 along = (b.place - a.place) / length;
             for (int step = 0; step <= 10; ++step) {
@@ -210,7 +210,7 @@ TEST(SkinnedSkeleton, RadiiAreLinearAlongSegments) {
                 const double law = a.radius + (b.radius - a.radius) * s / length;
                 EXPECT_NEAR(section_radius(made.mesh, a.place + s * along, along, 3.0 * law), law,
                             0.05 * law)
-                    << "limb " << limb.from << " to " << limb.to << ", " << s / length;
+                    << "limb " << segment.from << " to " << segment.to << ", " << s / length;
             }
         }
     }
@@ -238,7 +238,7 @@ TEST(SkinnedSkeleton, CleaningIsIdempotent) {
     const Skeleton y = star({{0, -1, 0}, {0.7, 0.7, 0}, {-0.7, 0.7, 0}}, 0.05);
     const CleanSkeleton clean = cleaned(y);
     ASSERT_EQ(clean.skeleton.nodes.size(), y.nodes.size());
-    EXPECT_EQ(clean.skeleton.limbs, y.limbs);
+    EXPECT_EQ(clean.skeleton.segments, y.segments);
     for (std::size_t i = 0; i < y.nodes.size(); ++i) {
         EXPECT_EQ(clean.skeleton.nodes[i].place, y.nodes[i].place);
         EXPECT_EQ(clean.node_of[i], i);

@@ -338,8 +338,8 @@ TEST_F(ImageBlend, PairsOfRealSpeciesKeepTheirContrast) {
     // Each species with the next one of the atlas, and with a distant one.
     const std::vector<std::string> ids = swept_ids();
     const auto raw_of = [&](std::size_t i) {
-        const MushroomOrder order = painted(order_of(ids[i % ids.size()]), 256);
-        return paint_raw(without_patches(paint_recipe(order, atlas()).at(0).painting));
+        const MushroomSpec order = painted(order_of(ids[i % ids.size()]), 256);
+        return paint_raw(without_patches(paint_spec_of(order, atlas()).at(0).painting));
     };
     for (std::size_t i = 0; i < ids.size(); ++i) {
         const RawImages a = raw_of(i);

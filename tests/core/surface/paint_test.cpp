@@ -67,7 +67,7 @@ TEST(Paint, GivesEqualBytesWithEveryInstructionSet) {
         for (const int side : {16, 128, 512}) {
             if (side == 512 && pattern != HymeniumPattern::gills) continue;
             PaintParams params = motley(pattern, side);
-            params.comb = side == 128 ? 23 : side == 16 ? 64 : 0;
+            params.gill_layout = side == 128 ? 23 : side == 16 ? 64 : 0;
             expect_equal_with_every_instruction_set([&] { return paint_raw(params); },
                                                     std::to_string(side));
         }
@@ -351,7 +351,7 @@ TEST(Paint, BleedsBeyondEveryRim) {
 }
 
 // Returns a face of plain gills on a gill layout of `comb` blades.
-PaintParams with_layout(int blades, int tiers, int comb,
+PaintParams with_layout(int blades, int tiers, int gill_layout,
                         HymeniumPattern pattern = HymeniumPattern::gills) {
     PaintParams params;
     params.side = 1024;
@@ -359,7 +359,7 @@ PaintParams with_layout(int blades, int tiers, int comb,
     params.hymenium.blades = blades;
     params.hymenium.tiers = tiers;
     params.hymenium.forking = 0.0;
-    params.comb = comb;
+    params.gill_layout = gill_layout;
     params.surface.hymenium.pattern = pattern;
     params.surface.hymenium.mottle = 0.0;
     // Walls reflect no light: slots are as dark as their depth makes them.
@@ -414,12 +414,12 @@ TEST(Paint, BladesOfASetUseOneGillLayout) {
             most = std::max(most, occlusion[static_cast<std::size_t>(i % 7200)]);
         return most;
     };
-    const std::vector<int> comb = round_occlusion(paint_raw(with_layout(60, 0, 0)), 0.8);
+    const std::vector<int> gill_layout = round_occlusion(paint_raw(with_layout(60, 0, 0)), 0.8);
     for (const int blades : {30, 37, 45, 59}) {
         const std::vector<int> fewer = round_occlusion(paint_raw(with_layout(blades, 0, 60)), 0.8);
         int standing = 0;
         for (int slot = 0; slot < 60; ++slot) {
-            EXPECT_GE(lightest(comb, slot), 240) << slot;
+            EXPECT_GE(lightest(gill_layout, slot), 240) << slot;
             standing += lightest(fewer, slot) >= 240;
         }
         EXPECT_EQ(standing, blades);

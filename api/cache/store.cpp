@@ -1,0 +1,146 @@
+#include "api/cache/store.h"
+
+#include <utility>
+
+#include "core/silhouette/morph_set.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+std::size_t weight_of(const Painted& painted) {
+    if (const Images* images = std::get_if<Images>(&painted))
+        return (*images)->bytes() + sizeof(ImageSet);
+    const RawImages& raw = *std::get<Painting>(painted);
+    return raw.rgb[0].size() + raw.rgb[1].size() + raw.rgb[2].size() + sizeof(RawImages);
+}
+
+/// What a cache did when it was asked.
+struct Requested {
+    bool hit = false, stored = false;
+};
+
+/// Asks a cache whose values hold a shared_ptr<const T>, perhaps as an alternative.
+template <class T, class Value>
+std::shared_ptr<const T> ask(ComputingCache<Value>& cache, const std::string& key,
+                             const std::function<std::shared_ptr<const T>()>& make,
+                             const std::stop_token& stop, Requested& requested) {
+    Value value = cache.get_or_compute(
+        key, [&] { return Value(make()); }, stop, requested.hit);
+    requested.stored = cache.cache().fits(cache.cache().weight(key, value));
+    if constexpr (std::is_same_v<Value, Painted>)
+        return std::get<std::shared_ptr<const T>>(value);
+    else
+        return value;
+}
+
+void count(std::atomic<std::uint64_t>& hits, std::atomic<std::uint64_t>& misses, bool hit) {
+    ++(hit ? hits : misses);
+}
+
+}  // namespace
+
+Store::Store(const ServiceOptions& options)
+    : responses(options.cache_bytes,
+                [](const CachedResponse& response) { return api::weight_of(*response); }),
+      images(options.image_cache_bytes, [](const Painted& painted) { return weight_of(painted); }),
+      morphs(options.morph_cache_bytes,
+             [](const Morph& morph) { return morph->bytes() + sizeof(MorphSet); }) {
+    if (!options.store.empty())
+        directory.emplace(options.store, options.store_bytes, options.store_event);
+}
+
+void Store::measure() {
+    const CacheStats of_responses = responses.stats(), of_images = images.cache().stats(),
+                     of_morphs = morphs.cache().stats();
+    counters.glb_cache_bytes = of_responses.bytes;
+    counters.glb_cache_entries = of_responses.entries;
+    counters.glb_evictions = of_responses.evictions;
+    counters.image_cache_bytes = of_images.bytes;
+    counters.image_cache_entries = of_images.entries;
+    counters.image_evictions = of_images.evictions;
+    counters.morph_cache_bytes = of_morphs.bytes;
+    counters.morph_cache_entries = of_morphs.entries;
+    counters.morph_evictions = of_morphs.evictions;
+    if (!directory) return;
+    const DirectoryStats of_directory = directory->stats();
+    counters.store_hits = of_directory.hits;
+    counters.store_misses = of_directory.misses;
+    counters.store_damaged = of_directory.damaged;
+    counters.store_unwritten = of_directory.unwritten;
+    counters.store_bytes = of_directory.bytes;
+    counters.store_entries = of_directory.entries;
+    counters.store_evictions = of_directory.evictions;
+}
+
+Caches cached_only(Store& store) {
+    Caches caches;
+    caches.morphs = [&store](const std::string& key, const std::function<Morph()>&) {
+        if (std::optional<Morph> cached = store.morphs.cache().find(key)) return *std::move(cached);
+        throw CacheMiss{key, {}};
+    };
+    return caches;
+}
+
+Caches computed_inline(Store& store) {
+    Caches caches;
+    caches.morphs = [&store](const std::string& key, const std::function<Morph()>& make) {
+        const std::optional<Morph> cached = store.morphs.cache().find(key);
+        count(store.counters.morph_hits, store.counters.morph_misses, cached.has_value());
+        if (cached) return *cached;
+        Morph generated = make();
+        store.morphs.cache().insert(key, generated);
+        return generated;
+    };
+    return caches;
+}
+
+std::string cache_member(std::string_view cache, bool hit, bool stored) {
+    return std::string(cache) + (hit ? "; hit" : stored ? "; fwd=miss; stored" : "; fwd=miss");
+}
+
+JobContext::JobContext(Store& store, std::stop_token stop, const Observer& observer,
+                       const Parallel& parallel)
+    : store_(store) {
+    execution_.observer = observer;
+    execution_.parallel = parallel;
+    execution_.stop = std::move(stop);
+    execution_.caches.images = [this](const std::string& key, const std::function<Images()>& make) {
+        Requested requested;
+        const auto counted = [&] {
+            Images set = make();
+            ++store_.counters.painted;
+            return set;
+        };
+        Images set = ask<ImageSet>(store_.images, key, counted, execution_.stop, requested);
+        count(store_.counters.image_hits, store_.counters.image_misses, requested.hit);
+        note(images_, cache_member("sporeprint-images", requested.hit, requested.stored));
+        return set;
+    };
+    execution_.caches.paintings = [this](const std::string& key,
+                                         const std::function<Painting()>& make) {
+        Requested requested;
+        Painting painting = ask<RawImages>(store_.images, key, make, execution_.stop, requested);
+        count(store_.counters.painting_hits, store_.counters.painting_misses, requested.hit);
+        return painting;
+    };
+    execution_.caches.morphs = [this](const std::string& key, const std::function<Morph()>& make) {
+        Requested requested;
+        Morph morph = ask<MorphSet>(store_.morphs, key, make, execution_.stop, requested);
+        count(store_.counters.morph_hits, store_.counters.morph_misses, requested.hit);
+        note(morphs_, cache_member("sporeprint-morph", requested.hit, requested.stored));
+        return morph;
+    };
+}
+
+void JobContext::note(std::string& said, std::string member) {
+    const std::lock_guard lock(mutex_);
+    if (said.empty()) said = std::move(member);
+}
+
+std::string JobContext::cache_status() const {
+    const std::lock_guard lock(mutex_);
+    return morphs_ + (morphs_.empty() || images_.empty() ? "" : ", ") + images_;
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,53 @@
+// Measures the steps of a job: core reports them, the clock is here.
+#pragma once
+
+#include <array>
+#include <chrono>
+#include <mutex>
+#include <optional>
+
+#include "api/http/service_options.h"
+
+namespace sporeprint::api {
+
+/// Lends an observer to one job. A step lasts until the next one begins, the last until timing() is asked.
+class Stopwatch {
+  public:
+    [[nodiscard]] Observer observer() {
+        return [this](Step step) { begin(step); };
+    }
+
+    void begin(Step step) {
+        const std::lock_guard lock(mutex_);
+        close();
+        current_ = step;
+    }
+
+    /// Milliseconds per step so far; `queue_ms` is taken over, negative for none.
+    [[nodiscard]] Timing timing(double queue_ms = -1.0) {
+        const std::lock_guard lock(mutex_);
+        close();
+        return {queue_ms, spent_[0], spent_[1], spent_[2], spent_[3]};
+    }
+
+  private:
+    using Clock = std::chrono::steady_clock;
+
+    void close() {
+        const Clock::time_point now = Clock::now();
+        if (current_) {
+            double& spent = spent_[static_cast<std::size_t>(*current_)];
+            spent = (spent < 0.0 ? 0.0 : spent) +
+                    std::chrono::duration<double, std::milli>(now - since_).count();
+        }
+        current_.reset();
+        since_ = now;
+    }
+
+    std::mutex mutex_;
+    std::optional<Step> current_;
+    Clock::time_point since_;
+    std::array<double, 4> spent_ = {-1.0, -1.0, -1.0, -1.0};
+};
+
+}  // namespace sporeprint::api

@@ -1,0 +1,179 @@
+#include "api/products/mix.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+
+#include "api/http/text.h"
+#include "core/params/messages.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+/// A number by JSON's grammar and nothing else, not even space around it.
+bool number_of(std::string_view text, double& number) {
+    if (text.empty() || text.find_first_not_of("+-.0123456789eE") != std::string_view::npos)
+        return false;
+    std::vector<Problem> problems;
+    const Value value = parse(text, problems);
+    if (!problems.empty() || !value.is_number()) return false;
+    number = value.as_number();
+    return true;
+}
+
+/// The faults of ids and weights that both spellings share; then the canonical form.
+Mix checked(Weights weights, const Atlas& atlas, ValidationErrors& errors, bool clean) {
+    if (weights.size() > most_species) {
+        errors.add(400, "mix",
+                   std::to_string(weights.size()) + " species; at most " +
+                       std::to_string(most_species) + " can be mixed");
+        return {};
+    }
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const std::string& id = weights[i].first;
+        const double weight = weights[i].second;
+        const bool repeated =
+            std::any_of(weights.begin(), weights.begin() + static_cast<std::ptrdiff_t>(i),
+                        [&](const auto& other) { return other.first == id; });
+        if (repeated) {
+            errors.add(400, "mix", in_quotes(id) + " is named twice");
+            clean = false;
+        } else if (!atlas.find(id)) {
+            errors.add(404, "mix", unknown_species(id, atlas));
+            clean = false;
+        }
+        if (!(weight > 0.0)) {
+            errors.add(400, "mix",
+                       "the weight of " + in_quotes(id) + " is " + number_text(weight) +
+                           "; weights are greater than 0");
+            clean = false;
+        }
+    }
+    return clean && !weights.empty() ? canonical_mix(std::move(weights)) : Mix{};
+}
+
+}  // namespace
+
+Mix canonical_mix(Weights weights) {
+    std::sort(weights.begin(), weights.end());
+    double most = 0.0, sum = 0.0;
+    for (const auto& [id, weight] : weights) most = std::max(most, weight);
+    for (auto& [id, weight] : weights)
+        sum += weight /= most;  // so that the sum of huge weights is finite
+
+    // In millionths of a thousandth: rounding noise of the division is far below, so equal remainders compare equal.
+    struct Share {
+        std::size_t index;
+        std::int64_t whole, rest;
+    };
+    constexpr std::int64_t unit = 1'000'000;
+    std::vector<Share> shares;
+    std::int64_t missing = 1000;
+    for (std::size_t i = 0; i < weights.size(); ++i) {
+        const auto scaled = static_cast<std::int64_t>(
+            std::floor(weights[i].second / sum * 1000.0 * double(unit) + 0.5));
+        shares.push_back({i, scaled / unit, scaled % unit});
+        missing -= shares.back().whole;
+    }
+    std::stable_sort(shares.begin(), shares.end(),
+                     [](const Share& a, const Share& b) { return a.rest > b.rest; });
+    for (std::size_t i = 0; missing > 0; ++i, --missing) ++shares[i % shares.size()].whole;
+    std::sort(shares.begin(), shares.end(),
+              [](const Share& a, const Share& b) { return a.index < b.index; });
+
+    Mix mix;
+    for (const Share& share : shares)
+        if (share.whole > 0)
+            mix.push_back({weights[share.index].first, static_cast<int>(share.whole)});
+    return mix;
+}
+
+std::string mix_text(const Mix& mix) {
+    if (mix.size() == 1) return mix.front().id;
+    std::string out;
+    for (const MixPart& part : mix) {
+        if (!out.empty()) out += ',';
+        ((out += part.id) += ':') += number_text(part.weight / 1000.0);
+    }
+    return out;
+}
+
+std::string unknown_species(std::string_view id, const Atlas& atlas) {
+    std::vector<std::string> ids;
+    for (const AtlasEntry& entry : atlas.entries()) ids.push_back(entry.species.id.string());
+    std::string out = "unknown species " + in_quotes(id);
+    const std::string_view meant = closest(id, ids);
+    if (!meant.empty()) return out + "; did you mean " + in_quotes(meant) + "?";
+    // A genus alone, or another spelling of the whole: name the species whose id begins with it.
+    for (const std::string& known : ids)
+        if (id.size() >= 3 && known.starts_with(lower(id)))
+            return out + "; did you mean " + in_quotes(known) + "?";
+    return out;
+}
+
+Mix read_mix(std::string_view text, const Atlas& atlas, ValidationErrors& errors) {
+    Weights weights;
+    bool clean = true;
+    std::size_t parts = 1 + static_cast<std::size_t>(std::count(text.begin(), text.end(), ','));
+    if (parts > most_species) {
+        errors.add(400, "mix",
+                   std::to_string(parts) + " species; at most " + std::to_string(most_species) +
+                       " can be mixed");
+        return {};
+    }
+    for (std::size_t begin = 0; begin <= text.size();) {
+        const std::size_t end = std::min(text.find(',', begin), text.size());
+        const std::string_view part = text.substr(begin, end - begin);
+        begin = end + 1;
+        const std::size_t colon = part.find(':');
+        const std::string id(part.substr(0, colon));
+        double weight = 1.0;
+        if (id.empty()) {
+            errors.add(400, "mix", "a species is missing; write id or id:weight,id:weight");
+            clean = false;
+            continue;
+        }
+        if (colon == std::string_view::npos) {
+            if (parts > 1) {
+                errors.add(
+                    400, "mix",
+                    in_quotes(id) +
+                        " has no weight; in a mix each species has one, as in id:0.7,id:0.3");
+                clean = false;
+            }
+        } else if (!number_of(part.substr(colon + 1), weight)) {
+            errors.add(400, "mix",
+                       "the weight of " + in_quotes(id) + " is " +
+                           in_quotes(part.substr(colon + 1)) + ", which is not a number");
+            clean = false;
+            weight = 1.0;
+        }
+        weights.emplace_back(id, weight);
+    }
+    return checked(std::move(weights), atlas, errors, clean);
+}
+
+Mix read_mix_object(const Value& json, const Atlas& atlas, ValidationErrors& errors) {
+    if (!json.is_object() || json.members().empty()) {
+        errors.add(
+            400, "mix",
+            "expected an object of species and weights, as in {\"amanita_muscaria\":1}, got " +
+                shown(json));
+        return {};
+    }
+    Weights weights;
+    bool clean = true;
+    for (const auto& [id, weight] : json.members()) {
+        if (!weight.is_number()) {
+            errors.add(400, "mix",
+                       "the weight of " + in_quotes(id) + " is " + shown(weight) +
+                           ", which is not a number");
+            clean = false;
+        }
+        weights.emplace_back(id, weight.is_number() ? weight.as_number() : 1.0);
+    }
+    return checked(std::move(weights), atlas, errors, clean);
+}
+
+}  // namespace sporeprint::api

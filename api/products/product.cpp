@@ -1,0 +1,100 @@
+#include "api/products/product.h"
+
+#include "api/http/encoding.h"
+#include "core/params/messages.h"
+#include "core/params/reader.h"
+#include "core/version.h"
+
+namespace sporeprint::api {
+
+const char* ending_of(Product product) { return product == Product::glb ? ".glb" : ".json"; }
+
+const char* type_of(Product product) {
+    return product == Product::glb ? "model/gltf-binary" : "application/json";
+}
+
+std::optional<std::string> take_version(Query query,
+                                        std::vector<std::pair<std::string, std::string>>& rest,
+                                        ValidationErrors& errors) {
+    std::optional<std::string> version;
+    for (const auto& pair : query) {
+        if (pair.first != "v")
+            rest.push_back(pair);
+        else if (version)
+            errors.add(400, "v", "given more than once");
+        else
+            version = pair.second;
+    }
+    return version;
+}
+
+std::optional<std::string> take_version(Value& body, std::vector<Problem>& problems) {
+    std::optional<std::string> version;
+    if (const Value* given = body.find("v")) {
+        if (given->is_string())
+            version = given->as_string();
+        else
+            report(problems, "/v", "expected text, got " + shown(*given));
+    }
+    body.erase("v");
+    return version;
+}
+
+std::optional<Value> read_body(std::string_view body, ValidationErrors& errors) {
+    std::vector<Problem> problems;
+    Value json = parse(body, problems);
+    if (problems.empty() && !json.is_object())
+        report(problems, "", "expected an object, got " + shown(json));
+    errors.add(400, problems);
+    if (!problems.empty()) return std::nullopt;
+    return json;
+}
+
+std::string token_of(std::string_view templates) {
+    return std::to_string(generator_version) + '-' + digest_of(templates).substr(0, 8);
+}
+
+std::string with_query(std::string path, const std::string& query) {
+    return query.empty() ? path : std::move(path) + '?' + query;
+}
+
+std::string with_version(std::string address, std::string_view version) {
+    address += address.find('?') == std::string::npos ? '?' : '&';
+    return (address += "v=") += version;
+}
+
+std::string reference_from(int depth, std::string_view address) {
+    constexpr std::string_view root = "/v1/";
+    std::string reference;
+    for (int i = 0; i < depth; ++i) reference += "../";
+    return reference += address.substr(root.size());
+}
+
+std::optional<ImageKind> read_image(std::string_view image, ValidationErrors& errors) {
+    std::vector<std::string> kinds;
+    for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) {
+        kinds.emplace_back(one);
+        if (image == one) return static_cast<ImageKind>(i);
+    }
+    const std::string_view meant = closest(image, kinds);
+    errors.add(404, "image",
+               in_quotes(image) + " is not one of " + enum_names<ImageKind>() +
+                   (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
+    return std::nullopt;
+}
+
+Value description(const Estimate& estimate) {
+    return Value::object()
+        .set("vertices", estimate.vertices)
+        .set("triangles", estimate.triangles)
+        .set("bytes", estimate.bytes);
+}
+
+Value description(const Bounds& bounds) {
+    const auto corner = [](const glm::vec3& at) {
+        return Value(Value::Array{write(at.x), write(at.y), write(at.z)});
+    };
+    return Value::object().set("min", corner(bounds.min)).set("max", corner(bounds.max));
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,285 @@
+#include <algorithm>
+#include <string>
+#include <utility>
+
+#include "api/http/compression.h"
+#include "api/http/conditions.h"
+#include "api/http/encoding.h"
+#include "api/http/query.h"
+#include "api/products/endpoints.h"
+#include "core/params/messages.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+constexpr const char* hit = "sporeprint; hit";
+constexpr const char* hit_not_modified = "sporeprint; hit; detail=not-modified";
+constexpr const char* missed = "sporeprint; fwd=miss";
+
+/// The answer to HEAD of what is not made yet: every header that GET would carry but the length. Whether a GLB has a gzip variant
+/// is known once it is made, so these are the headers of the identity.
+Response unmade(const Context& context, const Request& request, Response head) {
+    const std::string type(header_of(head, "Content-Type"));
+    head.has_body = false;
+    if (compressible(type)) {
+        set_header(head, "Vary", "Accept-Encoding");
+        if (accepts_gzip(request)) {
+            set_header(head, "Content-Encoding", "gzip");
+            set_header(head, "ETag", gzip_etag(header_of(head, "ETag")));
+        }
+    } else {
+        set_header(head, "Vary", "Accept-Encoding");
+        set_header(head, "Accept-Ranges", "bytes");
+    }
+    set_header(head, "Cache-Status", missed);
+    context.responses.add_common_headers(request, head);
+    return head;
+}
+
+/// Whether the answer may be the gzip variant of a GLB. A range is one of the identity unless If-Range names the variant, so
+/// that ranges which a client puts together are of one representation.
+bool takes_gzip_of_glb(const Request& request, std::string_view type, const std::string& etag) {
+    if (type != glb_type || !accepts_gzip(request)) return false;
+    return request.method != "GET" || !header_list(request, "Range") ||
+           (header_list(request, "If-Range") && if_range_matches(request, gzip_etag(etag)));
+}
+
+/// What is cached of a resource that may have a gzip variant.
+struct Found {
+    std::optional<CachedResponse>
+        cached;  ///< the variant to be sent if it is cached, else the identity
+    bool has_variants = false;
+    bool is_chosen = false;  ///< whether it is the variant to be sent
+};
+
+Found find_cached(Store& store, const Key& key, bool takes_gzip) {
+    Found found;
+    if (takes_gzip && (found.cached = store.responses.find(gzip_key(key)))) {
+        found.has_variants = found.is_chosen = true;
+    } else if ((found.cached = store.responses.find(key))) {
+        found.has_variants = !header_of(**found.cached, "Vary").empty();
+        found.is_chosen = !takes_gzip || !found.has_variants;
+    }
+    return found;
+}
+
+/// Whether the cache takes the gzip variant of a job's answer.
+bool stores_gzip(const Store& store, Response response, const Key& key) {
+    select_gzip(response);
+    return store.responses.fits(weight_of(response) + key.size() + entry_overhead);
+}
+
+/// The job that makes the gzip variant of a cached GLB.
+Job gzip_job(Store& store, CachedResponse cached, const Key& key) {
+    const Cost cost = gzip_cost(size_of(cached->body));
+    auto run = [&store, cached = std::move(cached), key = gzip_key(key)](
+                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
+        observer(Step::pack);
+        Response response;
+        response.headers = cached->headers;
+        response.gzipped = gzip_glb(cached->body, stop, parallel);
+        const bool stored = stores_gzip(store, response, key);
+        set_header(response, "Cache-Status",
+                   cache_member("sporeprint-gzip", false, stored) + ", " + hit);
+        return response;
+    };
+    return Job{gzip_key(key), cost, std::move(run)};
+}
+
+/// What `resource` costs; what of it is impossible goes to the faults, named as the client wrote it.
+Cost weighed(const Request& request, const Resource& resource, const Caches& caches,
+             ValidationErrors& errors) {
+    const bool posted = request.method == "POST";
+    try {
+        return resource.estimate_cost(caches);
+    } catch (const Impossible& impossible) {
+        errors.add(422, named(impossible, posted));
+    } catch (const InvalidInput& invalid) {
+        errors.add(400, named(invalid, posted));
+    } catch (CacheMiss& missing) {
+        missing.cost = resource.search;
+        throw;
+    }
+    return {};
+}
+
+/// 410, or whatever is stronger.
+Response superseded(Context& context, const Request& request, const Resource& resource,
+                    ValidationErrors& errors) {
+    static_cast<void>(weighed(request, resource, context.caches, errors));
+    errors.add(410, request.method == "POST" ? "/v" : "v",
+               in_quotes(*resource.requested_version) + " is no longer made; today's version is " +
+                   in_quotes(resource.version));
+    Value::Object more;
+    if (errors.status() == 410 && !resource.address.empty())
+        more.emplace_back("canonical",
+                          context.responses.link(with_version(resource.address, resource.version)));
+    return context.responses.problem(request, errors.status(), {}, errors.problems(), more);
+}
+
+}  // namespace
+
+namespace {
+
+std::string too_many_texels(const ServiceOptions& options, std::uint64_t texels,
+                            bool of_every_species) {
+    return std::to_string(texels) + " texels would be held" +
+           (of_every_species ? ", those of every species" : "") + "; at most " +
+           std::to_string(options.most_texels) + " are. Lower texture_size";
+}
+
+}  // namespace
+
+void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, bool of_every_species,
+                        bool is_clip) {
+    std::vector<Problem> problems;
+    if (cost.vertices > options.most_vertices) {
+        const std::string count = std::to_string(cost.vertices) +
+                                  " vertices would be made; at most " +
+                                  std::to_string(options.most_vertices) + " are. ";
+        report(problems, "/lod", count + "Raise lod");
+        if (is_clip) report(problems, "/frames", count + "Lower frames");
+    }
+    if (cost.texels > options.most_texels)
+        report(problems, "/texture_size",
+               too_many_texels(options, cost.texels, of_every_species) + " or raise lod");
+    if (!problems.empty()) throw Impossible(std::move(problems));
+}
+
+void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,
+                   ValidationErrors& errors) {
+    if (texels > options.most_texels)
+        errors.add(422, "texture_size", too_many_texels(options, texels, of_every_species));
+}
+
+std::vector<Problem> named(const InvalidInput& input, bool posted) {
+    std::vector<Problem> problems = input.problems();
+    for (Problem& problem : problems) problem.path = parameter_name(problem.path, posted);
+    return problems;
+}
+
+int link_depth(const Context& context, const Request& request) {
+    std::string_view path = below(context.options.base_path, request.target);
+    path = path.substr(0, path.find('?'));
+    return static_cast<int>(std::count(path.begin(), path.end(), '/')) - 2;
+}
+
+Plan plan_resource(Context& context, const Request& request, Resource resource,
+                   ValidationErrors& errors) {
+    if (resource.is_linked && context.options.signed_addresses)
+        errors.add(422, request.method == "POST" ? "/textures" : "textures",
+                   "addresses are signed here, and those of linked images are not; ask for "
+                   "embedded or none");
+    if (!errors.empty()) return context.responses.problem(request, errors);
+    const int depth = link_depth(context, request);
+    // Links are relative, so that bytes depend on how deep the address lies that they are resolved against.
+    const bool linked_elsewhere = resource.is_linked && depth != usual_depth;
+    if (linked_elsewhere) resource.key += "\nlinked from depth " + std::to_string(depth);
+    if (resource.requested_version && *resource.requested_version != resource.version)
+        return superseded(context, request, resource, errors);
+
+    Store& store = context.store;
+    const bool versioned = resource.requested_version.has_value() && request.method != "POST";
+    const std::string etag = etag_of(resource.key);
+    Response head;  // what every answer about this resource carries
+    head.headers = {{"Content-Type", resource.type},
+                    {"ETag", etag},
+                    {"Cache-Control", cache_control(versioned)},
+                    {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
+    if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_addresses)
+        head.headers.emplace_back("Content-Location", context.responses.link(with_version(
+                                                          resource.address, resource.version)));
+    const bool takes_gzip = takes_gzip_of_glb(request, resource.type, etag);
+    const Found found = find_cached(store, resource.key, takes_gzip);
+    std::vector<std::string> etags = current_etags(request, etag, resource.type);
+    if (resource.type == glb_type && accepts_gzip(request)) etags.push_back(gzip_etag(etag));
+
+    // In the order of RFC 9110 section 13.2.2: If-Match leads to 412, then If-None-Match to 304, or to 412 of a POST.
+    const Conditions conditions(request);
+    const auto unchanged = [&](const std::string& current) {
+        if (request.method == "POST")
+            return context.responses.precondition_failed(request, "If-None-Match", etags);
+        ++store.counters.glb_not_modified;
+        set_header(head, "Cache-Status", hit_not_modified);
+        if (resource.type == glb_type && (!found.cached || found.has_variants))
+            set_header(head, "Vary", "Accept-Encoding");
+        return context.responses.not_modified(request, std::move(head), current);
+    };
+    const bool match_fails = conditions.match_fails(etags);
+    const bool any = conditions.none_match_any();
+    if (const std::string* current = conditions.unchanged(etags); current && !match_fails)
+        return unchanged(*current);
+    if (found.cached && match_fails)
+        return context.responses.precondition_failed(request, "If-Match", etags);
+    if (found.cached && any)
+        return unchanged(takes_gzip && found.has_variants ? gzip_etag(etag) : etags.front());
+    if (found.cached) {
+        ++store.counters.glb_hits;
+        if (!found.is_chosen && request.method != "HEAD")
+            return gzip_job(store, *found.cached, resource.key);
+        Response response = **found.cached;
+        set_header(response, "Cache-Control", cache_control(versioned));
+        set_header(response, "Cache-Status", hit);
+        if (!found.is_chosen) {
+            select_gzip(response);
+            response.has_body = false;
+        }
+        response.cacheable = true;
+        context.responses.represent(request, response);
+        context.responses.select_range(request, response);
+        return response;
+    }
+    // A correspondence that is not kept takes milliseconds: the job that makes the body finds it, if there is to be one.
+    std::optional<Cost> cost;
+    try {
+        cost = weighed(request, resource, context.caches, errors);
+    } catch (const CacheMiss&) {
+        if (request.method == "HEAD" || any || match_fails || !resource.guess) throw;
+    }
+    if (!errors.empty()) return context.responses.problem(request, errors);
+    if (match_fails) return context.responses.precondition_failed(request, "If-Match", etags);
+    if (any) return unchanged(etags.front());
+    if (request.method == "HEAD") return unmade(context, request, std::move(head));
+
+    ++store.counters.glb_misses;
+    take_header(head, "Cache-Control");
+    const Cost estimate = cost ? *cost : *resource.guess + resource.search;
+    const Cost compressing = takes_gzip ? gzip_cost_of_glb(estimate) : Cost{};
+    auto run = [&store, takes_gzip,
+                estimate_cost = cost ? nullptr : std::move(resource.estimate_cost),
+                make = std::move(resource.make), head = std::move(head), key = resource.key](
+                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
+        Response response = head;
+        const auto finished = [&](std::string status) {
+            if (header_of(response, "Content-Type") == glb_type && is_worth_gzip(response.body)) {
+                set_header(response, "Vary", "Accept-Encoding");
+                if (takes_gzip) response.gzipped = gzip_glb(response.body, stop, parallel);
+            }
+            if (!status.empty()) status += ", ";
+            const bool stored =
+                store.responses.fits(weight_of(response) + key.size() + entry_overhead);
+            set_header(response, "Cache-Status",
+                       status + cache_member("sporeprint", false, stored));
+            return std::move(response);
+        };
+        // What was made before is possible and within its budget.
+        if (store.directory)
+            if (std::optional<Slice> written = store.directory->find(key)) {
+                response.body = {*std::move(written)};
+                return finished(cache_member("sporeprint-store", true, false));
+            }
+        JobContext job_context(store, stop, observer, parallel);
+        if (estimate_cost) {
+            observer(Step::resolve);
+            static_cast<void>(estimate_cost(job_context.execution().caches));
+        }
+        response.body = make(job_context);
+        ++store.counters.generated;
+        if (store.directory) store.directory->insert(key, response.body);
+        return finished(job_context.cache_status());
+    };
+    return Job{std::move(resource.key), estimate + compressing, std::move(run)};
+}
+
+}  // namespace sporeprint::api

@@ -1,0 +1,97 @@
+// Addresses of images: what paint depends on, quantised, so that any server can paint a linked texture anew.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include "api/products/product.h"
+#include "core/atlas/atlas.h"
+#include "core/grow/painting.h"
+#include "core/surface/paint.h"
+
+namespace sporeprint::api {
+
+/// How much of what is painted is left.
+struct PaintedAmounts {
+    std::optional<double> warts, scales;
+
+    static constexpr void fields(auto visit) {
+        using P = PaintedAmounts;
+        visit(&P::warts, info_of<OrnamentsOf<Maybe>>("warts"));
+        visit(&P::scales, info_of<OrnamentsOf<Maybe>>("scales"));
+    }
+    bool operator==(const PaintedAmounts&) const = default;
+};
+
+/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom that paint reads.
+struct SurfaceAddress {
+    std::uint32_t seed = 1;
+    double age = 38.0 / 64.0;
+    int size = 0;
+    double variation = 0.5;
+    Choice<16, 32, 64, 128, 256, 512, 1024, 2048> texture_size{1024};
+    int lod = 0;
+    PaintedAmounts ornaments;
+    HymeniumOf<Maybe> hymenium;
+    PaintedWeathering<Maybe> weathering;
+
+    static constexpr void fields(auto visit) {
+        using S = SurfaceAddress;
+        using P = MushroomParams;
+        visit(&S::seed, info_of<P>("seed"));
+        visit(
+            &S::age,
+            Info{.name = "age",
+                 .min = 0,
+                 .max = 1,
+                 .doc = "From button (0) through maturity (0.6) to decay (1), in steps of 1/64."});
+        visit(&S::size, Info{.name = "size",
+                             .min = -70,
+                             .max = 70,
+                             .doc = "Scale of the whole in steps of 2 %: step n is 1.02^n times."});
+        visit(&S::variation, info_of<P>("variation"));
+        visit(&S::texture_size,
+              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+        visit(&S::lod,
+              Info{.name = "lod",
+                   .min = 0,
+                   .max = 3,
+                   .doc = "Level of detail of the mesh that wears it: what relief the mesh "
+                          "cannot carry is painted."});
+        visit(&S::ornaments, info_of<P>("ornaments"));
+        visit(&S::hymenium, info_of<P>("hymenium"));
+        visit(&S::weathering, info_of<P>("weathering"));
+    }
+    bool operator==(const SurfaceAddress&) const = default;
+};
+
+/// Age in the steps that images know.
+[[nodiscard]] double quantised_age(double age);
+
+/// The address, beside the mix, of the images of `order`, which is a surface_spec.
+[[nodiscard]] SurfaceAddress surface_address(const MushroomSpec& spec);
+
+/// What an address paints: equal to the paint_spec_of of the order that it was made from.
+///
+/// mix     a surface_mix
+/// throws  Impossible: what no species of the mix can have
+[[nodiscard]] PaintSpec painted_at(const SurfaceAddress& address, const Mix& mix,
+                                   const Atlas& atlas, const Caches& caches = {});
+
+struct SurfaceRequest {
+    Mix mix;  ///< a surface_mix
+    std::optional<ImageKind> kind;
+    SurfaceAddress address;
+    std::optional<std::string> version;
+};
+
+/// Reads {mix}, {image} and query of an address under /v1/surfaces/mushrooms; weights and age are quantised.
+[[nodiscard]] SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query query,
+                                          const Atlas& atlas, ValidationErrors& errors);
+
+/// Canonical address of an image without version.
+[[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind,
+                                            const SurfaceAddress& address);
+
+}  // namespace sporeprint::api

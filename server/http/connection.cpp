@@ -1,0 +1,573 @@
+#include "server/http/connection.h"
+
+#include <sys/epoll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <random>
+#include <utility>
+
+#include "api/http/encoding.h"
+#include "server/http/trace.h"
+
+namespace sporeprint::server {
+
+namespace {
+
+using std::chrono::milliseconds;
+
+constexpr std::size_t head_at_once = 16u << 10;     ///< bytes received while a head is awaited
+constexpr std::size_t most_in_a_turn = 256u << 10;  ///< bytes received before others come first
+constexpr std::size_t most_discarded = 16u << 20;   ///< bytes of a refused request read and dropped
+constexpr milliseconds discarding{1000};            ///< at most so long
+constexpr milliseconds moment{500};                 ///< for whoever has just come to say something
+constexpr milliseconds second_thoughts{100};        ///< a closed writing end counts after so long
+constexpr std::string_view too_many_of_client =
+    "too many connections from this address; close some, or try again in a moment";
+constexpr std::size_t slowest = 16 * 1024;  ///< bytes a second that an answer must go out at
+
+bool is_proper_id(std::string_view id) {
+    return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
+        return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
+               c == '_' || c == '-';
+    });
+}
+
+/// Spreads a counter over 64 bits, so that ids cannot be guessed from one another at a glance.
+std::uint64_t mixed(std::uint64_t x) {
+    x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
+    x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
+    return x ^ (x >> 31);
+}
+
+/// Adds to a counter that only this thread writes.
+template <class Count>
+void add(std::atomic<Count>& counter, Count change) {
+    counter.store(counter.load(std::memory_order_relaxed) + change, std::memory_order_relaxed);
+}
+
+}  // namespace
+
+ReactorState::ReactorState(const TransportOptions& the_options, SharedState& the_shared)
+    : options(the_options),
+      shared(the_shared),
+      now(Clock::now()),
+      deadlines(now),
+      hot(the_options.hot_bytes),
+      bodies(the_options.most_body_memory, the_options.most_body_of_client) {
+    std::random_device entropy;
+    id_prefix_ = (static_cast<std::uint64_t>(entropy()) << 32) | entropy();
+}
+
+void ReactorState::keep_up() {
+    const std::uint64_t now_it_is = shared.epoch;
+    if (std::exchange(epoch, now_it_is) != now_it_is) hot.clear();
+}
+
+std::string ReactorState::new_id() {
+    const std::uint64_t x = mixed(id_prefix_ + ++last_id_);
+    std::string text(16, '0');
+    for (std::size_t i = 0; i < 16; ++i) text[15 - i] = "0123456789abcdef"[(x >> (4 * i)) & 15];
+    return text;
+}
+
+Connection::Connection(ReactorState& reactor_state, int socket, const Address& peer)
+    : state_(reactor_state),
+      socket_(socket),
+      peer_(peer),
+      client_(peer),
+      peer_text_(text_of(peer)),
+      by_proxy_(reactor_state.options.proxies.trusted.contain(peer)),
+      began_(reactor_state.now) {
+    add(state_.phases[static_cast<std::size_t>(phase_)], std::size_t{1});
+    const milliseconds patience =
+        state_.shared.draining ? 2 * state_.options.shutdown_grace : state_.options.idle;
+    put_off_until(state_.now + patience);
+}
+
+Connection::~Connection() {
+    add(state_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
+    release_body();
+    unpin();
+    ::close(socket_);
+}
+
+// --- What the reactor tells ---------------------------------------------------------------------
+
+bool Connection::happened(std::uint32_t events) {
+    if ((events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) readable_ = true;
+    if ((events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) != 0) writable_ = true;
+    if ((events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) left_ = true;
+    if (phase_ == Phase::busy && left_) {
+        if ((events & (EPOLLHUP | EPOLLERR)) != 0)
+            client_has_left();
+        else
+            put_off_until(std::min(deadline(), state_.now + second_thoughts));
+    }
+    return advance();
+}
+
+bool Connection::go_on() {
+    on_the_list_ = false;
+    return advance();
+}
+
+bool Connection::is_late() {
+    switch (phase_) {
+        case Phase::idle:
+            if (limited_) return refuse(429, too_many_of_client) != Step::end && advance();
+            return !in_.empty();  // what has come is answered when its turn comes
+        case Phase::lingering:
+            return false;
+        case Phase::head: {
+            Scan scan = scan_head(in_);
+            method_ = std::move(scan.head.method);
+            target_ = std::move(scan.head.target);
+            id_ = state_.new_id();
+            return refuse(408, "the head of the request did not arrive in time") != Step::end &&
+                   advance();
+        }
+        case Phase::body:
+            return refuse(408, "the body did not arrive in time") != Step::end && advance();
+        case Phase::busy:
+            if (left_)
+                client_has_left();
+            else if (const auto worker_request = worker_request_.lock())
+                worker_request->end(PendingRequest::Over::late);
+            return true;  // the answer comes, and is not waited for any longer than that
+        case Phase::writing:
+            report(false);
+            return false;
+    }
+    return false;
+}
+
+bool Connection::responded(Reply reply) {
+    release_body();  // nobody reads it any more
+    label_ = std::move(reply.label);
+    if (reply.hot && reply.epoch == state_.shared.epoch) state_.hot.insert(std::move(reply.hot));
+    const auto sending = std::make_shared<const Sending>(std::move(reply.sending));
+    return send(sending) != Step::end && advance();
+}
+
+bool Connection::drain() {
+    if (phase_ != Phase::idle) return true;
+    // Who has been answered may go; who has just come gets a moment to say what for.
+    put_off_until(std::min(
+        deadline(), served_ > 0 ? state_.now : state_.now + 2 * state_.options.shutdown_grace));
+    return true;
+}
+
+bool Connection::turn_away() {
+    id_ = state_.new_id();
+    return refuse(503, "too many connections; try again in a moment") != Step::end && advance();
+}
+
+std::optional<double> Connection::pace() const {
+    if (phase_ != Phase::writing || !is_counted_in_flight_) return std::nullopt;
+    const std::chrono::duration<double> taken = state_.now - sending_since_;
+    return static_cast<double>(out_.sent()) / std::max(taken.count(), 1e-3);
+}
+
+bool Connection::give_up() {
+    report(false);
+    return false;
+}
+
+std::optional<Connection::Upload> Connection::upload() const {
+    if (phase_ != Phase::body || (body_bytes_ == 0 && !waits_for_room_)) return std::nullopt;
+    const std::chrono::duration<double> taken = state_.now - body_since_;
+    return Upload{body_client_, body_bytes_,
+                  static_cast<double>(body_bytes_) / std::max(taken.count(), 1e-3),
+                  body_has_share_};
+}
+
+bool Connection::give_up_upload(std::string_view detail) {
+    return refuse(503, detail) != Step::end && advance();
+}
+
+void Connection::limit() {
+    limited_ = true;
+    put_off_until(state_.now + moment);
+}
+
+bool Connection::may_make_room() const {
+    return phase_ == Phase::idle && in_.empty() && !readable_ &&
+           (served_ > 0 || state_.now - began_ >= moment);
+}
+
+// --- Its course ---------------------------------------------------------------------------------
+
+bool Connection::advance() {
+    taken_ = 0;
+    for (;;) {
+        Step step = Step::wait;
+        switch (phase_) {
+            case Phase::idle:
+            case Phase::head:
+                step = read_head();
+                break;
+            case Phase::body:
+                step = read_body();
+                break;
+            case Phase::busy:
+                break;
+            case Phase::writing:
+                step = write();
+                break;
+            case Phase::lingering:
+                step = discard();
+                break;
+        }
+        if (step != Step::on) return step != Step::end;
+    }
+}
+
+Connection::Step Connection::read_head() {
+    const bool worth_a_look =
+        in_.find('\n', scanned_) != std::string::npos || in_.size() > longest_uri;
+    if (in_.size() > scanned_) {
+        if (phase_ == Phase::idle) {
+            began_ = state_.now;
+            enter(Phase::head);
+        }
+        scanned_ = in_.size();
+        if (worth_a_look) {
+            Scan scan = scan_head(in_);
+            if (scan.state != Scan::State::incomplete) return begin(std::move(scan));
+        }
+        put_off_until(std::min(began_ + state_.options.head, state_.now + state_.options.silence));
+    }
+    return receive(&in_, head_at_once);
+}
+
+Connection::Step Connection::begin(Scan scan) {
+    Head& head = scan.head;
+    const Trace trace = trace_in(head.headers).value_or(Trace());
+    trace_id_ = trace.trace_id;
+    parent_id_ = trace.parent_id;
+    if (by_proxy_) client_ = state_.options.proxies.behind(peer_, head.headers);
+    if (scan.state == Scan::State::complete && respond_at_once(head)) {
+        in_.erase(0, scan.used);
+        scanned_ = 0;
+        return Step::on;
+    }
+    request_ = api::Request();
+    request_.method = std::move(head.method);
+    request_.target = std::move(head.target);
+    request_.headers = std::move(head.headers);
+    method_ = request_.method;
+    target_ = request_.target;
+    const std::string_view asked_id = request_.header("X-Request-Id");
+    id_ = is_proper_id(asked_id) ? std::string(asked_id) : state_.new_id();
+    request_.id = id_;
+    if (scan.state == Scan::State::refused) return refuse(scan.status, scan.detail);
+    if (limited_) return refuse(429, too_many_of_client);
+    in_.erase(0, scan.used);
+    scanned_ = 0;
+    closing_ = !head.keep_alive || served_ + 1 >= state_.options.most_requests;
+
+    const std::uint64_t length = head.content_length.value_or(0);
+    if (length == 0) return dispatch();
+    if (head.expects_continue && in_.size() < length) {
+        std::optional<api::Response> response = state_.shared.judge_head(request_);
+        if (response) return refuse([&] { return *response; });
+    }
+    std::size_t most = 0;
+    try {
+        most = state_.shared.handlers.most_body(method_, target_);
+    } catch (...) {  // then none
+    }
+    body_client_ = client_of(client_);
+    body_has_share_ = !state_.options.proxies.trusted.contain(client_);
+    most = std::min(most, body_has_share_ ? state_.options.most_body_of_client
+                                          : state_.options.most_body_memory);
+    if (length > most)
+        return refuse(413, "the body has " + std::to_string(length) + " bytes; at most " +
+                               std::to_string(most) + " are taken here");
+    body_length_ = static_cast<std::size_t>(length);
+    if (head.expects_continue && in_.size() < body_length_) {
+        // Left out when the client has not even read the answers before: it need not wait for it.
+        constexpr std::string_view go = "HTTP/1.1 100 Continue\r\n\r\n";
+        const ssize_t sent = ::send(socket_, go.data(), go.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+        if (sent >= 0 && static_cast<std::size_t>(sent) < go.size()) return Step::end;
+    }
+    enter(Phase::body);
+    body_since_ = state_.now;
+    return Step::on;
+}
+
+/// Answers from the table, if it can. The head is to be forgotten then.
+bool Connection::respond_at_once(const Head& head) {
+    const HotLookup lookup = hot_lookup(head);
+    if (!lookup.simple || (limited_ && !state_.hot.occupied(head.target))) return false;
+    state_.keep_up();
+    const auto* const found = state_.hot.find(head.target, lookup.accept_encoding);
+    if (!found) return false;
+    const HotResponse& hot = **found;
+    const std::string_view condition = lookup.if_none_match();
+    const bool fresh = !hot.etag.empty() && !condition.empty() &&
+                       (api::names_etag(condition, hot.etag) || api::names_any(condition));
+    // A client that has the identity is told so behind, with the tag of that.
+    if (!fresh && !condition.empty() && !hot.identity_etag.empty() &&
+        api::names_etag(condition, hot.identity_etag))
+        return false;
+    ready_ = Clock::now();
+    closing_ = !head.keep_alive || limited_ || served_ + 1 >= state_.options.most_requests ||
+               state_.shared.draining.load(std::memory_order_relaxed);
+    method_ = head.method;
+    target_ = head.target;
+    id_ = is_proper_id(lookup.id) ? std::string(lookup.id) : state_.new_id();
+    label_ = hot.label;
+    status_ = fresh ? 304 : 200;
+    cache_ = fresh ? hot.cache_not_modified : hot.cache;
+    text_.assign("Date: ").append(http_date());
+    if (hot.tells_id) text_.append("\r\nX-Request-Id: ").append(id_);
+    text_.append("\r\n").append(closing_ ? "Connection: close\r\n" : hot.keep_alive).append("\r\n");
+
+    const std::string& start = fresh ? hot.not_modified : hot.head;
+    out_.begin(*found);
+    out_.add(start.data(), start.size());
+    out_.add(text_.data(), text_.size());
+    if (!fresh && head.method == "GET") {
+        out_.add(hot.body);
+        if (hot.file >= 0) out_.add_file(hot.file, hot.size);
+    }
+    auto& stats = state_.hot.stats();
+    add(fresh ? stats.not_modified : stats.hits, std::uint64_t{1});
+    begin_to_send();
+    return true;
+}
+
+Connection::Step Connection::read_body() {
+    std::string& body = request_.body;
+    if (!in_.empty()) {
+        const std::size_t there = std::min(body_length_ - body.size(), in_.size());
+        body.append(in_, 0, there);
+        in_.erase(0, there);
+    }
+    count_body();
+    if (body.size() >= body_length_) return dispatch();
+    // Nothing more is taken while there is no room: before the next round the reactor gives an
+    // upload up.
+    waits_for_room_ = !has_room_for_body();
+    if (waits_for_room_) {
+        state_.exceeding.push_back(body_client_);
+        return yield();
+    }
+    put_off_until(std::min(body_deadline(), state_.now + state_.options.silence));
+    if (taken_ >= most_in_a_turn) return yield();
+    return receive(&body, body_length_ - body.size());
+}
+
+bool Connection::has_room_for_body() const {
+    return !state_.bodies.is_exceeded() &&
+           !(body_has_share_ && state_.bodies.is_exceeded_by(body_client_));
+}
+
+/// When the client will have been too slow if nothing more comes: a body of n bytes has to come
+/// within T = body + n / body_rate, and after the first `body` as much of n must be there as of T
+/// has passed.
+Clock::time_point Connection::body_deadline() const {
+    using Seconds = std::chrono::duration<double>;
+    const Seconds grace = state_.options.body;
+    const auto length = static_cast<double>(body_length_);
+    const Seconds all = grace + Seconds(length / static_cast<double>(state_.options.body_rate));
+    const Seconds earned = all * (static_cast<double>(request_.body.size()) / length);
+    return body_since_ + std::chrono::duration_cast<Clock::duration>(std::max(grace, earned));
+}
+
+/// Counts what of the body has arrived since the last call.
+void Connection::count_body() {
+    const std::size_t bytes = request_.body.size();
+    state_.bodies.add(body_client_, bytes - body_bytes_);
+    body_bytes_ = bytes;
+}
+
+void Connection::release_body() {
+    state_.bodies.remove(body_client_, std::exchange(body_bytes_, 0));
+}
+
+Connection::Step Connection::dispatch() {
+    ready_ = Clock::now();
+    const auto worker_request = std::make_shared<WorkerRequest>(
+        state_.shared, *this, std::move(request_), client_, closing_);
+    bool taken = false;
+    try {
+        taken = state_.shared.workers.offer([worker_request] { worker_request->start(); });
+    } catch (...) {  // no memory: refused below, if there is enough for that
+    }
+    if (!taken) {
+        worker_request->drop();
+        return refuse(503, "too many requests are waiting; try again in a moment");
+    }
+    worker_request_ = worker_request;
+    enter(Phase::busy);
+    put_off_until(state_.now + (left_ ? second_thoughts : state_.options.response));
+    return Step::wait;
+}
+
+Connection::Step Connection::refuse(int status, std::string_view detail) {
+    api::Request request;
+    request.method = method_;
+    request.target = target_;
+    request.id = id_;
+    return refuse([&] { return state_.shared.refusal(request, status, detail); });
+}
+
+/// Answers a request of which no more is read; the connection ends then.
+Connection::Step Connection::refuse(const std::function<api::Response()>& make) {
+    closing_ = unread_ = true;
+    ready_ = Clock::now();
+    request_ = api::Request();
+    release_body();
+    label_ = state_.shared.label(method_, target_);
+    return send(std::make_shared<const Sending>(state_.shared.codec.send(
+        method_ == "HEAD" ? "HEAD / HTTP/1.1" : "GET / HTTP/1.1", make, [&](int) { return make(); },
+        [] { return true; })));
+}
+
+Connection::Step Connection::send(const std::shared_ptr<const Sending>& sending) {
+    const api::Response& response = sending->response;
+    closing_ = closing_ || sending->closing;
+    status_ = response.status;
+    cache_.clear();
+    for (const auto& [name, value] : response.headers)
+        if (same_token(name, "Cache-Status")) cache_ = value;
+    out_.begin(sending);
+    if (status_ == client_left || sending->head.empty()) {
+        report(false);
+        return Step::end;
+    }
+    out_.add(sending->head.data(), sending->head.size());
+    if (sending->with_body) out_.add(response.body);
+    begin_to_send();
+    return Step::on;
+}
+
+void Connection::begin_to_send() {
+    sending_since_ = state_.now;
+    last_ = state_.now + 4 * state_.options.blocked_write +
+            std::chrono::seconds(out_.total() / slowest);
+    enter(Phase::writing);
+}
+
+Connection::Step Connection::write() {
+    if (!writable_) return Step::wait;
+    const std::uint64_t had = out_.sent();
+    switch (out_.send(socket_)) {
+        case Outgoing::Progress::failed:
+            report(false);
+            return Step::end;
+        case Outgoing::Progress::blocked:
+            writable_ = false;
+            if (!std::exchange(is_counted_in_flight_, true))
+                state_.in_flight_buffers.add(out_.held());
+            if (had == 0 || out_.sent() > had)
+                put_off_until(std::min(last_, state_.now + state_.options.blocked_write));
+            return Step::wait;
+        case Outgoing::Progress::more:
+            put_off_until(std::min(last_, state_.now + state_.options.blocked_write));
+            return yield();
+        case Outgoing::Progress::done:
+            break;
+    }
+    report(true);
+    if (closing_) return linger();
+    ++served_;
+    began_ = state_.now;
+    enter(Phase::idle);
+    put_off_until(state_.shared.draining ? state_.now : state_.now + state_.options.idle);
+    return in_.empty() ? Step::on : yield();
+}
+
+/// Ends the connection: at once, or when the client has stopped sending, as a reset in answer to
+/// what was not read would destroy its answer.
+Connection::Step Connection::linger() {
+    if (in_.empty() && !unread_ && !readable_) return Step::end;
+    ::shutdown(socket_, SHUT_WR);
+    enter(Phase::lingering);
+    discarded_ = in_.size();
+    in_ = std::string();
+    put_off_until(state_.now + discarding);
+    return Step::on;
+}
+
+Connection::Step Connection::discard() {
+    if (discarded_ > most_discarded) return Step::end;
+    if (taken_ >= most_in_a_turn) return yield();
+    const std::size_t had = taken_;
+    const Step step = receive(nullptr, state_.received.size());
+    discarded_ += taken_ - had;
+    return step;
+}
+
+Connection::Step Connection::yield() {
+    if (!on_the_list_) state_.again.push_back(this);
+    on_the_list_ = true;
+    return Step::wait;
+}
+
+// --- Its parts ----------------------------------------------------------------------------------
+
+/// One call: whether something came, nothing did yet, or nothing ever will.
+Connection::Step Connection::receive(std::string* to, std::size_t most) {
+    if (!readable_) return Step::wait;
+    most = std::min(most, state_.received.size());
+    const ssize_t got = ::recv(socket_, state_.received.data(), most, MSG_DONTWAIT);
+    if (got == 0) return Step::end;
+    if (got < 0) {
+        if (errno == EINTR) return Step::on;
+        if (errno != EAGAIN) return Step::end;
+        readable_ = false;
+        return Step::wait;
+    }
+    const auto bytes = static_cast<std::size_t>(got);
+    // All that was there: the next byte is told of, unless it is the end, which has been told of.
+    if (bytes < most && !left_) readable_ = false;
+    if (to) to->append(state_.received.data(), bytes);
+    taken_ += bytes;
+    return Step::on;
+}
+
+void Connection::enter(Phase phase) {
+    add(state_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
+    add(state_.phases[static_cast<std::size_t>(phase)], std::size_t{1});
+    phase_ = phase;
+}
+
+void Connection::client_has_left() {
+    if (const auto worker_request = worker_request_.lock())
+        worker_request->end(PendingRequest::Over::left);
+}
+
+void Connection::unpin() {
+    if (std::exchange(is_counted_in_flight_, false)) state_.in_flight_buffers.remove(out_.held());
+}
+
+void Connection::report(bool complete) {
+    Served& served = state_.served;
+    served.method = method_;
+    served.target = target_;
+    served.id = id_;
+    served.peer = peer_text_;
+    served.client = by_proxy_ && client_ != peer_ ? text_of(client_) : std::string();
+    served.trace_id = trace_id_;
+    served.parent_id = parent_id_;
+    served.label = label_;
+    served.status = status_;
+    served.bytes = out_.sent();
+    served.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - ready_).count();
+    served.cache = cache_;
+    served.complete = complete;
+    try {
+        state_.shared.handlers.served(served);
+    } catch (...) {  // a request that cannot be logged has still been answered
+    }
+    unpin();
+    out_.end();
+}
+
+}  // namespace sporeprint::server

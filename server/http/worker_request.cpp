@@ -1,0 +1,151 @@
+#include "server/http/worker_request.h"
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <utility>
+
+#include "server/http/hot_table.h"
+
+namespace sporeprint::server {
+
+Mailbox::Mailbox() : descriptor_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+    if (descriptor_ < 0)
+        throw std::runtime_error(std::string("Cannot make an eventfd: ") + std::strerror(errno));
+}
+
+Mailbox::~Mailbox() { ::close(descriptor_); }
+
+void Mailbox::post(Reply reply) {
+    bool first = false;
+    {
+        const std::lock_guard lock(mutex_);
+        first = replies_.empty();
+        replies_.push_back(std::move(reply));
+    }
+    if (first) wake();
+}
+
+void Mailbox::wake() {
+    const std::uint64_t one = 1;
+    static_cast<void>(::write(descriptor_, &one, sizeof one));
+}
+
+std::vector<Reply> Mailbox::take() {
+    std::uint64_t ignored = 0;
+    static_cast<void>(::read(descriptor_, &ignored, sizeof ignored));
+    std::vector<Reply> taken;
+    const std::lock_guard lock(mutex_);
+    taken.swap(replies_);
+    return taken;
+}
+
+api::Response SharedState::refusal(const api::Request& request, int status,
+                                   std::string_view detail) const {
+    try {
+        return handlers.refuse(request, status, detail);
+    } catch (...) {
+        api::Response bare;
+        bare.status = status;
+        return bare;
+    }
+}
+
+std::optional<api::Response> SharedState::judge_head(const api::Request& request) const {
+    if (!handlers.judge_head) return std::nullopt;
+    try {
+        return handlers.judge_head(request);
+    } catch (...) {
+        return std::nullopt;
+    }
+}
+
+std::string SharedState::label(std::string_view method, std::string_view target) const {
+    try {
+        return handlers.label(method, target);
+    } catch (...) {
+        return {};
+    }
+}
+
+WorkerRequest::~WorkerRequest() {
+    if (!responded_) reply(shared_.refusal(request_, 500, {}));
+}
+
+void WorkerRequest::start() {
+    try {
+        epoch_ = shared_.epoch;
+        label_ = shared_.label(request_.method, request_.target);
+        shared_.handlers.respond(shared_from_this());
+    } catch (...) {
+        reply(shared_.refusal(request_, 500, {}));
+    }
+}
+
+void WorkerRequest::end(Over why) {
+    if (why == Over::left) is_gone_ = true;
+    std::function<void(Over)> tell;
+    {
+        const std::lock_guard lock(mutex_);
+        if (over_) return;
+        over_ = why;
+        tell.swap(notify_);
+    }
+    if (tell) resume([tell = std::move(tell), why] { tell(why); });
+}
+
+void WorkerRequest::drop() { static_cast<void>(claim()); }
+
+bool WorkerRequest::claim() {
+    if (responded_.exchange(true)) return false;
+    std::function<void(Over)> tell;  // destroyed outside the lock
+    const std::lock_guard lock(mutex_);
+    tell.swap(notify_);
+    return true;
+}
+
+void WorkerRequest::reply(api::Response response) {
+    if (!claim()) return;
+    bool closing = closing_;
+    Reply reply;
+    reply.to = from_;
+    reply.label = std::move(label_);
+    reply.epoch = epoch_;
+    reply.sending = shared_.codec.send(
+        request_.method + ' ' + request_.target + " HTTP/1.1", [&] { return std::move(response); },
+        [&](int status) {
+            closing = true;
+            return shared_.refusal(request_, status,
+                                   status == 400 ? "the request line is malformed" : "");
+        },
+        [&] { return closing || shared_.draining; });
+    if (request_.method == "GET")
+        reply.hot = hot_response(request_.target, reply.sending, reply.label);
+    shared_.mailbox.post(std::move(reply));
+}
+
+void WorkerRequest::resume(std::function<void()> go_on) {
+    shared_.workers.post([self = shared_from_this(), go_on = std::move(go_on)] {
+        try {
+            go_on();
+        } catch (...) {
+            self->reply(self->shared_.refusal(self->request_, 500, {}));
+        }
+    });
+}
+
+void WorkerRequest::wait(std::function<void(Over)> over) {
+    std::optional<Over> already;
+    {
+        const std::lock_guard lock(mutex_);
+        already = over_;
+        if (!over_ && !responded_) notify_.swap(over);
+    }
+    if (already) over(*already);
+}
+
+}  // namespace sporeprint::server
