@@ -20,28 +20,29 @@ using Clock = std::chrono::steady_clock;
 
 constexpr const char* alive = "alive\n";
 
-/// Work of reading a body that is not begun for a client which owes: a millisecond.
-constexpr std::uint64_t large_reading = 1000;
+/// A body that takes more microseconds of work than this to read is not read for a client whose
+/// budget is overdrawn.
+constexpr std::uint64_t expensive_reading = 1000;
 
-constexpr std::string_view own_paths[] = {"/livez", "/readyz", "/metrics"};
+constexpr std::string_view operational_paths[] = {"/livez", "/readyz", "/metrics"};
 
-/// The path of a target in origin or absolute form below the base path, still encoded.
+/// Returns the percent-encoded path, below the base path, of a target in origin or absolute form.
 std::string_view path_of(std::string_view base, std::string_view target) {
     target = api::below(base, target);
     return target.substr(0, target.find('?'));
 }
 
-bool is_own(std::string_view path) {
-    for (const std::string_view own : own_paths)
-        if (path == own) return true;
+bool is_operational(std::string_view path) {
+    for (const std::string_view operational : operational_paths)
+        if (path == operational) return true;
     return false;
 }
 
-/// The template of a request's route, for the metrics.
+/// Returns the URL template of a request's route, for the metrics.
 std::string route_of(std::string_view base, std::string_view method, std::string_view target) {
     target = api::below(base, target);
     const std::string_view path = path_of({}, target);
-    if (is_own(path)) return std::string(path);
+    if (is_operational(path)) return std::string(path);
     std::vector<Problem> ignored;
     const api::Target requested = api::split_target(target, ignored);
     for (const std::string_view tried : {method, std::string_view("GET")})
@@ -50,7 +51,7 @@ std::string route_of(std::string_view base, std::string_view method, std::string
     return "UNKNOWN";
 }
 
-std::string what(const std::exception_ptr& error) {
+std::string message_of(const std::exception_ptr& error) {
     try {
         std::rethrow_exception(error);
     } catch (const std::exception& known) {
@@ -97,16 +98,16 @@ Handlers RequestHandler::handlers() {
     };
     handlers.judge_head = [this](const api::Request& request) -> std::optional<api::Response> {
         const std::string_view path = path_of(options_.base_path, request.target);
-        if (!is_own(path)) return state()->service->response_to_head(request);
+        if (!is_operational(path)) return state()->service->response_to_head(request);
         if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
-        return housekeeping(request, path, options_.metrics);
+        return operational_response(request, path, options_.metrics);
     };
     handlers.label = [this](std::string_view method, std::string_view target) {
         return route_of(options_.base_path, method, target);
     };
     api::Request nobody;
     nobody.id = "standing";
-    handlers.pinned_responses = {{"/livez", plain(nobody, alive)}};
+    handlers.pinned_responses = {{"/livez", text_response(nobody, alive)}};
     handlers.pinned_responses[0].second.cacheable = true;
     handlers.served = [this](const Served& served) { report(served); };
     return handlers;
@@ -117,48 +118,50 @@ Handlers RequestHandler::metrics_handlers() {
     handlers.respond = [this](const std::shared_ptr<PendingRequest>& pending) {
         const api::Request& request = pending->request();
         const std::string_view path = path_of(options_.base_path, request.target);
-        pending->reply(is_own(path)
-                           ? housekeeping(request, path, true)
+        pending->reply(is_operational(path)
+                           ? operational_response(request, path, true)
                            : state()->service->problem(
                                  request, 404, "only /metrics, /livez and /readyz are here"));
     };
     handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
-    handlers.judge_head = nullptr;  // no body is taken anyway
+    handlers.judge_head = nullptr;  // most_body accepts no body
     return handlers;
 }
 
 bool RequestHandler::is_ready() const {
-    const auto has_room = [](std::size_t waiting, std::size_t most) {
+    const auto has_capacity = [](std::size_t waiting, std::size_t most) {
         return most == 0 || waiting * 10 < most * 9;
     };
     const Transport* const transport = transport_;
     const Transport::Load load = transport ? transport->load() : Transport::Load();
-    return ready_ && has_room(pool_.waiting(), pool_.longest_queue()) &&
-           has_room(load.queue, load.queue_limit);
+    return ready_ && has_capacity(pool_.waiting(), pool_.longest_queue()) &&
+           has_capacity(load.queue, load.queue_limit);
 }
 
 void RequestHandler::respond(const std::shared_ptr<PendingRequest>& pending) {
     const std::string_view path = path_of(options_.base_path, pending->request().target);
-    if (is_own(path))
-        return pending->reply(housekeeping(pending->request(), path, options_.metrics));
-    const Using state = this->state();
-    const Requested requested = this->requested(*state, pending);
-    if (!requested.why_not.empty()) {
+    if (is_operational(path))
+        return pending->reply(operational_response(pending->request(), path, options_.metrics));
+    const StatePointer state = this->state();
+    const CheckedRequest checked = check_signature(*state, pending);
+    if (!checked.refusal.empty()) {
         metrics_.rejected("signature");
-        return pending->reply(state->service->problem(*requested.request, 403, requested.why_not));
+        return pending->reply(state->service->problem(*checked.request, 403, checked.refusal));
     }
-    respond(state, pending, requested, false);
+    respond(state, pending, checked, false);
 }
 
-void RequestHandler::respond(const Using& state, const std::shared_ptr<PendingRequest>& pending,
-                             Requested requested, bool correspondence_ready) {
+void RequestHandler::respond(const StatePointer& state,
+                             const std::shared_ptr<PendingRequest>& pending, CheckedRequest checked,
+                             bool correspondence_ready) {
     api::Service& service = *state->service;
-    const api::Request& request = *requested.request;
-    // A body is read to know what it asks for, and costs that even if it is refused.
+    const api::Request& request = *checked.request;
+    // plan() has to read the body before the cost of the job is known. This work is charged even if
+    // the request is refused.
     const std::uint64_t reading = budgets_ && !correspondence_ready && !request.body.empty()
                                       ? service.cost_of_reading(request).work()
                                       : 0;
-    if (reading > large_reading)
+    if (reading > expensive_reading)
         if (const auto missing = budgets_->spend(client_of(pending->client()), 0, Clock::now());
             missing > missing.zero())
             return reply_over_budget(service, pending, request, missing);
@@ -167,9 +170,9 @@ void RequestHandler::respond(const Using& state, const std::shared_ptr<PendingRe
     if (api::Response* response = std::get_if<api::Response>(&planned)) {
         if (reading > 0) {
             budgets_->owe(client_of(pending->client()), reading, Clock::now());
-            requested.is_charged = true;
+            checked.is_charged = true;
         }
-        return reply(pending, requested, std::move(*response));
+        return reply(pending, checked, std::move(*response));
     }
 
     auto& job = std::get<api::Job>(planned);
@@ -177,19 +180,21 @@ void RequestHandler::respond(const Using& state, const std::shared_ptr<PendingRe
     if (const auto missing = charge(pending->client(), job.key, reading, work);
         missing > missing.zero())
         return reply_over_budget(service, pending, request, missing);
-    requested.is_charged = requested.is_charged || (budgets_ && reading + work > 0);
-    // Delivered by a worker of the transport: a slot is for making. After what only prepares it goes on when that has landed
-    // and its own wait is known, or the next would be taken for that.
+    checked.is_charged = checked.is_charged || (budgets_ && reading + work > 0);
+    // A worker of the transport delivers the response, so that the threads of the pool are left to
+    // generation. After a warm-up job, proceed() runs twice: when that job has completed and when
+    // wait() has been called. Only the second call resumes the request; otherwise the wait() of the
+    // next job could be mistaken for that of the warm-up job.
     const bool is_warm_up = job.is_warm_up;
-    const auto go_on = [this, state, pending, requested,
-                        other_came = std::make_shared<std::atomic<bool>>(false)] {
-        if (other_came->exchange(true))
-            pending->resume([=, this] { respond(state, pending, requested, true); });
+    const auto proceed = [this, state, pending, checked,
+                          called_before = std::make_shared<std::atomic<bool>>(false)] {
+        if (called_before->exchange(true))
+            pending->resume([=, this] { respond(state, pending, checked, true); });
     };
     const auto completed = [=, this](const SharedJobs::Completion& completion) {
-        if (is_warm_up && !completion.error) return go_on();
+        if (is_warm_up && !completion.error) return proceed();
         pending->resume([=, this] {
-            reply(pending, requested, delivered(*state->service, *requested.request, completion));
+            reply(pending, checked, deliver(*state->service, *checked.request, completion));
         });
     };
     const std::optional<SharedJobs::Ticket> ticket = join(state, std::move(job), completed);
@@ -200,33 +205,34 @@ void RequestHandler::respond(const Using& state, const std::shared_ptr<PendingRe
         return pending->reply(service.problem(
             request, 503, "too much is being made; try again in a moment", {{"Retry-After", "1"}}));
     }
-    pending->wait([this, state, pending, requested, ticket = *ticket](PendingRequest::Over why) {
-        if (!single_flight_.cancel(ticket)) return;  // it has landed
-        const bool left = why == PendingRequest::Over::left;
-        metrics_.rejected(left ? "left" : "deadline");
-        if (left) {
-            api::Response nobody;
-            nobody.status = client_left;
-            return pending->reply(std::move(nobody));
-        }
-        reply(pending, requested,
-              state->service->problem(pending->request(), 504,
-                                      "this took longer than a request may"));
-    });
-    if (is_warm_up) go_on();
+    pending->wait(
+        [this, state, pending, checked, ticket = *ticket](PendingRequest::CancelReason reason) {
+            if (!single_flight_.cancel(ticket)) return;  // it has completed
+            const bool disconnected = reason == PendingRequest::CancelReason::disconnected;
+            metrics_.rejected(disconnected ? "left" : "deadline");
+            if (disconnected) {
+                api::Response nobody;
+                nobody.status = client_left;
+                return pending->reply(std::move(nobody));
+            }
+            reply(pending, checked,
+                  state->service->problem(pending->request(), 504,
+                                          "this took longer than a request may"));
+        });
+    if (is_warm_up) proceed();
 }
 
 void RequestHandler::reply(const std::shared_ptr<PendingRequest>& pending,
-                           const Requested& requested, api::Response response) const {
-    if (requested.expires) {
-        response.cacheable = false;  // The next client must not get it without a look at the clock.
-        api::bound_freshness(response, *requested.expires - seconds_since_1970());
+                           const CheckedRequest& checked, api::Response response) const {
+    if (checked.expires) {
+        response.cacheable = false;  // The expiry is to be checked for each client.
+        api::bound_freshness(response, *checked.expires - seconds_since_1970());
     }
-    if (requested.is_charged) tell_budget(pending->client(), response);
+    if (checked.is_charged) set_rate_limit_headers(pending->client(), response);
     pending->reply(std::move(response));
 }
 
-void RequestHandler::tell_budget(const Address& client, api::Response& response) const {
+void RequestHandler::set_rate_limit_headers(const Address& client, api::Response& response) const {
     // The unit is a millisecond of work; budgets count microseconds.
     const std::uint64_t rate = options_.budget.rate, burst = options_.budget.burst;
     const Budgets::Level level = budgets_->level(client_of(client), Clock::now());
@@ -247,8 +253,8 @@ std::chrono::microseconds RequestHandler::charge(const Address& client, const ap
         if (budgets_) budgets_->owe(client_of(client), reading, Clock::now());
         return {};
     }
-    // Both at once: a piece that is larger than the bucket needs it full, which it would never be
-    // after its body was read.
+    // One charge for both: a job that costs more than the bucket holds needs a full bucket, which
+    // it would never find after a separate charge for reading its body.
     const auto missing = budgets_->spend(client_of(client), reading + work, Clock::now());
     if (missing == missing.zero()) return missing;
     budgets_->owe(client_of(client), reading, Clock::now());
@@ -264,53 +270,52 @@ void RequestHandler::reply_over_budget(const api::Service& service,
     api::Response refusal = service.problem(
         request, 429, "this client has had much made; there is room for more in a while",
         {{"Retry-After", std::to_string(seconds)}});
-    tell_budget(pending->client(), refusal);
+    set_rate_limit_headers(pending->client(), refusal);
     pending->reply(std::move(refusal));
 }
 
-RequestHandler::Requested RequestHandler::requested(
+RequestHandler::CheckedRequest RequestHandler::check_signature(
     const AppState& state, const std::shared_ptr<PendingRequest>& pending) const {
-    const api::Request& whole = pending->request();
-    Requested requested{{pending, &whole}, std::nullopt, {}, false};
-    if (!state.signatures || whole.method == "OPTIONS") return requested;
+    const api::Request& original = pending->request();
+    CheckedRequest checked{{pending, &original}, std::nullopt, {}, false};
+    if (!state.signatures || original.method == "OPTIONS") return checked;
     std::vector<Problem> ignored;
     const api::Match match = api::match_route(
-        whole.method,
-        api::split_target(api::below(options_.base_path, whole.target), ignored).segments);
-    if (!match.route || !api::is_generated(match.route->endpoint)) return requested;
-    Checked checked =
-        state.signatures->check(whole.method, whole.target, whole.body, seconds_since_1970());
-    if (!checked.good) {
-        requested.why_not = std::move(checked.why);
-        return requested;
+        original.method,
+        api::split_target(api::below(options_.base_path, original.target), ignored).segments);
+    if (!match.route || !api::is_generated(match.route->endpoint)) return checked;
+    SignatureCheck signature = state.signatures->check(original.method, original.target,
+                                                       original.body, seconds_since_1970());
+    if (!signature.is_valid) {
+        checked.refusal = std::move(signature.refusal);
+        return checked;
     }
-    auto rest = std::make_shared<api::Request>(whole);
-    rest->target = std::move(checked.target);
-    requested.expires = checked.expires;
-    requested.request = std::move(rest);
-    return requested;
+    auto unsigned_request = std::make_shared<api::Request>(original);
+    unsigned_request->target = std::move(signature.target);
+    checked.expires = signature.expires;
+    checked.request = std::move(unsigned_request);
+    return checked;
 }
 
-/// Does a job, here and on idle slots, and keeps what comes of it.
-RequestHandler::JobResult RequestHandler::generated(api::Service& service, const api::Job& job,
-                                                    std::stop_token stop, double queue) {
+RequestHandler::JobResult RequestHandler::run_job(api::Service& service, const api::Job& job,
+                                                  std::stop_token stop, double queue) {
     api::Stopwatch watch;
-    JobResult generated;
-    generated.response =
+    JobResult result;
+    result.response =
         job.run(std::move(stop), watch.observer(),
-                [this](std::span<const std::function<void()>> pieces) { pool_.share(pieces); });
-    generated.timing = watch.timing(queue);
-    metrics_.generated(generated.timing);
-    service.finish(job.key, generated.response);
-    return generated;
+                [this](std::span<const std::function<void()>> tasks) { pool_.share(tasks); });
+    result.timing = watch.timing(queue);
+    metrics_.generated(result.timing);
+    service.finish(job.key, result.response);
+    return result;
 }
 
 std::vector<api::Response> RequestHandler::warm(std::span<const std::string> targets) {
-    const Using state = this->state();
+    const StatePointer state = this->state();
     std::vector<api::Response> responses(targets.size());
-    std::vector<std::function<void()>> pieces;
+    std::vector<std::function<void()>> tasks;
     for (std::size_t i = 0; i < targets.size(); ++i)
-        pieces.emplace_back([&, i] {
+        tasks.emplace_back([&, i] {
             api::Request request;
             request.method = "GET";
             request.target = targets[i];
@@ -318,7 +323,7 @@ std::vector<api::Response> RequestHandler::warm(std::span<const std::string> tar
             auto planned = api::plan_here(*state->service, request);
             if (const auto* job = std::get_if<api::Job>(&planned)) {
                 try {
-                    responses[i] = generated(*state->service, *job, {}, 0).response;
+                    responses[i] = run_job(*state->service, *job, {}, 0).response;
                 } catch (...) {
                     responses[i] = state->service->problem(request, std::current_exception());
                 }
@@ -326,29 +331,29 @@ std::vector<api::Response> RequestHandler::warm(std::span<const std::string> tar
                 responses[i] = std::move(std::get<api::Response>(planned));
             }
         });
-    pool_.share(pieces);
+    pool_.share(tasks);
     return responses;
 }
 
 std::optional<RequestHandler::SharedJobs::Ticket> RequestHandler::join(
-    const Using& state, api::Job to_do, SharedJobs::OnComplete then) {
+    const StatePointer& state, api::Job to_do, SharedJobs::OnComplete then) {
     const auto job = std::make_shared<const api::Job>(std::move(to_do));
     const Clock::time_point joined = Clock::now();
     const auto work = [this, state, job, joined](std::stop_token stop) {
         const double queue =
             std::chrono::duration<double, std::milli>(Clock::now() - joined).count();
-        return generated(*state->service, *job, std::move(stop), queue);
+        return run_job(*state->service, *job, std::move(stop), queue);
     };
     return single_flight_.join(job->key, work, std::move(then));
 }
 
-api::Response RequestHandler::delivered(const api::Service& service, const api::Request& request,
-                                        const SharedJobs::Completion& completion) {
+api::Response RequestHandler::deliver(const api::Service& service, const api::Request& request,
+                                      const SharedJobs::Completion& completion) {
     if (completion.error) {
         api::Response response = service.problem(request, completion.error);
         if (response.status == 500)
             log_.event(LogLevel::error, "making failed",
-                       {{"id", Value(request.id)}, {"what", Value(what(completion.error))}});
+                       {{"id", Value(request.id)}, {"what", Value(message_of(completion.error))}});
         return response;
     }
     if (completion.collapsed) metrics_.collapsed();
@@ -357,28 +362,28 @@ api::Response RequestHandler::delivered(const api::Service& service, const api::
                            completion.result->timing);
 }
 
-api::Response RequestHandler::housekeeping(const api::Request& request, std::string_view path,
-                                           bool metrics) {
-    const Using state = this->state();
+api::Response RequestHandler::operational_response(const api::Request& request,
+                                                   std::string_view path, bool metrics) {
+    const StatePointer state = this->state();
     const api::Service& service = *state->service;
     if (request.method != "GET" && request.method != "HEAD")
         return service.problem(request, 405, "only GET and HEAD are answered here",
                                {{"Allow", "GET, HEAD"}});
-    if (path == "/livez") return plain(request, alive);
+    if (path == "/livez") return text_response(request, alive);
     if (path == "/readyz") {
-        if (is_ready()) return plain(request, "ready\n");
+        if (is_ready()) return text_response(request, "ready\n");
         return service.problem(
             request, 503, ready_ ? "too much is waiting" : "the server is starting or stopping",
             {{"Retry-After", "1"}});
     }
     if (!metrics)
         return service.problem(request, 404, "metrics are answered on a port of their own");
-    return plain(request, metrics_.text(service.counters(), gauges()),
-                 "text/plain; version=0.0.4; charset=utf-8");
+    return text_response(request, metrics_.text(service.counters(), gauges()),
+                         "text/plain; version=0.0.4; charset=utf-8");
 }
 
-api::Response RequestHandler::plain(const api::Request& request, const std::string& text,
-                                    std::string type) const {
+api::Response RequestHandler::text_response(const api::Request& request, const std::string& text,
+                                            std::string type) const {
     api::Response response;
     response.headers = {{"Content-Type", std::move(type)},
                         {"Cache-Control", "no-store"},

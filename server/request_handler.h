@@ -1,5 +1,6 @@
-// The reception: what stands between sockets and service. Health and metrics are answered at once,
-// kept answers too; work goes to the flights, and who asked for it is answered when it lands.
+// The request handler: the layer between the transport and api::Service. It responds to health and
+// metrics requests and to cached resources at once; it joins everything else to a computation in
+// flight and responds when that completes.
 #pragma once
 
 #include <atomic>
@@ -24,108 +25,140 @@
 
 namespace sporeprint::server {
 
+/// Limits and settings of a RequestHandler.
 struct RequestHandlerOptions {
-    std::size_t threads = 1;          ///< jobs at once
-    std::size_t longest_queue = 128;  ///< jobs that wait for a slot; 503 beyond
+    std::size_t threads = 1;          ///< jobs that run in parallel
+    std::size_t longest_queue = 128;  ///< jobs that wait for a thread; 503 beyond
     std::size_t most_waiters = 1024;  ///< requests that wait for jobs; 503 beyond
-    bool metrics = true;              ///< whether /metrics is answered here
-    std::string base_path;            ///< under which clients see the service, or empty
-    BudgetOptions budget;             ///< of each client, in api::Cost::work(); 429 beyond
+    bool metrics = true;              ///< true: the main transport serves /metrics
+    std::string base_path;            ///< path prefix of all URLs of the service, or empty
+    BudgetOptions budget;             ///< per client, in units of api::Cost::work(); 429 beyond
 };
 
-/// What may be put in another's place while requests come.
+/// The state that a reload replaces while requests are served.
 struct AppState {
     std::shared_ptr<api::Service> service;
-    std::shared_ptr<const Signatures>
-        signatures;  ///< asked for by what is made; none for no such thing
+    /// required by URLs of generated resources; null: no signature is required
+    std::shared_ptr<const Signatures> signatures;
 };
 
+/// Turns requests of the transport into calls of api::Service: checks signatures, charges work
+/// budgets, runs jobs on a thread pool, shares their results between equal requests, and counts and
+/// logs what was served. Thread-safe.
 class RequestHandler {
   public:
-    /// metrics, log  outlive this
+    /// pre  metrics and log outlive this object
     RequestHandler(AppState state, Metrics& metrics, Log& log,
                    const RequestHandlerOptions& options);
     ~RequestHandler() = default;
     RequestHandler(const RequestHandler&) = delete;
     RequestHandler& operator=(const RequestHandler&) = delete;
 
-    /// For the main transport.
+    /// Returns the callbacks of the main transport.
     [[nodiscard]] Handlers handlers();
 
-    /// For a port of its own: /metrics and health only.
+    /// Returns the callbacks of a separate port that serves /metrics and health only.
     [[nodiscard]] Handlers metrics_handlers();
 
-    /// What requests are answered with.
+    /// Returns the state that new requests use.
     [[nodiscard]] std::shared_ptr<const AppState> state() const;
 
-    /// SharedJobs what comes from here on with these; what has begun ends with those before.
+    /// Uses this state for new requests; requests already begun finish with the previous one.
     void renew(AppState state);
 
-    /// Makes what is asked for, several at once, so that it is kept; signatures are not asked for.
+    /// Generates the resources of these targets in parallel, so that they are cached. No signatures
+    /// are required.
     ///
-    /// returns  the answer to each, made or kept
+    /// returns  the response to each, generated or cached
     [[nodiscard]] std::vector<api::Response> warm(std::span<const std::string> targets);
 
-    /// Jobs at once.
+    /// Returns the number of jobs that run in parallel.
     [[nodiscard]] std::size_t threads() const { return pool_.count(); }
 
-    /// From here on /readyz may say yes.
+    /// Lets /readyz report 200.
     void open() { ready_ = true; }
 
-    /// From here on /readyz says no.
+    /// Lets /readyz report 503.
     void close() { ready_ = false; }
 
-    /// Where the metrics find the connections.
+    /// Sets the transport whose connections the metrics and /readyz count.
     void watch(const Transport* transport) { transport_ = transport; }
 
+    /// Returns true between open() and close() while all queues are less than 90 % full.
     [[nodiscard]] bool is_ready() const;
 
   private:
-    using Using = std::shared_ptr<const AppState>;  ///< held as long as a request uses them
+    /// held as long as a request uses the state
+    using StatePointer = std::shared_ptr<const AppState>;
 
+    /// The response that equal requests share, and how long it took.
     struct JobResult {
         api::Response response;
         api::Timing timing;
     };
     using SharedJobs = SingleFlight<JobResult>;
 
-    /// What a visit asks for: its own request, or what is left of that without its signature.
-    struct Requested {
-        std::shared_ptr<const api::Request> request;
-        std::optional<std::int64_t> expires;  ///< seconds since 1970 after which it is refused
-        std::string why_not;                  ///< why it is refused; empty if it is not
-        bool is_charged = false;              ///< whether its work was taken from a budget
+    /// A request after the check of its signature.
+    struct CheckedRequest {
+        std::shared_ptr<const api::Request> request;  ///< its target without the signature
+        std::optional<std::int64_t> expires;  ///< seconds since 1970 at which its signature ends
+        std::string refusal;                  ///< reason of a refusal; empty if accepted
+        bool is_charged = false;              ///< its work was charged to a budget
     };
-    [[nodiscard]] Requested requested(const AppState& state,
-                                      const std::shared_ptr<PendingRequest>& pending) const;
+    /// Checks the signature of a request where one is required and removes it from the target.
+    [[nodiscard]] CheckedRequest check_signature(
+        const AppState& state, const std::shared_ptr<PendingRequest>& pending) const;
 
+    /// Responds to a request now, or arranges that its job does so when it completes.
     void respond(const std::shared_ptr<PendingRequest>& pending);
-    /// prepared  whether a job that `prepares` is behind it
-    void respond(const Using& state, const std::shared_ptr<PendingRequest>& pending,
-                 Requested requested, bool correspondence_ready);
-    /// Replies with what the service answers, made fit for this client and its URL.
-    void reply(const std::shared_ptr<PendingRequest>& pending, const Requested& requested,
-               api::Response response) const;
-    [[nodiscard]] JobResult generated(api::Service& service, const api::Job& job,
-                                      std::stop_token stop, double queue);
-    std::optional<SharedJobs::Ticket> join(const Using& state, api::Job job,
-                                           SharedJobs::OnComplete then);
-    /// Takes what a job costs from the budget of who asks, unless somebody has begun it, and what
-    /// reading its body took.
+    /// Does the same for a request whose signature is checked.
     ///
-    /// returns  how long until there is enough; zero if there is
+    /// correspondence_ready  true after a warm-up job of this request
+    void respond(const StatePointer& state, const std::shared_ptr<PendingRequest>& pending,
+                 CheckedRequest checked, bool correspondence_ready);
+    /// Sends a response of the service after adapting it to this client and its signature.
+    void reply(const std::shared_ptr<PendingRequest>& pending, const CheckedRequest& checked,
+               api::Response response) const;
+    /// Runs a job on this thread and on idle threads of the pool, and caches its response.
+    ///
+    /// queue   milliseconds that the job waited
+    /// throws  what the job throws
+    [[nodiscard]] JobResult run_job(api::Service& service, const api::Job& job,
+                                    std::stop_token stop, double queue);
+    /// Joins the computation of a job's key, or starts it.
+    ///
+    /// returns  nothing if the queue or the list of waiters is full
+    std::optional<SharedJobs::Ticket> join(const StatePointer& state, api::Job job,
+                                           SharedJobs::OnComplete then);
+    /// Charges the cost of a job to the budget of a client, unless it is in flight already, and the
+    /// cost of reading its body.
+    ///
+    /// reading  microseconds of work that reading the body took
+    /// work     cost of the job in microseconds; set to 0 if it is not charged
+    /// returns  how long until the budget suffices; zero if it does
     [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
                                                    std::uint64_t reading, std::uint64_t& work);
+    /// Responds with 429.
+    ///
+    /// missing  how long until the budget suffices
     void reply_over_budget(const api::Service& service,
                            const std::shared_ptr<PendingRequest>& pending,
                            const api::Request& request, std::chrono::microseconds missing);
-    /// Tells a client what is left of its budget of work; such an answer is for this client alone.
-    void tell_budget(const Address& client, api::Response& response) const;
-    api::Response housekeeping(const api::Request& request, std::string_view path, bool metrics);
-    api::Response delivered(const api::Service& service, const api::Request& request,
-                            const SharedJobs::Completion& completion);
-    api::Response plain(const api::Request& request, const std::string& text,
-                        std::string type = "text/plain; charset=utf-8") const;
+    /// Sets the RateLimit headers from the remaining budget of a client, which makes the response
+    /// private to this client.
+    void set_rate_limit_headers(const Address& client, api::Response& response) const;
+    /// Responds to /livez, /readyz and /metrics.
+    ///
+    /// metrics  false: /metrics is 404 here
+    api::Response operational_response(const api::Request& request, std::string_view path,
+                                       bool metrics);
+    /// Returns the response to one of the requests that waited for a computation.
+    api::Response deliver(const api::Service& service, const api::Request& request,
+                          const SharedJobs::Completion& completion);
+    /// Returns a response of text that must not be stored.
+    api::Response text_response(const api::Request& request, const std::string& text,
+                                std::string type = "text/plain; charset=utf-8") const;
+    /// Counts and logs a response that was sent.
     void report(const Served& served);
     [[nodiscard]] Gauges gauges() const;
 
@@ -138,7 +171,7 @@ class RequestHandler {
     std::atomic<bool> ready_{false};
     std::atomic<const Transport*> transport_{nullptr};
     ThreadPool pool_;
-    SharedJobs single_flight_;  ///< ends before the slots do
+    SharedJobs single_flight_;  ///< destroyed before the pool
 };
 
 }  // namespace sporeprint::server

@@ -19,7 +19,8 @@ namespace {
 using std::chrono::milliseconds;
 
 constexpr std::size_t head_at_once = 16u << 10;     ///< bytes received while a head is awaited
-constexpr std::size_t most_in_a_turn = 256u << 10;  ///< bytes received before others come first
+constexpr std::size_t most_in_a_turn = 64u << 10;   ///< bytes received before others come first
+constexpr std::size_t discarded_at_once = 1u << 20;  ///< by one call, which copies nothing
 constexpr std::size_t most_discarded = 16u << 20;   ///< bytes of a refused request read and dropped
 constexpr milliseconds discarding{1000};            ///< at most so long
 constexpr milliseconds moment{500};                 ///< for whoever has just come to say something
@@ -106,6 +107,8 @@ bool Connection::happened(std::uint32_t events) {
         else
             put_off_until(std::min(deadline(), state_.now + second_thoughts));
     }
+    // Bulk data waits for its share of the round, so that small requests are served before it.
+    if (phase_ == Phase::body || phase_ == Phase::lingering) return yield() != Step::end;
     return advance();
 }
 
@@ -135,7 +138,7 @@ bool Connection::is_late() {
             if (left_)
                 client_has_left();
             else if (const auto worker_request = worker_request_.lock())
-                worker_request->end(PendingRequest::Over::late);
+                worker_request->end(PendingRequest::CancelReason::timed_out);
             return true;  // the answer comes, and is not waited for any longer than that
         case Phase::writing:
             report(false);
@@ -499,7 +502,7 @@ Connection::Step Connection::discard() {
     if (discarded_ > most_discarded) return Step::end;
     if (taken_ >= most_in_a_turn) return yield();
     const std::size_t had = taken_;
-    const Step step = receive(nullptr, state_.received.size());
+    const Step step = receive(nullptr, discarded_at_once);
     discarded_ += taken_ - had;
     return step;
 }
@@ -515,8 +518,10 @@ Connection::Step Connection::yield() {
 /// One call: whether something came, nothing did yet, or nothing ever will.
 Connection::Step Connection::receive(std::string* to, std::size_t most) {
     if (!readable_) return Step::wait;
-    most = std::min(most, state_.received.size());
-    const ssize_t got = ::recv(socket_, state_.received.data(), most, MSG_DONTWAIT);
+    // With MSG_TRUNC the kernel drops what has arrived on a TCP socket instead of copying it.
+    if (to) most = std::min(most, state_.received.size());
+    const ssize_t got = to ? ::recv(socket_, state_.received.data(), most, MSG_DONTWAIT)
+                           : ::recv(socket_, nullptr, most, MSG_DONTWAIT | MSG_TRUNC);
     if (got == 0) return Step::end;
     if (got < 0) {
         if (errno == EINTR) return Step::on;
@@ -540,7 +545,7 @@ void Connection::enter(Phase phase) {
 
 void Connection::client_has_left() {
     if (const auto worker_request = worker_request_.lock())
-        worker_request->end(PendingRequest::Over::left);
+        worker_request->end(PendingRequest::CancelReason::disconnected);
 }
 
 void Connection::unpin() {

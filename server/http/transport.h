@@ -66,7 +66,7 @@ inline constexpr int client_left = 499;
 /// last who holds it lets it go unanswered, the client gets a bare 500.
 class PendingRequest {
   public:
-    enum class Over { left, late };  ///< the client is gone; it has waited too long
+    enum class CancelReason { disconnected, timed_out };  ///< the client is gone; it has waited too long
 
     PendingRequest() = default;
     PendingRequest(const PendingRequest&) = delete;
@@ -90,7 +90,7 @@ class PendingRequest {
     /// When the answer will come later: `over` is called on a worker if the client leaves or
     /// TransportOptions::answer has passed before there is one; perhaps at once. Called again, the
     /// later `over` takes the place of the earlier.
-    virtual void wait(std::function<void(Over)> over) = 0;
+    virtual void wait(std::function<void(CancelReason)> over) = 0;
 };
 
 /// What the transport asks of those above it; all are called on many threads at once. Whatever they

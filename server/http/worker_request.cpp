@@ -86,9 +86,9 @@ void WorkerRequest::start() {
     }
 }
 
-void WorkerRequest::end(Over why) {
-    if (why == Over::left) is_gone_ = true;
-    std::function<void(Over)> tell;
+void WorkerRequest::end(CancelReason why) {
+    if (why == CancelReason::disconnected) is_gone_ = true;
+    std::function<void(CancelReason)> tell;
     {
         const std::lock_guard lock(mutex_);
         if (over_) return;
@@ -102,7 +102,7 @@ void WorkerRequest::drop() { static_cast<void>(claim()); }
 
 bool WorkerRequest::claim() {
     if (responded_.exchange(true)) return false;
-    std::function<void(Over)> tell;  // destroyed outside the lock
+    std::function<void(CancelReason)> tell;  // destroyed outside the lock
     const std::lock_guard lock(mutex_);
     tell.swap(notify_);
     return true;
@@ -138,8 +138,8 @@ void WorkerRequest::resume(std::function<void()> go_on) {
     });
 }
 
-void WorkerRequest::wait(std::function<void(Over)> over) {
-    std::optional<Over> already;
+void WorkerRequest::wait(std::function<void(CancelReason)> over) {
+    std::optional<CancelReason> already;
     {
         const std::lock_guard lock(mutex_);
         already = over_;

@@ -89,7 +89,7 @@ class WorkerRequest final : public PendingRequest,
     ~WorkerRequest() override;
 
     void start();        ///< on a worker
-    void end(Over why);  ///< the client has left, or has waited long enough
+    void end(CancelReason why);  ///< the client has left, or has waited long enough
     void drop();         ///< there will be no reply
 
     [[nodiscard]] const api::Request& request() const override { return request_; }
@@ -97,7 +97,7 @@ class WorkerRequest final : public PendingRequest,
     [[nodiscard]] bool is_gone() const override { return is_gone_; }
     void reply(api::Response response) override;
     void resume(std::function<void()> go_on) override;
-    void wait(std::function<void(Over)> over) override;
+    void wait(std::function<void(CancelReason)> over) override;
 
   private:
     [[nodiscard]] bool claim();  ///< whether nobody has answered before
@@ -111,8 +111,8 @@ class WorkerRequest final : public PendingRequest,
     std::string label_;
     std::atomic<bool> is_gone_{false}, responded_{false};
     std::mutex mutex_;
-    std::optional<Over> over_;
-    std::function<void(Over)> notify_;  ///< may hold this exchange: let go when it is answered
+    std::optional<CancelReason> over_;
+    std::function<void(CancelReason)> notify_;  ///< may hold this exchange: let go when it is answered
 };
 
 }  // namespace sporeprint::server

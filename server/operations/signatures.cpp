@@ -151,10 +151,10 @@ Signatures Signatures::from_file(const std::filesystem::path& file) {
     return from_text(file.string(), *text);
 }
 
-Checked Signatures::check(std::string_view method, std::string_view target, std::string_view body,
+SignatureCheck Signatures::check(std::string_view method, std::string_view target, std::string_view body,
                           std::int64_t now) const {
     const auto refused = [&](std::string why) {
-        return Checked{false, std::nullopt, std::string(target), std::move(why)};
+        return SignatureCheck{false, std::nullopt, std::string(target), std::move(why)};
     };
     std::string_view rest = api::origin_form(target);
     const std::optional<std::string_view> given = take_last(rest, "sig");

@@ -16,11 +16,11 @@ struct SigningKey {
 };
 
 /// A target whose signature was looked at. What the signature adds never reaches those who give the target its meaning.
-struct Checked {
-    bool good = false;
+struct SignatureCheck {
+    bool is_valid = false;
     std::optional<std::int64_t> expires;  ///< seconds since 1970; nothing if it never does
     std::string target;  ///< without key, expires and sig; as it came if it is not good
-    std::string why;     ///< a sentence for the client if it is not good
+    std::string refusal;     ///< a sentence for the client if it is not good
 };
 
 /// Checks and makes signatures. Immutable, so thread-safe.
@@ -50,7 +50,7 @@ class Signatures {
     [[nodiscard]] static Signatures from_file(const std::filesystem::path& file);
 
     /// now  seconds since 1970
-    [[nodiscard]] Checked check(std::string_view method, std::string_view target,
+    [[nodiscard]] SignatureCheck check(std::string_view method, std::string_view target,
                                 std::string_view body, std::int64_t now) const;
 
     /// The target with the signature of the first key.

@@ -27,7 +27,7 @@ void read_keys(std::string_view text) {
     file += text;
     try {
         const Signatures keys = Signatures::from_text("keys", file);
-        expect(keys.check("GET", keys.signed_target("GET", "/", "", std::nullopt), "", now).good,
+        expect(keys.check("GET", keys.signed_target("GET", "/", "", std::nullopt), "", now).is_valid,
                "keys that are taken sign");
     } catch (const InvalidInput& errors) {
         expect(!errors.problems().empty(), "keys are refused with a reason");
@@ -49,8 +49,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view target = text.substr(0, end);
     const std::string_view body = end == text.npos ? std::string_view{} : text.substr(end + 1);
     for (const std::string_view method : {"GET", "HEAD", "POST", "PUT"}) {
-        const Checked checked = signatures.check(method, target, body, now);
-        expect(!checked.good && !checked.why.empty(), "nothing is good that was not signed");
+        const SignatureCheck checked = signatures.check(method, target, body, now);
+        expect(!checked.is_valid && !checked.refusal.empty(), "nothing is good that was not signed");
         expect(checked.target == target, "what is not good is passed on as it came");
     }
     if (target.empty() || target.front() != '/' || target.find('#') != target.npos) return 0;
@@ -59,18 +59,18 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         for (const std::optional<std::int64_t> expires :
              {std::optional<std::int64_t>{}, std::optional(now + 1)}) {
             const std::string generated = signatures.signed_target(method, target, body, expires);
-            const Checked good = signatures.check(method, generated, body, now);
-            expect(good.good && good.expires == expires.has_value(), "what was signed is good");
+            const SignatureCheck good = signatures.check(method, generated, body, now);
+            expect(good.is_valid && good.expires == expires.has_value(), "what was signed is good");
             expect(good.target == target, "and is what was signed");
-            expect(!expires || !signatures.check(method, generated, body, now + 1).good,
+            expect(!expires || !signatures.check(method, generated, body, now + 1).is_valid,
                    "until it ends");
-            expect(!signatures.check(method == "GET" ? "POST" : "GET", generated, body, now).good,
+            expect(!signatures.check(method == "GET" ? "POST" : "GET", generated, body, now).is_valid,
                    "by its own method");
             std::string other = generated;
             other[size % other.size()] = static_cast<char>(other[size % other.size()] ^ 1);
-            expect(!signatures.check(method, other, body, now).good, "and no other address is");
+            expect(!signatures.check(method, other, body, now).is_valid, "and no other address is");
             if (method == "POST")
-                expect(!signatures.check(method, generated, std::string(body) + 'x', now).good,
+                expect(!signatures.check(method, generated, std::string(body) + 'x', now).is_valid,
                        "nor another body");
         }
     return 0;

@@ -243,8 +243,8 @@ RC_GTEST_PROP(MeaningProperty, SignaturesAndTheirEndNeverEnterIt, ()) {
              {std::int64_t{0}, static_cast<std::int64_t>(draws.below(9999))}) {
             const std::string generated = by->signed_target(
                 "GET", target, "", left == 0 ? std::nullopt : std::optional(now + left));
-            const Checked checked = signatures.check("GET", generated, "", now);
-            RC_ASSERT(checked.good);
+            const SignatureCheck checked = signatures.check("GET", generated, "", now);
+            RC_ASSERT(checked.is_valid);
             RC_ASSERT(key_of_get(checked.target) == key);
         }
 }

@@ -40,13 +40,13 @@ class Guest final : public PendingRequest {
         changed_.notify_all();
     }
     void resume(std::function<void()> go_on) override { go_on(); }
-    void wait(std::function<void(Over)> over) override {
+    void wait(std::function<void(CancelReason)> over) override {
         const std::lock_guard lock(mutex_);
         over_ = std::move(over);
     }
 
     /// Sanitizers make everything slow: five minutes are for ever.
-    api::Response response(std::chrono::milliseconds patience = 5min, Over then = Over::late) {
+    api::Response response(std::chrono::milliseconds patience = 5min, CancelReason then = CancelReason::timed_out) {
         std::unique_lock lock(mutex_);
         if (!changed_.wait_for(lock, patience, [&] { return response_.has_value(); })) {
             const auto over = std::exchange(over_, nullptr);
@@ -65,7 +65,7 @@ class Guest final : public PendingRequest {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<api::Response> response_;
-    std::function<void(Over)> over_;
+    std::function<void(CancelReason)> over_;
 };
 
 /// The real service behind a reception, asked without sockets.
@@ -79,7 +79,7 @@ struct House {
 
     api::Response ask(const std::string& target, const std::string& method = "GET",
                       std::chrono::milliseconds patience = 5min,
-                      PendingRequest::Over then = PendingRequest::Over::late,
+                      PendingRequest::CancelReason then = PendingRequest::CancelReason::timed_out,
                       std::vector<api::Header> headers = {}) {
         api::Request request = request_of(method, target);
         request.headers = std::move(headers);
@@ -90,7 +90,7 @@ struct House {
         api::Request request = request_of("POST", target);
         request.headers = {{"Content-Type", "application/json"}};
         request.body = std::move(body);
-        return ask(std::move(request), 5min, PendingRequest::Over::late);
+        return ask(std::move(request), 5min, PendingRequest::CancelReason::timed_out);
     }
 
     static api::Request request_of(const std::string& method, const std::string& target) {
@@ -102,7 +102,7 @@ struct House {
     }
 
     api::Response ask(api::Request request, std::chrono::milliseconds patience,
-                      PendingRequest::Over then) {
+                      PendingRequest::CancelReason then) {
         const auto guest = std::make_shared<Guest>(std::move(request));
         handlers.respond(guest);
         return guest->response(patience, then);
@@ -301,7 +301,7 @@ TEST(RequestHandler, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
 
     House left;  // one slot: whoever comes last waits for all before
     std::vector<std::jthread> crowd = crowd_at(left, 60);
-    EXPECT_EQ(left.ask(heavy + "1000", "GET", 0ms, PendingRequest::Over::left).status, client_left);
+    EXPECT_EQ(left.ask(heavy + "1000", "GET", 0ms, PendingRequest::CancelReason::disconnected).status, client_left);
     crowd.clear();
     EXPECT_EQ(left.service->counters().generated, 60u) << "nobody made what nobody waits for";
     EXPECT_NE(text_of(left.ask("/metrics")).find("{reason=\"left\"} 1\n"), std::string::npos);
@@ -392,7 +392,7 @@ TEST(RequestHandler, FindsCorrespondencesInSlotsAndChargesThem) {
     House slow;
     std::vector<std::jthread> crowd = crowd_at(slow, 30);
     EXPECT_EQ(slow.ask(mix, "HEAD", 0ms).status, 504);
-    EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, PendingRequest::Over::left).status, client_left);
+    EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, PendingRequest::CancelReason::disconnected).status, client_left);
     crowd.clear();
     EXPECT_EQ(slow.service->counters().morph_misses, 1u) << "that of the crowd alone";
 }
@@ -406,7 +406,7 @@ TEST(RequestHandler, LetsNoCacheKeepWhatOutlivesItsUrl) {
         const std::string url =
             signatures->signed_target("GET", target, "", seconds_since_1970() + seconds);
         const api::Response response =
-            house.ask(url, method, 5min, PendingRequest::Over::late, headers);
+            house.ask(url, method, 5min, PendingRequest::CancelReason::timed_out, headers);
         EXPECT_EQ(response.status, headers.empty() ? 200 : 304);
         EXPECT_FALSE(response.cacheable);
         const std::string given = header(response, "Cache-Control");

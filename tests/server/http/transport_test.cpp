@@ -739,11 +739,11 @@ TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
     std::atomic<int> late{0}, left{0};
     Fixture server(
         [&](const std::shared_ptr<PendingRequest>& pending) {
-            pending->wait([&, pending](PendingRequest::Over why) {
-                ++(why == PendingRequest::Over::late ? late : left);
-                EXPECT_EQ(pending->is_gone(), why == PendingRequest::Over::left);
+            pending->wait([&, pending](PendingRequest::CancelReason why) {
+                ++(why == PendingRequest::CancelReason::timed_out ? late : left);
+                EXPECT_EQ(pending->is_gone(), why == PendingRequest::CancelReason::disconnected);
                 pending->reply(
-                    text_response("", why == PendingRequest::Over::late ? 504 : client_left));
+                    text_response("", why == PendingRequest::CancelReason::timed_out ? 504 : client_left));
                 pending->reply(text_response("the first answer counts"));
             });
         },
@@ -755,8 +755,8 @@ TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
     options.response = 60s;
     Fixture slow(
         [&](const std::shared_ptr<PendingRequest>& pending) {
-            pending->wait([&, pending](PendingRequest::Over why) {
-                ++(why == PendingRequest::Over::late ? late : left);
+            pending->wait([&, pending](PendingRequest::CancelReason why) {
+                ++(why == PendingRequest::CancelReason::timed_out ? late : left);
                 pending->reply(text_response("", client_left));
             });
         },

@@ -22,7 +22,7 @@ constexpr std::int64_t now = 1'900'000'000;
 
 std::string why(const Signatures& signatures, std::string_view target,
                 std::string_view method = "GET", std::string_view body = "") {
-    return signatures.check(method, target, body, now).why;
+    return signatures.check(method, target, body, now).refusal;
 }
 
 /// What InvalidInput says of a text of keys.
@@ -55,7 +55,7 @@ TEST(Signatures, OfGetAreThoseOfHeadAndOfAnAbsoluteTarget) {
     EXPECT_EQ(signatures.check("GET", target, "", now).target, agaric);
     EXPECT_EQ(signatures.check("HEAD", target, "", now).target, agaric);
     EXPECT_EQ(signatures.check("GET", "http://host:80" + target, "", now).target, agaric);
-    EXPECT_FALSE(signatures.check("POST", target, "", now).good);
+    EXPECT_FALSE(signatures.check("POST", target, "", now).is_valid);
 }
 
 TEST(Signatures, CoverTheBodyOfAPost) {
@@ -63,7 +63,7 @@ TEST(Signatures, CoverTheBodyOfAPost) {
     const std::string target = signatures.signed_target("POST", "/v1/leaves.glb", "{}", now + 1);
     EXPECT_EQ(signatures.check("POST", target, "{}", now).target, "/v1/leaves.glb");
     EXPECT_EQ(why(signatures, target, "POST", "{} "), "the signature is not that of this address");
-    EXPECT_FALSE(signatures.check("GET", target, "", now).good);
+    EXPECT_FALSE(signatures.check("GET", target, "", now).is_valid);
 }
 
 TEST(Signatures, EndWhenTheySay) {
@@ -80,8 +80,8 @@ TEST(Signatures, EndWhenTheySay) {
 TEST(Signatures, OfEveryKeyAreGoodAndTheFirstKeySigns) {
     const Signatures both({new_key, old_key}), before({old_key}), after({new_key});
     const std::string of_old = before.signed_target("GET", agaric, "", std::nullopt);
-    EXPECT_TRUE(both.check("GET", of_old, "", now).good);
-    EXPECT_TRUE(after.check("GET", both.signed_target("GET", agaric, "", now + 9), "", now).good);
+    EXPECT_TRUE(both.check("GET", of_old, "", now).is_valid);
+    EXPECT_TRUE(after.check("GET", both.signed_target("GET", agaric, "", now + 9), "", now).is_valid);
     EXPECT_EQ(why(after, of_old), "there is no key 'a'");
     // A key is not known by its name alone.
     EXPECT_EQ(why(Signatures({{"a", new_key.secret}}), of_old),
@@ -95,7 +95,7 @@ TEST(Signatures, ThatAreMissingOrMisplacedAreNamed) {
     for (const std::string& target :
          {std::string(agaric), std::string("/v1"), std::string(), good + "&seed=7", good + "#x&",
           std::string("/sig=x"), std::string("/?sig"), std::string("/?a=sig=")})
-        EXPECT_FALSE(signatures.check("GET", target, "", now).good) << target;
+        EXPECT_FALSE(signatures.check("GET", target, "", now).is_valid) << target;
     EXPECT_EQ(why(signatures, agaric), none);
     EXPECT_EQ(why(signatures, good + "&seed=7"), none);
     EXPECT_EQ(why(signatures, "/v1?sig=x"),
@@ -121,9 +121,9 @@ RC_GTEST_PROP(SignaturesProperty, NoChangedTargetIsGood, ()) {
         default:
             target.insert(at, *rc::gen::string<std::string>());
     }
-    const Checked checked = signatures.check("GET", target, "", now);
-    RC_ASSERT(checked.good == (target == before));
-    RC_ASSERT(checked.good == checked.why.empty());
+    const SignatureCheck checked = signatures.check("GET", target, "", now);
+    RC_ASSERT(checked.is_valid == (target == before));
+    RC_ASSERT(checked.is_valid == checked.refusal.empty());
 }
 
 RC_GTEST_PROP(SignaturesProperty, WhatIsSignedIsGoodAndComesBackWithoutItsSignature, ()) {
@@ -138,8 +138,8 @@ RC_GTEST_PROP(SignaturesProperty, WhatIsSignedIsGoodAndComesBackWithoutItsSignat
     const bool posted = *rc::gen::arbitrary<bool>();
     const std::string_view method = posted ? "POST" : "GET";
     const std::string generated = signatures.signed_target(method, target, body, now + 1);
-    const Checked checked = signatures.check(method, generated, body, now);
-    RC_ASSERT(checked.good);
+    const SignatureCheck checked = signatures.check(method, generated, body, now);
+    RC_ASSERT(checked.is_valid);
     RC_ASSERT(checked.target == target);
 }
 
@@ -152,7 +152,7 @@ TEST(Signatures, ReadTheirKeysFromAText) {
                            Signatures({{"a", std::string(32, '\xff')}})
                                .signed_target("GET", agaric, "", std::nullopt),
                            "", now)
-                    .good);
+                    .is_valid);
     EXPECT_NE(signatures.signed_target("GET", agaric, "", std::nullopt).find("&key=b&"),
               std::string::npos);
 }
