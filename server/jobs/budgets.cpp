@@ -7,14 +7,15 @@ namespace sporeprint::server {
 namespace {
 
 constexpr std::int64_t millionths = 1'000'000;
-constexpr std::uint64_t most_work = 1'000'000'000'000;  ///< in millionths it is far from overflow
+constexpr std::uint64_t most_work =
+    1'000'000'000'000;  ///< far from overflow when counted in millionths
 
 std::int64_t in_millionths(std::uint64_t work) {
     return static_cast<std::int64_t>(std::min(work, most_work)) * millionths;
 }
 
-/// Rounded up; both positive.
-std::int64_t quotient(std::int64_t a, std::int64_t b) { return a / b + (a % b != 0 ? 1 : 0); }
+/// Returns a / b rounded up; both are positive.
+std::int64_t ceil_div(std::int64_t a, std::int64_t b) { return a / b + (a % b != 0 ? 1 : 0); }
 
 }  // namespace
 
@@ -35,13 +36,13 @@ void Budgets::take(const Address& client, Bucket bucket, std::int64_t wanted) {
     bucket.level -= wanted;
     auto found = buckets_.find(client);
     if (found == buckets_.end()) {
-        if (buckets_.size() >= most_clients_) forget_one();
+        if (buckets_.size() >= most_clients_) evict_one();
         found = buckets_.emplace(client, bucket).first;
     } else {
         by_full_at_.erase({found->second.full_at, client});
         found->second = bucket;
     }
-    keep(found);
+    index(found);
 }
 
 std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t work, Time time) {
@@ -50,7 +51,7 @@ std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t wo
     const Bucket bucket = bucket_of(client, advance(time));
     const std::int64_t enough = std::min(wanted, capacity_);
     if (bucket.level < enough)
-        return std::chrono::microseconds(quotient(enough - bucket.level, rate_));
+        return std::chrono::microseconds(ceil_div(enough - bucket.level, rate_));
     if (wanted > 0) take(client, bucket, wanted);
     return {};
 }
@@ -59,7 +60,7 @@ void Budgets::owe(const Address& client, std::uint64_t work, Time time) {
     if (work == 0) return;
     const std::lock_guard lock(mutex_);
     Bucket bucket = bucket_of(client, advance(time));
-    // No debt grows beyond that of the largest piece, so that its millionths fit their type.
+    // A level never falls below that after the largest job, so that its millionths do not overflow.
     take(client, bucket, std::min(in_millionths(work), bucket.level + in_millionths(most_work)));
 }
 
@@ -70,7 +71,7 @@ void Budgets::give_back(const Address& client, std::uint64_t work, Time time) {
     by_full_at_.erase({found->second.full_at, client});
     fill(found->second, advance(time));
     found->second.level = std::min(capacity_, found->second.level + in_millionths(work));
-    keep(found);
+    index(found);
 }
 
 Budgets::Level Budgets::level(const Address& client, Time time) const {
@@ -81,7 +82,7 @@ Budgets::Level Budgets::level(const Address& client, Time time) const {
     if (const auto found = buckets_.find(client); found != buckets_.end())
         fill(bucket = found->second, now);
     return {static_cast<std::uint64_t>(std::max<std::int64_t>(bucket.level, 0) / millionths),
-            microseconds(quotient(capacity_ - bucket.level, rate_))};
+            microseconds(ceil_div(capacity_ - bucket.level, rate_))};
 }
 
 std::size_t Budgets::clients() const {
@@ -89,7 +90,7 @@ std::size_t Budgets::clients() const {
     return buckets_.size();
 }
 
-/// The clock of the buckets, which threads that were held up do not turn back.
+/// Returns the time of the buckets, which is monotonic even if delayed threads pass earlier times.
 std::int64_t Budgets::advance(Time now) {
     using std::chrono::floor, std::chrono::microseconds;
     return now_ = std::max(now_, floor<microseconds>(now.time_since_epoch()).count());
@@ -97,18 +98,18 @@ std::int64_t Budgets::advance(Time now) {
 
 void Budgets::fill(Bucket& bucket, std::int64_t now) const {
     const std::int64_t missing = capacity_ - bucket.level, passed = now - bucket.at;
-    // Compared by division, as passed * rate_ may be too large for its type.
-    bucket.level = passed >= quotient(missing, rate_) ? capacity_ : bucket.level + passed * rate_;
+    // Compared by division, as passed * rate_ may overflow.
+    bucket.level = passed >= ceil_div(missing, rate_) ? capacity_ : bucket.level + passed * rate_;
     bucket.at = now;
 }
 
-void Budgets::keep(Buckets::iterator bucket) {
+void Budgets::index(Buckets::iterator bucket) {
     Bucket& it = bucket->second;
-    it.full_at = it.at + quotient(capacity_ - it.level, rate_);
+    it.full_at = it.at + ceil_div(capacity_ - it.level, rate_);
     by_full_at_.emplace(it.full_at, bucket->first);
 }
 
-void Budgets::forget_one() {
+void Budgets::evict_one() {
     const auto first = by_full_at_.begin();
     buckets_.erase(first->second);
     by_full_at_.erase(first);

@@ -1,5 +1,4 @@
-// Budgets of work: a bucket for each client that fills at a steady rate, and that what is made for
-// it is taken from.
+// Work budgets: a token bucket per client from which the cost of its requests is taken.
 #pragma once
 
 #include <chrono>
@@ -14,68 +13,70 @@
 
 namespace sporeprint::server {
 
+/// Settings of all token buckets. Work is measured in microseconds of one processor.
 struct BudgetOptions {
-    std::uint64_t rate = 0;              ///< work a second, at most 1e9; 0: no budgets
-    std::uint64_t burst = 1;             ///< work that a full bucket holds, at most 1e12
-    std::size_t most_clients = 1 << 16;  ///< that are remembered: about 200 bytes each
+    std::uint64_t rate = 0;   ///< work per second that flows in, at most 1e9; 0: no budgets
+    std::uint64_t burst = 1;  ///< work that a full bucket holds, at most 1e12
+    std::size_t most_clients = 1 << 16;  ///< in the table; about 200 bytes each
 };
 
-/// Buckets of all clients. Thread-safe; takes its time from the caller.
+/// The token buckets of all clients. Thread-safe; the caller supplies the time.
 ///
-/// A client may spend when its bucket holds what is asked, or is full: one piece of work that is
-/// larger than the bucket is let through then, and what is missing is owed. So in any time t, from
-/// a full bucket on, it spends at most rate t + max(burst, the largest piece).
+/// A client may spend if its bucket holds the requested work or is full. A single job larger than
+/// the bucket is therefore admitted when the bucket is full, and its level becomes negative. So in
+/// any time t, from a full bucket on, a client spends at most rate t + max(burst, largest job).
 ///
-/// Levels are whole millionths and times whole microseconds, so nothing is lost to rounding. When
-/// too many clients are remembered, the one whose bucket has been full longest is forgotten, which
-/// takes nothing from anybody; if none is full, the one that would be soonest.
+/// Levels are integers in millionths and times integers in microseconds, so rounding loses nothing.
+/// When the table of clients is full, the client whose bucket has been full longest is removed,
+/// which changes no budget; if no bucket is full, the client whose bucket would be full soonest.
 class Budgets {
   public:
     using Time = std::chrono::steady_clock::time_point;
 
-    /// rate at least 1
+    /// pre  options.rate >= 1
     explicit Budgets(const BudgetOptions& options);
 
-    /// Takes `work` from a client's bucket.
+    /// Takes `work` from a client's bucket if it holds enough.
     ///
-    /// now      not earlier than in calls before; an earlier one counts as that
-    /// returns  zero, or when there is too little, how long until there is enough; nothing is taken
-    ///          then
+    /// now      a time earlier than that of a previous call counts as the previous one
+    /// returns  zero; if the bucket holds too little, how long until it holds enough, and nothing
+    ///          is taken
     [[nodiscard]] std::chrono::microseconds spend(const Address& client, std::uint64_t work,
                                                   Time now);
 
-    /// Takes what was done for a client before its cost was known, even where its bucket does not
-    /// hold that: the rest is owed.
+    /// Takes the cost of work that is already done, whether or not the bucket holds it; its level
+    /// may become negative.
     void owe(const Address& client, std::uint64_t work, Time now);
 
-    /// Gives back what was spent on work that was not begun.
+    /// Returns the cost of work that was not begun to the bucket.
     void give_back(const Address& client, std::uint64_t work, Time now);
 
-    /// What a client may spend at once, and how long until its bucket is full.
+    /// The state of a bucket.
     struct Level {
-        std::uint64_t work = 0;  ///< 0 when it owes
+        std::uint64_t work = 0;  ///< that the client may spend at once; 0 if the level is negative
         std::chrono::microseconds until_full{0};
     };
     [[nodiscard]] Level level(const Address& client, Time now) const;
 
-    [[nodiscard]] std::size_t clients() const;  ///< remembered
+    /// Returns the number of clients in the table.
+    [[nodiscard]] std::size_t clients() const;
 
   private:
     struct Bucket {
-        std::int64_t level = 0;    ///< millionths; less than 0 when it owes
-        std::int64_t at = 0;       ///< microseconds: when that was its level
-        std::int64_t full_at = 0;  ///< microseconds: when it is full if nothing is taken
+        std::int64_t level = 0;    ///< millionths of work; negative: overdrawn
+        std::int64_t at = 0;       ///< microseconds: time of that level
+        std::int64_t full_at = 0;  ///< microseconds: time at which it is full if nothing is taken
     };
-    using Buckets = std::map<Address, Bucket>;  // not hashed: its keys are chosen by strangers
+    using Buckets = std::map<Address, Bucket>;  // not hashed: clients choose its keys
 
     std::int64_t advance(Time now);
     [[nodiscard]] Bucket bucket_of(const Address& client, std::int64_t now) const;
     void take(const Address& client, Bucket bucket, std::int64_t wanted);
     void fill(Bucket& bucket, std::int64_t now) const;
-    void keep(Buckets::iterator bucket);
-    void forget_one();
+    void index(Buckets::iterator bucket);
+    void evict_one();
 
-    std::int64_t rate_, capacity_;  ///< millionths a microsecond; millionths
+    std::int64_t rate_, capacity_;  ///< millionths per microsecond; millionths
     std::size_t most_clients_;
     mutable std::mutex mutex_;
     std::int64_t now_ = 0;

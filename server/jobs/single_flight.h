@@ -1,5 +1,6 @@
-// Flights: work with a key that many may wait for and that is done once. Those who come while it is
-// in the air get its result; when all have left, it is stopped. Knows nothing of what is made.
+// Single-flight group: concurrent requests for one key share one computation. Requests that join
+// while it is in flight get its result; when all of them have cancelled, it is stopped. It is
+// independent of what is computed.
 #pragma once
 
 #include <condition_variable>
@@ -22,27 +23,29 @@
 
 namespace sporeprint::server {
 
+/// Runs at most one computation per key at a time on a thread pool. Thread-safe.
 template <class Result>
 class SingleFlight {
   public:
     using Work = std::function<Result(std::stop_token)>;
 
-    /// What those who waited are told: a result, or the exception that the work ended with.
+    /// The outcome passed to every waiter: a result, or the exception that the work threw.
     struct Completion {
         std::shared_ptr<const Result> result;
         std::exception_ptr error;
-        bool collapsed = false;  ///< somebody else's work
+        bool collapsed = false;  ///< the waiter joined a computation started by another
     };
     using OnComplete = std::function<void(const Completion&)>;
 
+    /// Identifies one waiter, for cancel().
     struct Ticket {
         std::string key;
-        std::uint64_t computation = 0;
-        std::uint64_t number = 0;
+        std::uint64_t computation = 0;  ///< number of the computation
+        std::uint64_t number = 0;       ///< number of the waiter
     };
 
-    /// Held while one looks for a kept result and boards when there is none. A flight that lands in
-    /// between is still boarded then: between look and board nothing is made twice.
+    /// Held by a caller from before it looks up a key in a cache until after its join(). A
+    /// computation that completes in between stays joinable, so that it is not repeated.
     class LookupGuard {
       public:
         explicit LookupGuard(SingleFlight& single_flight)
@@ -56,37 +59,39 @@ class SingleFlight {
         std::uint64_t number_;
     };
 
-    /// slots         where work is done
-    /// most_waiters  continuations that may wait in all
+    /// threads       pool that runs the work; outlives this object
+    /// most_waiters  greatest number of waiters of all computations
     SingleFlight(ThreadPool& threads, std::size_t most_waiters)
         : pool_(threads), most_waiters_(most_waiters) {}
 
-    /// Stops what is in the air and returns when it has ended; by then nobody may wait any more.
+    /// Requests all computations to stop and returns when they have ended.
+    ///
+    /// pre  no waiters are left
     ~SingleFlight() {
-        std::vector<std::shared_ptr<Computation>> single_flight;
+        std::vector<std::shared_ptr<Computation>> running;
         {
             const std::lock_guard lock(mutex_);
-            for (const auto& [key, computation] : single_flight_)
-                if (!computation->completed) single_flight.push_back(computation);
+            for (const auto& [key, computation] : computations_)
+                if (!computation->completed) running.push_back(computation);
         }
-        for (const auto& computation : single_flight) stop_computation(*computation);
+        for (const auto& computation : running) stop_computation(*computation);
         std::unique_lock lock(mutex_);
         ended_.wait(lock, [&] { return running_ == 0; });
     }
     SingleFlight(const SingleFlight&) = delete;
     SingleFlight& operator=(const SingleFlight&) = delete;
 
-    /// Waits for the flight of `key`; starts it with `work` when there is none. `then` is called
-    /// exactly once, on any thread, perhaps before this returns, and must not throw; unless cancel()
-    /// comes first.
+    /// Joins the computation of `key`, or starts one with `work`. `then` is called exactly once, on
+    /// any thread, perhaps before this returns, unless cancel() succeeds first; it must not throw.
     ///
-    /// returns  the seat; nothing, and `then` is not called, when queue or waiting room is full
+    /// returns  the ticket; nothing, and `then` is not called, if the queue or the list of waiters
+    ///          is full
     std::optional<Ticket> join(const std::string& key, Work work, OnComplete then) {
         std::shared_ptr<Computation> completed;
         {
             const std::lock_guard lock(mutex_);
-            const auto found = single_flight_.find(key);
-            if (found != single_flight_.end()) {
+            const auto found = computations_.find(key);
+            if (found != computations_.end()) {
                 Computation& computation = *found->second;
                 if (!computation.completed) {
                     if (waiters_ >= most_waiters_) return std::nullopt;
@@ -104,7 +109,7 @@ class SingleFlight {
                 if (!ticket) return std::nullopt;
                 computation->ticket = *ticket;
                 ++running_;
-                single_flight_.emplace(key, computation);
+                computations_.emplace(key, computation);
                 return add_waiter(*computation, std::move(then), false);
             }
         }
@@ -112,16 +117,16 @@ class SingleFlight {
         return Ticket{key, completed->number, 0};
     }
 
-    /// Gives a seat up; when it was the last, the work is stopped and its result not waited for.
+    /// Removes a waiter. The work is requested to stop when its last waiter is removed.
     ///
-    /// returns  false when `then` has been called, or is about to be
+    /// returns  false if `then` has been called or is about to be
     bool cancel(const Ticket& ticket) {
-        std::shared_ptr<Computation> empty;
+        std::shared_ptr<Computation> abandoned;
         OnComplete then;  // destroyed outside the lock
         {
             const std::lock_guard lock(mutex_);
-            const auto found = single_flight_.find(ticket.key);
-            if (found == single_flight_.end() || found->second->number != ticket.computation)
+            const auto found = computations_.find(ticket.key);
+            if (found == computations_.end() || found->second->number != ticket.computation)
                 return false;
             Computation& computation = *found->second;
             const auto waiter = computation.waiters.find(ticket.number);
@@ -130,27 +135,27 @@ class SingleFlight {
             computation.waiters.erase(waiter);
             --waiters_;
             if (computation.waiters.empty()) {
-                empty = found->second;
-                single_flight_.erase(found);
+                abandoned = found->second;
+                computations_.erase(found);
             }
         }
-        if (empty) stop_computation(*empty);
+        if (abandoned) stop_computation(*abandoned);
         return true;
     }
 
-    /// Whether a flight of this key may be boarded without a new one.
+    /// Returns true if join() of this key would not start a computation.
     [[nodiscard]] bool is_in_flight(const std::string& key) const {
         const std::lock_guard lock(mutex_);
-        return single_flight_.contains(key);
+        return computations_.contains(key);
     }
 
-    /// Keys in the air.
+    /// Returns the number of computations that have not completed.
     [[nodiscard]] std::size_t in_flight() const {
         const std::lock_guard lock(mutex_);
-        return single_flight_.size() - completed_.size();
+        return computations_.size() - completed_.size();
     }
 
-    /// Continuations that wait.
+    /// Returns the number of waiters.
     [[nodiscard]] std::size_t waiters() const {
         const std::lock_guard lock(mutex_);
         return waiters_;
@@ -180,7 +185,7 @@ class SingleFlight {
         return {computation.key, computation.number, number};
     }
 
-    /// Takes a flight out of the queue, or asks the running one to stop.
+    /// Withdraws a computation from the queue, or requests a running one to stop.
     void stop_computation(Computation& computation) {
         computation.stop.request_stop();
         if (pool_.withdraw(computation.ticket)) has_ended();
@@ -212,9 +217,9 @@ class SingleFlight {
         std::map<std::uint64_t, Waiter> waiters;
         {
             const std::lock_guard lock(mutex_);
-            const auto found = single_flight_.find(computation->key);
-            if (found == single_flight_.end() || found->second != computation)
-                return;  // all have left
+            const auto found = computations_.find(computation->key);
+            if (found == computations_.end() || found->second != computation)
+                return;  // all waiters have cancelled
             waiters.swap(computation->waiters);
             waiters_ -= waiters.size();
             if (result && !lookup_guards_.empty()) {
@@ -222,7 +227,7 @@ class SingleFlight {
                 computation->result = result;
                 completed_.emplace(++last_number_, computation->key);
             } else {
-                single_flight_.erase(found);
+                computations_.erase(found);
             }
         }
         for (auto& [number, waiter] : waiters) waiter.then({result, error, waiter.collapsed});
@@ -238,12 +243,13 @@ class SingleFlight {
         std::vector<std::shared_ptr<Computation>> over;  // destroyed outside the lock
         const std::lock_guard lock(mutex_);
         lookup_guards_.erase(number);
-        // Whoever glances now began after these had landed, and found what they kept.
+        // All lookups still open began after these computations completed, hence after their
+        // results were cached.
         while (!completed_.empty() &&
                (lookup_guards_.empty() || completed_.begin()->first < *lookup_guards_.begin())) {
-            const auto found = single_flight_.find(completed_.begin()->second);
+            const auto found = computations_.find(completed_.begin()->second);
             over.push_back(std::move(found->second));
-            single_flight_.erase(found);
+            computations_.erase(found);
             completed_.erase(completed_.begin());
         }
     }
@@ -251,11 +257,12 @@ class SingleFlight {
     ThreadPool& pool_;
     std::size_t most_waiters_;
     mutable std::mutex mutex_;
-    std::unordered_map<std::string, std::shared_ptr<Computation>> single_flight_;
-    std::map<std::uint64_t, std::string> completed_;  ///< when, key; kept for open glances
+    std::unordered_map<std::string, std::shared_ptr<Computation>> computations_;
+    /// sequence number and key of completed computations that open lookups may still join
+    std::map<std::uint64_t, std::string> completed_;
     std::set<std::uint64_t> lookup_guards_;
     std::size_t waiters_ = 0;
-    std::size_t running_ = 0;  ///< tasks in the slots, those that nobody waits for included
+    std::size_t running_ = 0;  ///< tasks in the pool, including those without waiters
     std::condition_variable ended_;
     std::uint64_t last_number_ = 0;
 };

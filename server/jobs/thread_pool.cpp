@@ -9,19 +9,20 @@
 
 namespace sporeprint::server {
 
-/// Pieces of one task; whoever has time takes the next. The span is the caller's and is not touched
-/// once every piece has ended.
+/// The subtasks of one task; each helping thread takes the next one. The span belongs to the caller
+/// and is not read after the last subtask has ended.
 struct ThreadPool::Batch {
-    explicit Batch(std::span<const std::function<void()>> the_pieces)
-        : pieces(the_pieces), count(the_pieces.size()), unfinished(the_pieces.size()) {}
+    explicit Batch(std::span<const std::function<void()>> the_subtasks)
+        : subtasks(the_subtasks), count(the_subtasks.size()), unfinished(the_subtasks.size()) {}
 
+    /// Runs subtasks until none is left to begin.
     void help() {
         for (;;) {
-            const std::size_t mine = next.fetch_add(1);
-            if (mine >= count) return;
+            const std::size_t index = next.fetch_add(1);
+            if (index >= count) return;
             std::exception_ptr failure;
             try {
-                pieces[mine]();
+                subtasks[index]();
             } catch (...) {
                 failure = std::current_exception();
             }
@@ -31,13 +32,16 @@ struct ThreadPool::Batch {
         }
     }
 
+    /// Returns when all subtasks have ended.
+    ///
+    /// throws  the exception of the first that failed
     void wait() {
         std::unique_lock lock(mutex);
         done.wait(lock, [&] { return unfinished == 0; });
         if (error) std::rethrow_exception(error);
     }
 
-    const std::span<const std::function<void()>> pieces;
+    const std::span<const std::function<void()>> subtasks;
     const std::size_t count;
     std::atomic<std::size_t> next{0};
     std::mutex mutex;
@@ -49,7 +53,7 @@ struct ThreadPool::Batch {
 ThreadPool::ThreadPool(std::size_t count, std::size_t longest_queue)
     : longest_queue_(longest_queue) {
     count = std::max<std::size_t>(count, 1);
-    idle_ = count;  // those about to start count as idle: they take the first tasks
+    idle_ = count;  // threads about to start count as idle: they take the first tasks
     threads_.reserve(count);
     for (std::size_t i = 0; i < count; ++i) threads_.emplace_back([this] { work(); });
 }
@@ -87,15 +91,15 @@ bool ThreadPool::withdraw(Ticket ticket) {
     return true;
 }
 
-void ThreadPool::share(std::span<const std::function<void()>> pieces) {
-    if (pieces.empty()) return;
-    const auto batch = std::make_shared<Batch>(pieces);
+void ThreadPool::share(std::span<const std::function<void()>> subtasks) {
+    if (subtasks.empty()) return;
+    const auto batch = std::make_shared<Batch>(subtasks);
     std::size_t helpers = 0;
-    if (pieces.size() > 1) {
+    if (subtasks.size() > 1) {
         const std::lock_guard lock(mutex_);
-        const std::size_t claimed = queue_.size() + offers_.size();
-        helpers = std::min(pieces.size() - 1, idle_ > claimed ? idle_ - claimed : 0);
-        offers_.insert(offers_.end(), helpers, batch);
+        const std::size_t claimed = queue_.size() + batches_.size();
+        helpers = std::min(subtasks.size() - 1, idle_ > claimed ? idle_ - claimed : 0);
+        batches_.insert(batches_.end(), helpers, batch);
     }
     for (std::size_t i = 0; i < helpers; ++i) wake_.notify_one();
     batch->help();
@@ -116,10 +120,10 @@ void ThreadPool::work() {
     lower_thread_priority();
     std::unique_lock lock(mutex_);
     for (;;) {
-        wake_.wait(lock, [&] { return stopping_ || !offers_.empty() || !queue_.empty(); });
-        if (!offers_.empty()) {  // what has begun comes first
-            const std::shared_ptr<Batch> batch = std::move(offers_.front());
-            offers_.pop_front();
+        wake_.wait(lock, [&] { return stopping_ || !batches_.empty() || !queue_.empty(); });
+        if (!batches_.empty()) {  // subtasks of begun tasks precede new tasks
+            const std::shared_ptr<Batch> batch = std::move(batches_.front());
+            batches_.pop_front();
             --idle_;
             lock.unlock();
             batch->help();
@@ -129,7 +133,7 @@ void ThreadPool::work() {
             --idle_;
             lock.unlock();
             run();
-            run = nullptr;  // what it holds is released outside the lock
+            run = nullptr;  // its captures are destroyed outside the lock
         } else {
             return;
         }

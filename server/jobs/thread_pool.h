@@ -1,5 +1,5 @@
-// The compute slots: as many threads as the machine grants, a bounded queue before them, and idle
-// ones lent to whoever is already running.
+// A thread pool for CPU-bound work: a fixed number of threads, a bounded queue, and subtasks of
+// running tasks on idle threads.
 #pragma once
 
 #include <condition_variable>
@@ -17,36 +17,37 @@
 
 namespace sporeprint::server {
 
+/// Runs tasks in the order of submission. Thread-safe.
 class ThreadPool {
   public:
     using Ticket = std::uint64_t;
 
     /// count          threads, at least 1
-    /// longest_queue  tasks that may wait when no thread is idle
+    /// longest_queue  tasks that may wait while no thread is idle
     ThreadPool(std::size_t count, std::size_t longest_queue);
 
-    /// Drops what waits and returns when what runs has ended.
+    /// Drops queued tasks and returns when the running ones have ended.
     ~ThreadPool();
     ThreadPool(const ThreadPool&) = delete;
     ThreadPool& operator=(const ThreadPool&) = delete;
 
-    /// Puts a task at the end of the queue. It must not throw.
+    /// Appends a task to the queue. It must not throw.
     ///
-    /// returns  its ticket; nothing when the queue is full
+    /// returns  its ticket; nothing if the queue is full
     std::optional<Ticket> submit(std::function<void()> task);
 
-    /// Takes a task back. Returns whether it had not begun; then it never will.
+    /// Removes a task from the queue. Returns false if it has begun already.
     bool withdraw(Ticket ticket);
 
-    /// Runs pieces of one task, on idle slots too when there are any; the caller does its part, so
-    /// this never waits for a slot to become free.
+    /// Runs subtasks of one task on the calling thread and on threads that are idle now. It never
+    /// waits for a busy thread.
     ///
-    /// throws  what the first failing piece threw, when all have ended
-    void share(std::span<const std::function<void()>> pieces);
+    /// throws  the exception of the first subtask that failed, after all have ended
+    void share(std::span<const std::function<void()>> subtasks);
 
     [[nodiscard]] std::size_t count() const { return threads_.size(); }
-    [[nodiscard]] std::size_t waiting() const;  ///< tasks in the queue
-    [[nodiscard]] std::size_t busy() const;     ///< threads at work
+    [[nodiscard]] std::size_t waiting() const;  ///< number of queued tasks
+    [[nodiscard]] std::size_t busy() const;     ///< number of threads that run tasks
     [[nodiscard]] std::size_t longest_queue() const { return longest_queue_; }
 
   private:
@@ -62,7 +63,7 @@ class ThreadPool {
     mutable std::mutex mutex_;
     std::condition_variable wake_;
     std::list<Task> queue_;
-    std::deque<std::shared_ptr<Batch>> offers_;
+    std::deque<std::shared_ptr<Batch>> batches_;  ///< one entry for each thread called to help
     std::size_t idle_ = 0;
     Ticket last_ticket_ = 0;
     bool stopping_ = false;

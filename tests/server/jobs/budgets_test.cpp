@@ -21,25 +21,26 @@ Address client(std::uint32_t number) {
 
 Budgets::Time at(nanoseconds time) { return Budgets::Time(1h + time); }
 
-TEST(Budgets, FillAtTheirRateAndSayWhenThereIsEnough) {
+TEST(Budgets, FillAtTheirRateAndReportTheTimeToWait) {
     Budgets budgets({.rate = 10, .burst = 100});
     EXPECT_EQ(budgets.spend(client(1), 60, at(0s)), 0us);
     EXPECT_EQ(budgets.spend(client(1), 50, at(0s)), 1s) << "ten are missing";
     EXPECT_EQ(budgets.spend(client(1), 40, at(0s)), 0us);
-    EXPECT_EQ(budgets.spend(client(2), 100, at(0s)), 0us) << "to each his own";
+    EXPECT_EQ(budgets.spend(client(2), 100, at(0s)), 0us) << "buckets are independent";
     EXPECT_EQ(budgets.spend(client(1), 1, at(0s)), 100ms);
     EXPECT_EQ(budgets.spend(client(1), 1, at(99'999'999ns)), 1us);
     EXPECT_EQ(budgets.spend(client(1), 1, at(100ms)), 0us);
-    EXPECT_EQ(budgets.spend(client(1), 100, at(1000h)), 0us) << "full, and no fuller";
+    EXPECT_EQ(budgets.spend(client(1), 100, at(1000h)), 0us)
+        << "a bucket never exceeds its capacity";
     EXPECT_EQ(budgets.spend(client(1), 1, at(1000h)), 100ms);
     EXPECT_EQ(budgets.spend(client(3), 0, at(1000h)), 0us);
-    EXPECT_EQ(budgets.clients(), 2u) << "who asks for nothing is nobody";
+    EXPECT_EQ(budgets.clients(), 2u) << "a request for no work adds no client";
 }
 
-TEST(Budgets, LetALargePieceThroughFullAndHaveItOwed) {
+TEST(Budgets, AdmitALargeJobWhenFullAndGoNegative) {
     Budgets budgets({.rate = 10, .burst = 100});
     EXPECT_EQ(budgets.spend(client(1), 1, at(0s)), 0us);
-    EXPECT_EQ(budgets.spend(client(1), 1000, at(0s)), 100ms) << "when it is full";
+    EXPECT_EQ(budgets.spend(client(1), 1000, at(0s)), 100ms) << "only when the bucket is full";
     EXPECT_EQ(budgets.spend(client(1), 1000, at(100ms)), 0us);
     EXPECT_EQ(budgets.spend(client(1), 1, at(100ms)), 90s + 100ms);
     EXPECT_EQ(budgets.spend(client(1), 100, at(100s + 99ms)), 1ms);
@@ -48,7 +49,7 @@ TEST(Budgets, LetALargePieceThroughFullAndHaveItOwed) {
     EXPECT_GT(budgets.spend(client(2), 1, at(1000h)), 1000h);
 }
 
-TEST(Budgets, TellWhatIsLeftAndWhenTheyAreFull) {
+TEST(Budgets, ReportTheirLevelAndTheTimeUntilFull) {
     Budgets budgets({.rate = 10, .burst = 100});
     EXPECT_EQ(budgets.level(client(1), at(0s)).work, 100u);
     EXPECT_EQ(budgets.level(client(1), at(0s)).until_full, 0us);
@@ -58,28 +59,29 @@ TEST(Budgets, TellWhatIsLeftAndWhenTheyAreFull) {
     EXPECT_EQ(budgets.level(client(1), at(2s)).work, 60u);
     EXPECT_EQ(budgets.level(client(1), at(2s)).until_full, 4s);
     EXPECT_EQ(budgets.level(client(1), at(60s)).work, 100u);
-    EXPECT_EQ(budgets.level(client(2), at(60s)).work, 100u) << "to each his own";
+    EXPECT_EQ(budgets.level(client(2), at(60s)).work, 100u) << "buckets are independent";
     EXPECT_EQ(budgets.spend(client(1), 1000, at(60s)), 0us);
-    EXPECT_EQ(budgets.level(client(1), at(60s)).work, 0u) << "it owes";
+    EXPECT_EQ(budgets.level(client(1), at(60s)).work, 0u) << "its level is negative";
     EXPECT_EQ(budgets.level(client(1), at(60s)).until_full, 100s);
 }
 
-TEST(Budgets, GiveBackWhatWasNotBegunAndNoMore) {
+TEST(Budgets, ReturnTheCostOfWorkNotBegunUpToFull) {
     Budgets budgets({.rate = 10, .burst = 100});
     EXPECT_EQ(budgets.spend(client(1), 70, at(0s)), 0us);
     budgets.give_back(client(1), 70, at(0s));
     EXPECT_EQ(budgets.spend(client(1), 100, at(0s)), 0us);
     budgets.give_back(client(1), 70, at(5s));
-    EXPECT_EQ(budgets.spend(client(1), 101, at(5s)), 0us) << "fifty have come meanwhile: full";
-    EXPECT_EQ(budgets.spend(client(1), 1, at(5s)), 200ms) << "one is owed";
+    EXPECT_EQ(budgets.spend(client(1), 101, at(5s)), 0us) << "fifty have flowed in meanwhile: full";
+    EXPECT_EQ(budgets.spend(client(1), 1, at(5s)), 200ms) << "the level is -1";
     budgets.give_back(client(9), 5, at(5s));
     EXPECT_EQ(budgets.clients(), 1u);
 }
 
-TEST(Budgets, WhatIsDoneAlreadyIsOwed) {
+TEST(Budgets, ChargeWorkAlreadyDoneBelowZero) {
     Budgets budgets({.rate = 10, .burst = 100});
     budgets.owe(client(1), 130, at(0s));
-    EXPECT_EQ(budgets.spend(client(1), 0, at(0s)), 3s) << "nothing at all while it owes";
+    EXPECT_EQ(budgets.spend(client(1), 0, at(0s)), 3s)
+        << "not even zero work while the level is negative";
     EXPECT_EQ(budgets.spend(client(1), 20, at(0s)), 5s);
     EXPECT_EQ(budgets.spend(client(1), 20, at(5s)), 0us);
     budgets.owe(client(2), 0, at(5s));
@@ -88,7 +90,7 @@ TEST(Budgets, WhatIsDoneAlreadyIsOwed) {
     EXPECT_GT(budgets.spend(client(3), 0, at(1000h)), 0us) << "without an overflow";
 }
 
-TEST(Budgets, RememberSoManyClientsAndForgetWhoIsFullFirst) {
+TEST(Budgets, EvictTheClientWhoseBucketIsFullFirst) {
     Budgets budgets({.rate = 1, .burst = 100, .most_clients = 10});
     EXPECT_EQ(budgets.spend(client(1000), 100, at(0s)), 0us);
     for (std::uint32_t i = 0; i < 5000; ++i) {
@@ -96,15 +98,15 @@ TEST(Budgets, RememberSoManyClientsAndForgetWhoIsFullFirst) {
         EXPECT_LE(budgets.clients(), 10u);
     }
     EXPECT_GT(budgets.spend(client(1000), 100, at(5s)), 94s)
-        << "a flood of small clients does not wash the large one's debt away";
+        << "many small clients do not evict the one with a negative level";
 }
 
-/// A bucket counted another way: with fractions, by one who sees every step.
-RC_GTEST_PROP(Budgets, NeverSpendOverTheirRateAndRefuseNobodyWhoHasEnough, ()) {
+/// Compares with a reference bucket that is updated at every step.
+RC_GTEST_PROP(Budgets, NeverExceedTheirRateAndRefuseOnlyWhenTooLow, ()) {
     const auto rate = *rc::gen::inRange<std::uint64_t>(1, 2'000'000);
     const auto burst = *rc::gen::inRange<std::uint64_t>(1, 3'000'000);
     Budgets budgets({.rate = rate, .burst = burst});
-    // In units of work / 1,000,000, exactly: 128 bits are more than such a day takes.
+    // In millionths of work, exactly; 64 bits suffice for these ranges.
     const auto full = static_cast<std::int64_t>(burst) * 1'000'000;
     std::int64_t level = full, now = 0;
     std::uint64_t spent = 0, largest = 0;
@@ -132,16 +134,16 @@ RC_GTEST_PROP(Budgets, NeverSpendOverTheirRateAndRefuseNobodyWhoHasEnough, ()) {
     }
 }
 
-TEST(Budgets, LoseNothingInAMillionSteps) {
+TEST(Budgets, LoseNothingToRounding) {
     Budgets budgets({.rate = 3, .burst = 1});
-    // A third of a second a piece, asked for each third of a millisecond, never on a whole one.
+    // One unit takes a third of a second; it is requested every third of a millisecond.
     int granted = 0;
     for (int i = 0; i <= 300'000; ++i)
         if (budgets.spend(client(1), 1, at(nanoseconds(333'333) * i)) == 0us) ++granted;
     EXPECT_NEAR(granted, 1 + 3 * 100, 1);
 }
 
-TEST(Budgets, AreOneForAllThreads) {
+TEST(Budgets, AreSharedByAllThreads) {
     Budgets budgets({.rate = 1, .burst = 1000, .most_clients = 4});
     std::atomic<int> granted{0};
     {

@@ -16,8 +16,8 @@ namespace {
 using namespace std::chrono_literals;
 using Numbers = SingleFlight<int>;
 
-/// Waits for one landing.
-class Arrival {
+/// Records the completions of one waiter and waits for the first.
+class Recorder {
   public:
     Numbers::OnComplete then() {
         return [state = state_](const Numbers::Completion& completion) {
@@ -55,7 +55,7 @@ bool soon(Condition condition) {
     return false;
 }
 
-TEST(ThreadPool, RunEachTaskOnce) {
+TEST(ThreadPool, RunsEachTaskOnce) {
     std::atomic<int> ran{0};
     {
         ThreadPool pool(4, 1000);
@@ -65,7 +65,7 @@ TEST(ThreadPool, RunEachTaskOnce) {
     EXPECT_EQ(ran, 1000);
 }
 
-TEST(ThreadPool, RefuseWhatTheQueueCannotHold) {
+TEST(ThreadPool, RefusesTasksBeyondTheQueue) {
     ThreadPool pool(2, 3);
     std::counting_semaphore<> gate(0);
     std::vector<ThreadPool::Ticket> tickets;
@@ -84,24 +84,24 @@ TEST(ThreadPool, RefuseWhatTheQueueCannotHold) {
     gate.release(5);
 }
 
-TEST(ThreadPool, ShareWorkWithIdleThreads) {
+TEST(ThreadPool, SharesWorkWithIdleThreads) {
     ThreadPool pool(4, 8);
-    std::latch together(3);  // only passed when three threads are inside at once
+    std::latch together(3);  // passed only while three threads wait in it
     std::atomic<int> done{0};
     Numbers single_flight(pool, 8);
-    Arrival arrival;
+    Recorder recorder;
     ASSERT_TRUE(single_flight.join(
         "key",
         [&](std::stop_token) {
-            const std::vector<std::function<void()>> pieces(3, [&] {
+            const std::vector<std::function<void()>> subtasks(3, [&] {
                 together.arrive_and_wait();
                 ++done;
             });
-            pool.share(pieces);
+            pool.share(subtasks);
             return done.load();
         },
-        arrival.then()));
-    EXPECT_EQ(*arrival.wait().result, 3);
+        recorder.then()));
+    EXPECT_EQ(*recorder.wait().result, 3);
 }
 
 TEST(ThreadPool, ShareNeverWaitsForABusyThread) {
@@ -119,38 +119,38 @@ TEST(ThreadPool, ShareNeverWaitsForABusyThread) {
     EXPECT_EQ(done, 32);
 }
 
-TEST(ThreadPool, ShareThrowsWhatAPieceThrewWhenAllHaveEnded) {
+TEST(ThreadPool, ShareThrowsTheFirstExceptionAfterAllSubtasksHaveEnded) {
     ThreadPool pool(4, 8);
     std::atomic<int> ran{0};
-    std::vector<std::function<void()>> pieces(8, [&] { ++ran; });
-    pieces[3] = [&] {
+    std::vector<std::function<void()>> subtasks(8, [&] { ++ran; });
+    subtasks[3] = [&] {
         ++ran;
-        throw std::runtime_error("piece 3");
+        throw std::runtime_error("subtask 3");
     };
-    EXPECT_THROW(pool.share(pieces), std::runtime_error);
+    EXPECT_THROW(pool.share(subtasks), std::runtime_error);
     EXPECT_EQ(ran, 8);
     pool.share({});
 }
 
-TEST(SingleFlight, SixtyFourThreadsWithOneKeyMakeItOnce) {
+TEST(SingleFlight, SixtyFourThreadsWithOneKeyComputeItOnce) {
     ThreadPool pool(4, 64);
     Numbers single_flight(pool, 64);
-    std::atomic<int> generated{0};
+    std::atomic<int> computed{0};
     std::atomic<int> leaders{0};
     std::counting_semaphore<> gate(0);
     {
         std::vector<std::jthread> threads;
         for (int i = 0; i < 64; ++i)
             threads.emplace_back([&] {
-                Arrival arrival;
+                Recorder recorder;
                 ASSERT_TRUE(single_flight.join(
                     "key",
                     [&](std::stop_token) {
                         gate.acquire();
-                        return ++generated;
+                        return ++computed;
                     },
-                    arrival.then()));
-                const Numbers::Completion completion = arrival.wait();
+                    recorder.then()));
+                const Numbers::Completion completion = recorder.wait();
                 ASSERT_TRUE(completion.result);
                 EXPECT_EQ(*completion.result, 1);
                 if (!completion.collapsed) ++leaders;
@@ -158,21 +158,22 @@ TEST(SingleFlight, SixtyFourThreadsWithOneKeyMakeItOnce) {
         EXPECT_TRUE(soon([&] { return single_flight.waiters() == 64; }));
         gate.release();
     }
-    EXPECT_EQ(generated, 1);
+    EXPECT_EQ(computed, 1);
     EXPECT_EQ(leaders, 1);
     EXPECT_EQ(single_flight.in_flight(), 0u);
     EXPECT_EQ(single_flight.waiters(), 0u);
 }
 
-// Each thread looks for a kept value and boards when there is none: whatever the order, one key is
-// made once. Without Glance a thread that looked just before a landing would make it again.
-TEST(SingleFlight, BetweenLookAndBoardNothingIsMadeTwice) {
+// Each thread looks up a cached value and joins a computation if there is none: in any order each
+// key is computed once. Without LookupGuard a thread whose lookup came just before a completion
+// would compute it again.
+TEST(SingleFlight, LookupGuardPreventsASecondComputation) {
     ThreadPool pool(4, 1024);
     Numbers single_flight(pool, 1024);
     constexpr int keys = 200;
     std::mutex mutex;
     std::map<std::string, int> cached;
-    std::array<std::atomic<int>, keys> generated{};
+    std::array<std::atomic<int>, keys> computed{};
     std::vector<std::jthread> threads;
     for (unsigned thread = 0; thread < 16; ++thread)
         threads.emplace_back([&, thread] {
@@ -180,7 +181,7 @@ TEST(SingleFlight, BetweenLookAndBoardNothingIsMadeTwice) {
             for (int i = 0; i < 400; ++i) {
                 const auto which = static_cast<std::size_t>(random() % keys);
                 const std::string key = std::to_string(which);
-                Arrival arrival;
+                Recorder recorder;
                 {
                     const Numbers::LookupGuard lookup_guard(single_flight);
                     {
@@ -191,49 +192,49 @@ TEST(SingleFlight, BetweenLookAndBoardNothingIsMadeTwice) {
                     ASSERT_TRUE(single_flight.join(
                         key,
                         [&, key, which](std::stop_token) {
-                            ++generated[which];
+                            ++computed[which];
                             const std::lock_guard lock(mutex);
                             cached[key] = static_cast<int>(which);
                             return static_cast<int>(which);
                         },
-                        arrival.then()));
+                        recorder.then()));
                 }
-                EXPECT_EQ(*arrival.wait().result, static_cast<int>(which));
+                EXPECT_EQ(*recorder.wait().result, static_cast<int>(which));
             }
         });
     threads.clear();
-    for (const auto& count : generated) EXPECT_LE(count, 1);
+    for (const auto& count : computed) EXPECT_LE(count, 1);
     EXPECT_EQ(single_flight.in_flight(), 0u);
 }
 
-TEST(SingleFlight, AFailureReachesThoseWhoWaitAndIsNotKept) {
+TEST(SingleFlight, AnExceptionReachesAllWaitersAndIsNotCached) {
     ThreadPool pool(2, 8);
     Numbers single_flight(pool, 8);
     std::counting_semaphore<> gate(0);
     std::atomic<int> tries{0};
     const Numbers::Work work = [&](std::stop_token) -> int {
         gate.acquire();
-        if (++tries == 1) throw std::runtime_error("bad luck");
+        if (++tries == 1) throw std::runtime_error("failure");
         return 7;
     };
-    Arrival first, second;
+    Recorder first, second;
     const Numbers::LookupGuard lookup_guard(single_flight);
     ASSERT_TRUE(single_flight.join("key", work, first.then()));
     ASSERT_TRUE(single_flight.join("key", work, second.then()));
     gate.release();
-    for (Arrival* arrival : {&first, &second}) {
-        const Numbers::Completion completion = arrival->wait();
+    for (Recorder* recorder : {&first, &second}) {
+        const Numbers::Completion completion = recorder->wait();
         EXPECT_FALSE(completion.result);
         ASSERT_TRUE(completion.error);
         EXPECT_THROW(std::rethrow_exception(completion.error), std::runtime_error);
     }
-    Arrival third;
+    Recorder third;
     ASSERT_TRUE(single_flight.join("key", work, third.then()));
     gate.release();
     EXPECT_EQ(*third.wait().result, 7);
 }
 
-TEST(SingleFlight, WorkIsStoppedWhenTheLastWaiterLeaves) {
+TEST(SingleFlight, WorkIsStoppedWhenTheLastWaiterCancels) {
     ThreadPool pool(1, 8);
     Numbers single_flight(pool, 8);
     std::atomic<bool> stopped{false};
@@ -244,7 +245,7 @@ TEST(SingleFlight, WorkIsStoppedWhenTheLastWaiterLeaves) {
         stopped = true;
         return 0;
     };
-    Arrival first, second;
+    Recorder first, second;
     const auto one = single_flight.join("key", work, first.then());
     const auto two = single_flight.join("key", work, second.then());
     ASSERT_TRUE(one && two);
@@ -257,18 +258,18 @@ TEST(SingleFlight, WorkIsStoppedWhenTheLastWaiterLeaves) {
     EXPECT_TRUE(soon([&] { return stopped.load(); }));
     EXPECT_EQ(first.count() + second.count(), 0u);
 
-    // Nobody joins what was stopped: the next one starts anew.
-    Arrival third;
+    // A stopped computation cannot be joined: the next join starts another.
+    Recorder third;
     ASSERT_TRUE(single_flight.join(
         "key", [](std::stop_token) { return 5; }, third.then()));
     EXPECT_EQ(*third.wait().result, 5);
 }
 
-TEST(SingleFlight, WorkThatNobodyWaitsForLeavesTheQueue) {
+TEST(SingleFlight, WorkWithoutWaitersIsWithdrawnFromTheQueue) {
     ThreadPool pool(1, 1);
     Numbers single_flight(pool, 8);
     std::binary_semaphore gate(0), running(0);
-    Arrival first, second, third;
+    Recorder first, second, third;
     std::atomic<bool> second_ran{false};
     ASSERT_TRUE(single_flight.join(
         "first",
@@ -298,20 +299,21 @@ TEST(SingleFlight, WorkThatNobodyWaitsForLeavesTheQueue) {
     EXPECT_FALSE(second_ran);
 }
 
-TEST(SingleFlight, ARefusedFlightLeavesNothingBehind) {
+TEST(SingleFlight, ARefusedJoinHasNoEffect) {
     ThreadPool pool(1, 0);
     Numbers single_flight(pool, 2);
     std::binary_semaphore gate(0);
-    Arrival first, second, third, fourth;
+    Recorder first, second, third, fourth;
     const Numbers::Work work = [&](std::stop_token) {
         gate.acquire();
         return 1;
     };
     ASSERT_TRUE(single_flight.join("a", work, first.then()));
     ASSERT_TRUE(soon([&] { return pool.busy() == 1 && pool.waiting() == 0; }));
-    EXPECT_FALSE(single_flight.join("b", work, second.then())) << "no slot, no queue";
-    ASSERT_TRUE(single_flight.join("a", work, third.then())) << "joining costs no slot";
-    EXPECT_FALSE(single_flight.join("a", work, fourth.then())) << "the waiting room is full";
+    EXPECT_FALSE(single_flight.join("b", work, second.then()))
+        << "neither a thread nor the queue is free";
+    ASSERT_TRUE(single_flight.join("a", work, third.then())) << "joining occupies no thread";
+    EXPECT_FALSE(single_flight.join("a", work, fourth.then())) << "the list of waiters is full";
     EXPECT_EQ(single_flight.in_flight(), 1u);
     gate.release();
     EXPECT_EQ(*first.wait().result, 1);
@@ -319,17 +321,17 @@ TEST(SingleFlight, ARefusedFlightLeavesNothingBehind) {
     EXPECT_EQ(second.count() + fourth.count(), 0u);
 }
 
-TEST(SingleFlight, SurviveManyWhoComeAndGo) {
+TEST(SingleFlight, SurvivesManyJoinsAndCancellations) {
     ThreadPool pool(4, 16);
     Numbers single_flight(pool, 64);
-    std::atomic<int> completed{0}, refused{0}, left{0};
+    std::atomic<int> completed{0}, refused{0}, cancelled{0};
     std::vector<std::jthread> threads;
     for (unsigned thread = 0; thread < 16; ++thread)
         threads.emplace_back([&, thread] {
             std::minstd_rand random(thread + 1);
             for (int i = 0; i < 300; ++i) {
                 const int which = static_cast<int>(random() % 12);
-                Arrival arrival;
+                Recorder recorder;
                 std::optional<Numbers::Ticket> ticket;
                 {
                     const Numbers::LookupGuard lookup_guard(single_flight);
@@ -341,27 +343,27 @@ TEST(SingleFlight, SurviveManyWhoComeAndGo) {
                             if (which == 3) throw std::runtime_error("three");
                             return which;
                         },
-                        arrival.then());
+                        recorder.then());
                 }
                 if (!ticket) {
                     ++refused;
                     continue;
                 }
                 if (random() % 3 == 0 && single_flight.cancel(*ticket)) {
-                    ++left;
+                    ++cancelled;
                     continue;
                 }
-                const Numbers::Completion completion = arrival.wait();
+                const Numbers::Completion completion = recorder.wait();
                 EXPECT_EQ(completion.error != nullptr, which == 3);
                 if (completion.result) {
                     EXPECT_EQ(*completion.result, which);
                 }
-                EXPECT_EQ(arrival.count(), 1u);
+                EXPECT_EQ(recorder.count(), 1u);
                 ++completed;
             }
         });
     threads.clear();
-    EXPECT_EQ(completed + refused + left, 16 * 300);
+    EXPECT_EQ(completed + refused + cancelled, 16 * 300);
     EXPECT_TRUE(soon([&] { return single_flight.in_flight() == 0; }));
     EXPECT_EQ(single_flight.waiters(), 0u);
 }
