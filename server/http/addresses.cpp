@@ -28,7 +28,7 @@ bool is_port(std::string_view text) {
            std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; });
 }
 
-/// An address, perhaps with brackets and a port, as proxies write them.
+/// Parses an address as proxies write it: perhaps with brackets and a port.
 std::optional<Address> node_in(std::string_view text) {
     if (text.starts_with('[')) {
         const std::size_t end = text.find(']');
@@ -44,7 +44,7 @@ std::optional<Address> node_in(std::string_view text) {
     return address_in(has_port ? text.substr(0, colon) : text);
 }
 
-/// What the last part of `list` is; it is taken off, with the separator before it.
+/// Removes the last element of `list` and the separator before it, and returns the element.
 std::string_view take_last(std::string_view& list, char separator) {
     const std::size_t at = list.rfind(separator);
     const std::string_view last = at == std::string_view::npos ? list : list.substr(at + 1);
@@ -52,7 +52,7 @@ std::string_view take_last(std::string_view& list, char separator) {
     return trimmed(last);
 }
 
-/// The node of the `for` in one element of Forwarded; empty when there is none.
+/// Returns the node of the `for` parameter of one Forwarded element; empty if there is none.
 std::string_view forwarded_for(std::string_view element) {
     while (!element.empty()) {
         const std::string_view pair = take_last(element, ';');
@@ -153,7 +153,7 @@ Networks::Networks(std::string_view list) {
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
-bool Networks::contain(const Address& address) const {
+bool Networks::contains(const Address& address) const {
     return std::any_of(networks_.begin(), networks_.end(), [&](const Network& network) {
         const auto whole = static_cast<std::ptrdiff_t>(network.bits / 8);
         if (!std::equal(address.bytes.begin(), address.bytes.begin() + whole,
@@ -165,14 +165,14 @@ bool Networks::contain(const Address& address) const {
     });
 }
 
-Address Proxies::behind(const Address& peer, std::span<const api::Header> headers) const {
+Address Proxies::client_address(const Address& peer, std::span<const api::Header> headers) const {
     Address known = peer;
     const bool plain = header == ProxyHeader::x_forwarded_for;
     for (std::size_t i = headers.size(); i-- > 0;) {
         if (!same_token(headers[i].first, plain ? "X-Forwarded-For" : "Forwarded")) continue;
         std::string_view list = headers[i].second;
         while (!list.empty()) {
-            if (!trusted.contain(known)) return known;
+            if (!trusted.contains(known)) return known;
             const std::string_view element = take_last(list, ',');
             if (element.empty()) continue;
             const std::optional<Address> named = node_in(plain ? element : forwarded_for(element));

@@ -1,5 +1,4 @@
-// Addresses of clients: who is behind a connection, which proxies are believed, what counts as one
-// client.
+// Client addresses: parsing, trusted proxies, and the grouping of addresses into clients.
 #pragma once
 
 #include <sys/socket.h>
@@ -16,7 +15,7 @@
 
 namespace sporeprint::server {
 
-/// An address of the internet; one of IPv4 as ::ffff:a.b.c.d, so that each has one form.
+/// An IP address. IPv4 addresses are stored as ::ffff:a.b.c.d, so that each address has one form.
 struct Address {
     std::array<std::uint8_t, 16> bytes{};
 
@@ -25,40 +24,41 @@ struct Address {
     [[nodiscard]] bool is_v4() const;
 };
 
-/// "192.0.2.1" or "2001:db8::1", without port, brackets or zone; nothing for anything else.
+/// Parses "192.0.2.1" or "2001:db8::1", without port, brackets or zone; nothing for anything else.
 [[nodiscard]] std::optional<Address> address_in(std::string_view text);
 
-/// The address of a socket's other end; :: when it is of no such kind.
+/// Returns the address in a socket address; :: if it is neither IPv4 nor IPv6.
 [[nodiscard]] Address address_of(const sockaddr_storage& socket);
 
-/// As people write it: "192.0.2.1", "2001:db8::1".
+/// Formats an address: "192.0.2.1", "2001:db8::1".
 [[nodiscard]] std::string text_of(const Address& address);
 
-/// What counts as one client: an address of IPv4, the /64 of one of IPv6, all of which whoever has
-/// one can use.
+/// Returns the key under which an address is limited: an IPv4 address itself, or the /64 network of
+/// an IPv6 address, since a client usually controls a whole /64.
 [[nodiscard]] Address client_of(const Address& address);
 
-/// Networks, "10.0.0.0/8, 2001:db8::/32, 192.0.2.1".
+/// A list of CIDR blocks, "10.0.0.0/8, 2001:db8::/32, 192.0.2.1".
 class Networks {
   public:
     Networks() = default;
 
-    /// throws  InvalidInput with every part of the list that is no network, or has bits beyond its
-    ///         length
+    /// throws  InvalidInput with every element of the list that is not a network or has bits set
+    ///         beyond its prefix length
     explicit Networks(std::string_view list);
 
-    [[nodiscard]] bool contain(const Address& address) const;
+    /// Returns true if any of the networks contains the address.
+    [[nodiscard]] bool contains(const Address& address) const;
     [[nodiscard]] bool empty() const { return networks_.empty(); }
 
   private:
     struct Network {
         Address address;
-        int bits = 128;  ///< of the 128
+        int bits = 128;  ///< prefix length, of 128
     };
     std::vector<Network> networks_;
 };
 
-/// How proxies name those that they speak for.
+/// The header in which proxies report the address of their client.
 enum class ProxyHeader { x_forwarded_for, forwarded };
 
 constexpr const char* name(ProxyHeader header) {
@@ -71,21 +71,23 @@ constexpr const char* name(ProxyHeader header) {
     return nullptr;
 }
 
-/// Whom the network's proxies speak for.
+/// The trusted proxies, as CIDR blocks whose forwarding header is trusted.
 struct Proxies {
     Networks trusted;
     ProxyHeader header = ProxyHeader::x_forwarded_for;
 
-    /// Who has sent a request: the peer, or when that is a trusted proxy, whom it names; when that
-    /// is one too, whom that one names, and so on, from the right. What stands left of the first
-    /// that is not trusted is the client's own invention. A name that is no address ("unknown")
-    /// leaves the proxy that gave it. Only the one header is looked at: a proxy hands on the other
-    /// as the client has made it up.
+    /// Returns the address of the client that sent a request: the peer, or if the peer is a trusted
+    /// proxy, the last address in its forwarding header; if that is a trusted proxy too, the
+    /// address to its left, and so on. Addresses to the left of the first untrusted one may be
+    /// forged by the client and are ignored. An element that is not an address ("unknown") ends the
+    /// search at the proxy that wrote it. Only the configured header is read, since a proxy passes
+    /// the other one on as the client sent it.
     ///
-    /// cost    O(bytes of the headers); lists are cut at each comma, quoted or not, so that a quote
-    ///         which the client leaves open hides nothing that a proxy appends
+    /// cost    O(bytes of the headers); lists are split at each comma, quoted or not, so that an
+    ///         unclosed quote of the client hides nothing that a proxy appends
     /// source  [RFC7239]
-    [[nodiscard]] Address behind(const Address& peer, std::span<const api::Header> headers) const;
+    [[nodiscard]] Address client_address(const Address& peer,
+                                         std::span<const api::Header> headers) const;
 };
 
 }  // namespace sporeprint::server

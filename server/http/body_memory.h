@@ -1,5 +1,5 @@
-// The memory that request bodies take while they arrive and are worked on: in all, and for each
-// client. Used on one thread.
+// Accounting of the memory of request bodies, in total and per client, from their first byte until
+// the response is ready.
 #pragma once
 
 #include <cstddef>
@@ -9,21 +9,22 @@
 
 namespace sporeprint::server {
 
+/// Counts the bytes of request bodies. Used on one thread.
 class BodyMemory {
   public:
-    /// most            bytes of all bodies together
-    /// most_of_client  of those, of one client
+    /// most            limit for all bodies together, bytes
+    /// most_of_client  limit for the bodies of one client, bytes
     BodyMemory(std::size_t most, std::size_t most_of_client)
         : most_(most), most_of_client_(most_of_client) {}
 
-    /// Counts bytes that have arrived from a client; more than there is room for is counted too.
+    /// Counts bytes received from a client; bytes beyond the limits are counted too.
     void add(const Address& client, std::size_t bytes) {
         if (bytes == 0) return;
         of_client_[client] += bytes;
         bytes_ += bytes;
     }
 
-    /// Takes back bytes of an earlier add() for the same client.
+    /// Subtracts bytes of an earlier add() for the same client.
     void remove(const Address& client, std::size_t bytes) {
         if (bytes == 0) return;
         const auto found = of_client_.find(client);
@@ -39,23 +40,23 @@ class BodyMemory {
         return found == of_client_.end() ? 0 : found->second;
     }
 
-    /// Whether all bodies together take more than they may.
+    /// Returns true if all bodies together exceed their limit.
     [[nodiscard]] bool is_exceeded() const { return bytes_ > most_; }
 
-    /// Whether those of one client do.
+    /// Returns true if the bodies of one client exceed their limit.
     [[nodiscard]] bool is_exceeded_by(const Address& client) const {
         return bytes_of(client) > most_of_client_;
     }
 
-    /// Whether a client takes at least as much as the mean of all that take any.
-    [[nodiscard]] bool takes_much(const Address& client) const {
+    /// Returns true if a client takes at least the mean of all clients with bodies.
+    [[nodiscard]] bool takes_at_least_mean(const Address& client) const {
         return bytes_of(client) * of_client_.size() >= bytes_;
     }
 
   private:
     std::size_t most_, most_of_client_;
     std::size_t bytes_ = 0;
-    std::map<Address, std::size_t> of_client_;  ///< none is zero
+    std::map<Address, std::size_t> of_client_;  ///< bytes per client, never 0
 };
 
 }  // namespace sporeprint::server

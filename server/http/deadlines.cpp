@@ -16,27 +16,27 @@ std::int64_t Deadlines::tick_of(Clock::time_point time) const {
 }
 
 void Deadlines::link(Timed& one) {
-    one.tick_ = std::clamp(tick_of(one.deadline_), now_ + 1, now_ + threads - 1);
+    one.tick_ = std::clamp(tick_of(one.deadline_), now_ + 1, now_ + wheel_size - 1);
     next_ = std::min(next_, one.tick_);
-    one.link_after(lists_[static_cast<std::size_t>(one.tick_ % threads)]);
+    one.link_after(lists_[static_cast<std::size_t>(one.tick_ % wheel_size)]);
 }
 
 void Deadlines::set(Timed& one, Clock::time_point deadline) {
     one.deadline_ = deadline;
-    // Put off: its list is looked at sooner, and finds it a later one then.
+    // Postponed: expire() visits its list earlier and then moves it to a later one.
     if (one.next_ && one.tick_ <= tick_of(deadline)) return;
     one.unlink();
     link(one);
 }
 
 void Deadlines::expire(Clock::time_point now, const std::function<void(Timed&)>& late) {
-    // Rounded down: a tick is over when all its deadlines are.
+    // Rounded down: a tick has passed when all its deadlines have.
     const std::int64_t reached = now <= start_ ? 0 : (now - start_) / tick;
     if (reached < next_) return;
-    const std::int64_t first = std::max(next_, reached - threads + 1);
+    const std::int64_t first = std::max(next_, reached - wheel_size + 1);
     now_ = reached;
     for (std::int64_t at = first; at <= reached; ++at) {
-        Timed& list = lists_[static_cast<std::size_t>(at % threads)];
+        Timed& list = lists_[static_cast<std::size_t>(at % wheel_size)];
         for (Timed* one = list.next_; one != &list;) {
             Timed& here = *one;
             one = one->next_;
@@ -44,12 +44,12 @@ void Deadlines::expire(Clock::time_point now, const std::function<void(Timed&)>&
             if (here.deadline_ <= now)
                 here.link_after(expired_);
             else
-                link(here);  // at the front of a list: not met again
+                link(here);  // at the front of a list, so it is not visited again
         }
     }
     next_ = never;
-    for (std::int64_t at = now_ + 1; at < now_ + threads && next_ == never; ++at) {
-        const Timed& list = lists_[static_cast<std::size_t>(at % threads)];
+    for (std::int64_t at = now_ + 1; at < now_ + wheel_size && next_ == never; ++at) {
+        const Timed& list = lists_[static_cast<std::size_t>(at % wheel_size)];
         if (list.next_ != &list) next_ = at;
     }
     while (expired_.next_ != &expired_) {

@@ -1,5 +1,5 @@
-// Deadlines of thousands of connections on one thread: a wheel of lists, where putting a deadline
-// off costs nothing.
+// A timing wheel: deadlines of thousands of connections on one thread, in which postponing a
+// deadline costs O(1).
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@ namespace sporeprint::server {
 
 using Clock = std::chrono::steady_clock;
 
-/// What may have a deadline; taken off the wheel when it is destroyed.
+/// Base class of objects with a deadline. Its destructor removes it from the wheel.
 class Timed {
   public:
     Timed() = default;
@@ -39,14 +39,16 @@ class Timed {
     }
 
     Clock::time_point deadline_ = Clock::time_point::max();
-    Timed* next_ = nullptr;  ///< a ring with one sentinel; nullptr when on no list
+    Timed* next_ = nullptr;  ///< circular list with one sentinel; nullptr: in no list
     Timed* previous_ = nullptr;
-    std::int64_t tick_ = 0;  ///< whose list it is on: not later than the deadline's
+    std::int64_t tick_ = 0;  ///< tick of the list it is in; not later than that of the deadline
 };
 
+/// The timing wheel. Used on one thread.
 class Deadlines {
   public:
-    static constexpr std::chrono::milliseconds tick{16};  ///< how late one may be noticed
+    static constexpr std::chrono::milliseconds tick{
+        16};  ///< resolution: a deadline expires at most this late
 
     explicit Deadlines(Clock::time_point now);
     Deadlines(const Deadlines&) = delete;
@@ -54,27 +56,28 @@ class Deadlines {
 
     /// Sets or moves a deadline.
     ///
-    /// cost  O(1); a few instructions when it is put off
+    /// cost  O(1); a few instructions if the deadline is postponed
     void set(Timed& one, Clock::time_point deadline);
 
-    /// Calls `late` for each whose deadline has come; by then it has none. `late` may set, and may
-    /// destroy any.
+    /// Calls `late` for each object whose deadline has passed, after removing it from the wheel.
+    /// `late` may set deadlines and destroy objects.
     void expire(Clock::time_point now, const std::function<void(Timed&)>& late);
 
-    /// When expire() has something to do at the earliest; max() for never.
+    /// Returns the earliest time at which expire() may have work; max() if there are no deadlines.
     [[nodiscard]] Clock::time_point next() const;
 
   private:
-    static constexpr std::int64_t threads = 1024;  ///< later ones are looked at once in 16 s
+    static constexpr std::int64_t wheel_size =
+        1024;  ///< ticks; later deadlines are visited every 16 s
     static constexpr std::int64_t never = INT64_MAX;
 
     [[nodiscard]] std::int64_t tick_of(Clock::time_point time) const;
     void link(Timed& one);
 
     Clock::time_point start_;
-    std::int64_t now_ = 0;       ///< ticks before and with this one have been looked at
-    std::int64_t next_ = never;  ///< no list before this one has a member
-    std::array<Timed, threads> lists_;
+    std::int64_t now_ = 0;       ///< last tick that expire() has visited
+    std::int64_t next_ = never;  ///< lists of earlier ticks are empty
+    std::array<Timed, wheel_size> lists_;
     Timed expired_;
 };
 

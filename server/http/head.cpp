@@ -11,10 +11,10 @@ namespace {
 char lower(char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; }
 
 bool is_token(std::string_view text) {
-    constexpr std::string_view damage_spots = "!#$%&'*+-.^_`|~";
+    constexpr std::string_view punctuation = "!#$%&'*+-.^_`|~";
     return !text.empty() && std::all_of(text.begin(), text.end(), [&](char c) {
         return (c >= '0' && c <= '9') || (lower(c) >= 'a' && lower(c) <= 'z') ||
-               damage_spots.find(c) != std::string_view::npos;
+               punctuation.find(c) != std::string_view::npos;
     });
 }
 
@@ -24,7 +24,7 @@ std::string_view trimmed(std::string_view text) {
     return text;
 }
 
-/// Everything but control characters; tabs are spaces.
+/// Returns true if the text has no control characters other than tabs.
 bool is_field_value(std::string_view text) {
     return std::all_of(text.begin(), text.end(), [](char c) {
         const auto byte = static_cast<unsigned char>(c);
@@ -57,7 +57,8 @@ Scan too_long_uri(Scan scan) {
                    "the address is longer than " + std::to_string(longest_uri) + " bytes");
 }
 
-/// Method, target and version. Returns the version, empty when the line is not one.
+/// Splits a request line into method and target, and returns the version; empty if the line is
+/// malformed.
 std::string_view split_request_line(std::string_view line, Head& head) {
     const std::size_t first = line.find(' ');
     if (first == std::string_view::npos) return {};
@@ -68,8 +69,9 @@ std::string_view split_request_line(std::string_view line, Head& head) {
     return line.substr(second + 1);
 }
 
-/// What the headers say about the framing of body and connection; a sentence with a status when
-/// they contradict themselves or ask for what is not done.
+/// Reads the headers that frame the body and the connection.
+///
+/// returns  status and message if they are contradictory or unsupported; otherwise status 0
 std::pair<int, std::string> read_framing(Head& head) {
     for (const auto& [name, value] : head.headers) {
         if (same_token(name, "Transfer-Encoding"))

@@ -20,12 +20,13 @@ namespace sporeprint::server {
 
 namespace {
 
-/// Whether an answer of this kind has bytes after its head, and so a length.
+/// Returns true if a response of this kind has a Content-Length.
 bool has_length(const api::Response& response) {
     return response.has_body && response.status != 204 && response.status != 304;
 }
 
-/// The head of a request, to be read, and the head of its answer, to be sent.
+/// The stream of one request: the library reads the request head from it and writes the response
+/// head to it.
 class HeadStream final : public httplib::Stream {
   public:
     HeadStream(std::string_view in, std::string& out) : in_(in), out_(out) {}
@@ -51,8 +52,8 @@ class HeadStream final : public httplib::Stream {
     std::string& out_;
 };
 
-/// What the library's handlers serve on this thread; they are registered once.
-struct WorkerRequest {
+/// One call of send(). The handlers of the library are registered once and find it by `current`.
+struct CodecCall {
     const std::function<api::Response()>& make;
     const std::function<api::Response(int status)>& refuse;
     const std::function<bool()>& closing;
@@ -60,11 +61,11 @@ struct WorkerRequest {
     bool responded = false;
 };
 
-thread_local WorkerRequest* current = nullptr;
+thread_local CodecCall* current = nullptr;
 
-/// Replaces what the library has put in: no range is served here, lengths are our own.
-void write_headers(WorkerRequest& worker_request, httplib::Headers& headers) {
-    const api::Response& response = worker_request.sending.response;
+/// Replaces the headers set by the library: ranges are served elsewhere, and lengths are set here.
+void write_headers(CodecCall& call, httplib::Headers& headers) {
+    const api::Response& response = call.sending.response;
     const std::string keep_alive =
         headers.count("Keep-Alive") ? headers.find("Keep-Alive")->second : std::string();
     headers.clear();
@@ -85,8 +86,8 @@ void write_headers(WorkerRequest& worker_request, httplib::Headers& headers) {
     headers.emplace("Date", http_date());
     if (has_length(response))
         headers.emplace("Content-Length", std::to_string(size_of(response.body)));
-    worker_request.sending.closing = worker_request.closing();
-    if (worker_request.sending.closing)
+    call.sending.closing = call.closing();
+    if (call.sending.closing)
         headers.emplace("Connection", "close");
     else if (!keep_alive.empty())
         headers.emplace("Keep-Alive", keep_alive);
@@ -101,21 +102,21 @@ class HttpHeadCodec::Server final : public httplib::Server {
         set_keep_alive_timeout(std::max<std::time_t>(options.idle.count() / 1000, 1));
         set_keep_alive_max_count(options.most_requests);
         set_socket_options([](socket_t socket) {
-            const int yes = 1;  // and no SO_REUSEPORT: a second server must not share the port
+            const int yes = 1;  // without SO_REUSEPORT: a second server must not share the port
             setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
         });
         set_pre_routing_handler([](const httplib::Request&, httplib::Response& res) {
-            WorkerRequest& worker_request = *current;
-            worker_request.sending.response = worker_request.make();
-            worker_request.responded = true;
-            res.status = worker_request.sending.response.status;
+            CodecCall& call = *current;
+            call.sending.response = call.make();
+            call.responded = true;
+            res.status = call.sending.response.status;
             return HandlerResponse::Handled;
         });
         set_error_handler([](const httplib::Request&, httplib::Response& res) {
-            WorkerRequest& worker_request = *current;
-            if (!worker_request.responded) {
-                worker_request.sending.response = worker_request.refuse(res.status);
-                worker_request.responded = true;
+            CodecCall& call = *current;
+            if (!call.responded) {
+                call.sending.response = call.refuse(res.status);
+                call.responded = true;
             }
         });
         set_exception_handler([](const httplib::Request&, httplib::Response& res,
@@ -156,7 +157,7 @@ class HttpHeadCodec::Server final : public httplib::Server {
 
     [[nodiscard]] int socket() const { return svr_sock_; }
 
-    /// The library's seam: one request from one stream to another.
+    /// Processes one request by the library's protected entry point.
     void process(httplib::Stream& stream) {
         bool ignored = false;
         process_request(stream, false, ignored, [](httplib::Request& req) { req.ranges.clear(); });
@@ -185,8 +186,8 @@ Sending HttpHeadCodec::send(const std::string& request_line,
     const std::string in =
         (is_known ? request_line : "GET" + request_line.substr(method.size())) + "\r\n\r\n";
     HeadStream stream(in, sending.head);
-    WorkerRequest worker_request{make, refuse, closing, sending};
-    current = &worker_request;
+    CodecCall call{make, refuse, closing, sending};
+    current = &call;
     try {
         server_->process(stream);
     } catch (...) {
@@ -201,10 +202,10 @@ const std::string& http_date() {
     constexpr std::array<const char*, 7> days = {"Sun", "Mon", "Tue", "Wed", "Thu", "Fri", "Sat"};
     constexpr std::array<const char*, 12> months = {"Jan", "Feb", "Mar", "Apr", "May", "Jun",
                                                     "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"};
-    thread_local std::time_t generated = -1;
+    thread_local std::time_t formatted_at = -1;
     thread_local std::string date;
     const std::time_t now = std::time(nullptr);
-    if (now == generated) return date;
+    if (now == formatted_at) return date;
     std::tm utc{};
     gmtime_r(&now, &utc);
     std::array<char, 64> text{};
@@ -214,7 +215,7 @@ const std::string& http_date() {
                       months[static_cast<std::size_t>(utc.tm_mon)], utc.tm_year + 1900, utc.tm_hour,
                       utc.tm_min, utc.tm_sec);
     date.assign(text.data(), static_cast<std::size_t>(length));
-    generated = now;
+    formatted_at = now;
     return date;
 }
 

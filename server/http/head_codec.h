@@ -1,5 +1,5 @@
-// The library cpp-httplib without its loop: it binds, parses the request lines that `head` has
-// passed, and formats the heads of answers.
+// cpp-httplib without its event loop: it binds the listening socket, parses request lines that
+// scan_head() has accepted, and formats the heads of responses.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,15 @@
 
 namespace sporeprint::server {
 
-/// An answer on its way out.
+/// A response ready to be sent.
 struct Sending {
-    std::string head;  ///< ready to be sent; empty when none could be made
+    std::string head;  ///< status line and headers; empty if formatting failed
     api::Response response;
     bool with_body = true;
-    bool closing = false;  ///< whether the head says that the connection ends after this
+    bool closing = false;  ///< the head has "Connection: close"
 };
 
+/// Formats response heads and owns the listening socket.
 class HttpHeadCodec {
   public:
     explicit HttpHeadCodec(const TransportOptions& options);
@@ -26,21 +27,22 @@ class HttpHeadCodec {
     HttpHeadCodec(const HttpHeadCodec&) = delete;
     HttpHeadCodec& operator=(const HttpHeadCodec&) = delete;
 
-    /// Binds and listens; the socket does not block.
+    /// Binds and listens on a non-blocking socket.
     ///
-    /// throws  std::runtime_error, one sentence for a person
+    /// throws  std::runtime_error with a message for the operator
     void bind(const std::string& host, int port, int backlog);
 
     [[nodiscard]] int socket() const;  ///< -1 after close()
     void close();
 
-    /// One request on its way through the library; may be used on any thread.
+    /// Passes one request through the library and returns the formatted response. Thread-safe.
     ///
-    /// request_line  "GET /a HTTP/1.1"; a method that the library does not know is as good as GET,
-    ///               since only HEAD changes a head
-    /// make          the answer to a request that the library accepts
-    /// refuse        the answer with this status when it does not; the connection ends then
-    /// closing       asked last: whether the connection ends after this
+    /// request_line  "GET /a HTTP/1.1"; a method unknown to the library is treated as GET, since
+    ///               only HEAD changes the head of a response
+    /// make          returns the response to a request that the library accepts
+    /// refuse        returns the response with this status if the library does not accept the
+    ///               request; the connection is closed after it
+    /// closing       called last; returns true if the connection is closed after this response
     [[nodiscard]] Sending send(const std::string& request_line,
                                const std::function<api::Response()>& make,
                                const std::function<api::Response(int status)>& refuse,
@@ -51,7 +53,8 @@ class HttpHeadCodec {
     std::unique_ptr<Server> server_;
 };
 
-/// IMF-fixdate of now, "Sun, 06 Nov 1994 08:49:37 GMT"; made anew once in a second on each thread.
+/// Returns the current time as IMF-fixdate, "Sun, 06 Nov 1994 08:49:37 GMT"; formatted once per
+/// second and thread.
 [[nodiscard]] const std::string& http_date();
 
 }  // namespace sporeprint::server

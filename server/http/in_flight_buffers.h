@@ -1,4 +1,5 @@
-// What answers that wait for slow clients keep in memory: each piece is counted once, however many wait with it.
+// Accounting of the memory held by responses in flight to slow clients. Each buffer is counted
+// once, however many responses share it.
 #pragma once
 
 #include <cstddef>
@@ -7,33 +8,35 @@
 
 namespace sporeprint::server {
 
-/// A piece of memory, or of a file in memory, that an answer on its way holds.
+/// A buffer in memory, or in an in-memory file, held by a response in flight.
 struct HeldBuffer {
-    const void* owner = nullptr;  ///< the same for all that share it
+    const void* owner = nullptr;  ///< identity of the buffer
     std::size_t bytes = 0;
 };
 
+/// Counts the bytes of held buffers. Used on one thread.
 class InFlightBuffers {
   public:
-    void add(std::span<const HeldBuffer> pieces) {
-        for (const HeldBuffer& piece : pieces)
-            if (pieces_[piece.owner]++ == 0) bytes_ += piece.bytes;
+    /// Adds one reference to each buffer.
+    void add(std::span<const HeldBuffer> buffers) {
+        for (const HeldBuffer& buffer : buffers)
+            if (references_[buffer.owner]++ == 0) bytes_ += buffer.bytes;
     }
 
-    /// Takes back an add() of the same pieces.
-    void remove(std::span<const HeldBuffer> pieces) {
-        for (const HeldBuffer& piece : pieces) {
-            const auto found = pieces_.find(piece.owner);
+    /// Removes the references of an add() of the same buffers.
+    void remove(std::span<const HeldBuffer> buffers) {
+        for (const HeldBuffer& buffer : buffers) {
+            const auto found = references_.find(buffer.owner);
             if (--found->second > 0) continue;
-            pieces_.erase(found);
-            bytes_ -= piece.bytes;
+            references_.erase(found);
+            bytes_ -= buffer.bytes;
         }
     }
 
     [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
   private:
-    std::unordered_map<const void*, std::size_t> pieces_;  ///< how many wait with each
+    std::unordered_map<const void*, std::size_t> references_;  ///< responses per buffer
     std::size_t bytes_ = 0;
 };
 

@@ -55,12 +55,12 @@ Outgoing::Progress Outgoing::send(int socket) {
             return errno == EAGAIN ? Progress::blocked : Progress::failed;
         }
         sent_ += static_cast<std::uint64_t>(sent);
-        auto went = static_cast<std::size_t>(sent);
-        while (first_ < parts_.size() && went >= parts_[first_].iov_len)
-            went -= parts_[first_++].iov_len;
-        if (first_ < parts_.size() && went > 0) {
-            parts_[first_].iov_base = static_cast<char*>(parts_[first_].iov_base) + went;
-            parts_[first_].iov_len -= went;
+        auto written = static_cast<std::size_t>(sent);
+        while (first_ < parts_.size() && written >= parts_[first_].iov_len)
+            written -= parts_[first_++].iov_len;
+        if (first_ < parts_.size() && written > 0) {
+            parts_[first_].iov_base = static_cast<char*>(parts_[first_].iov_base) + written;
+            parts_[first_].iov_len -= written;
         }
     }
     while (file_ >= 0 && file_sent_ < file_size_) {

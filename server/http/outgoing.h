@@ -1,5 +1,5 @@
-// Bytes on their way into a socket that does not wait: pieces of memory that somebody keeps, and
-// perhaps a file, sent with as few calls as the socket takes them.
+// The output queue of a non-blocking socket: memory slices and perhaps a file, sent by
+// scatter-gather I/O with few system calls.
 #pragma once
 
 #include <sys/uio.h>
@@ -16,29 +16,32 @@
 
 namespace sporeprint::server {
 
+/// The bytes of one response that are still to be sent.
 class Outgoing {
   public:
+    /// `more`: the limit of one call is reached, and other connections come first; `blocked`: the
+    /// socket buffer is full.
     enum class Progress { done, more, blocked, failed };
 
-    /// Forgets what was there. What is added below must live as long as `keeper`.
+    /// Clears the queue. Memory and files added later must live as long as `keeper`.
     void begin(std::shared_ptr<const void> keeper);
 
     void add(const void* data, std::size_t size);
     void add(const Body& body);
 
-    /// All of a file, as the last; it is sent without being copied.
+    /// Adds a whole file as the last part; it is sent by sendfile().
     void add_file(int descriptor, std::size_t size);
 
-    /// Sends what the socket takes now; `more` when it took so much that others come first.
+    /// Sends as much as the socket accepts now, up to the limit of one call.
     Progress send(int socket);
 
-    /// Lets go of the memory; sent() stays.
+    /// Releases the memory; sent() stays valid.
     void end();
 
-    /// What it keeps in memory until end(), but for heads.
+    /// Returns the buffers held until end(), except heads.
     [[nodiscard]] const std::vector<HeldBuffer>& held() const { return held_; }
 
-    [[nodiscard]] std::uint64_t sent() const { return sent_; }    ///< bytes, since begin()
+    [[nodiscard]] std::uint64_t sent() const { return sent_; }    ///< bytes since begin()
     [[nodiscard]] std::uint64_t total() const { return total_; }  ///< bytes added
 
   private:

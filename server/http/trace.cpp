@@ -24,11 +24,11 @@ std::optional<Trace> trace_of(std::string_view text) {
         return std::nullopt;
     const std::string_view version = text.substr(0, 2);
     const Trace trace{text.substr(3, 32), text.substr(36, 16)};
-    const bool proper = is_hex(version) && is_hex(trace.trace_id) && is_hex(trace.parent_id) &&
-                        is_hex(text.substr(53, 2)) && !is_zero(trace.trace_id) &&
-                        !is_zero(trace.parent_id);
+    const bool valid = is_hex(version) && is_hex(trace.trace_id) && is_hex(trace.parent_id) &&
+                       is_hex(text.substr(53, 2)) && !is_zero(trace.trace_id) &&
+                       !is_zero(trace.parent_id);
     const bool ends = text.size() == length || (version != "00" && text[length] == '-');
-    return proper && ends && version != "ff" ? std::optional(trace) : std::nullopt;
+    return valid && ends && version != "ff" ? std::optional(trace) : std::nullopt;
 }
 
 std::optional<Trace> trace_in(std::span<const api::Header> headers) {

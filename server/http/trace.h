@@ -1,4 +1,4 @@
-// W3C Trace Context: which trace a request belongs to, so that its line in the log can be found from there.
+// W3C Trace Context: the trace that a request belongs to, by which its log line can be found.
 #pragma once
 
 #include <optional>
@@ -9,18 +9,21 @@
 
 namespace sporeprint::server {
 
+/// The identifiers of a traceparent header.
 struct Trace {
-    std::string_view trace_id;   ///< 32 of 0-9, a-f, not all 0
-    std::string_view parent_id;  ///< 16 likewise: the span that has asked
+    std::string_view trace_id;   ///< 32 digits 0-9, a-f, not all 0
+    std::string_view parent_id;  ///< 16 such digits: the span of the caller
 };
 
-/// What a traceparent says; nothing when it is malformed, of version ff, or of version 00 with more behind. Of later versions
-/// the parts that all have in common.
+/// Parses the value of a traceparent header; nothing if it is malformed, of version ff, or of
+/// version 00 with extra fields. Of later versions the fields common to all versions are read.
 ///
 /// source  W3C Trace Context, section 3.2
 [[nodiscard]] std::optional<Trace> trace_of(std::string_view traceparent);
 
-/// That of a request; nothing when it has none, or several. Points into the headers.
+/// Returns the trace of a request; nothing if it has no traceparent header or several.
+///
+/// returns  views into the headers
 [[nodiscard]] std::optional<Trace> trace_in(std::span<const api::Header> headers);
 
 }  // namespace sporeprint::server

@@ -52,7 +52,7 @@ void Workers::work() {
         queue_.pop_front();
         lock.unlock();
         task();
-        task = nullptr;  // what it held is let go outside the lock
+        task = nullptr;  // its captures are destroyed outside the lock
         lock.lock();
     }
 }

@@ -1,4 +1,4 @@
-// A few threads that do what takes more than a moment, so that the reactor never does.
+// A small thread pool for request handlers, so that they never block the reactor.
 #pragma once
 
 #include <condition_variable>
@@ -11,26 +11,27 @@
 
 namespace sporeprint::server {
 
+/// Runs tasks in the order of submission. Thread-safe.
 class Workers {
   public:
     /// count    threads, at least 1
-    /// longest  tasks that may wait when offered
+    /// longest  queue length from which offer() refuses tasks
     Workers(std::size_t count, std::size_t longest);
 
-    /// Returns when every task has been done.
+    /// Returns when all queued tasks have run.
     ~Workers();
     Workers(const Workers&) = delete;
     Workers& operator=(const Workers&) = delete;
 
-    /// Puts a task at the end of the queue. It must not throw.
+    /// Appends a task to the queue. It must not throw.
     ///
-    /// returns  false when the queue is full: the task will not be done
+    /// returns  false if the queue is full; the task will not run
     [[nodiscard]] bool offer(std::function<void()> task);
 
-    /// The same for what has been begun and must go on: never refused.
+    /// Appends a task that continues a request already begun; it is never refused.
     void post(std::function<void()> task);
 
-    [[nodiscard]] std::size_t waiting() const;  ///< tasks in the queue
+    [[nodiscard]] std::size_t waiting() const;  ///< number of queued tasks
 
   private:
     void work();

@@ -10,11 +10,11 @@ namespace {
 
 const std::string xff = "X-Forwarded-For", fwd = "Forwarded";
 
-std::string behind(const std::string& peer, const std::vector<api::Header>& headers,
+std::string client_address(const std::string& peer, const std::vector<api::Header>& headers,
                    ProxyHeader header = ProxyHeader::x_forwarded_for,
                    const std::string& trusted = "10.0.0.0/8, 2001:db8:f::/48") {
     const Proxies proxies{Networks(trusted), header};
-    return text_of(proxies.behind(address_in(peer).value(), headers));
+    return text_of(proxies.client_address(address_in(peer).value(), headers));
 }
 
 rc::Gen<Address> any_address() {
@@ -81,7 +81,7 @@ RC_GTEST_PROP(Networks, HoldWhatBeginsAsTheyDo, ()) {
     for (const Address& one : {address, other, near}) {
         bool same = true;
         for (int i = 0; i < first + length; ++i) same = same && bit(one, i) == bit(network, i);
-        RC_ASSERT(networks.contain(one) == same);
+        RC_ASSERT(networks.contains(one) == same);
     }
 }
 
@@ -99,35 +99,35 @@ TEST(Networks, AreRefusedByName) {
         EXPECT_EQ(invalid.problems()[1].message, "'1.2.3.4/40' has a length outside 0..32");
     }
     EXPECT_TRUE(Networks("").empty());
-    EXPECT_FALSE(Networks("").contain(*address_in("127.0.0.1")));
-    EXPECT_TRUE(Networks("0.0.0.0/0").contain(*address_in("9.9.9.9")));
-    EXPECT_FALSE(Networks("0.0.0.0/0").contain(*address_in("2001:db8::1")));
+    EXPECT_FALSE(Networks("").contains(*address_in("127.0.0.1")));
+    EXPECT_TRUE(Networks("0.0.0.0/0").contains(*address_in("9.9.9.9")));
+    EXPECT_FALSE(Networks("0.0.0.0/0").contains(*address_in("2001:db8::1")));
 }
 
 TEST(Proxies, AreBelievedFromTheRightAsFarAsTheyAreTrusted) {
-    EXPECT_EQ(behind("192.0.2.1", {{xff, "10.0.0.9"}}), "192.0.2.1") << "a stranger's word";
-    EXPECT_EQ(behind("10.0.0.1", {}), "10.0.0.1");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "203.0.113.7"}}), "203.0.113.7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "127.0.0.1, 8.8.8.8, 203.0.113.7"}}), "203.0.113.7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "8.8.8.8, 203.0.113.7,10.2.3.4 ,\t10.9.9.9"}}),
+    EXPECT_EQ(client_address("192.0.2.1", {{xff, "10.0.0.9"}}), "192.0.2.1") << "a stranger's word";
+    EXPECT_EQ(client_address("10.0.0.1", {}), "10.0.0.1");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7"}}), "203.0.113.7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "127.0.0.1, 8.8.8.8, 203.0.113.7"}}), "203.0.113.7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "8.8.8.8, 203.0.113.7,10.2.3.4 ,\t10.9.9.9"}}),
               "203.0.113.7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "8.8.8.8"}, {"x-forwarded-FOR", "203.0.113.7"}}),
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "8.8.8.8"}, {"x-forwarded-FOR", "203.0.113.7"}}),
               "203.0.113.7")
         << "the last line was added last";
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "203.0.113.7, 10.1.1.1"}, {xff, "10.2.2.2"}}),
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7, 10.1.1.1"}, {xff, "10.2.2.2"}}),
               "203.0.113.7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "10.1.1.1, 10.2.2.2"}}), "10.1.1.1") << "all are proxies";
-    EXPECT_EQ(behind("2001:db8:f::1", {{xff, "2001:db8::7"}}), "2001:db8::7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "[2001:db8::7]:4711"}}), "2001:db8::7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "203.0.113.7:4711"}}), "203.0.113.7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "::ffff:203.0.113.7"}}), "203.0.113.7");
-    EXPECT_EQ(behind("10.0.0.1", {{xff, "203.0.113.7,, ,"}}), "203.0.113.7") << "empty elements";
-    EXPECT_EQ(behind("10.0.0.1", {{fwd, "for=203.0.113.7"}}), "10.0.0.1") << "the other header";
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "10.1.1.1, 10.2.2.2"}}), "10.1.1.1") << "all are proxies";
+    EXPECT_EQ(client_address("2001:db8:f::1", {{xff, "2001:db8::7"}}), "2001:db8::7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "[2001:db8::7]:4711"}}), "2001:db8::7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7:4711"}}), "203.0.113.7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "::ffff:203.0.113.7"}}), "203.0.113.7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7,, ,"}}), "203.0.113.7") << "empty elements";
+    EXPECT_EQ(client_address("10.0.0.1", {{fwd, "for=203.0.113.7"}}), "10.0.0.1") << "the other header";
     for (const char* nonsense :
          {"unknown", "_hidden", "1.2.3.4:99999999", "[1.2.3.4]", "[::1", "::1]",
           "1.2.3.4:", "1.2.3.4 5.6.7.8", "for=1.2.3.4", "\"1.2.3.4\"", "%31.2.3.4", "10.0.0.0/8"}) {
-        EXPECT_EQ(behind("10.0.0.1", {{xff, nonsense}}), "10.0.0.1") << nonsense;
-        EXPECT_EQ(behind("10.0.0.1", {{xff, "9.9.9.9, " + std::string(nonsense) + ", 10.3.3.3"}}),
+        EXPECT_EQ(client_address("10.0.0.1", {{xff, nonsense}}), "10.0.0.1") << nonsense;
+        EXPECT_EQ(client_address("10.0.0.1", {{xff, "9.9.9.9, " + std::string(nonsense) + ", 10.3.3.3"}}),
                   "10.3.3.3")
             << nonsense << ": the proxy that has handed it on";
     }
@@ -135,7 +135,7 @@ TEST(Proxies, AreBelievedFromTheRightAsFarAsTheyAreTrusted) {
 
 TEST(Proxies, OfTheOtherKindAreReadByTheirOwnHeader) {
     const auto of = [](const std::string& value) {
-        return behind("10.0.0.1", {{fwd, value}, {xff, "6.6.6.6"}}, ProxyHeader::forwarded);
+        return client_address("10.0.0.1", {{fwd, value}, {xff, "6.6.6.6"}}, ProxyHeader::forwarded);
     };
     EXPECT_EQ(of("for=192.0.2.60;proto=http;by=203.0.113.43"), "192.0.2.60");
     EXPECT_EQ(of("by=9.9.9.9; FOR=\"[2001:db8:cafe::17]:4711\""), "2001:db8:cafe::17");
@@ -153,7 +153,7 @@ RC_GTEST_PROP(Proxies, CannotBeTalkedInto, ()) {
     const auto invented = *rc::gen::container<std::string>(rc::gen::elementOf(alphabet));
     const Address client = *any_address();
     const Networks trusted("10.0.0.0/8, 2001:db8:f::/48");
-    RC_PRE(!trusted.contain(client));
+    RC_PRE(!trusted.contains(client));
     const bool plain = *rc::gen::arbitrary<bool>(), own_line = *rc::gen::arbitrary<bool>();
     const int hops = *rc::gen::inRange(0, 4);
     std::string added = text_of(client);
@@ -168,8 +168,8 @@ RC_GTEST_PROP(Proxies, CannotBeTalkedInto, ()) {
         headers[0].second += "," + added;
     headers.emplace_back(plain ? fwd : xff, invented);
     const Proxies proxies{trusted, plain ? ProxyHeader::x_forwarded_for : ProxyHeader::forwarded};
-    RC_ASSERT(proxies.behind(*address_in("10.9.9.9"), headers) == client);
-    RC_ASSERT(proxies.behind(client, headers) == client);
+    RC_ASSERT(proxies.client_address(*address_in("10.9.9.9"), headers) == client);
+    RC_ASSERT(proxies.client_address(client, headers) == client);
 }
 
 }  // namespace
