@@ -56,7 +56,7 @@ test("the colony bench offers every species, every parameter of the schema, and 
     assert.equal((await counts(page)).drawCalls, made + 1, "roots with their stems, and one node each");
     // A control shows what the species brings.
     assert.equal(Number(await number(page, "field_scale").inputValue()), Number(effective.field_scale.toPrecision(3)));
-    await page.screenshot({ path: path.join(folder, "colony_bench.png") });
+    await page.screenshot({ path: path.join(folder, "colony_editor.png") });
     quiet(heard);
 });
 
@@ -167,7 +167,7 @@ test("who asks for fewer individuals by keys is told how many of them were made"
     for (let i = 0; i < 3; ++i) await slider.press("ArrowLeft");
     await ready(page);
     assert.equal(parameters(page).count, "21");
-    assert.equal((await page.evaluate(() => window.sporeprint.made)).asked, 21);
+    assert.equal((await page.evaluate(() => window.sporeprint.made)).requested, 21);
     quiet(heard);
 });
 

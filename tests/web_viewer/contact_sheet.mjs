@@ -178,7 +178,7 @@ async function ownSheet() {
                 facts = await page.evaluate(() => {
                     const { size, counts, made } = window.sporeprint;
                     const cm = (metres) => (metres * 100).toFixed(1);
-                    return `${cm(size.height)} x ${cm(Math.max(size.width, size.depth))} cm, ${counts.triangles} tri${made ? `, ${made.made} of ${made.asked}` : ""}`;
+                    return `${cm(size.height)} x ${cm(Math.max(size.width, size.depth))} cm, ${counts.triangles} tri${made ? `, ${made.made} of ${made.requested}` : ""}`;
                 });
             } catch (error) {
                 broken += 1;

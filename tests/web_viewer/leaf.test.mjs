@@ -50,7 +50,7 @@ test("the leaf bench offers every preset and every parameter of the schema", asy
     // A control shows what the preset brings.
     assert.equal(await page.locator('input[type=number][name="venation.nodes"]').inputValue(), "5");
     assert.equal(await page.locator('input[type=color][name="summer.inner"]').inputValue(), "#3e6826");
-    await page.screenshot({ path: path.join(folder, "leaf_bench.png") });
+    await page.screenshot({ path: path.join(folder, "leaf_editor.png") });
     quiet(heard);
 });
 

@@ -52,7 +52,7 @@ test("the tree bench offers every preset, every parameter of the schema, and the
     const { matrix } = await (await fetch(`${base}/v1/trees/broadleaf.json?lod=2`)).json();
     const cells = await page.locator("#matrix td input").evaluateAll((all) => all.map((one) => Number(one.value)));
     assert.deepEqual(cells, matrix.flat().map((share) => Number(share.toFixed(4))));
-    await page.screenshot({ path: path.join(folder, "tree_bench.png") });
+    await page.screenshot({ path: path.join(folder, "tree_editor.png") });
     quiet(heard);
 });
 

@@ -1,9 +1,10 @@
 // Keeps the stage equal to the settings: rough models while something is dragged, the chosen one
 // after it, never two at a time, and the old one until the new one is ready.
 import type { Object3D } from "three";
-import { getJson, getModel, RequestFailed, type Answer, type Progress } from "./http";
+import { getJson, getModel, RequestFailed, type Answer } from "./http";
 import { parseModel } from "./model";
 import type { Paint } from "./paint";
+import type { LoadProgress } from "./progress_box";
 import type { Settings, Wanted } from "./settings";
 
 export interface Grown {
@@ -26,7 +27,7 @@ export interface Resource {
 }
 
 export interface GrowerEvents {
-    progress: (progress: Progress | { stage: "unpacking" } | { stage: "idle" }) => void;
+    progress: (progress: LoadProgress) => void;
     /** Puts the model on the stage; `current` says whether it is still wanted. */
     show: (grown: Grown, refit: boolean, current: () => boolean) => Promise<boolean>;
     effective: (resource: Resource) => void;

@@ -6,14 +6,16 @@ import { getJson } from "./http";
 export interface Product {
     /** "mushroom": what one of them is called. */
     noun: string;
+    /** Its link in the navigation. */
+    label: string;
     /** What its parameters are about. */
     whole: string;
     /** What names one of its list: "species", also in the page's query. */
     kind: string;
     /** Where the service grows it, relative to the page: it may stand under a prefix. */
     path: string;
-    /** Whether two of them have something between them, and a growth. */
-    lives: boolean;
+    /** Two of them can be mixed in the morph editor. */
+    canMorph: boolean;
     /** Whether it is of a species of the atlas or a mix of them. */
     ofSpecies: boolean;
     /** The views that its buttons offer. */
@@ -36,10 +38,11 @@ interface Preset {
 
 export const mushrooms: Product = {
     noun: "mushroom",
+    label: "Species",
     whole: "individual",
     kind: "species",
     path: "v1/mushrooms",
-    lives: true,
+    canMorph: true,
     ofSpecies: true,
     views: viewNames,
     directions: standing,
@@ -52,10 +55,11 @@ export const mushrooms: Product = {
 /** Many of a species or mix; the list shows one of each. */
 export const colonies: Product = {
     noun: "colony",
+    label: "Colonies",
     whole: "colony",
     kind: "colony",
     path: "v1/colonies",
-    lives: false,
+    canMorph: false,
     ofSpecies: true,
     views: [...viewNames, "roots"],
     directions: spread,
@@ -67,10 +71,11 @@ export const colonies: Product = {
 
 export const leaves: Product = {
     noun: "leaf",
+    label: "Leaves",
     whole: "individual",
     kind: "leaf",
     path: "v1/leaves",
-    lives: false,
+    canMorph: false,
     ofSpecies: false,
     views: viewNames,
     directions: lying,
@@ -82,10 +87,11 @@ export const leaves: Product = {
 
 export const trees: Product = {
     noun: "tree",
+    label: "Trees",
     whole: "individual",
     kind: "tree",
     path: "v1/trees",
-    lives: false,
+    canMorph: false,
     ofSpecies: false,
     views: viewNames,
     directions: standing,
@@ -95,7 +101,8 @@ export const trees: Product = {
     list: async () => listed((await getJson<{ trees: Preset[] }>("v1/trees")).trees),
 };
 
-export const products: readonly Product[] = [mushrooms, leaves, trees, colonies];
+/** All products, in the order of their links. */
+export const products: readonly Product[] = [mushrooms, colonies, leaves, trees];
 
 async function listSpecies(): Promise<Species[]> {
     return (await getJson<{ species: Species[] }>("v1/species")).species;

@@ -11,6 +11,7 @@ import { boundsOf, disposeModel, parseModel } from "./model";
 import { letterOf } from "./pad";
 import { words } from "./schema";
 import type { Settings } from "./settings";
+import { announce } from "./status_line";
 import { Studio } from "./studio";
 import { controlShape, varietyLayout } from "./weights";
 
@@ -37,7 +38,6 @@ interface Made extends Plan {
 export interface SheetEvents {
     /** The sheet was opened or closed. */
     changed: (kind: SheetKind | undefined) => void;
-    say: (text: string) => void;
     save: (blob: Blob, name: string) => void;
 }
 
@@ -225,7 +225,7 @@ export class Sheet {
     private finished(): void {
         const bytes = this.made.reduce((sum, { bytes: part }) => sum + part.byteLength, 0);
         this.progress(undefined, `${this.made.length} mushrooms, ${kilobytes(bytes)}`);
-        this.events.say(`Sheet of ${this.made.length} mushrooms is drawn`);
+        announce(`Sheet of ${this.made.length} mushrooms is drawn`);
         this.buttons(true);
     }
 

@@ -1,8 +1,11 @@
 // Takes the gallery's pictures: small models, one after the other, on one renderer off the page.
 // They are kept in Cache Storage under the model's ETag, so that a second visit draws nothing.
 import type { Directions } from "./camera";
+import type { Species } from "./gallery";
 import { getModel, send, type Answer } from "./http";
 import { disposeModel, parseModel } from "./model";
+import { mushrooms } from "./products";
+import type { Settings } from "./settings";
 import { Studio } from "./studio";
 
 const cacheName = "sporeprint-thumbnails-1";
@@ -43,6 +46,25 @@ async function photograph(studio: Studio, { bytes, response }: Answer, direction
     });
     disposeModel(model);
     return picture;
+}
+
+/** Returns the small models whose pictures the gallery shows. */
+export function galleryModels(
+    settings: Settings,
+    species: readonly Species[],
+): { id: string; address: string }[] {
+    const lod = settings.field("lod");
+    const size = settings.field("texture_size")?.options.find((side) => Number(side) >= 256);
+    const query = [
+        ...(lod ? [`lod=${Math.min(2, lod.max ?? 0)}`] : []),
+        ...(size !== undefined ? [`texture_size=${size}`] : []),
+    ].join("&");
+    // A product made of species shows one mushroom of each.
+    const path = settings.product.ofSpecies ? mushrooms.path : settings.product.path;
+    return species.map(({ id }) => ({
+        id,
+        address: `${path}/${id}.glb${query ? `?${query}` : ""}`,
+    }));
 }
 
 /** Makes or finds the picture of each model in turn; `done` gets an address for an <img>. */

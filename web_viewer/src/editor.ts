@@ -1,5 +1,5 @@
-// The morph bench: two to five species, a point or a slider between them, and for two of them the graph of
-// correspondence between their outlines. It changes `settings.morph`; main.ts grows what that says.
+// The morph editor: two to five species, a point or a slider between them, and for two of them the graph of
+// correspondence between their outlines. It changes `settings.morph`; page.ts requests the model.
 import { crossing, matched, mostArcs, rounded, widestGap, type Arc, type CurveName } from "./arcs";
 import { byId, make } from "./dom";
 import type { Species } from "./gallery";
@@ -10,21 +10,21 @@ import { fewestMembers, mostMembers, reweighted, thousandths, type Share } from 
 import { letterOf, Pad } from "./pad";
 import type { Settings } from "./settings";
 import { words } from "./schema";
+import { announce } from "./status_line";
 
-export interface BenchEvents {
+export interface MorphEditorEvents {
     /** The morph is being changed: a rough model soon. */
     moving: () => void;
     /** It was let go; `name` is what was changed. */
     moved: (name: string) => void;
     /** Another set of species. */
     chosen: () => void;
-    say: (text: string) => void;
 }
 
 /** How long a key must rest before the whole model is asked for. */
 const keyRestMs = 350;
 
-export class Bench {
+export class MorphEditor {
     private readonly pad: Pad;
     private readonly graph: Graph;
     private readonly slider = make("input", {
@@ -42,7 +42,7 @@ export class Bench {
     constructor(
         private readonly settings: Settings,
         private readonly species: readonly Species[],
-        private readonly events: BenchEvents,
+        private readonly events: MorphEditorEvents,
     ) {
         this.pad = new Pad({
             moving: (weights) => this.weigh(weights, false),
@@ -76,7 +76,7 @@ export class Bench {
         // On a narrow page the graph follows the weights, so that the mushroom stays in sight.
         const narrow = matchMedia("(max-width: 900px)");
         const place = (): void => {
-            if (narrow.matches) byId("bench").after(byId("graph"));
+            if (narrow.matches) byId("editor").after(byId("graph"));
             else document.querySelector("main")?.append(byId("graph"));
         };
         narrow.addEventListener("change", place);
@@ -92,12 +92,12 @@ export class Bench {
         const kept = shares.filter((share) => share.id !== id);
         if (kept.length === shares.length) {
             if (shares[0] && this.familyOf(id) !== this.familyOf(shares[0].id)) {
-                return this.events.say(`A morph needs one family: ${this.nameOf(id)} is ${this.familyOf(id)}, ${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`);
+                return announce(`A morph needs one family: ${this.nameOf(id)} is ${this.familyOf(id)}, ${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`);
             }
-            if (shares.length >= mostMembers) return this.events.say(`A morph has at most ${mostMembers} species: take one off first`);
+            if (shares.length >= mostMembers) return announce(`A morph has at most ${mostMembers} species: take one off first`);
             this.choose([...shares, { id, weight: 0 }]);
         } else {
-            if (kept.length < fewestMembers) return this.events.say(`A morph needs ${fewestMembers} species: choose another one first`);
+            if (kept.length < fewestMembers) return announce(`A morph needs ${fewestMembers} species: choose another one first`);
             this.choose(kept);
         }
     }
@@ -111,7 +111,7 @@ export class Bench {
             const kin = next && (!chosen[0] || this.familyOf(next.id) === this.familyOf(chosen[0].id));
             if (kin && !chosen.some(({ id }) => id === next.id)) chosen.push({ id: next.id, weight: 0 });
         }
-        if (chosen.length < fewestMembers) return this.events.say("This server has too few species for a morph");
+        if (chosen.length < fewestMembers) return announce("This server has too few species for a morph");
         const alone = chosen.length === fewestMembers && shares.length < fewestMembers;
         this.choose(alone ? chosen.map(({ id }) => ({ id, weight: 0.5 })) : chosen);
     }
@@ -119,7 +119,7 @@ export class Bench {
     /** Brings everything to the settings. */
     show(): void {
         const morph = this.settings.morph;
-        byId("bench").hidden = !morph;
+        byId("editor").hidden = !morph;
         byId("graph").hidden = !this.hasGraph();
         this.history.begin(morph?.arcs ?? []);
         this.selected = undefined;
@@ -260,7 +260,7 @@ export class Bench {
             const percent = Number(entry.value);
             const shares = this.settings.morph?.shares ?? [];
             if (entry.value === "" || !(percent >= 0 && percent <= 100)) {
-                this.events.say(`A share is between 0 and 100 %`);
+                announce(`A share is between 0 and 100 %`);
                 return this.showWeights();
             }
             this.weigh(reweighted(shares, index, percent / 100).map(({ weight }) => weight), true);
@@ -377,7 +377,7 @@ export class Bench {
         this.selected = arcs.length;
         this.commit([...arcs, { curve: gap.curve, a, b: free ? guided : rounded(gap.b) }]);
         this.graph.focusEnd(arcs.length);
-        this.events.say(`Arc ${arcs.length + 1} added on the ${gap.curve}`);
+        announce(`Arc ${arcs.length + 1} added on the ${gap.curve}`);
     }
 
     private removeArc(): void {
@@ -386,7 +386,7 @@ export class Bench {
         if (index === undefined || !arcs[index]) return;
         this.selected = undefined;
         this.commit(arcs.filter((_, at) => at !== index));
-        this.events.say(`Arc ${index + 1} removed`);
+        announce(`Arc ${index + 1} removed`);
         this.buttons.add.focus();
     }
 

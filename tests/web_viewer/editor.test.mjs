@@ -82,14 +82,14 @@ test("the bench opens with two species, takes up to five, and gives the way back
     await page.locator(`#gallery button[data-species="${sixth.id}"]`).click();
     assert.match(await page.locator("#status").textContent(), /at most 5/);
     assert.equal(Object.keys(shares(page)).length, 5);
-    await page.screenshot({ path: path.join(folder, "bench.png") });
+    await page.screenshot({ path: path.join(folder, "editor.png") });
     assert.equal(parameters(page).get("seed"), "3", "what was set stays");
     await page.goBack();
     await ready(page);
     assert.equal(Object.keys(shares(page)).length, 4);
     await page.locator("#mode-species").click();
     await ready(page);
-    assert.ok(parameters(page).has("species") && await page.locator("#bench").isHidden());
+    assert.ok(parameters(page).has("species") && await page.locator("#editor").isHidden());
     quiet(heard);
 });
 
@@ -163,7 +163,7 @@ test("the canonical mix is what is copied, and those bytes are what is downloade
 test("what a bench address gets wrong is said in words", async (t) => {
     const { page, heard } = await open(t, `?morph=${a}:0.5,amanita_unicornis:0.5`);
     assert.match(await page.locator("#problem").textContent(), /'amanita_unicornis' is no species here/);
-    assert.ok(await page.locator("#bench").isHidden());
+    assert.ok(await page.locator("#editor").isHidden());
     quiet(heard);
 });
 
@@ -174,7 +174,7 @@ test("both outlines stand side by side with their arcs, and own arcs are added, 
     assert.equal(await page.locator(".drawing .given .arc").count(), given.length);
     assert.equal(await page.locator(".drawing .body").count(), 2);
     assert.match(await page.locator("#graph-state").textContent(), /proven not to fold/);
-    await page.screenshot({ path: path.join(folder, "bench-graph.png") });
+    await page.screenshot({ path: path.join(folder, "editor-graph.png") });
 
     await page.locator("#graph-tools button", { hasText: "Add arc" }).click();
     await ready(page);
@@ -249,7 +249,7 @@ test("an arc that crosses is red and crossed out, with the service's own sentenc
     assert.equal(await page.locator(".drawing .refused .mark").first().isVisible(), true, "not by colour alone");
     assert.ok(await page.locator("#problem").isHidden(), "it is said once, beside the arcs");
     assert.ok((await page.evaluate(() => window.sporeprint.counts)).triangles > 100);
-    await page.screenshot({ path: path.join(folder, "bench-refused.png") });
+    await page.screenshot({ path: path.join(folder, "editor-refused.png") });
     await page.getByRole("button", { name: "Undo" }).click();
     await ready(page);
     assert.deepEqual(await arcs(page), ["accepted", "accepted"]);
@@ -360,7 +360,7 @@ test("a variety sheet of five shapes has 25 morphs, as a picture and as one clea
     await page.evaluate(() => window.sporeprint.ready());
     assert.equal(parameters(page).get("sheet"), "variety");
     assert.match(await page.locator("#sheet-state").textContent(), /^25 mushrooms/);
-    await page.screenshot({ path: path.join(folder, "bench-sheet.png") });
+    await page.screenshot({ path: path.join(folder, "editor-sheet.png") });
     const [picture] = await Promise.all([page.waitForEvent("download"), page.locator("#sheet-png").click()]);
     assert.match(picture.suggestedFilename(), /^variety-.*\.png$/);
     const png = await readFile(await picture.path());
@@ -424,8 +424,8 @@ test("a window 390 pixels wide has the whole bench and no sideways scrolling", a
         }));
         assert.ok(wide <= 390, `the page is ${wide} pixels wide`);
         assert.deepEqual(over, []);
-        await page.screenshot({ path: path.join(folder, `bench-phone-${name}.png`) });
-        await page.screenshot({ path: path.join(folder, `bench-phone-${name}-whole.png`), fullPage: true });
+        await page.screenshot({ path: path.join(folder, `editor-phone-${name}.png`) });
+        await page.screenshot({ path: path.join(folder, `editor-phone-${name}-whole.png`), fullPage: true });
         quiet(heard);
     }
 });

@@ -1,7 +1,7 @@
 // Growth on the stage: plays the clip of a model from button to decay, or poses it at one age.
 import { AnimationMixer, LoopOnce, type AnimationAction, type Object3D } from "three";
 
-export interface GrowthEvents {
+export interface GrowthClipEvents {
     /** The model has another shape now: draw it. */
     posed: (age: number) => void;
     /** It grew to its end. */
@@ -11,14 +11,14 @@ export interface GrowthEvents {
 /** The clip that `animation=growth` puts into a file; its time runs evenly with age. */
 const clipName = "growth";
 
-export class Growth {
+export class GrowthClip {
     private mixer: AnimationMixer | undefined;
     private action: AnimationAction | undefined;
     private seconds = 0;
     private age_: number | undefined;
     private run = 0;
 
-    constructor(private readonly events: GrowthEvents) {}
+    constructor(private readonly events: GrowthClipEvents) {}
 
     /** Whether the model on the stage can grow. */
     get ready(): boolean {

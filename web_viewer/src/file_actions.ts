@@ -1,0 +1,77 @@
+// The buttons that take the shown model away: download, copied URL, copied curl command.
+import { byId, make } from "./dom";
+import type { Grown } from "./grower";
+import { announce } from "./status_line";
+
+/** Time after which the memory of a saved file is freed: the download has begun by then. */
+const revokeMs = 10_000;
+
+/** Saves bytes as a file of the person's. */
+export function saveFile(blob: Blob, name: string): void {
+    const address = URL.createObjectURL(blob);
+    make("a", { href: address, download: name }).click();
+    setTimeout(() => URL.revokeObjectURL(address), revokeMs);
+    announce(`${name} saved`);
+}
+
+/** Copies a text; without the permission to do so it shows the text for copying by hand. */
+async function copy(text: string, label: string): Promise<void> {
+    try {
+        await navigator.clipboard.writeText(text);
+        announce(`${label} copied`);
+    } catch {
+        prompt(label, text);
+    }
+}
+
+/** Returns the absolute canonical URL of a model. */
+function canonicalUrl({ answer, wanted }: Grown): string {
+    const { headers } = answer.response;
+    return new URL(headers.get("content-location") ?? wanted.address, location.href).href;
+}
+
+export class FileActions {
+    private shown: Grown | undefined;
+
+    /** `noun` names files that the server gave no name. */
+    constructor(private readonly noun: string) {
+        byId("download").addEventListener("click", () => {
+            if (!this.shown) return;
+            const blob = new Blob([this.shown.answer.bytes], { type: "model/gltf-binary" });
+            saveFile(blob, this.fileName(this.shown));
+        });
+        byId("copy-url").addEventListener("click", () => {
+            if (this.shown) void copy(canonicalUrl(this.shown), "URL");
+        });
+        byId("copy-curl").addEventListener("click", () => {
+            if (this.shown) void copy(this.curlCommand(this.shown), "curl command");
+        });
+    }
+
+    /** Lets the buttons act on this model; drafts cannot be taken away. */
+    show(grown: Grown): void {
+        this.shown = grown;
+        const { answer, draft, wanted } = grown;
+        for (const id of ["download", "copy-url", "copy-curl"]) {
+            byId<HTMLButtonElement>(id).disabled = draft;
+        }
+        if (wanted.body !== undefined) {
+            // Arcs and rows are sent in a body: a URL exists only if the server names one.
+            byId<HTMLButtonElement>("copy-url").disabled =
+                !answer.response.headers.has("content-location");
+        }
+    }
+
+    private curlCommand(grown: Grown): string {
+        const { answer, wanted } = grown;
+        const posted =
+            wanted.body !== undefined && !answer.response.headers.has("content-location");
+        const data = posted ? ` -H 'Content-Type: application/json' -d '${wanted.body}'` : "";
+        return `curl -o '${this.fileName(grown)}'${data} '${canonicalUrl(grown)}'`;
+    }
+
+    private fileName({ answer }: Grown): string {
+        const disposition = answer.response.headers.get("content-disposition") ?? "";
+        return /filename="([\w.-]+)"/.exec(disposition)?.[1] ?? `${this.noun}.glb`;
+    }
+}

@@ -1,0 +1,42 @@
+// The list of numbers about the shown model: size, counts, and how the server served it.
+import { byId, grouped, kilobytes, make } from "./dom";
+import type { Grown } from "./grower";
+import { countsOf } from "./model";
+
+/** Returns the durations of a Server-Timing header: ["grow 12.3", ...], milliseconds. */
+function timingsOf(header: string): string[] {
+    return header.split(",").flatMap((part) => {
+        const [name, ...rest] = part.trim().split(";");
+        const duration = rest
+            .map((item) => /^\s*dur=([\d.]+)/.exec(item)?.[1])
+            .find(Boolean);
+        return name && duration ? [`${name} ${Number(duration).toFixed(1)}`] : [];
+    });
+}
+
+/** Shows the numbers of a model. */
+export function showNumbers(grown: Grown): void {
+    const { response, bytes, source } = grown.answer;
+    const counts = countsOf(grown.model);
+    const header = (name: string): string | undefined => response.headers.get(name) ?? undefined;
+    const origin = {
+        server: "",
+        browser: ", from this browser’s cache",
+        confirmed: ", unchanged since (304)",
+    }[source];
+    const rows: [string, string | undefined][] = [
+        ["File", kilobytes(bytes.byteLength)],
+        ["Triangles", grouped(counts.triangles)],
+        ["Vertices", grouped(counts.vertices)],
+        ["Draw calls", String(counts.drawCalls)],
+        ["Images", String(counts.textures)],
+        ["Status", `${response.status}${origin}`],
+        ["Cache", header("cache-status")],
+        ["Server ms", timingsOf(header("server-timing") ?? "").join(" · ") || undefined],
+    ];
+    const entries = rows.flatMap(([name, value]) =>
+        value === undefined ? [] : [make("dt", {}, name), make("dd", {}, value)],
+    );
+    byId("number-list").replaceChildren(...entries);
+    byId("numbers").classList.toggle("draft", grown.draft);
+}

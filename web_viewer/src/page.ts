@@ -1,0 +1,353 @@
+// The page of one product: passes events between the parts, each of which knows the settings but
+// none of the other parts.
+import { AddressBar } from "./address_bar";
+import type { ViewName } from "./camera";
+import { Controls } from "./controls";
+import { byId, grouped, kilobytes } from "./dom";
+import { MorphEditor } from "./editor";
+import { FileActions, saveFile } from "./file_actions";
+import { acceptFiles, inspectFile } from "./file_drop";
+import { Gallery, type Species } from "./gallery";
+import { connectSearch } from "./gallery_search";
+import { Grower, type Grown, type Resource } from "./grower";
+import { GrowthPlayer, restMs } from "./growth_player";
+import { RequestFailed, type ProblemItem } from "./http";
+import { MatrixTable } from "./matrix";
+import { readShares } from "./mix";
+import type { ModeLinks } from "./mode_links";
+import { countsOf, paintOf, type Counts } from "./model";
+import { NamePlate, type ColonyCount } from "./name_plate";
+import { showNumbers } from "./number_list";
+import { Paint } from "./paint";
+import { ProblemBox } from "./problem_box";
+import type { Product } from "./products";
+import { showProgress } from "./progress_box";
+import { showScaleBar } from "./scale_bar";
+import { groupsOf, valueAt, type Schema } from "./schema";
+import { Settings } from "./settings";
+import { Sheet, sheetButtons } from "./sheet";
+import type { Stage } from "./stage";
+import { announce } from "./status_line";
+import { galleryModels, makeThumbnails } from "./thumbnails";
+import { Toolbar } from "./toolbar";
+
+/** Time in which quick changes become one request, milliseconds. */
+const changeDelayMs = 60;
+
+export interface PageParts {
+    stage: Stage;
+    links: ModeLinks;
+    product: Product;
+    schema: Schema;
+    /** The species or presets of the gallery. */
+    species: readonly Species[];
+}
+
+export interface PageOptions {
+    /** Nothing moves by itself. */
+    reducedMotion: boolean;
+    /** The gallery has no pictures. */
+    withoutThumbnails: boolean;
+}
+
+export class Page {
+    /** Individuals of the shown colony, once the service has reported them. */
+    colonyCount: ColonyCount | undefined;
+
+    private readonly stage: Stage;
+    private readonly links: ModeLinks;
+    private readonly product: Product;
+    private readonly settings: Settings;
+    private readonly address: AddressBar;
+    private readonly gallery: Gallery;
+    private readonly controls: Controls;
+    private readonly editor: MorphEditor;
+    private readonly matrix: MatrixTable | undefined;
+    private readonly sheet: Sheet;
+    private readonly grower: Grower;
+    private readonly paint = new Paint();
+    private readonly player: GrowthPlayer;
+    private readonly toolbar: Toolbar;
+    private readonly plate: NamePlate;
+    private readonly actions: FileActions;
+    private readonly problems = new ProblemBox((item) => this.showBeside(item));
+    private readonly thumbnails = new AbortController();
+    private grown: Grown | undefined;
+
+    constructor({ stage, links, product, schema, species }: PageParts, options: PageOptions) {
+        this.stage = stage;
+        this.links = links;
+        this.product = product;
+        const groups = groupsOf(schema, product.whole);
+        const fields = groups.flatMap((group) => group.fields);
+        const ids = species.map(({ id }) => id);
+        this.settings = new Settings(fields, ids[0] ?? "", product);
+        this.address = new AddressBar(this.settings, ids);
+        this.gallery = new Gallery(byId("gallery"), species, (id) => this.choose(id));
+        connectSearch(this.gallery);
+        this.plate = new NamePlate(product, (id) => this.gallery.find(id));
+        this.actions = new FileActions(product.noun);
+        this.controls = new Controls(byId("form"), groups, this.settings, {
+            moving: ({ name }) => {
+                this.controls.show();
+                if (name !== "age" || !this.player.pose()) this.grower.draft();
+            },
+            moved: ({ name }) => this.changed(name),
+        });
+        this.editor = new MorphEditor(this.settings, species, {
+            moving: () => {
+                this.plate.showNames(this.settings.mix);
+                this.grower.draft(0);
+            },
+            moved: (name) => this.changed(name),
+            chosen: () => {
+                // Each species that joins or leaves is a history step of its own.
+                const members = this.settings.morph?.shares.map(({ id }) => id) ?? [];
+                this.address.write(`morph ${members.join()}`);
+                this.begin(true);
+            },
+        });
+        this.matrix = product.ramifies
+            ? new MatrixTable(this.settings, { changed: () => this.changed("rows") })
+            : undefined;
+        this.sheet = new Sheet(this.settings, species, {
+            changed: (kind) => this.address.writeSheet(kind),
+            save: saveFile,
+        });
+        this.grower = new Grower(this.settings, this.paint, {
+            progress: showProgress,
+            show: (grown, refit, current) => this.show(grown, refit, current),
+            effective: (resource) => this.showEffective(resource),
+            failed: (error) => this.failed(error),
+        });
+        this.paint.onChange = () => stage.draw();
+        this.player = new GrowthPlayer(this.settings, options.reducedMotion, {
+            posed: () => stage.posed(),
+            clipNeeded: () => this.grower.clip(),
+            stopped: () => this.changed("age"),
+            ended: () => this.grower.final(false, restMs),
+        });
+        this.toolbar = new Toolbar(this.settings, stage, {
+            view: (name) => this.view(name, false),
+            lodChosen: () => this.changed("lod"),
+        });
+        stage.onFrame = () => showScaleBar(stage, product.noun);
+        links.connect({ species: () => this.leaveEditor(), morph: () => this.enterEditor() });
+        if (product.canMorph) byId("sheets").append(sheetButtons((kind) => this.sheet.show(kind)));
+        acceptFiles((file) => void this.inspect(file));
+        byId("form").addEventListener("submit", (event) => event.preventDefault());
+        addEventListener("popstate", () => this.readAddress());
+        this.readAddress();
+        if (!options.withoutThumbnails) void this.makeThumbnails();
+    }
+
+    /** Resolves when everything shown equals the settings; rejects if the model cannot be made. */
+    async settled(): Promise<void> {
+        this.address.flush();
+        await this.editor.settled();
+        await this.grower.settled();
+        await this.sheet.settled();
+    }
+
+    get growth(): { age: number | undefined; playing: boolean } {
+        return this.player.state;
+    }
+
+    get counts(): Counts {
+        if (!this.grown) return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0 };
+        return countsOf(this.grown.model);
+    }
+
+    /** Looks from a named side. */
+    view(name: ViewName, atOnce = true): void {
+        this.stage.view(name, atOnce);
+        this.toolbar.markView(name);
+    }
+
+    /** Chooses a species of the gallery, or a member of the morph. */
+    private choose(mix: string): void {
+        if (this.settings.morph) return this.editor.toggle(mix);
+        if (mix === this.settings.mix) return;
+        this.settings.choose(mix);
+        this.address.write("species");
+        this.begin(true);
+    }
+
+    private enterEditor(): void {
+        if (!this.settings.morph) this.editor.enter(readShares(this.settings.mix) ?? []);
+    }
+
+    /** Shows the member with the greatest share alone. */
+    private leaveEditor(): void {
+        const { morph } = this.settings;
+        if (!morph) return;
+        const strongest = [...morph.shares].sort((one, other) => other.weight - one.weight)[0];
+        this.settings.setMorph(undefined);
+        this.settings.choose(strongest?.id ?? this.settings.mix);
+        this.address.write("mode");
+        this.begin(true);
+    }
+
+    /** A setting was changed: writes the address and requests the model. */
+    private changed(name: string): void {
+        // Naming a matrix or requesting another order discards one's own rows.
+        if (["matrix", "blend", "toward", "order"].includes(name)) this.settings.rows = undefined;
+        this.address.write(name);
+        if (name === "age") this.editor.readGraph();
+        this.controls.show();
+        this.toolbar.markLod();
+        this.problems.showRejected([]);
+        // With a clip the age is shown at once; its model is requested when the age stays the same.
+        if (name === "age" && this.player.pose()) return this.grower.final(false, restMs);
+        this.player.leave();
+        this.grower.final(false, changeDelayMs);
+    }
+
+    private readAddress(): void {
+        const contents = this.address.read();
+        if (!contents) return;
+        const { otherMix, rejected, sheet } = contents;
+        this.begin(otherMix || !this.grown);
+        this.problems.showRejected(rejected);
+        if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) {
+            this.sheet.show(sheet);
+        } else {
+            this.sheet.close();
+        }
+    }
+
+    /** Shows new settings from scratch: another species, another address, a dropped file. */
+    private begin(refit: boolean): void {
+        const { morph, mix } = this.settings;
+        this.controls.clearFaults();
+        this.player.leave();
+        this.problems.showRejected([]);
+        this.gallery.mark(morph?.shares.map(({ id }) => id).join(",") ?? mix);
+        this.showMode();
+        this.editor.show();
+        this.controls.show(undefined);
+        this.toolbar.markLod();
+        this.plate.showNames(mix);
+        this.grower.final(refit);
+    }
+
+    private showMode(): void {
+        const { morph } = this.settings;
+        document.documentElement.classList.toggle("morphing", morph !== undefined);
+        this.links.show(this.settings, this.gallery.species.map(({ id }) => id));
+        if (!this.product.canMorph) return;
+        byId("variety").hidden = !morph;
+        // Sheets are the main purpose of the editor, and secondary for a single species.
+        byId(morph ? "editor" : "form").after(byId("sheets"));
+        this.gallery.letter(morph?.shares.map(({ id }) => id) ?? []);
+    }
+
+    private async show(grown: Grown, refit: boolean, current: () => boolean): Promise<boolean> {
+        if (!(await this.stage.show(grown.model, refit, current))) return false;
+        this.grown = grown;
+        if (grown.draft) this.paint.dress(paintOf(grown.model));
+        else this.paint.adopt(grown.model);
+        this.editor.accept();
+        if (this.player.ready) this.controls.show();
+        this.player.take(grown.model);
+        if (!grown.draft) {
+            this.controls.clearFaults();
+            this.matrix?.clearFaults();
+        }
+        this.problems.showRejectedAgain();
+        showNumbers(grown);
+        if (grown.draft) this.colonyCount = undefined;
+        this.plate.showSize(this.stage.size, this.colonyCount);
+        this.actions.show(grown);
+        if (!grown.draft) {
+            const name = byId("common-name").textContent;
+            const triangles = grouped(countsOf(grown.model).triangles);
+            const size = kilobytes(grown.answer.bytes.byteLength);
+            announce(`${name}: ${triangles} triangles, ${size}`);
+        }
+        if (grown.clip) this.player.play();
+        return true;
+    }
+
+    /** Shows what the service reports about the shown model. */
+    private showEffective({ effective, matrix, made }: Resource): void {
+        this.controls.show(effective);
+        this.matrix?.serve(matrix);
+        this.colonyCount =
+            made === undefined
+                ? undefined
+                : { made, requested: Number(valueAt(effective, "count") ?? made) };
+        this.plate.showSize(this.stage.size, this.colonyCount);
+    }
+
+    private failed(error: RequestFailed): void {
+        // A problem that is only about arcs is shown beside the arcs.
+        if (error.items.length > 0 && error.items.every((item) => this.editor.fail(item))) {
+            return announce(error.items[0]?.detail ?? error.message);
+        }
+        this.problems.show(error, () => {
+            this.problems.hide();
+            this.grower.final();
+        });
+        announce(error.message);
+    }
+
+    private showBeside(item: ProblemItem): boolean {
+        // Of a JSON body the service names the members by JSON pointers.
+        const name = item.parameter.replace(/^\//, "").replaceAll("/", ".");
+        return (
+            this.matrix?.fail(item.parameter, item.detail) ||
+            this.controls.fail(name, item.detail) ||
+            this.editor.fail(item)
+        );
+    }
+
+    /** Restores the settings from which a file was made. */
+    private async inspect(file: File): Promise<void> {
+        announce(`Reading ${file.name}`);
+        try {
+            const { product, id, query } = await inspectFile(file, this.product.noun);
+            if (product === this.product) this.restore(file, id, query);
+            else this.openProduct(product, id, query);
+        } catch (error) {
+            const failed =
+                error instanceof RequestFailed
+                    ? error
+                    : new RequestFailed(
+                          `${file.name} could not be read`,
+                          error instanceof Error ? error.message : "",
+                          0,
+                      );
+            this.problems.show(failed);
+            announce(failed.message);
+        }
+    }
+
+    private restore(file: File, mix: string, query: string): void {
+        const refit = mix !== this.settings.mix;
+        this.settings.setMorph(undefined);
+        this.settings.mix = mix;
+        const rejected = this.settings.read(new URLSearchParams(query));
+        this.address.write("file");
+        this.begin(refit);
+        this.problems.showRejected(rejected);
+        announce(`Settings of ${file.name} restored`);
+    }
+
+    private openProduct(product: Product, id: string, query: string): void {
+        this.thumbnails.abort();
+        location.assign(`?${product.kind}=${id}${query.replace("?", "&")}`);
+    }
+
+    /** Makes the gallery's pictures, once the model is shown. */
+    private async makeThumbnails(): Promise<void> {
+        await this.settled().catch(() => undefined);
+        await makeThumbnails(
+            galleryModels(this.settings, this.gallery.species),
+            this.product.portraits,
+            (id, picture) => this.gallery.picture(id, picture),
+            this.thumbnails.signal,
+        );
+        document.documentElement.dataset["gallery"] = "complete";
+    }
+}
