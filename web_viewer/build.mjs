@@ -36,7 +36,8 @@ for (const output of Object.keys(result.metafile.outputs)) {
 for (const page of ["index.html", "docs.html"]) {
     const text = await readFile(path.join(source, page), "utf8");
     const linked = text.replace(/\{\{([a-z.]+)\}\}/g, (_, name) => {
-        if (!names[name]) throw new Error(`${page} asks for ${name}, which the bundle does not have`);
+        if (!names[name])
+            throw new Error(`${page} asks for ${name}, which the bundle does not have`);
         return `assets/${names[name]}`;
     });
     await writeFile(path.join(dist, page), linked);

@@ -14,7 +14,10 @@ let ids;
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
+    shared = await browser.newContext({
+        viewport: { width: 960, height: 560 },
+        reducedMotion: "reduce",
+    });
     ids = (await (await fetch(`${base}/v1/species`)).json()).species.map(({ id }) => id);
 });
 
@@ -27,7 +30,9 @@ async function open(t, query, viewport = undefined) {
     const heard = listen(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
-    await page.locator("#form details:not([open]) summary").evaluateAll((all) => all.forEach((one) => one.click()));
+    await page
+        .locator("#form details:not([open]) summary")
+        .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, heard };
 }
 
@@ -44,25 +49,56 @@ function quiet(heard) {
 
 test("the colony bench offers every species, every parameter of the schema, and tells how many were made", async (t) => {
     const { page, heard } = await open(t, `?colony=hypholoma_fasciculare&habit=rooted&${small}`);
-    assert.deepEqual(await page.locator("#gallery button").evaluateAll((all) => all.map((one) => one.dataset.species)), ids);
+    assert.deepEqual(
+        await page
+            .locator("#gallery button")
+            .evaluateAll((all) => all.map((one) => one.dataset.species)),
+        ids,
+    );
     const schema = await (await fetch(`${base}/v1/colonies/schema`)).json();
-    const shown = await page.locator("#form .control").evaluateAll((all) => all.map((one) => one.dataset.name));
-    assert.deepEqual([...shown].sort(), Object.keys(schema.properties).filter((name) => name !== "v").sort());
+    const shown = await page
+        .locator("#form .control")
+        .evaluateAll((all) => all.map((one) => one.dataset.name));
+    assert.deepEqual(
+        [...shown].sort(),
+        Object.keys(schema.properties)
+            .filter((name) => name !== "v")
+            .sort(),
+    );
     assert.equal(await page.locator("#mode-colony").getAttribute("aria-current"), "page");
     assert.equal(await page.locator("#sheets").isVisible(), false);
-    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), "hypholoma_fasciculare");
-    const { made, effective } = await (await fetch(`${base}/v1/colonies/hypholoma_fasciculare.json?habit=rooted&${small}`)).json();
-    assert.match(await page.locator("#dimensions").textContent(), new RegExp(`^[\\d.]+ cm tall, [\\d.]+ cm across · ${made} of 24 made$`));
-    assert.equal((await counts(page)).drawCalls, made + 1, "roots with their stems, and one node each");
+    assert.equal(
+        await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"),
+        "hypholoma_fasciculare",
+    );
+    const { made, effective } = await (
+        await fetch(`${base}/v1/colonies/hypholoma_fasciculare.json?habit=rooted&${small}`)
+    ).json();
+    assert.match(
+        await page.locator("#dimensions").textContent(),
+        new RegExp(`^[\\d.]+ cm tall, [\\d.]+ cm across · ${made} of 24 made$`),
+    );
+    assert.equal(
+        (await counts(page)).drawCalls,
+        made + 1,
+        "roots with their stems, and one node each",
+    );
     // A control shows what the species brings.
-    assert.equal(Number(await number(page, "field_scale").inputValue()), Number(effective.field_scale.toPrecision(3)));
+    assert.equal(
+        Number(await number(page, "field_scale").inputValue()),
+        Number(effective.field_scale.toPrecision(3)),
+    );
     await page.screenshot({ path: path.join(folder, "colony_editor.png") });
     quiet(heard);
 });
 
 test("what a habit does not have is not offered, and what a species cannot have stands at its control", async (t) => {
     const { page, heard } = await open(t, `?colony=hypholoma_fasciculare&${small}`);
-    assert.equal(await page.locator('select[name="habit"]').inputValue(), "tuft", "the species' own");
+    assert.equal(
+        await page.locator('select[name="habit"]').inputValue(),
+        "tuft",
+        "the species' own",
+    );
     assert.equal(await row(page, "depth").isVisible(), false);
     assert.equal(await row(page, "trunk_radius").isVisible(), false);
     await page.locator('select[name="habit"]').selectOption("rooted");
@@ -75,14 +111,24 @@ test("what a habit does not have is not offered, and what a species cannot have 
     await ready(page);
     await page.locator('select[name="habit"]').selectOption("ring");
     await page.locator("#control-depth-fault:not([hidden])").waitFor();
-    assert.match(await page.locator("#control-depth-fault").textContent(), /only habit=rooted has it/);
-    assert.ok(heard.failed.every((line) => line.endsWith(": 422")), heard.failed.join());
+    assert.match(
+        await page.locator("#control-depth-fault").textContent(),
+        /only habit=rooted has it/,
+    );
+    assert.ok(
+        heard.failed.every((line) => line.endsWith(": 422")),
+        heard.failed.join(),
+    );
     // Another species brings its own habit, and what was set on the last one's is gone.
     await page.locator('#gallery button[data-species="trametes_versicolor"]').click();
     await ready(page);
     assert.equal(await page.locator('select[name="habit"]').inputValue(), "tier");
     assert.equal(await row(page, "trunk_radius").isVisible(), true);
-    assert.deepEqual(parameters(page), { colony: "trametes_versicolor", lod: "2", texture_size: "128" });
+    assert.deepEqual(parameters(page), {
+        colony: "trametes_versicolor",
+        lod: "2",
+        texture_size: "128",
+    });
 });
 
 test("roots are seen from above, without the caps, until another view is taken", async (t) => {
@@ -97,20 +143,29 @@ test("roots are seen from above, without the caps, until another view is taken",
     await page.locator('#views [data-view="roots"]').click();
     const bare = await triangles();
     assert.ok(bare < whole, `${bare} of ${whole} triangles`);
-    assert.equal(await page.locator('#views [data-view="roots"]').getAttribute("aria-pressed"), "true");
+    assert.equal(
+        await page.locator('#views [data-view="roots"]').getAttribute("aria-pressed"),
+        "true",
+    );
     assert.deepEqual(await size(), before, "the colony is as large as it was");
     await page.locator("#stage").screenshot({ path: path.join(folder, "colony_roots.png") });
     await number(page, "seed").fill("5");
     await number(page, "seed").press("Enter");
     const other = await triangles();
     await page.locator('#views [data-view="top"]').click();
-    assert.ok(other < await triangles(), "another colony showed its roots, too");
-    assert.equal(await page.locator('#views [data-view="roots"]').getAttribute("aria-pressed"), "false");
+    assert.ok(other < (await triangles()), "another colony showed its roots, too");
+    assert.equal(
+        await page.locator('#views [data-view="roots"]').getAttribute("aria-pressed"),
+        "false",
+    );
     quiet(heard);
 });
 
 test("a mix goes along from the bench to its colony and back", async (t) => {
-    const { page, heard } = await open(t, "?morph=mycena_sanguinolenta:0.5,amanita_muscaria:0.5&lod=3&texture_size=128");
+    const { page, heard } = await open(
+        t,
+        "?morph=mycena_sanguinolenta:0.5,amanita_muscaria:0.5&lod=3&texture_size=128",
+    );
     await page.locator("#mode-colony").click();
     await page.waitForURL(/colony=/);
     await ready(page);
@@ -122,40 +177,74 @@ test("a mix goes along from the bench to its colony and back", async (t) => {
     assert.ok((await page.evaluate(() => window.sporeprint.made)).made > 1);
     quiet(heard);
     await page.locator("#gallery button").first().click();
-    assert.equal(await page.locator("#mode-morph").isVisible(), false, "a lone species is no morph");
+    assert.equal(
+        await page.locator("#mode-morph").isVisible(),
+        false,
+        "a lone species is no morph",
+    );
     assert.equal(await page.locator("#mode-species").getAttribute("href"), `?species=${ids[0]}`);
 });
 
 test("a colony repeated by the graphics card is counted and framed as that of nodes", async (t) => {
     const { page, heard } = await open(t, `?colony=coprinus_comatus&count=8&distinct=2&${small}`);
-    const nodes = await page.evaluate(() => ({ ...window.sporeprint.counts, ...window.sporeprint.size }));
+    const nodes = await page.evaluate(() => ({
+        ...window.sporeprint.counts,
+        ...window.sporeprint.size,
+    }));
     await page.locator('select[name="instancing"]').selectOption("gpu");
     await ready(page);
-    const gpu = await page.evaluate(() => ({ ...window.sporeprint.counts, ...window.sporeprint.size }));
+    const gpu = await page.evaluate(() => ({
+        ...window.sporeprint.counts,
+        ...window.sporeprint.size,
+    }));
     assert.equal(gpu.triangles, nodes.triangles);
     assert.equal(gpu.drawCalls, 3, "stems and two individuals");
     // Boxes of instances are those of their meshes' boxes, so a little larger.
-    assert.ok(gpu.width >= nodes.width * 0.999 && gpu.width < nodes.width * 1.3, `${gpu.width} of ${nodes.width} m`);
+    assert.ok(
+        gpu.width >= nodes.width * 0.999 && gpu.width < nodes.width * 1.3,
+        `${gpu.width} of ${nodes.width} m`,
+    );
     quiet(heard);
 });
 
 test("the file that is saved is that of the copied address, and brings its settings back", async (t) => {
-    const { page, heard } = await open(t, `?colony=russula_vinosa&seed=3&habit=ring&lod=2&texture_size=128`);
-    await page.context().grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    const { page, heard } = await open(
+        t,
+        `?colony=russula_vinosa&seed=3&habit=ring&lod=2&texture_size=128`,
+    );
+    await page
+        .context()
+        .grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator("#download").click(),
+    ]);
     assert.match(download.suggestedFilename(), /^russula_vinosa.*\.glb$/);
     const saved = await readFile(await download.path());
     await page.locator("#copy-url").click();
-    await page.waitForFunction(() => document.querySelector("#status").textContent === "URL copied");
+    await page.waitForFunction(
+        () => document.querySelector("#status").textContent === "URL copied",
+    );
     const address = await page.evaluate(() => navigator.clipboard.readText());
-    assert.match(address, /\/v1\/colonies\/russula_vinosa\.glb\?seed=3&habit=ring&lod=2&texture_size=128&v=/);
+    assert.match(
+        address,
+        /\/v1\/colonies\/russula_vinosa\.glb\?seed=3&habit=ring&lod=2&texture_size=128&v=/,
+    );
     assert.ok(saved.equals(Buffer.from(await (await fetch(address)).arrayBuffer())));
     await page.goto(`${base}/?leaf=oak&lod=3`);
     await ready(page);
-    await page.locator("#file").setInputFiles({ name: "ring.glb", mimeType: "model/gltf-binary", buffer: saved });
+    await page
+        .locator("#file")
+        .setInputFiles({ name: "ring.glb", mimeType: "model/gltf-binary", buffer: saved });
     await page.waitForURL(/colony=russula/);
     await ready(page);
-    assert.deepEqual(parameters(page), { colony: "russula_vinosa", seed: "3", habit: "ring", lod: "2", texture_size: "128" });
+    assert.deepEqual(parameters(page), {
+        colony: "russula_vinosa",
+        seed: "3",
+        habit: "ring",
+        lod: "2",
+        texture_size: "128",
+    });
     assert.deepEqual(heard.failed, []);
 });
 
@@ -172,14 +261,27 @@ test("who asks for fewer individuals by keys is told how many of them were made"
 });
 
 test("five ways to grow fit in every width, and a colony in 360 pixels", async (t) => {
-    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare:0.5,coprinus_comatus:0.5&lod=3&texture_size=128`, { width: 360, height: 740 });
+    const { page, heard } = await open(
+        t,
+        `?colony=hypholoma_fasciculare:0.5,coprinus_comatus:0.5&lod=3&texture_size=128`,
+        { width: 360, height: 740 },
+    );
     for (const width of [320, 360, 460, 461, 560, 680, 681, 900, 901, 1100, 1280]) {
         await page.setViewportSize({ width, height: 740 });
-        const over = await page.evaluate(() => [...document.querySelectorAll("main *, aside *, header *, footer")]
-            .filter((element) => element.getClientRects().length && element.getBoundingClientRect().right > innerWidth + 0.5)
-            .map((element) => element.id || element.className || element.tagName));
+        const over = await page.evaluate(() =>
+            [...document.querySelectorAll("main *, aside *, header *, footer")]
+                .filter(
+                    (element) =>
+                        element.getClientRects().length &&
+                        element.getBoundingClientRect().right > innerWidth + 0.5,
+                )
+                .map((element) => element.id || element.className || element.tagName),
+        );
         assert.deepEqual(over, [], `${width} pixels wide`);
-        assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= width, `${width} pixels wide`);
+        assert.ok(
+            (await page.evaluate(() => document.documentElement.scrollWidth)) <= width,
+            `${width} pixels wide`,
+        );
     }
     quiet(heard);
 });

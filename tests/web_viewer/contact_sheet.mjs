@@ -25,17 +25,25 @@ import path from "node:path";
 import { launchBrowser, listen, ready, root } from "./support.mjs";
 
 function readArguments(argv) {
-    const options = { out: path.join(root, "build/screenshots/contact_sheet.png"), cell: 320, set: [], vary: [], each: [] };
+    const options = {
+        out: path.join(root, "build/screenshots/contact_sheet.png"),
+        cell: 320,
+        set: [],
+        vary: [],
+        each: [],
+    };
     const list = (text) => text.split(",").filter(Boolean);
     const take = {
         "--out": (text) => (options.out = path.resolve(text)),
-        "--species": (text) => (options.species = list(text).map((mix) => mix.replaceAll("+", ","))),
+        "--species": (text) =>
+            (options.species = list(text).map((mix) => mix.replaceAll("+", ","))),
         "--ages": (text) => options.vary.push(["age", list(text)]),
         "--seeds": (text) => options.vary.push(["seed", list(text)]),
         "--lods": (text) => options.vary.push(["lod", list(text)]),
         "--views": (text) => (options.views = list(text)),
         "--set": (text) => options.set.push(text),
-        "--vary": (text) => options.vary.push([text.split("=")[0], list(text.slice(text.indexOf("=") + 1))]),
+        "--vary": (text) =>
+            options.vary.push([text.split("=")[0], list(text.slice(text.indexOf("=") + 1))]),
         "--each": (text) => {
             const [, mixes, name, values] = /^(.+):([^:=]+)=(.+)$/.exec(text) ?? [];
             if (!values) throw new Error(`--each '${text}' is not species:name=values`);
@@ -52,20 +60,31 @@ function readArguments(argv) {
         else if (argv[i] === "--colonies") options.colonies = true;
         else if (argv[i] === "--growth") options.growth = true;
         else if (take[argv[i]] && argv[i + 1] !== undefined) take[argv[i]](argv[++i]);
-        else if (/^https?:/.test(argv[i]) && !options.base) options.base = argv[i].replace(/\/+$/, "");
+        else if (/^https?:/.test(argv[i]) && !options.base)
+            options.base = argv[i].replace(/\/+$/, "");
         else throw new Error(`cannot use argument '${argv[i]}'`);
     }
-    if (!options.base) throw new Error("give the address of a running server, e.g. http://127.0.0.1:8080");
+    if (!options.base)
+        throw new Error("give the address of a running server, e.g. http://127.0.0.1:8080");
     return options;
 }
 
 const options = readArguments(process.argv.slice(2));
-const [kind, list] = options.leaves ? ["leaf", "leaves"] : options.trees ? ["tree", "trees"] : [options.colonies ? "colony" : "species", "species"];
-const species = options.species ?? (await (await fetch(`${options.base}/v1/${list}`)).json())[list].map(({ id }) => id);
+const [kind, list] = options.leaves
+    ? ["leaf", "leaves"]
+    : options.trees
+      ? ["tree", "trees"]
+      : [options.colonies ? "colony" : "species", "species"];
+const species =
+    options.species ??
+    (await (await fetch(`${options.base}/v1/${list}`)).json())[list].map(({ id }) => id);
 
 /** What colonies are looked at when no species is named: two of each habit, two mixes, two from afar. */
 const habits = {
-    rooted: ["hypholoma_fasciculare?habit=rooted", "mycena_haematopus:0.5,laccaria_amethystina:0.5?habit=rooted"],
+    rooted: [
+        "hypholoma_fasciculare?habit=rooted",
+        "mycena_haematopus:0.5,laccaria_amethystina:0.5?habit=rooted",
+    ],
     tuft: ["armillaria_mellea", "hypholoma_fasciculare:0.6,amanita_muscaria:0.4"],
     troop: ["cantharellus_cibarius", "lycoperdon_perlatum"],
     ring: ["marasmius_oreades?habit=ring", "infundibulicybe_geotropa?habit=ring"],
@@ -75,30 +94,47 @@ const habits = {
 
 let columns = [{ query: options.set, label: [] }];
 for (const [name, values] of options.vary) {
-    columns = columns.flatMap((column) => values.map((value) => ({
-        query: [...column.query, `${name}=${value}`],
-        label: [...column.label, `${name} ${value}`],
-    })));
+    columns = columns.flatMap((column) =>
+        values.map((value) => ({
+            query: [...column.query, `${name}=${value}`],
+            label: [...column.label, `${name} ${value}`],
+        })),
+    );
 }
 // Software drawing on a busy machine: one strip has taken minutes.
 const patience = 900_000; // milliseconds
 /** What to show: rows of cells, each a mix with its parameters. */
 const table = options.each.length
     ? options.each.map(({ mixes, name, values }) => ({
-        title: name,
-        shown: mixes.flatMap((mix) => values.flatMap((value) => columns.map(({ query, label }) => ({
-            mix, query: [...query, `${name}=${value}`], label: [mix.replaceAll("_", " "), value, ...label],
-        })))),
-    }))
+          title: name,
+          shown: mixes.flatMap((mix) =>
+              values.flatMap((value) =>
+                  columns.map(({ query, label }) => ({
+                      mix,
+                      query: [...query, `${name}=${value}`],
+                      label: [mix.replaceAll("_", " "), value, ...label],
+                  })),
+              ),
+          ),
+      }))
     : options.colonies && !options.species
-    ? Object.entries(habits).map(([title, colonies]) => ({
-        title,
-        shown: colonies.flatMap((colony) => columns.map(({ query, label }) => {
-            const [mix, own] = colony.split("?");
-            return { mix, query: [...query, ...(own?.split("&") ?? [])], label: [mix.replaceAll("_", " "), ...label] };
-        })),
-    }))
-    : species.map((mix) => ({ title: mix.replaceAll("_", " "), shown: columns.map((column) => ({ mix, ...column })) }));
+      ? Object.entries(habits).map(([title, colonies]) => ({
+            title,
+            shown: colonies.flatMap((colony) =>
+                columns.map(({ query, label }) => {
+                    const [mix, own] = colony.split("?");
+                    return {
+                        mix,
+                        query: [...query, ...(own?.split("&") ?? [])],
+                        label: [mix.replaceAll("_", " "), ...label],
+                    };
+                }),
+            ),
+        }))
+      : species.map((mix) => ({
+            title: mix.replaceAll("_", " "),
+            shown: columns.map((column) => ({ mix, ...column })),
+        }));
 const views = options.views ?? ["three-quarter"];
 
 /** Opens an address; after the first one without loading the page again. */
@@ -138,30 +174,53 @@ async function pageSheets() {
     await mkdir(path.dirname(options.out), { recursive: true });
     const rest = options.set.map((one) => `&${one}`).join("");
     if (options.mixes) {
-        await (await downloaded(page, `/?morph=${options.mixes.join(",")}${rest}&sheet=variety`, "#sheet-png")).saveAs(options.out);
-        if (options.glb) await (await downloaded(page, undefined, "#sheet-glb")).saveAs(options.glb);
+        await (
+            await downloaded(
+                page,
+                `/?morph=${options.mixes.join(",")}${rest}&sheet=variety`,
+                "#sheet-png",
+            )
+        ).saveAs(options.out);
+        if (options.glb)
+            await (await downloaded(page, undefined, "#sheet-glb")).saveAs(options.glb);
     } else {
         const strips = [];
         for (const mix of species) {
-            const file = await downloaded(page, `/?species=${mix}${rest}&sheet=growth`, "#sheet-png");
+            const file = await downloaded(
+                page,
+                `/?species=${mix}${rest}&sheet=growth`,
+                "#sheet-png",
+            );
             strips.push((await readFile(await file.path())).toString("base64"));
         }
         const size = (png) => [16, 20].map((at) => Buffer.from(png, "base64").readUInt32BE(at)); // of a PNG's first chunk
         const width = Math.max(...strips.map((png) => size(png)[0]));
         const columns = inColumns(strips, Math.max(...strips.map((png) => size(png)[1])));
-        const all = await browser.newPage({ viewport: { width: width * columns.length, height: 600 } });
-        await all.setContent(`<!doctype html><style>body { display: flex; margin: 0; background: #f5efe2; } img { display: block; }</style>${
-            columns.map((column) => `<div>${column.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}</div>`).join("")}`);
+        const all = await browser.newPage({
+            viewport: { width: width * columns.length, height: 600 },
+        });
+        await all.setContent(
+            `<!doctype html><style>body { display: flex; margin: 0; background: #f5efe2; } img { display: block; }</style>${columns
+                .map(
+                    (column) =>
+                        `<div>${column.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}</div>`,
+                )
+                .join("")}`,
+        );
         await writeFile(options.out, await all.screenshot({ fullPage: true }));
     }
     for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
-    for (const file of [options.out, options.mixes && options.glb].filter(Boolean)) console.log(file);
+    for (const file of [options.out, options.mixes && options.glb].filter(Boolean))
+        console.log(file);
 }
 
 /** Things of a height in as many columns as a picture needs: Chromium repeats itself in one taller than 8192 pixels. */
 function inColumns(things, height) {
-    const columns = Math.ceil((things.length * height) / 8000), each = Math.ceil(things.length / columns);
-    return Array.from({ length: columns }, (_, column) => things.slice(column * each, (column + 1) * each));
+    const columns = Math.ceil((things.length * height) / 8000),
+        each = Math.ceil(things.length / columns);
+    return Array.from({ length: columns }, (_, column) =>
+        things.slice(column * each, (column + 1) * each),
+    );
 }
 
 async function ownSheet() {
@@ -186,10 +245,20 @@ async function ownSheet() {
                 console.error(`${mix} ${label.join(" ")}: ${facts}`);
             }
             for (const view of views) {
-                await page.evaluate((name) => window.sporeprint?.view(name), view).catch(() => undefined);
-                await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+                await page
+                    .evaluate((name) => window.sporeprint?.view(name), view)
+                    .catch(() => undefined);
+                await page.evaluate(
+                    () =>
+                        new Promise((done) =>
+                            requestAnimationFrame(() => requestAnimationFrame(done)),
+                        ),
+                );
                 const png = await page.screenshot();
-                cells.push({ png: png.toString("base64"), label: [...label, view, facts].join(" · ") });
+                cells.push({
+                    png: png.toString("base64"),
+                    label: [...label, view, facts].join(" · "),
+                });
             }
         }
         rows.push({ title, cells });
@@ -203,10 +272,26 @@ body { display: flex; align-items: flex-start; margin: 0; background: #f5efe2; c
 table { border-collapse: collapse; } th { font: italic 600 15px serif; min-width: 130px; padding: 4px; }
 td { border: 1px solid #d8ccb6; padding: 0; width: ${options.cell}px; } img { display: block; width: ${options.cell}px; }
 p { margin: 2px 5px; min-height: 2.6em; }</style>
-${columns.map((column) => `<table>${column.map(({ title, cells }) => `<tr><th>${escaped(title).replaceAll(".", ".<wbr>")}</th>${cells.map(({ png, label }) =>
-        `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`).join("")}</tr>`).join("")}</table>`).join("")}`;
+${columns
+    .map(
+        (column) =>
+            `<table>${column
+                .map(
+                    ({ title, cells }) =>
+                        `<tr><th>${escaped(title).replaceAll(".", ".<wbr>")}</th>${cells
+                            .map(
+                                ({ png, label }) =>
+                                    `<td><img src="data:image/png;base64,${png}"><p>${escaped(label)}</p></td>`,
+                            )
+                            .join("")}</tr>`,
+                )
+                .join("")}</table>`,
+    )
+    .join("")}`;
     const width = 140 + Math.max(...rows.map(({ cells }) => cells.length)) * (options.cell + 1);
-    const sheet = await browser.newPage({ viewport: { width: width * columns.length, height: 600 } });
+    const sheet = await browser.newPage({
+        viewport: { width: width * columns.length, height: 600 },
+    });
     await sheet.setContent(html);
     await mkdir(path.dirname(options.out), { recursive: true });
     await writeFile(options.out, await sheet.screenshot({ fullPage: true }));

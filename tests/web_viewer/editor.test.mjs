@@ -3,10 +3,24 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { galleryComplete, launchBrowser, listen, packages, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    galleryComplete,
+    launchBrowser,
+    listen,
+    packages,
+    ready,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
-const [a, b, c, d, e] = ["amanita_muscaria", "boletus_edulis", "coprinus_comatus", "russula_vinosa", "cantharellus_cibarius"];
+const [a, b, c, d, e] = [
+    "amanita_muscaria",
+    "boletus_edulis",
+    "coprinus_comatus",
+    "russula_vinosa",
+    "cantharellus_cibarius",
+];
 let browser;
 let shared;
 let folder;
@@ -15,7 +29,10 @@ let species;
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    shared = await browser.newContext({ viewport: { width: 1000, height: 700 }, reducedMotion: "reduce" });
+    shared = await browser.newContext({
+        viewport: { width: 1000, height: 700 },
+        reducedMotion: "reduce",
+    });
     species = (await (await fetch(`${base}/v1/species`)).json()).species;
 });
 
@@ -38,12 +55,28 @@ function quiet(heard) {
 }
 
 const parameters = (page) => new URL(page.url()).searchParams;
-const shares = (page) => Object.fromEntries(parameters(page).get("morph").split(",").map((part) => {
-    const [id, weight] = part.split(":");
-    return [id, Number(weight)];
-}));
-const models = (heard) => heard.requests.filter((url) => /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url)).map((url) => decodeURIComponent(url));
-const arcs = (page) => page.locator(".drawing .own > g").evaluateAll((groups) => groups.map((group) => group.getAttribute("class").split(" ")[1]));
+const shares = (page) =>
+    Object.fromEntries(
+        parameters(page)
+            .get("morph")
+            .split(",")
+            .map((part) => {
+                const [id, weight] = part.split(":");
+                return [id, Number(weight)];
+            }),
+    );
+const models = (heard) =>
+    heard.requests
+        .filter(
+            (url) =>
+                /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url) &&
+                !/\.glb\?lod=2&texture_size=256$/.test(url),
+        )
+        .map((url) => decodeURIComponent(url));
+const arcs = (page) =>
+    page
+        .locator(".drawing .own > g")
+        .evaluateAll((groups) => groups.map((group) => group.getAttribute("class").split(" ")[1]));
 
 async function centre(locator) {
     const box = await locator.boundingBox();
@@ -55,7 +88,10 @@ async function drag(page, from, to, during = async () => undefined) {
     await page.mouse.move(from.x, from.y);
     await page.mouse.down();
     for (let step = 1; step <= 10; ++step) {
-        await page.mouse.move(from.x + ((to.x - from.x) * step) / 10, from.y + ((to.y - from.y) * step) / 10);
+        await page.mouse.move(
+            from.x + ((to.x - from.x) * step) / 10,
+            from.y + ((to.y - from.y) * step) / 10,
+        );
         await page.waitForTimeout(60);
     }
     await during();
@@ -72,7 +108,7 @@ test("the bench opens with two species, takes up to five, and gives the way back
     assert.ok(await page.locator("#morph-t").isVisible());
     for (const id of [b, c, d, e]) {
         const button = page.locator(`#gallery button[data-species="${id}"]`);
-        if (await button.getAttribute("aria-pressed") === "false") await button.click();
+        if ((await button.getAttribute("aria-pressed")) === "false") await button.click();
     }
     await ready(page);
     assert.deepEqual(shares(page), Object.fromEntries([a, b, c, d, e].map((id) => [id, 0.2])));
@@ -89,7 +125,7 @@ test("the bench opens with two species, takes up to five, and gives the way back
     assert.equal(Object.keys(shares(page)).length, 4);
     await page.locator("#mode-species").click();
     await ready(page);
-    assert.ok(parameters(page).has("species") && await page.locator("#editor").isHidden());
+    assert.ok(parameters(page).has("species") && (await page.locator("#editor").isHidden()));
     quiet(heard);
 });
 
@@ -102,9 +138,13 @@ test("the weight point is dragged: drafts with linked images, then the whole mod
     const corner = await centre(page.locator('.pad .corner[data-corner="1"] circle'));
     const half = { x: (from.x + corner.x) / 2, y: (from.y + corner.y) / 2 };
     await drag(page, from, half, () => page.waitForTimeout(500));
-    const drafts = models(heard).slice(asked).map((url) => new URL(url).searchParams);
+    const drafts = models(heard)
+        .slice(asked)
+        .map((url) => new URL(url).searchParams);
     assert.ok(drafts.length >= 1 && drafts.length <= 11, `${drafts.length} drafts for one drag`);
-    assert.ok(drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"));
+    assert.ok(
+        drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"),
+    );
     await ready(page);
     const weights = shares(page);
     assert.ok(weights[b] > 0.35 && weights[b] < 0.95, JSON.stringify(weights));
@@ -128,7 +168,9 @@ test("a shape that is dragged does not wait for its paint", async (t) => {
     await galleryComplete(page);
     let painted = 0;
     let paint = () => undefined;
-    const held = new Promise((resolve) => { paint = resolve; });
+    const held = new Promise((resolve) => {
+        paint = resolve;
+    });
     await page.route(/\/v1\/surfaces\//, async (route) => {
         painted += 1;
         await held;
@@ -139,8 +181,15 @@ test("a shape that is dragged does not wait for its paint", async (t) => {
     await page.mouse.move(from.x, from.y);
     await page.mouse.down();
     await page.mouse.move(from.x + 30, from.y + 10);
-    await page.waitForFunction((before_) => window.sporeprint.counts.triangles < before_, triangles);
-    assert.equal(await page.evaluate(() => window.sporeprint.counts.textures), 3, "it wears the paint of before");
+    await page.waitForFunction(
+        (before_) => window.sporeprint.counts.triangles < before_,
+        triangles,
+    );
+    assert.equal(
+        await page.evaluate(() => window.sporeprint.counts.textures),
+        3,
+        "it wears the paint of before",
+    );
     assert.ok(painted <= 3, "one set of paint is on its way");
     paint();
     await page.unroute(/\/v1\/surfaces\//, { behavior: "ignoreErrors" });
@@ -150,19 +199,35 @@ test("a shape that is dragged does not wait for its paint", async (t) => {
 
 test("the canonical mix is what is copied, and those bytes are what is downloaded", async (t) => {
     const { page, heard } = await open(t, `?morph=${c}:0.25,${a}:0.5,${b}:0.25`);
-    await shared.grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
+    await shared.grantPermissions(["clipboard-read", "clipboard-write"], {
+        origin: new URL(base).origin,
+    });
     await page.locator("#copy-url").click();
-    await page.waitForFunction(() => document.querySelector("#status").textContent === "URL copied");
+    await page.waitForFunction(
+        () => document.querySelector("#status").textContent === "URL copied",
+    );
     const address = await page.evaluate(() => navigator.clipboard.readText());
-    assert.equal(decodeURIComponent(new URL(address).pathname), `/v1/mushrooms/${a}:0.5,${b}:0.25,${c}:0.25.glb`);
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
-    assert.deepEqual(Buffer.from(await (await fetch(address)).arrayBuffer()), await readFile(await download.path()));
+    assert.equal(
+        decodeURIComponent(new URL(address).pathname),
+        `/v1/mushrooms/${a}:0.5,${b}:0.25,${c}:0.25.glb`,
+    );
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator("#download").click(),
+    ]);
+    assert.deepEqual(
+        Buffer.from(await (await fetch(address)).arrayBuffer()),
+        await readFile(await download.path()),
+    );
     quiet(heard);
 });
 
 test("what a bench address gets wrong is said in words", async (t) => {
     const { page, heard } = await open(t, `?morph=${a}:0.5,amanita_unicornis:0.5`);
-    assert.match(await page.locator("#problem").textContent(), /'amanita_unicornis' is no species here/);
+    assert.match(
+        await page.locator("#problem").textContent(),
+        /'amanita_unicornis' is no species here/,
+    );
     assert.ok(await page.locator("#editor").isHidden());
     quiet(heard);
 });
@@ -204,11 +269,14 @@ test("both outlines stand side by side with their arcs, and own arcs are added, 
     assert.equal(parameters(page).get("arcs"), dragged);
 
     // A double click on an outline adds one more there.
-    const place = await page.locator(".drawing .curve.stem").first().evaluate((path_) => {
-        const { x, y } = path_.getPointAtLength(path_.getTotalLength() * 0.6);
-        const box = path_.ownerSVGElement.getBoundingClientRect();
-        return { x: box.x + x, y: box.y + y };
-    });
+    const place = await page
+        .locator(".drawing .curve.stem")
+        .first()
+        .evaluate((path_) => {
+            const { x, y } = path_.getPointAtLength(path_.getTotalLength() * 0.6);
+            const box = path_.ownerSVGElement.getBoundingClientRect();
+            return { x: box.x + x, y: box.y + y };
+        });
     await page.mouse.dblclick(place.x, place.y);
     await ready(page);
     assert.equal((await arcs(page)).length, 2);
@@ -227,7 +295,9 @@ test("an arc that crosses is red and crossed out, with the service's own sentenc
     const other = await centre(page.locator('.drawing [data-index="0"] [data-side="b"] .knob'));
     const end = await centre(handle.locator(".knob"));
     const beyond = { x: other.x + (other.x - end.x) * 0.5, y: other.y + (other.y - end.y) * 0.5 };
-    await drag(page, end, beyond, async () => assert.ok((await arcs(page)).includes("refused"), "red while it is dragged"));
+    await drag(page, end, beyond, async () =>
+        assert.ok((await arcs(page)).includes("refused"), "red while it is dragged"),
+    );
     await page.locator("#graph-problem:not([hidden])").waitFor();
     await assert.rejects(page.evaluate(() => window.sporeprint.ready()));
     const told = await page.locator("#graph-problem").textContent();
@@ -235,18 +305,36 @@ test("an arc that crosses is red and crossed out, with the service's own sentenc
     const answer = await fetch(`${base}/v1/morphs/${a}/${b}.glb`, {
         method: "POST",
         headers: { "Content-Type": "application/json" },
-        body: JSON.stringify({ t: 0.4, arcs: parameters(page).get("arcs").split(",").map((arc) => {
-            const [curve, from, to] = arc.split(":");
-            return { curve, a: Number(from), b: Number(to) };
-        }) }),
+        body: JSON.stringify({
+            t: 0.4,
+            arcs: parameters(page)
+                .get("arcs")
+                .split(",")
+                .map((arc) => {
+                    const [curve, from, to] = arc.split(":");
+                    return { curve, a: Number(from), b: Number(to) };
+                }),
+        }),
     });
     assert.equal(answer.status, 422);
     const { errors } = await answer.json();
-    const sentences = errors.map(({ detail }) => detail.replace(/\/arcs\/(\d+)/g, (_, index) => `arc ${Number(index) + 1}`));
-    assert.ok(sentences.some((sentence) => told.endsWith(sentence)), `${told} is one of ${sentences.join("; ")}`);
+    const sentences = errors.map(({ detail }) =>
+        detail.replace(/\/arcs\/(\d+)/g, (_, index) => `arc ${Number(index) + 1}`),
+    );
+    assert.ok(
+        sentences.some((sentence) => told.endsWith(sentence)),
+        `${told} is one of ${sentences.join("; ")}`,
+    );
     const named = errors.map(({ parameter }) => Number(parameter.split("/")[2]));
-    assert.deepEqual(await arcs(page), [0, 1].map((index) => (named.includes(index) ? "refused" : "accepted")));
-    assert.equal(await page.locator(".drawing .refused .mark").first().isVisible(), true, "not by colour alone");
+    assert.deepEqual(
+        await arcs(page),
+        [0, 1].map((index) => (named.includes(index) ? "refused" : "accepted")),
+    );
+    assert.equal(
+        await page.locator(".drawing .refused .mark").first().isVisible(),
+        true,
+        "not by colour alone",
+    );
     assert.ok(await page.locator("#problem").isHidden(), "it is said once, beside the arcs");
     assert.ok((await page.evaluate(() => window.sporeprint.counts)).triangles > 100);
     await page.screenshot({ path: path.join(folder, "editor-refused.png") });
@@ -254,7 +342,10 @@ test("an arc that crosses is red and crossed out, with the service's own sentenc
     await ready(page);
     assert.deepEqual(await arcs(page), ["accepted", "accepted"]);
     assert.ok(await page.locator("#graph-problem").isHidden());
-    assert.deepEqual(heard.console.filter((line) => !/status of 422/.test(line)), []);
+    assert.deepEqual(
+        heard.console.filter((line) => !/status of 422/.test(line)),
+        [],
+    );
 });
 
 test("the bench can be walked and worked by keyboard alone", async (t) => {
@@ -276,7 +367,11 @@ test("the bench can be walked and worked by keyboard alone", async (t) => {
         for (let step = 0; step < 90; ++step) {
             const found = await page.evaluate(() => {
                 const element = document.activeElement;
-                return { text: element.textContent?.trim(), label: element.getAttribute("aria-label") ?? "", id: element.id };
+                return {
+                    text: element.textContent?.trim(),
+                    label: element.getAttribute("aria-label") ?? "",
+                    id: element.id,
+                };
             });
             if (matches(found)) return found;
             await press("Tab");
@@ -287,7 +382,9 @@ test("the bench can be walked and worked by keyboard alone", async (t) => {
     await reach(({ text }) => text === "Add arc");
     await press("Enter");
     await ready(page);
-    const { label } = await page.evaluate(() => ({ label: document.activeElement.getAttribute("aria-label") }));
+    const { label } = await page.evaluate(() => ({
+        label: document.activeElement.getAttribute("aria-label"),
+    }));
     assert.match(label, /^Arc 1, cap, end on Fly agaric$/);
     const start = parameters(page).get("arcs");
     await press("ArrowUp", 3);
@@ -324,17 +421,27 @@ test("the growth of a mix is asked for once, with its clip, and the age poses it
     const { page, heard } = await open(t, `?morph=${a}:0.5,${c}:0.5&texture_size=128`);
     await galleryComplete(page);
     const schema = await (await fetch(`${base}/v1/mushrooms/schema`)).json();
-    if (!schema.properties.animation?.enum?.includes("growth")) return t.skip("this server makes no clips");
+    if (!schema.properties.animation?.enum?.includes("growth"))
+        return t.skip("this server makes no clips");
     await page.locator("#play").click();
     await page.locator("#status", { hasText: /Growth is loaded/ }).waitFor({ timeout: 60_000 });
     const clip = new URL(models(heard).at(-1));
     assert.equal(clip.pathname, `/v1/mushrooms/${a}:0.5,${c}:0.5.glb`);
-    assert.deepEqual([clip.searchParams.get("animation"), clip.searchParams.get("lod")], ["growth", "1"]);
+    assert.deepEqual(
+        [clip.searchParams.get("animation"), clip.searchParams.get("lod")],
+        ["growth", "1"],
+    );
     const asked = models(heard).length;
     await page.locator('input[type=range][name="age"]').focus();
     await page.keyboard.press("ArrowLeft");
     await page.waitForFunction(() => window.sporeprint.growth.age < 0.6);
-    assert.deepEqual(models(heard).slice(asked).filter((url) => /lod=1/.test(url)), [], "no frame is asked for");
+    assert.deepEqual(
+        models(heard)
+            .slice(asked)
+            .filter((url) => /lod=1/.test(url)),
+        [],
+        "no frame is asked for",
+    );
     await ready(page);
     quiet(heard);
 });
@@ -353,37 +460,63 @@ test("a share is typed as a number, and one press makes it the only one", async 
     quiet(heard);
 });
 
-test("a variety sheet of five shapes has 25 morphs, as a picture and as one clean GLB", { timeout: 600_000 }, async (t) => {
-    const { page, heard } = await open(t, `?morph=${a},${b},${c},${d},${e}&texture_size=256`, { width: 1280, height: 800 });
-    await galleryComplete(page);
-    await page.locator("#variety").click();
-    await page.evaluate(() => window.sporeprint.ready());
-    assert.equal(parameters(page).get("sheet"), "variety");
-    assert.match(await page.locator("#sheet-state").textContent(), /^25 mushrooms/);
-    await page.screenshot({ path: path.join(folder, "editor-sheet.png") });
-    const [picture] = await Promise.all([page.waitForEvent("download"), page.locator("#sheet-png").click()]);
-    assert.match(picture.suggestedFilename(), /^variety-.*\.png$/);
-    const png = await readFile(await picture.path());
-    assert.equal(png.readUInt32BE(16), 1360, "five cells wide");
-    await picture.saveAs(path.join(folder, "variety.png"));
+test(
+    "a variety sheet of five shapes has 25 morphs, as a picture and as one clean GLB",
+    { timeout: 600_000 },
+    async (t) => {
+        const { page, heard } = await open(t, `?morph=${a},${b},${c},${d},${e}&texture_size=256`, {
+            width: 1280,
+            height: 800,
+        });
+        await galleryComplete(page);
+        await page.locator("#variety").click();
+        await page.evaluate(() => window.sporeprint.ready());
+        assert.equal(parameters(page).get("sheet"), "variety");
+        assert.match(await page.locator("#sheet-state").textContent(), /^25 mushrooms/);
+        await page.screenshot({ path: path.join(folder, "editor-sheet.png") });
+        const [picture] = await Promise.all([
+            page.waitForEvent("download"),
+            page.locator("#sheet-png").click(),
+        ]);
+        assert.match(picture.suggestedFilename(), /^variety-.*\.png$/);
+        const png = await readFile(await picture.path());
+        assert.equal(png.readUInt32BE(16), 1360, "five cells wide");
+        await picture.saveAs(path.join(folder, "variety.png"));
 
-    const [model] = await Promise.all([page.waitForEvent("download", { timeout: 300_000 }), page.locator("#sheet-glb").click()]);
-    assert.match(model.suggestedFilename(), /^variety-.*\.glb$/);
-    const glb = new Uint8Array(await readFile(await model.path()));
-    const { issues, info } = await packages("gltf-validator").validateBytes(glb, { maxIssues: 20 });
-    assert.deepEqual(issues.messages, []);
-    assert.equal(info.drawCallCount, 25);
-    const json = JSON.parse(new TextDecoder().decode(glb.subarray(20, 20 + new DataView(glb.buffer, glb.byteOffset).getUint32(12, true))));
-    assert.equal(json.scenes.length, 1);
-    const names = json.scenes[0].nodes.map((node) => json.nodes[node].name);
-    assert.equal(new Set(names).size, 25);
-    for (const name of [a, b, c, d, e, `${a}:0.5,${b}:0.5`]) assert.ok(names.includes(name), `${name} is one of ${names}`);
-    const places = json.scenes[0].nodes.map((node) => json.nodes[node].translation ?? [0, 0, 0]);
-    assert.equal(new Set(places.map(([x, , z]) => `${x.toFixed(4)} ${z.toFixed(4)}`)).size, 25, "each stands on its own place");
-    await page.locator("#sheet-close").click();
-    await page.waitForFunction(() => !new URLSearchParams(location.search).has("sheet"));
-    quiet(heard);
-});
+        const [model] = await Promise.all([
+            page.waitForEvent("download", { timeout: 300_000 }),
+            page.locator("#sheet-glb").click(),
+        ]);
+        assert.match(model.suggestedFilename(), /^variety-.*\.glb$/);
+        const glb = new Uint8Array(await readFile(await model.path()));
+        const { issues, info } = await packages("gltf-validator").validateBytes(glb, {
+            maxIssues: 20,
+        });
+        assert.deepEqual(issues.messages, []);
+        assert.equal(info.drawCallCount, 25);
+        const json = JSON.parse(
+            new TextDecoder().decode(
+                glb.subarray(20, 20 + new DataView(glb.buffer, glb.byteOffset).getUint32(12, true)),
+            ),
+        );
+        assert.equal(json.scenes.length, 1);
+        const names = json.scenes[0].nodes.map((node) => json.nodes[node].name);
+        assert.equal(new Set(names).size, 25);
+        for (const name of [a, b, c, d, e, `${a}:0.5,${b}:0.5`])
+            assert.ok(names.includes(name), `${name} is one of ${names}`);
+        const places = json.scenes[0].nodes.map(
+            (node) => json.nodes[node].translation ?? [0, 0, 0],
+        );
+        assert.equal(
+            new Set(places.map(([x, , z]) => `${x.toFixed(4)} ${z.toFixed(4)}`)).size,
+            25,
+            "each stands on its own place",
+        );
+        await page.locator("#sheet-close").click();
+        await page.waitForFunction(() => !new URLSearchParams(location.search).has("sheet"));
+        quiet(heard);
+    },
+);
 
 test("a sheet can be stopped, and one by its address opens by itself", async (t) => {
     const { page, heard } = await open(t, `?morph=${a},${b},${c},${d}&texture_size=128`);
@@ -406,26 +539,40 @@ test("a sheet can be stopped, and one by its address opens by itself", async (t)
     await page.goto(`${base}/?species=${c}&texture_size=128&sheet=growth`);
     await ready(page);
     assert.match(await page.locator("#sheet-state").textContent(), /^9 mushrooms/);
-    const [picture] = await Promise.all([page.waitForEvent("download"), page.locator("#sheet-png").click()]);
+    const [picture] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator("#sheet-png").click(),
+    ]);
     assert.match(picture.suggestedFilename(), /^growth-coprinus_comatus.png$/);
     await picture.saveAs(path.join(folder, "growth.png"));
     quiet(heard);
 });
 
 test("a window 390 pixels wide has the whole bench and no sideways scrolling", async (t) => {
-    for (const [name, query] of [["two", `${a},${c}&arcs=cap:0.4:0.5`], ["five", `${a},${b},${c},${d},${e}`]]) {
+    for (const [name, query] of [
+        ["two", `${a},${c}&arcs=cap:0.4:0.5`],
+        ["five", `${a},${b},${c},${d},${e}`],
+    ]) {
         const { page, heard } = await open(t, `?morph=${query}`, { width: 390, height: 844 });
         await galleryComplete(page);
         const { wide, over } = await page.evaluate(() => ({
             wide: document.documentElement.scrollWidth,
             over: [...document.querySelectorAll("main *, aside *, header *, footer")]
-                .filter((element) => !element.closest("svg") && element.getBoundingClientRect().right > innerWidth + 0.5 && element.getClientRects().length)
+                .filter(
+                    (element) =>
+                        !element.closest("svg") &&
+                        element.getBoundingClientRect().right > innerWidth + 0.5 &&
+                        element.getClientRects().length,
+                )
                 .map((element) => element.id || element.className || element.tagName),
         }));
         assert.ok(wide <= 390, `the page is ${wide} pixels wide`);
         assert.deepEqual(over, []);
         await page.screenshot({ path: path.join(folder, `editor-phone-${name}.png`) });
-        await page.screenshot({ path: path.join(folder, `editor-phone-${name}-whole.png`), fullPage: true });
+        await page.screenshot({
+            path: path.join(folder, `editor-phone-${name}-whole.png`),
+            fullPage: true,
+        });
         quiet(heard);
     }
 });

@@ -23,7 +23,9 @@ export function coveringArray(sizes, strength) {
     };
     choose(0, []);
     // What no row has yet: for each group of factors a number for each combination of their values.
-    const missing = groups.map((group) => new Set(Array(group.reduce((n, i) => n * sizes[i], 1)).keys()));
+    const missing = groups.map(
+        (group) => new Set(Array(group.reduce((n, i) => n * sizes[i], 1)).keys()),
+    );
     const place = (group, row) => group.reduce((n, i) => n * sizes[i] + row[i], 0);
     const rows = [];
     for (let g = 0; g < groups.length; ++g) {
@@ -36,15 +38,21 @@ export function coveringArray(sizes, strength) {
             }
             for (let i = 0; i < sizes.length; ++i) {
                 if (row[i] >= 0) continue;
-                const complete = groups.map((group, k) => [group, k])
-                    .filter(([group]) => group.includes(i) && group.every((j) => j === i || row[j] >= 0));
+                const complete = groups
+                    .map((group, k) => [group, k])
+                    .filter(
+                        ([group]) =>
+                            group.includes(i) && group.every((j) => j === i || row[j] >= 0),
+                    );
                 let best = 0;
                 let most = -1;
                 // Ties go to another value in each row, so that all of them come equally often.
                 for (let n = 0; n < sizes[i]; ++n) {
                     const value = (n + rows.length) % sizes[i];
                     row[i] = value;
-                    const gain = complete.filter(([group, k]) => missing[k].has(place(group, row))).length;
+                    const gain = complete.filter(([group, k]) =>
+                        missing[k].has(place(group, row)),
+                    ).length;
                     if (gain > most) [most, best] = [gain, value];
                 }
                 row[i] = best;
@@ -58,7 +66,11 @@ export function coveringArray(sizes, strength) {
 
 /** Returns all rows of a product. */
 export function product(sizes) {
-    return sizes.reduce((rows, size) => rows.flatMap((row) => [...Array(size).keys()].map((value) => [...row, value])), [[]]);
+    return sizes.reduce(
+        (rows, size) =>
+            rows.flatMap((row) => [...Array(size).keys()].map((value) => [...row, value])),
+        [[]],
+    );
 }
 
 const small = "texture_size=128";
@@ -83,30 +95,74 @@ async function offers(server) {
     const leaves = await list("/v1/leaves", "leaves");
     const trees = await list("/v1/trees", "trees");
     const ages = ["age=0", "age=0.25", "age=0.5", "age=0.75", "age=1"];
-    const clips = ["", "", "animation=growth", "animation=growth&frames=2", "animation=growth&frames=16"];
+    const clips = [
+        "",
+        "",
+        "animation=growth",
+        "animation=growth&frames=2",
+        "animation=growth&frames=16",
+    ];
     return [
-        { route: "mushrooms", factors: [species, ages, lods, ["seed=7", "seed=8", "seed=9&variation=1"], images, clips] },
-        { route: "mushrooms", factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, images, clips] },
+        {
+            route: "mushrooms",
+            factors: [
+                species,
+                ages,
+                lods,
+                ["seed=7", "seed=8", "seed=9&variation=1"],
+                images,
+                clips,
+            ],
+        },
+        {
+            route: "mushrooms",
+            factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, images, clips],
+        },
         {
             route: "leaves",
-            factors: [leaves, ["autumn=0", "autumn=0.5", "autumn=1"], lods, ["seed=7", "seed=7&variation=1"], images,
-                ["", "curl_deg=180&size=0.25", "venation.teeth=1&venation.teeth_per_vein=6"]],
+            factors: [
+                leaves,
+                ["autumn=0", "autumn=0.5", "autumn=1"],
+                lods,
+                ["seed=7", "seed=7&variation=1"],
+                images,
+                ["", "curl_deg=180&size=0.25", "venation.teeth=1&venation.teeth_per_vein=6"],
+            ],
         },
         {
             route: "trees",
-            factors: [trees, ["autumn=0", "autumn=0.5"], lods, ["seed=7", "seed=8"], images, ["", "size=0.25", "leaves.per_tip=0"],
-                ["", "growth=drawn"]],
+            factors: [
+                trees,
+                ["autumn=0", "autumn=0.5"],
+                lods,
+                ["seed=7", "seed=8"],
+                images,
+                ["", "size=0.25", "leaves.per_tip=0"],
+                ["", "growth=drawn"],
+            ],
         },
         {
             route: "colonies",
-            factors: [[...species, "amanita_muscaria:0.5,boletus_edulis:0.5"], lods, ["count=9&distinct=3", "count=3&distinct=1"],
-                ["seed=7", "seed=8"], images, ["", "", "instancing=gpu"]],
+            factors: [
+                [...species, "amanita_muscaria:0.5,boletus_edulis:0.5"],
+                lods,
+                ["count=9&distinct=3", "count=3&distinct=1"],
+                ["seed=7", "seed=8"],
+                images,
+                ["", "", "instancing=gpu"],
+            ],
         },
         { route: "mushrooms", factors: [species] },
         { route: "leaves", factors: [leaves] },
         { route: "trees", factors: [trees] },
         { route: "colonies", factors: [["hypholoma_fasciculare"]] },
-        { route: "colonies", factors: [["amanita_muscaria:0.5,boletus_edulis:0.5"], ["habit=rooted&textures=none&roots=shown"]] },
+        {
+            route: "colonies",
+            factors: [
+                ["amanita_muscaria:0.5,boletus_edulis:0.5"],
+                ["habit=rooted&textures=none&roots=shown"],
+            ],
+        },
     ];
 }
 
@@ -121,7 +177,10 @@ async function main() {
         // What stands twice in a list is only more often taken; in a whole product once is enough.
         const values = strength === "product" ? factors.map((list) => [...new Set(list)]) : factors;
         const sizes = values.map((list) => list.length);
-        const rows = strength === "product" ? product(sizes) : coveringArray(sizes, Math.min(Number(strength), sizes.length));
+        const rows =
+            strength === "product"
+                ? product(sizes)
+                : coveringArray(sizes, Math.min(Number(strength), sizes.length));
         for (const row of rows) {
             const [id, ...query] = row.map((value, i) => values[i][value]);
             const asked = query.filter(Boolean).join("&");

@@ -2,7 +2,14 @@
 import assert from "node:assert/strict";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    galleryComplete,
+    launchBrowser,
+    listen,
+    ready,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
 const species = "boletus_edulis";
@@ -29,9 +36,14 @@ async function open(t, query = "", reducedMotion = "no-preference") {
 }
 
 const growth = (page) => page.evaluate(() => window.sporeprint.growth);
-const clips = (heard) => heard.requests.filter((url) => /\.glb\?.*animation=growth/.test(url)).map((url) => new URL(url).searchParams);
+const clips = (heard) =>
+    heard.requests
+        .filter((url) => /\.glb\?.*animation=growth/.test(url))
+        .map((url) => new URL(url).searchParams);
 /** The last model asked for that is no picture of the gallery. */
-const lastModel = (heard) => new URL(heard.requests.findLast((url) => /\.glb/.test(url) && !/texture_size=256/.test(url))).searchParams;
+const lastModel = (heard) =>
+    new URL(heard.requests.findLast((url) => /\.glb/.test(url) && !/texture_size=256/.test(url)))
+        .searchParams;
 const parameters = (page) => new URL(page.url()).searchParams;
 const picture = (page) => page.locator("#stage").screenshot();
 
@@ -46,23 +58,41 @@ test("play asks for the clip at LOD 1, grows from the button on, and staying ask
     await page.locator("#play").focus();
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => window.sporeprint.growth.playing);
-    assert.deepEqual(clips(heard).map((query) => [...query]), [[["seed", "7"], ["lod", "1"], ["animation", "growth"]]]);
+    assert.deepEqual(
+        clips(heard).map((query) => [...query]),
+        [
+            [
+                ["seed", "7"],
+                ["lod", "1"],
+                ["animation", "growth"],
+            ],
+        ],
+    );
     assert.equal(await page.locator("#play").getAttribute("aria-label"), "Stay at this age");
     // In one turn of the page: the clip runs on while a test looks.
-    const seen = await page.evaluate(() => new Promise((resolve) => {
-        const ages = [];
-        const look = () => {
-            const { age, playing } = window.sporeprint.growth;
-            ages.push(age);
-            if (playing && ages.length < 5) return requestAnimationFrame(look);
-            const sliderAge = Number(document.querySelector('input[type=range][name="age"]').value);
-            const { search } = location;
-            document.querySelector("#play").click();
-            resolve({ ages, sliderAge, search, after: window.sporeprint.growth });
-        };
-        look();
-    }));
-    assert.ok(seen.ages.every((age, i) => i === 0 || age >= seen.ages[i - 1]) && seen.ages.at(-1) > seen.ages[0], `${seen.ages}`);
+    const seen = await page.evaluate(
+        () =>
+            new Promise((resolve) => {
+                const ages = [];
+                const look = () => {
+                    const { age, playing } = window.sporeprint.growth;
+                    ages.push(age);
+                    if (playing && ages.length < 5) return requestAnimationFrame(look);
+                    const sliderAge = Number(
+                        document.querySelector('input[type=range][name="age"]').value,
+                    );
+                    const { search } = location;
+                    document.querySelector("#play").click();
+                    resolve({ ages, sliderAge, search, after: window.sporeprint.growth });
+                };
+                look();
+            }),
+    );
+    assert.ok(
+        seen.ages.every((age, i) => i === 0 || age >= seen.ages[i - 1]) &&
+            seen.ages.at(-1) > seen.ages[0],
+        `${seen.ages}`,
+    );
     assert.ok(Math.abs(seen.sliderAge - seen.ages.at(-1)) < 0.01, "the slider follows");
     assert.ok(!seen.search.includes("age="), "playing changes no setting");
     assert.equal(seen.after.playing, false);
@@ -70,7 +100,13 @@ test("play asks for the clip at LOD 1, grows from the button on, and staying ask
     const age = Number(parameters(page).get("age"));
     assert.ok(Math.abs(age - seen.ages.at(-1)) < 0.01, `stayed at ${age}`);
     assert.equal((await growth(page)).age, undefined, "the still mushroom stands there again");
-    assert.deepEqual([...lastModel(heard)], [["seed", "7"], ["age", String(age)]]);
+    assert.deepEqual(
+        [...lastModel(heard)],
+        [
+            ["seed", "7"],
+            ["age", String(age)],
+        ],
+    );
     quiet(heard);
 });
 
@@ -81,18 +117,23 @@ test("a clip runs to its end in eight seconds and leaves the mushroom that was a
     await page.waitForFunction(() => window.sporeprint.growth.playing);
     assert.equal(clips(heard)[0].get("lod"), "3", "no finer than what was chosen");
     // Its pace, on the page's own clock: frames may be few.
-    const pace = await page.evaluate(() => new Promise((resolve) => {
-        let first;
-        const look = (now) => {
-            const { age } = window.sporeprint.growth;
-            first ??= { now, age };
-            if (now - first.now < 2000) return requestAnimationFrame(look);
-            resolve((age - first.age) / ((now - first.now) / 1000));
-        };
-        requestAnimationFrame(look);
-    }));
+    const pace = await page.evaluate(
+        () =>
+            new Promise((resolve) => {
+                let first;
+                const look = (now) => {
+                    const { age } = window.sporeprint.growth;
+                    first ??= { now, age };
+                    if (now - first.now < 2000) return requestAnimationFrame(look);
+                    resolve((age - first.age) / ((now - first.now) / 1000));
+                };
+                requestAnimationFrame(look);
+            }),
+    );
     assert.ok(Math.abs(pace - 1 / 8) < 0.03, `${pace} lives a second`);
-    await page.waitForFunction(() => window.sporeprint.growth.age === 1, undefined, { timeout: 30_000 });
+    await page.waitForFunction(() => window.sporeprint.growth.age === 1, undefined, {
+        timeout: 30_000,
+    });
     await ready(page);
     assert.equal((await growth(page)).age, undefined);
     assert.equal(await page.evaluate(() => window.sporeprint.counts.vertices), before_);
@@ -103,7 +144,16 @@ test("a clip runs to its end in eight seconds and leaves the mushroom that was a
 
 test("with a clip on the stage the age moves it without asking the server, until the hand rests", async (t) => {
     const { page, heard } = await open(t, "&animation=growth&frames=5&lod=2");
-    assert.deepEqual(clips(heard).map((query) => [...query]), [[["lod", "2"], ["animation", "growth"], ["frames", "5"]]]);
+    assert.deepEqual(
+        clips(heard).map((query) => [...query]),
+        [
+            [
+                ["lod", "2"],
+                ["animation", "growth"],
+                ["frames", "5"],
+            ],
+        ],
+    );
     assert.equal((await growth(page)).playing, false, "nobody pressed play");
     assert.notEqual(await page.locator('.control[data-name="frames"]').getAttribute("hidden"), "");
     await galleryComplete(page);
@@ -124,7 +174,9 @@ test("with a clip on the stage the age moves it without asking the server, until
 
 test("the number of frames is neither offered nor sent without a clip", async (t) => {
     const { page, heard } = await open(t, "&animation=growth&frames=5&lod=3");
-    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+    await page.evaluate(() =>
+        document.querySelectorAll("details").forEach((details) => (details.open = true)),
+    );
     await page.locator('select[name="animation"]').selectOption("none");
     await ready(page);
     assert.equal(await page.locator('.control[data-name="frames"]').isVisible(), false);

@@ -13,7 +13,10 @@ let folder;
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
+    shared = await browser.newContext({
+        viewport: { width: 960, height: 560 },
+        reducedMotion: "reduce",
+    });
 });
 
 after(() => browser?.close());
@@ -24,7 +27,9 @@ async function open(t, query) {
     const heard = listen(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
-    await page.locator("#form details:not([open]) summary").evaluateAll((all) => all.forEach((one) => one.click()));
+    await page
+        .locator("#form details:not([open]) summary")
+        .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, heard };
 }
 
@@ -38,18 +43,33 @@ function quiet(heard) {
 test("the leaf bench offers every preset and every parameter of the schema", async (t) => {
     const { page, heard } = await open(t, "?leaf");
     const { leaves } = await (await fetch(`${base}/v1/leaves`)).json();
-    assert.deepEqual(await page.locator("#gallery button").evaluateAll((all) => all.map((one) => one.dataset.species)), leaves.map(({ id }) => id));
+    assert.deepEqual(
+        await page
+            .locator("#gallery button")
+            .evaluateAll((all) => all.map((one) => one.dataset.species)),
+        leaves.map(({ id }) => id),
+    );
     const schema = await (await fetch(`${base}/v1/leaves/schema`)).json();
-    const names = (object, prefix = "") => Object.entries(object.properties).flatMap(([key, sub]) =>
-        sub.properties ? names(sub, `${prefix}${key}.`) : [prefix + key]);
-    const shown = await page.locator("#form .control").evaluateAll((all) => all.map((one) => one.dataset.name));
+    const names = (object, prefix = "") =>
+        Object.entries(object.properties).flatMap(([key, sub]) =>
+            sub.properties ? names(sub, `${prefix}${key}.`) : [prefix + key],
+        );
+    const shown = await page
+        .locator("#form .control")
+        .evaluateAll((all) => all.map((one) => one.dataset.name));
     assert.deepEqual([...shown].sort(), names(schema).sort());
     assert.equal(await page.locator("#mode-leaf").getAttribute("aria-current"), "page");
     assert.equal(await page.locator("#sheets").isVisible(), false);
-    assert.match(await page.locator("#dimensions").textContent(), /^[\d.]+ cm long, [\d.]+ cm wide$/);
+    assert.match(
+        await page.locator("#dimensions").textContent(),
+        /^[\d.]+ cm long, [\d.]+ cm wide$/,
+    );
     // A control shows what the preset brings.
     assert.equal(await page.locator('input[type=number][name="venation.nodes"]').inputValue(), "5");
-    assert.equal(await page.locator('input[type=color][name="summer.inner"]').inputValue(), "#3e6826");
+    assert.equal(
+        await page.locator('input[type=color][name="summer.inner"]').inputValue(),
+        "#3e6826",
+    );
     await page.screenshot({ path: path.join(folder, "leaf_editor.png") });
     quiet(heard);
 });
@@ -71,7 +91,14 @@ test("what is moved is asked for, stands in the address, and goes with the next 
     });
     await ready(page);
     assert.equal(parameters(page)["summer.inner"], "#aa2211");
-    assert.ok(heard.requests.some((url) => /\/v1\/leaves\/birch\.glb\?seed=7&venation\.nodes=14&summer\.inner=%23aa2211$/.test(url)), heard.requests.join("\n"));
+    assert.ok(
+        heard.requests.some((url) =>
+            /\/v1\/leaves\/birch\.glb\?seed=7&venation\.nodes=14&summer\.inner=%23aa2211$/.test(
+                url,
+            ),
+        ),
+        heard.requests.join("\n"),
+    );
     await page.locator('#gallery button[data-species="ivy"]').click();
     await ready(page);
     assert.deepEqual(parameters(page), { leaf: "ivy", seed: "7" });
@@ -86,22 +113,35 @@ test("what cannot be is said beside its control, and the last leaf stays", async
     const { page, heard } = await open(t, "?leaf=maple");
     await page.locator('select[name="venation.lobes"]').selectOption("13");
     await page.locator('.control[data-name="venation.vein_deg"] .fault').waitFor();
-    assert.match(await page.locator('.control[data-name="venation.vein_deg"] .fault').textContent(), /petiole/);
-    assert.ok(heard.failed.every((line) => line.endsWith(": 422")), heard.failed.join());
-    assert.ok(await page.evaluate(() => window.sporeprint.counts.triangles) > 100);
+    assert.match(
+        await page.locator('.control[data-name="venation.vein_deg"] .fault').textContent(),
+        /petiole/,
+    );
+    assert.ok(
+        heard.failed.every((line) => line.endsWith(": 422")),
+        heard.failed.join(),
+    );
+    assert.ok((await page.evaluate(() => window.sporeprint.counts.triangles)) > 100);
 });
 
 test("the file that is saved is that of the shown address, and brings its settings back", async (t) => {
     const { page, heard } = await open(t, "?leaf=oak&autumn=0.5&lod=2");
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator("#download").click(),
+    ]);
     assert.equal(download.suggestedFilename(), "oak-1.glb");
     const saved = await readFile(await download.path());
-    const served = Buffer.from(await (await fetch(`${base}/v1/leaves/oak.glb?autumn=0.5&lod=2`)).arrayBuffer());
+    const served = Buffer.from(
+        await (await fetch(`${base}/v1/leaves/oak.glb?autumn=0.5&lod=2`)).arrayBuffer(),
+    );
     assert.ok(saved.equals(served));
     // Dropped on the mushrooms' page it opens the leaf bench.
     await page.goto(`${base}/?species=boletus_edulis&lod=3`);
     await ready(page);
-    await page.locator("#file").setInputFiles({ name: "oak.glb", mimeType: "model/gltf-binary", buffer: saved });
+    await page
+        .locator("#file")
+        .setInputFiles({ name: "oak.glb", mimeType: "model/gltf-binary", buffer: saved });
     await page.waitForURL(/leaf=oak/);
     await ready(page);
     assert.deepEqual(parameters(page), { leaf: "oak", autumn: "0.5", lod: "2" });

@@ -25,11 +25,18 @@ export function points(said, is) {
 /** Shares of each judge and of all, and the pictures that were not named: [{number, is, said: [..]}]. */
 export function scored(key, judges) {
     const numbers = Object.keys(key);
-    const shares = judges.map((answers) => numbers.reduce((sum, n) => sum + points(answers[n], key[n]), 0) / numbers.length);
+    const shares = judges.map(
+        (answers) =>
+            numbers.reduce((sum, n) => sum + points(answers[n], key[n]), 0) / numbers.length,
+    );
     const mean = shares.reduce((sum, share) => sum + share, 0) / shares.length;
     const missed = numbers
         .filter((n) => judges.some((answers) => points(answers[n], key[n]) < 1))
-        .map((n) => ({ number: Number(n), is: key[n], said: judges.map((answers) => answers[n] ?? "(nothing)") }));
+        .map((n) => ({
+            number: Number(n),
+            is: key[n],
+            said: judges.map((answers) => answers[n] ?? "(nothing)"),
+        }));
     return { shares, mean, missed };
 }
 
@@ -45,11 +52,18 @@ export function confusionTable({ key, files }, { shares, mean, missed }) {
     const percent = (share) => `${(100 * share).toFixed(1)} %`;
     const judge = (file) => file.replace(/^answers_|\.json$/g, "");
     return [
-        "# Naming trial", "",
-        `${Object.keys(key).length} species at maturity; the same genus counts half. Mean ${percent(mean)}; ${
-            files.map((file, i) => `${judge(file)} ${percent(shares[i])}`).join(", ")}.`, "",
-        `| picture | is | ${files.map(judge).join(" | ")} |`, `|---|---|${files.map(() => "---|").join("")}`,
-        ...missed.map(({ number, is, said }) => `| ${number} | *${is}* | ${said.map((name) => (name === is ? "right" : name)).join(" | ")} |`),
+        "# Naming trial",
+        "",
+        `${Object.keys(key).length} species at maturity; the same genus counts half. Mean ${percent(mean)}; ${files
+            .map((file, i) => `${judge(file)} ${percent(shares[i])}`)
+            .join(", ")}.`,
+        "",
+        `| picture | is | ${files.map(judge).join(" | ")} |`,
+        `|---|---|${files.map(() => "---|").join("")}`,
+        ...missed.map(
+            ({ number, is, said }) =>
+                `| ${number} | *${is}* | ${said.map((name) => (name === is ? "right" : name)).join(" | ")} |`,
+        ),
         "",
     ].join("\n");
 }
@@ -73,7 +87,10 @@ function shuffled(list, number) {
 
 async function makeSheet(base, { out, shuffle = 1, cell = 264, across = 3, rows = 3 }) {
     const list = (await (await fetch(`${base}/v1/species`)).json()).species;
-    const order = shuffled(list.sort((a, b) => (a.id < b.id ? -1 : 1)), shuffle);
+    const order = shuffled(
+        list.sort((a, b) => (a.id < b.id ? -1 : 1)),
+        shuffle,
+    );
     await mkdir(out, { recursive: true });
     const browser = await launchBrowser();
     try {
@@ -87,31 +104,59 @@ async function makeSheet(base, { out, shuffle = 1, cell = 264, across = 3, rows 
             const pictures = [];
             for (const view of ["three-quarter", "below"]) {
                 await page.evaluate((name) => window.sporeprint.view(name), view);
-                await page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
+                await page.evaluate(
+                    () =>
+                        new Promise((done) =>
+                            requestAnimationFrame(() => requestAnimationFrame(done)),
+                        ),
+                );
                 pictures.push((await page.screenshot()).toString("base64"));
             }
-            cells.push(`<figure><figcaption>${i + 1}</figcaption>${pictures.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}</figure>`);
+            cells.push(
+                `<figure><figcaption>${i + 1}</figcaption>${pictures.map((png) => `<img src="data:image/png;base64,${png}">`).join("")}</figure>`,
+            );
         }
         const per = across * rows;
         for (let first = 0; first < cells.length; first += per) {
-            const sheet = await browser.newPage({ viewport: { width: across * (2 * cell + 12) + 16, height: 400 } });
+            const sheet = await browser.newPage({
+                viewport: { width: across * (2 * cell + 12) + 16, height: 400 },
+            });
             await sheet.setContent(`<!doctype html><style>body { margin: 8px; background: #f5efe2; display: grid; gap: 8px; grid-template-columns: repeat(${across}, auto); font: 600 20px serif; }
 figure { margin: 0; border: 1px solid #d8ccb6; position: relative; display: flex; } figcaption { position: absolute; left: 6px; top: 4px; }</style>${cells.slice(first, first + per).join("")}`);
-            await writeFile(path.join(out, `sheet_${first / per + 1}.png`), await sheet.screenshot({ fullPage: true }));
+            await writeFile(
+                path.join(out, `sheet_${first / per + 1}.png`),
+                await sheet.screenshot({ fullPage: true }),
+            );
         }
     } finally {
         await browser.close();
     }
-    await writeFile(path.join(out, "key.json"), `${JSON.stringify(Object.fromEntries(order.map(({ scientific_name }, i) => [i + 1, scientific_name])), null, 1)}\n`);
-    await writeFile(path.join(out, "names.txt"), `${list.map(({ scientific_name, common_name }) => `${scientific_name} (${common_name})`).sort().join("\n")}\n`);
+    await writeFile(
+        path.join(out, "key.json"),
+        `${JSON.stringify(Object.fromEntries(order.map(({ scientific_name }, i) => [i + 1, scientific_name])), null, 1)}\n`,
+    );
+    await writeFile(
+        path.join(out, "names.txt"),
+        `${list
+            .map(({ scientific_name, common_name }) => `${scientific_name} (${common_name})`)
+            .sort()
+            .join("\n")}\n`,
+    );
     console.log(out);
 }
 
 async function main([what, where, ...rest]) {
-    const options = Object.fromEntries(rest.flatMap((word, i) => (word.startsWith("--") ? [[word.slice(2), rest[i + 1]]] : [])));
+    const options = Object.fromEntries(
+        rest.flatMap((word, i) => (word.startsWith("--") ? [[word.slice(2), rest[i + 1]]] : [])),
+    );
     if (what === "sheet" && /^https?:/.test(where ?? "") && options.out) {
-        const number = (name) => (options[name] === undefined ? {} : { [name]: Number(options[name]) });
-        return makeSheet(where.replace(/\/+$/, ""), { out: path.resolve(options.out), ...number("shuffle"), ...number("cell") });
+        const number = (name) =>
+            options[name] === undefined ? {} : { [name]: Number(options[name]) };
+        return makeSheet(where.replace(/\/+$/, ""), {
+            out: path.resolve(options.out),
+            ...number("shuffle"),
+            ...number("cell"),
+        });
     }
     if (what === "score" && where) {
         const trial = await readTrial(where);
@@ -122,4 +167,5 @@ async function main([what, where, ...rest]) {
     throw new Error("say 'sheet ADDRESS --out FOLDER' or 'score FOLDER'");
 }
 
-if (import.meta.url === pathToFileURL(process.argv[1] ?? "").href) await main(process.argv.slice(2));
+if (import.meta.url === pathToFileURL(process.argv[1] ?? "").href)
+    await main(process.argv.slice(2));

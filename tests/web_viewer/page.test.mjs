@@ -3,7 +3,14 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    galleryComplete,
+    launchBrowser,
+    listen,
+    ready,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
 let browser;
@@ -15,7 +22,10 @@ before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
     // One storage for all tests: the gallery's pictures are made once.
-    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
+    shared = await browser.newContext({
+        viewport: { width: 960, height: 560 },
+        reducedMotion: "reduce",
+    });
     species = (await (await fetch(`${base}/v1/species`)).json()).species;
 });
 
@@ -35,7 +45,11 @@ async function open(t, query = "", viewport = undefined, from = base) {
 const stagePicture = (page) => page.locator("#stage").screenshot();
 const parameters = (page) => new URL(page.url()).searchParams;
 /** What was asked for to be shown large: the gallery's pictures come when there is time. */
-const models = (heard) => heard.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url));
+const models = (heard) =>
+    heard.requests.filter(
+        (url) =>
+            /\/v1\/mushrooms\/[^/]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url),
+    );
 const slider = (page, name) => page.locator(`input[type=range][name="${name}"]`);
 
 /** How many different colours a picture has: a blank stage has a gradient's few. */
@@ -44,10 +58,14 @@ async function colours(t, png) {
     t.after(() => context.close());
     const page = await context.newPage();
     return page.evaluate(async (data) => {
-        const bitmap = await createImageBitmap(await (await fetch(`data:image/png;base64,${data}`)).blob());
+        const bitmap = await createImageBitmap(
+            await (await fetch(`data:image/png;base64,${data}`)).blob(),
+        );
         const canvas = new OffscreenCanvas(bitmap.width, bitmap.height).getContext("2d");
         canvas.drawImage(bitmap, 0, 0);
-        return new Set(new Uint32Array(canvas.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer)).size;
+        return new Set(
+            new Uint32Array(canvas.getImageData(0, 0, bitmap.width, bitmap.height).data.buffer),
+        ).size;
     }, png.toString("base64"));
 }
 
@@ -62,15 +80,28 @@ test("every species loads, is drawn, and nothing is said on the console", async 
     assert.ok(species.length > 0);
     const { page, heard } = await open(t, "", { width: 1280, height: 800 }, whole);
     await galleryComplete(page);
-    assert.equal(await page.locator("#gallery img").count(), species.length, "a picture for every species");
+    assert.equal(
+        await page.locator("#gallery img").count(),
+        species.length,
+        "a picture for every species",
+    );
     await page.screenshot({ path: path.join(folder, "page.png") });
     for (const { id, common_name: name } of species) {
         await page.locator(`#gallery button[data-species="${id}"]`).click();
         await ready(page);
-        assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), id);
+        assert.equal(
+            await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"),
+            id,
+        );
         assert.equal(await page.locator("#common-name").textContent(), name);
-        const { counts, size } = await page.evaluate(() => ({ counts: window.sporeprint.counts, size: window.sporeprint.size }));
-        assert.ok(counts.triangles > 100 && counts.drawCalls >= 1, `${id}: ${JSON.stringify(counts)}`);
+        const { counts, size } = await page.evaluate(() => ({
+            counts: window.sporeprint.counts,
+            size: window.sporeprint.size,
+        }));
+        assert.ok(
+            counts.triangles > 100 && counts.drawCalls >= 1,
+            `${id}: ${JSON.stringify(counts)}`,
+        );
         assert.ok(size.height > 0.001 && size.height < 2, `${id} is ${size.height} m tall`);
         const png = await page.screenshot({ path: path.join(folder, `species-${id}.png`) });
         assert.ok((await colours(t, png)) > 1500, `${id} is drawn`);
@@ -92,9 +123,13 @@ test("a dragged slider shows drafts, then what was chosen, and writes the addres
         await page.waitForTimeout(60);
     }
     await page.waitForTimeout(400);
-    const drafts = models(heard).slice(asked).map((url) => new URL(url).searchParams);
+    const drafts = models(heard)
+        .slice(asked)
+        .map((url) => new URL(url).searchParams);
     assert.ok(drafts.length >= 1 && drafts.length <= 12, `${drafts.length} drafts for one drag`);
-    assert.ok(drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"));
+    assert.ok(
+        drafts.every((query) => query.get("lod") === "1" && query.get("textures") === "linked"),
+    );
     await page.mouse.up();
     await ready(page);
     const age = Number(parameters(page).get("age"));
@@ -121,21 +156,33 @@ test("an address opens as it was shared", async (t) => {
     assert.equal(await page.locator('input[type=number][name="seed"]').inputValue(), "42");
     assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), "0.35");
     assert.equal(await page.locator('#lods button[aria-pressed="true"]').textContent(), "L1");
-    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), id);
+    assert.equal(
+        await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"),
+        id,
+    );
     quiet(heard);
 });
 
 test("what an address gets wrong is said in words beside the control", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}&age=1.7&sed=4`);
-    assert.match(await page.locator('.control[data-name="age"] .fault').textContent(), /'1.7' is above 1/);
+    assert.match(
+        await page.locator('.control[data-name="age"] .fault').textContent(),
+        /'1.7' is above 1/,
+    );
     assert.match(await page.locator("#problem").textContent(), /sed/);
     assert.equal(await slider(page, "age").getAttribute("aria-invalid"), "true");
 });
 
 test("a species that is not there is said in words and another one is shown", async (t) => {
     const { page, heard } = await open(t, "?species=amanita_unicornis");
-    assert.match(await page.locator("#problem").textContent(), /'amanita_unicornis' is no species here/);
-    assert.equal(await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"), species[0].id);
+    assert.match(
+        await page.locator("#problem").textContent(),
+        /'amanita_unicornis' is no species here/,
+    );
+    assert.equal(
+        await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"),
+        species[0].id,
+    );
     quiet(heard);
 });
 
@@ -152,37 +199,61 @@ test("a mix is named after its members, and all of them are marked", async (t) =
     await page.goto(`${base}/?species=${first.id}:0.5,${last.id}:0.5`);
     await ready(page);
     assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 2);
-    assert.equal(await page.locator("#common-name").textContent(), `${first.common_name} × ${last.common_name}`);
+    assert.equal(
+        await page.locator("#common-name").textContent(),
+        `${first.common_name} × ${last.common_name}`,
+    );
     quiet(heard);
 });
 
 test("every control is native, named by its query name, described and within its range", async (t) => {
     const { page } = await open(t);
     const schema = await (await fetch(`${base}/v1/mushrooms/schema`)).json();
-    const names = Object.keys(schema.properties).filter((name) => name !== "v" && !schema.properties[name].properties && !schema.properties[name].oneOf);
-    for (const name of names) assert.ok((await page.locator(`[name="${name}"]`).count()) >= 1, `${name} has a control`);
-    const faults = await page.evaluate(() => [...document.querySelectorAll("#form [name]")].flatMap((entry) => {
-        const wrong = [];
-        const about = entry.getAttribute("aria-describedby")?.split(" ")[0];
-        if (!document.getElementById(about)?.textContent) wrong.push("no description");
-        if (entry.type === "range" && !document.querySelector(`input[type=number][name="${entry.name}"]`)) wrong.push("no number");
-        if (entry.type === "number" && entry.value !== "" && (Number(entry.value) < Number(entry.min) || Number(entry.value) > Number(entry.max))) wrong.push("outside its range");
-        if (!entry.labels?.length && !entry.getAttribute("aria-label")) wrong.push("no label");
-        return wrong.map((what) => `${entry.name}: ${what}`);
-    }));
+    const names = Object.keys(schema.properties).filter(
+        (name) =>
+            name !== "v" && !schema.properties[name].properties && !schema.properties[name].oneOf,
+    );
+    for (const name of names)
+        assert.ok((await page.locator(`[name="${name}"]`).count()) >= 1, `${name} has a control`);
+    const faults = await page.evaluate(() =>
+        [...document.querySelectorAll("#form [name]")].flatMap((entry) => {
+            const wrong = [];
+            const about = entry.getAttribute("aria-describedby")?.split(" ")[0];
+            if (!document.getElementById(about)?.textContent) wrong.push("no description");
+            if (
+                entry.type === "range" &&
+                !document.querySelector(`input[type=number][name="${entry.name}"]`)
+            )
+                wrong.push("no number");
+            if (
+                entry.type === "number" &&
+                entry.value !== "" &&
+                (Number(entry.value) < Number(entry.min) || Number(entry.value) > Number(entry.max))
+            )
+                wrong.push("outside its range");
+            if (!entry.labels?.length && !entry.getAttribute("aria-label")) wrong.push("no label");
+            return wrong.map((what) => `${entry.name}: ${what}`);
+        }),
+    );
     assert.deepEqual(faults, []);
 });
 
 test("a control of the species' own is sent once moved, and no more after its reset", async (t) => {
     const { page, heard } = await open(t, `?species=${species[0].id}`);
-    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+    await page.evaluate(() =>
+        document.querySelectorAll("details").forEach((details) => (details.open = true)),
+    );
     const row = page.locator(".control.inherited.number:visible").first();
     assert.equal(await row.count(), 1);
     const name = await row.getAttribute("data-name");
     assert.ok(!models(heard).some((url) => new URL(url).searchParams.has(name)));
     const own = await slider(page, name).inputValue();
     await slider(page, name).focus();
-    await page.keyboard.press(Number(own) > Number(await slider(page, name).getAttribute("min")) ? "ArrowLeft" : "ArrowRight");
+    await page.keyboard.press(
+        Number(own) > Number(await slider(page, name).getAttribute("min"))
+            ? "ArrowLeft"
+            : "ArrowRight",
+    );
     await ready(page);
     assert.ok(parameters(page).has(name));
     assert.ok(new URL(models(heard).at(-1)).searchParams.has(name));
@@ -195,23 +266,38 @@ test("a control of the species' own is sent once moved, and no more after its re
 
 /** Drops bytes onto the page as a file from the desktop. */
 async function drop(page, bytes, name) {
-    const transfer = await page.evaluateHandle(([data, file]) => {
-        const transfer_ = new DataTransfer();
-        transfer_.items.add(new File([Uint8Array.from(atob(data), (sign) => sign.charCodeAt(0))], file));
-        return transfer_;
-    }, [Buffer.from(bytes).toString("base64"), name]);
+    const transfer = await page.evaluateHandle(
+        ([data, file]) => {
+            const transfer_ = new DataTransfer();
+            transfer_.items.add(
+                new File([Uint8Array.from(atob(data), (sign) => sign.charCodeAt(0))], file),
+            );
+            return transfer_;
+        },
+        [Buffer.from(bytes).toString("base64"), name],
+    );
     await page.dispatchEvent("body", "dragover", { dataTransfer: transfer });
     await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
 }
 
 test("a dropped GLB restores its controls", async (t) => {
     const id = species.at(-1).id;
-    const bytes = await (await fetch(`${base}/v1/mushrooms/${id}.glb?age=0.35&seed=42&variation=0.8&texture_size=256`)).arrayBuffer();
+    const bytes = await (
+        await fetch(
+            `${base}/v1/mushrooms/${id}.glb?age=0.35&seed=42&variation=0.8&texture_size=256`,
+        )
+    ).arrayBuffer();
     const { page, heard } = await open(t, `?species=${species[0].id}&size=2`);
     await drop(page, bytes, "found.glb");
     await page.waitForFunction((wanted) => location.search.includes(wanted), id);
     await ready(page);
-    assert.deepEqual([...parameters(page)].sort(), [["age", "0.35"], ["seed", "42"], ["species", id], ["texture_size", "256"], ["variation", "0.8"]]);
+    assert.deepEqual([...parameters(page)].sort(), [
+        ["age", "0.35"],
+        ["seed", "42"],
+        ["species", id],
+        ["texture_size", "256"],
+        ["variation", "0.8"],
+    ]);
     assert.equal(await page.locator('input[type=number][name="seed"]').inputValue(), "42");
     assert.equal(await page.locator('select[name="texture_size"]').inputValue(), "256");
     assert.match(await page.locator("#status").textContent(), /./);
@@ -269,8 +355,19 @@ test("the whole page can be walked by keyboard with the focus in sight", async (
             const box = element.getBoundingClientRect();
             const ring = getComputedStyle(element);
             return {
-                key: element.id || element.dataset.species || element.name || element.textContent.trim().slice(0, 30) || element.tagName,
-                visible: box.width > 0 && box.height > 0 && box.right > 0 && box.bottom > 0 && box.left < innerWidth && box.top < innerHeight,
+                key:
+                    element.id ||
+                    element.dataset.species ||
+                    element.name ||
+                    element.textContent.trim().slice(0, 30) ||
+                    element.tagName,
+                visible:
+                    box.width > 0 &&
+                    box.height > 0 &&
+                    box.right > 0 &&
+                    box.bottom > 0 &&
+                    box.left < innerWidth &&
+                    box.top < innerHeight,
                 ring: ring.outlineStyle !== "none" && parseFloat(ring.outlineWidth) > 0,
             };
         });
@@ -279,7 +376,16 @@ test("the whole page can be walked by keyboard with the focus in sight", async (
         seen.add(focus.key);
     }
     assert.equal(unseen, 0, "every stop is visible and has a focus ring");
-    for (const key of ["canvas", "wireframe", "download", "copy-url", "copy-curl", "open", species[0].id, species.at(-1).id]) {
+    for (const key of [
+        "canvas",
+        "wireframe",
+        "download",
+        "copy-url",
+        "copy-curl",
+        "open",
+        species[0].id,
+        species.at(-1).id,
+    ]) {
         assert.ok(seen.has(key), `${key} can be reached; seen: ${[...seen].join(", ")}`);
     }
 
@@ -305,11 +411,17 @@ test("the whole page can be walked by keyboard with the focus in sight", async (
 test("a window 360 pixels wide has everything and no sideways scrolling", async (t) => {
     const { page, heard } = await open(t, "", { width: 360, height: 740 });
     await galleryComplete(page);
-    await page.evaluate(() => document.querySelectorAll("details").forEach((details) => (details.open = true)));
+    await page.evaluate(() =>
+        document.querySelectorAll("details").forEach((details) => (details.open = true)),
+    );
     const { wide, over } = await page.evaluate(() => ({
         wide: document.documentElement.scrollWidth,
         over: [...document.querySelectorAll("main *, aside *, header *, footer")]
-            .filter((element) => element.getBoundingClientRect().right > innerWidth + 0.5 && element.getClientRects().length)
+            .filter(
+                (element) =>
+                    element.getBoundingClientRect().right > innerWidth + 0.5 &&
+                    element.getClientRects().length,
+            )
             .map((element) => element.id || element.className || element.tagName),
     }));
     assert.ok(wide <= 360, `the page is ${wide} pixels wide`);
@@ -321,18 +433,30 @@ test("a window 360 pixels wide has everything and no sideways scrolling", async 
 
 test("the downloaded file and the copied address are the same bytes", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}&seed=7`);
-    await shared.grantPermissions(["clipboard-read", "clipboard-write"], { origin: new URL(base).origin });
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    await shared.grantPermissions(["clipboard-read", "clipboard-write"], {
+        origin: new URL(base).origin,
+    });
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator("#download").click(),
+    ]);
     assert.match(download.suggestedFilename(), /\.glb$/);
     const saved = await readFile(await download.path());
     await page.locator("#copy-url").click();
-    await page.waitForFunction(() => document.querySelector("#status").textContent === "URL copied");
+    await page.waitForFunction(
+        () => document.querySelector("#status").textContent === "URL copied",
+    );
     const address = await page.evaluate(() => navigator.clipboard.readText());
     assert.match(address, /^http.*\/v1\/mushrooms\/.*seed=7/);
     assert.deepEqual(Buffer.from(await (await fetch(address)).arrayBuffer()), saved);
     await page.locator("#copy-curl").click();
-    await page.waitForFunction(() => document.querySelector("#status").textContent === "curl command copied");
-    assert.equal(await page.evaluate(() => navigator.clipboard.readText()), `curl -o '${download.suggestedFilename()}' '${address}'`);
+    await page.waitForFunction(
+        () => document.querySelector("#status").textContent === "curl command copied",
+    );
+    assert.equal(
+        await page.evaluate(() => navigator.clipboard.readText()),
+        `curl -o '${download.suggestedFilename()}' '${address}'`,
+    );
 });
 
 test("many changes leave nothing behind on the graphics card", async (t) => {
@@ -370,7 +494,8 @@ test("a busy server is asked again after the time it names, and the page says so
     await galleryComplete(page);
     let refused = 0;
     await page.route(/\/v1\/mushrooms\/[^/]+\.glb/, async (route) => {
-        if (refused++ < 2) await route.fulfill({ status: 503, headers: { "Retry-After": "1" }, body: "" });
+        if (refused++ < 2)
+            await route.fulfill({ status: 503, headers: { "Retry-After": "1" }, body: "" });
         else await route.continue();
     });
     const start = Date.now();
@@ -386,16 +511,31 @@ test("a refusal stands in words beside its control, and the old mushroom stays",
     const { page } = await open(t, `?species=${species[0].id}`);
     await galleryComplete(page);
     const shown = await page.evaluate(() => window.sporeprint.counts);
-    await page.route(/\/v1\/mushrooms\/[^/]+\.glb/, (route) => route.fulfill({
-        status: 422,
-        contentType: "application/problem+json",
-        body: JSON.stringify({ title: "Impossible", status: 422, detail: "1 parameter does not fit", errors: [{ parameter: "size", detail: "this species cannot be so large" }] }),
-    }));
+    await page.route(/\/v1\/mushrooms\/[^/]+\.glb/, (route) =>
+        route.fulfill({
+            status: 422,
+            contentType: "application/problem+json",
+            body: JSON.stringify({
+                title: "Impossible",
+                status: 422,
+                detail: "1 parameter does not fit",
+                errors: [{ parameter: "size", detail: "this species cannot be so large" }],
+            }),
+        }),
+    );
     await slider(page, "size").focus();
     await page.keyboard.press("End");
-    await page.locator('.control[data-name="size"] .fault', { hasText: "cannot be so large" }).waitFor();
-    assert.match(await page.locator("#problem").textContent(), /Impossible.*1 parameter does not fit/);
-    await assert.rejects(page.evaluate(() => window.sporeprint.ready()), /Impossible/);
+    await page
+        .locator('.control[data-name="size"] .fault', { hasText: "cannot be so large" })
+        .waitFor();
+    assert.match(
+        await page.locator("#problem").textContent(),
+        /Impossible.*1 parameter does not fit/,
+    );
+    await assert.rejects(
+        page.evaluate(() => window.sporeprint.ready()),
+        /Impossible/,
+    );
     assert.deepEqual(await page.evaluate(() => window.sporeprint.counts), shown);
     await page.unroute(/\/v1\/mushrooms\/[^/]+\.glb/);
     await page.keyboard.press("Home");
@@ -422,7 +562,10 @@ test("the API page shows every route of the description", async (t) => {
 
 test("the search above the gallery narrows it, and gives it back", async (t) => {
     const { page, heard } = await open(t);
-    const shown = () => page.locator("#gallery li:not([hidden]) button").evaluateAll((all) => all.map((one) => one.dataset.species));
+    const shown = () =>
+        page
+            .locator("#gallery li:not([hidden]) button")
+            .evaluateAll((all) => all.map((one) => one.dataset.species));
     const [first] = species;
     await page.locator("#find").fill(first.scientific_name.toUpperCase());
     assert.deepEqual(await shown(), [first.id]);

@@ -16,7 +16,10 @@ export const packages = createRequire(path.join(root, "web_viewer/package.json")
  */
 export function serverUrl({ everySpecies = false } = {}) {
     const url = (everySpecies && process.env.SPOREPRINT_ALL_URL) || process.env.SPOREPRINT_URL;
-    if (!url) throw new Error("SPOREPRINT_URL is not set: start a server and name it, e.g. http://127.0.0.1:8080");
+    if (!url)
+        throw new Error(
+            "SPOREPRINT_URL is not set: start a server and name it, e.g. http://127.0.0.1:8080",
+        );
     return url.replace(/\/+$/, "");
 }
 
@@ -72,7 +75,11 @@ export async function ready(page) {
 
 /** Waits until the gallery has all its pictures. */
 export async function galleryComplete(page) {
-    await page.waitForFunction(() => document.documentElement.dataset.gallery === "complete", undefined, {
-        timeout: 180_000,
-    });
+    await page.waitForFunction(
+        () => document.documentElement.dataset.gallery === "complete",
+        undefined,
+        {
+            timeout: 180_000,
+        },
+    );
 }

@@ -3,7 +3,14 @@ import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { galleryComplete, launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import {
+    galleryComplete,
+    launchBrowser,
+    listen,
+    ready,
+    screenshotFolder,
+    serverUrl,
+} from "./support.mjs";
 
 const base = serverUrl();
 let browser;
@@ -13,7 +20,10 @@ let folder;
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    shared = await browser.newContext({ viewport: { width: 960, height: 560 }, reducedMotion: "reduce" });
+    shared = await browser.newContext({
+        viewport: { width: 960, height: 560 },
+        reducedMotion: "reduce",
+    });
 });
 
 after(() => browser?.close());
@@ -24,7 +34,9 @@ async function open(t, query) {
     const heard = listen(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
-    await page.locator("#form details:not([open]) summary").evaluateAll((all) => all.forEach((one) => one.click()));
+    await page
+        .locator("#form details:not([open]) summary")
+        .evaluateAll((all) => all.forEach((one) => one.click()));
     return { page, heard };
 }
 
@@ -39,19 +51,40 @@ function quiet(heard) {
 test("the tree bench offers every preset, every parameter of the schema, and the matrix in force", async (t) => {
     const { page, heard } = await open(t, "?tree&lod=2");
     const { trees } = await (await fetch(`${base}/v1/trees`)).json();
-    assert.deepEqual(await page.locator("#gallery button").evaluateAll((all) => all.map((one) => one.dataset.species)), trees.map(({ id }) => id));
+    assert.deepEqual(
+        await page
+            .locator("#gallery button")
+            .evaluateAll((all) => all.map((one) => one.dataset.species)),
+        trees.map(({ id }) => id),
+    );
     const schema = await (await fetch(`${base}/v1/trees/schema`)).json();
-    const names = (object, prefix = "") => Object.entries(object.properties).flatMap(([key, sub]) =>
-        sub.properties ? names(sub, `${prefix}${key}.`) : sub.type === "array" ? [] : [prefix + key]);
-    const shown = await page.locator("#form .control").evaluateAll((all) => all.map((one) => one.dataset.name));
+    const names = (object, prefix = "") =>
+        Object.entries(object.properties).flatMap(([key, sub]) =>
+            sub.properties
+                ? names(sub, `${prefix}${key}.`)
+                : sub.type === "array"
+                  ? []
+                  : [prefix + key],
+        );
+    const shown = await page
+        .locator("#form .control")
+        .evaluateAll((all) => all.map((one) => one.dataset.name));
     assert.deepEqual([...shown].sort(), names(schema).sort());
     assert.equal(await page.locator("#mode-tree").getAttribute("aria-current"), "page");
-    assert.match(await page.locator("#dimensions").textContent(), /^[\d.]+ m tall, [\d.]+ m across$/);
+    assert.match(
+        await page.locator("#dimensions").textContent(),
+        /^[\d.]+ m tall, [\d.]+ m across$/,
+    );
     assert.equal((await counts(page)).drawCalls, 2, "bark and leaves");
     assert.equal((await counts(page)).textures, 6);
     const { matrix } = await (await fetch(`${base}/v1/trees/broadleaf.json?lod=2`)).json();
-    const cells = await page.locator("#matrix td input").evaluateAll((all) => all.map((one) => Number(one.value)));
-    assert.deepEqual(cells, matrix.flat().map((share) => Number(share.toFixed(4))));
+    const cells = await page
+        .locator("#matrix td input")
+        .evaluateAll((all) => all.map((one) => Number(one.value)));
+    assert.deepEqual(
+        cells,
+        matrix.flat().map((share) => Number(share.toFixed(4))),
+    );
     await page.screenshot({ path: path.join(folder, "tree_editor.png") });
     quiet(heard);
 });
@@ -63,7 +96,11 @@ test("a change of the table grows a tree of one's own matrix, which stands in th
     await entry.fill("0.6");
     await entry.press("Enter");
     await ready(page);
-    assert.equal(await page.locator('#matrix input[data-cell="0-0"]').inputValue(), "0.4", "the row sums to one");
+    assert.equal(
+        await page.locator('#matrix input[data-cell="0-0"]').inputValue(),
+        "0.4",
+        "the row sums to one",
+    );
     assert.match(parameters(page).rows, /^0\.4,0\.6;/);
     assert.notEqual((await counts(page)).triangles, before);
     assert.ok(heard.requests.some((url) => url.endsWith("/v1/trees.glb")));
@@ -86,20 +123,30 @@ test("what cannot be is said under the table by its row, and the last tree stays
     await entry.press("Enter");
     await page.locator("#matrix .fault:not([hidden])").waitFor();
     assert.match(await page.locator("#matrix .fault").textContent(), /Order 3: .*hardly ever end/);
-    assert.ok(heard.failed.every((line) => line.endsWith(": 422")), heard.failed.join());
+    assert.ok(
+        heard.failed.every((line) => line.endsWith(": 422")),
+        heard.failed.join(),
+    );
     assert.ok((await counts(page)).triangles > 100);
 });
 
 test("the file that is saved is that of the shown address, and brings its settings back", async (t) => {
     const { page, heard } = await open(t, "?tree=poplar&autumn=0.5&lod=3");
-    const [download] = await Promise.all([page.waitForEvent("download"), page.locator("#download").click()]);
+    const [download] = await Promise.all([
+        page.waitForEvent("download"),
+        page.locator("#download").click(),
+    ]);
     assert.equal(download.suggestedFilename(), "poplar-1.glb");
     const saved = await readFile(await download.path());
-    const served = Buffer.from(await (await fetch(`${base}/v1/trees/poplar.glb?autumn=0.5&lod=3`)).arrayBuffer());
+    const served = Buffer.from(
+        await (await fetch(`${base}/v1/trees/poplar.glb?autumn=0.5&lod=3`)).arrayBuffer(),
+    );
     assert.ok(saved.equals(served));
     await page.goto(`${base}/?leaf=oak&lod=3`);
     await ready(page);
-    await page.locator("#file").setInputFiles({ name: "poplar.glb", mimeType: "model/gltf-binary", buffer: saved });
+    await page
+        .locator("#file")
+        .setInputFiles({ name: "poplar.glb", mimeType: "model/gltf-binary", buffer: saved });
     await page.waitForURL(/tree=poplar/);
     await ready(page);
     assert.deepEqual(parameters(page), { tree: "poplar", autumn: "0.5", lod: "3" });

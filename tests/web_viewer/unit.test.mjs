@@ -10,7 +10,22 @@ import { packages, root } from "./support.mjs";
 
 const { outputFiles } = packages("esbuild").buildSync({
     stdin: {
-        contents: ["arcs", "camera", "dom", "gallery", "history", "http", "mix", "products", "rows", "schema", "settings", "weights"].map((name) => `export * from "./${name}";`).join("\n"),
+        contents: [
+            "arcs",
+            "camera",
+            "dom",
+            "gallery",
+            "history",
+            "http",
+            "mix",
+            "products",
+            "rows",
+            "schema",
+            "settings",
+            "weights",
+        ]
+            .map((name) => `export * from "./${name}";`)
+            .join("\n"),
         resolveDir: path.join(root, "web_viewer/src"),
     },
     bundle: true,
@@ -18,12 +33,20 @@ const { outputFiles } = packages("esbuild").buildSync({
     format: "esm",
     target: "es2022",
 });
-const page = await import(`data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`);
+const page = await import(
+    `data:text/javascript;base64,${Buffer.from(outputFiles[0].contents).toString("base64")}`
+);
 
 const schema = {
     type: "object",
     properties: {
-        seed: { type: "integer", minimum: 0, maximum: 4294967295, default: 1, description: "The individual." },
+        seed: {
+            type: "integer",
+            minimum: 0,
+            maximum: 4294967295,
+            default: 1,
+            description: "The individual.",
+        },
         age: { type: "number", minimum: 0, maximum: 1, default: 0.6 },
         lod: { type: "integer", minimum: 0, maximum: 3, default: 0 },
         texture_size: { type: "integer", enum: [128, 256, 512], default: 256 },
@@ -31,7 +54,15 @@ const schema = {
         glow: { type: "boolean", default: false },
         deformation: {
             type: "object",
-            properties: { bend_deg: { type: "number", minimum: 0, maximum: 90, "x-unit": "deg", "x-default-from": "species" } },
+            properties: {
+                bend_deg: {
+                    type: "number",
+                    minimum: 0,
+                    maximum: 90,
+                    "x-unit": "deg",
+                    "x-default-from": "species",
+                },
+            },
         },
         hymenium: { $ref: "#/$defs/hymenium", "x-default-from": "species" },
         v: { type: "string" },
@@ -39,8 +70,18 @@ const schema = {
     $defs: {
         hymenium: {
             oneOf: [
-                { properties: { form: { const: "gills" }, count: { type: "integer", minimum: 3, maximum: 300, default: 80 } } },
-                { properties: { form: { const: "pores" }, per_mm: { type: "number", minimum: 0.5, maximum: 8, default: 2 } } },
+                {
+                    properties: {
+                        form: { const: "gills" },
+                        count: { type: "integer", minimum: 3, maximum: 300, default: 80 },
+                    },
+                },
+                {
+                    properties: {
+                        form: { const: "pores" },
+                        per_mm: { type: "number", minimum: 0.5, maximum: 8, default: 2 },
+                    },
+                },
             ],
         },
     },
@@ -55,7 +96,16 @@ test("what stands at the top level is about what grows: an individual or a whole
 
 test("every parameter of the schema becomes a field under its query name, except v", () => {
     assert.deepEqual(fields.map((field) => field.name).sort(), [
-        "age", "deformation.bend_deg", "glow", "hymenium.count", "hymenium.form", "hymenium.per_mm", "lod", "seed", "texture_size", "textures",
+        "age",
+        "deformation.bend_deg",
+        "glow",
+        "hymenium.count",
+        "hymenium.form",
+        "hymenium.per_mm",
+        "lod",
+        "seed",
+        "texture_size",
+        "textures",
     ]);
     assert.equal(named("age").kind, "number");
     assert.equal(named("texture_size").kind, "select");
@@ -83,24 +133,49 @@ test("an address carries only what differs, in the schema's order", () => {
     settings.set("deformation.bend_deg", 20);
     settings.set("age", 0.25);
     settings.set("seed", 1);
-    assert.equal(settings.address(".json"), "v1/mushrooms/boletus_edulis.json?age=0.25&deformation.bend_deg=20");
-    assert.equal(settings.pageQuery(new URLSearchParams("shot=1")), "?species=boletus_edulis&age=0.25&deformation.bend_deg=20&shot=1");
+    assert.equal(
+        settings.address(".json"),
+        "v1/mushrooms/boletus_edulis.json?age=0.25&deformation.bend_deg=20",
+    );
+    assert.equal(
+        settings.pageQuery(new URLSearchParams("shot=1")),
+        "?species=boletus_edulis&age=0.25&deformation.bend_deg=20&shot=1",
+    );
     settings.set("age", 0.6);
-    assert.equal(settings.address(".glb"), "v1/mushrooms/boletus_edulis.glb?deformation.bend_deg=20");
+    assert.equal(
+        settings.address(".glb"),
+        "v1/mushrooms/boletus_edulis.glb?deformation.bend_deg=20",
+    );
 });
 
 test("a leaf has its own routes, and its colours are controls of their own kind", () => {
     const tint = { type: "string", format: "color", "x-default-from": "preset" };
-    const parts = page.groupsOf({ type: "object", properties: { seed: schema.properties.seed, summer: { type: "object", properties: { vein: tint } } } })
+    const parts = page
+        .groupsOf({
+            type: "object",
+            properties: {
+                seed: schema.properties.seed,
+                summer: { type: "object", properties: { vein: tint } },
+            },
+        })
         .flatMap((group) => group.fields);
-    assert.deepEqual(parts.map(({ name, kind, owner }) => [name, kind, owner]), [["seed", "number", ""], ["summer.vein", "color", "preset"]]);
+    assert.deepEqual(
+        parts.map(({ name, kind, owner }) => [name, kind, owner]),
+        [
+            ["seed", "number", ""],
+            ["summer.vein", "color", "preset"],
+        ],
+    );
     const settings = new page.Settings(parts, "maple", page.leaves);
     settings.set("summer.vein", "#aabbcc");
     assert.equal(settings.address(".glb"), "v1/leaves/maple.glb?summer.vein=%23aabbcc");
     assert.equal(settings.pageQuery(new URLSearchParams()), "?leaf=maple&summer.vein=%23aabbcc");
     settings.choose("oak");
     assert.equal(settings.address(".json"), "v1/leaves/oak.json");
-    assert.deepEqual(settings.read(new URLSearchParams("leaf=oak&age=1")).map(({ detail }) => detail), ["'age' is no parameter of a leaf"]);
+    assert.deepEqual(
+        settings.read(new URLSearchParams("leaf=oak&age=1")).map(({ detail }) => detail),
+        ["'age' is no parameter of a leaf"],
+    );
 });
 
 test("a page's query and a canonical address say what grew", () => {
@@ -109,7 +184,10 @@ test("a page's query and a canonical address say what grew", () => {
     assert.deepEqual(page.grownAt("/v1/leaves/oak.glb"), { product: page.leaves, id: "oak" });
     assert.equal(page.grownAt("/v1/mushrooms/a:0.5,b:0.5.json").id, "a:0.5,b:0.5");
     assert.equal(page.productOf(new URLSearchParams("colony=a:0.5,b:0.5")), page.colonies);
-    assert.deepEqual(page.grownAt("/v1/colonies/a:0.5,b:0.5.glb"), { product: page.colonies, id: "a:0.5,b:0.5" });
+    assert.deepEqual(page.grownAt("/v1/colonies/a:0.5,b:0.5.glb"), {
+        product: page.colonies,
+        id: "a:0.5,b:0.5",
+    });
     assert.equal(page.grownAt("/v1/morphs/a/b.glb"), undefined);
 });
 
@@ -120,7 +198,12 @@ test("nothing that the page links or asks for leaves the path that it stands und
         const links = [...text.matchAll(/(?:href|src)="([^"]*)"/g)].map(([, link]) => link);
         assert.ok(links.length > 3);
         for (const link of links) {
-            assert.ok(new URL(link.replace(/[{}]/g, ""), "http://host/a/b/docs").pathname.startsWith("/a/b/") && !link.startsWith("/"), `${file}: ${link}`);
+            assert.ok(
+                new URL(link.replace(/[{}]/g, ""), "http://host/a/b/docs").pathname.startsWith(
+                    "/a/b/",
+                ) && !link.startsWith("/"),
+                `${file}: ${link}`,
+            );
         }
     }
 });
@@ -135,14 +218,32 @@ test("another species drops what was set on the last one's own shape and keeps t
 
 test("what a page address says is read back, and what it cannot use is named", () => {
     const settings = new page.Settings(fields, "a");
-    const faults = settings.read(new URLSearchParams("species=a&age=3.7e-1&lod=9&sed=4&textures=none&seed=0x10&glow=true"));
-    assert.deepEqual(faults.map(({ parameter }) => parameter), ["lod", "sed", "seed"]);
-    assert.deepEqual([...settings.values], [["age", 0.37], ["textures", "none"], ["glow", true]]);
+    const faults = settings.read(
+        new URLSearchParams("species=a&age=3.7e-1&lod=9&sed=4&textures=none&seed=0x10&glow=true"),
+    );
+    assert.deepEqual(
+        faults.map(({ parameter }) => parameter),
+        ["lod", "sed", "seed"],
+    );
+    assert.deepEqual(
+        [...settings.values],
+        [
+            ["age", 0.37],
+            ["textures", "none"],
+            ["glow", true],
+        ],
+    );
 });
 
 test("a drag asks for linked textures and a lower level of detail, never a higher one", () => {
     const settings = new page.Settings(fields, "a");
-    assert.deepEqual([...settings.draftValues(true)], [["lod", 1], ["textures", "linked"]]);
+    assert.deepEqual(
+        [...settings.draftValues(true)],
+        [
+            ["lod", 1],
+            ["textures", "linked"],
+        ],
+    );
     assert.deepEqual([...settings.draftValues(false)], [["lod", 1]]);
     settings.set("lod", 3);
     settings.set("textures", "none");
@@ -155,18 +256,28 @@ test("playing asks for the growth of the settings at most at LOD 1, and frames a
         animation: { enum: ["none", "growth"], default: "none" },
         frames: { type: "integer", minimum: 2, maximum: 16, default: 9 },
     };
-    const settings = new page.Settings(page.groupsOf({ ...schema, properties }).flatMap((group) => group.fields), "a");
+    const settings = new page.Settings(
+        page.groupsOf({ ...schema, properties }).flatMap((group) => group.fields),
+        "a",
+    );
     assert.ok(settings.grows);
     assert.ok(!new page.Settings(fields, "a").grows);
     settings.set("frames", 5);
     assert.equal(settings.address(".glb"), "v1/mushrooms/a.glb");
     assert.equal(settings.matters(settings.field("frames")), false);
-    assert.equal(settings.address(".glb", settings.clipValues()), "v1/mushrooms/a.glb?lod=1&animation=growth&frames=5");
+    assert.equal(
+        settings.address(".glb", settings.clipValues()),
+        "v1/mushrooms/a.glb?lod=1&animation=growth&frames=5",
+    );
     settings.set("lod", 3);
     settings.set("animation", "growth");
     assert.equal(settings.address(".glb"), "v1/mushrooms/a.glb?lod=3&animation=growth&frames=5");
     assert.equal(settings.address(".glb", settings.clipValues()), settings.address(".glb"));
-    assert.equal(settings.address(".glb", settings.draftValues(false)), "v1/mushrooms/a.glb?lod=3", "drafts do not move");
+    assert.equal(
+        settings.address(".glb", settings.draftValues(false)),
+        "v1/mushrooms/a.glb?lod=3",
+        "drafts do not move",
+    );
 });
 
 test("values outside the schema have their fault in words", () => {
@@ -206,14 +317,23 @@ test("seasons and numbers are said as a person says them", () => {
 
 // The morph bench
 
-const close = (one, other, most = 1e-12) => assert.ok(Math.abs(one - other) <= most, `${one} is not ${other}`);
+const close = (one, other, most = 1e-12) =>
+    assert.ok(Math.abs(one - other) <= most, `${one} is not ${other}`);
 
 /** Points all over a polygon: corners, edges, inside. */
 function pointsIn(corners) {
     const points = [];
     for (let a = 0; a < corners.length; ++a) {
         for (let b = 0; b < corners.length; ++b) {
-            for (const [s, t] of [[0, 0], [0.5, 0], [1, 0], [0.2, 0.3], [0.35, 0.6], [0.05, 0.9], [0.001, 0.001]]) {
+            for (const [s, t] of [
+                [0, 0],
+                [0.5, 0],
+                [1, 0],
+                [0.2, 0.3],
+                [0.35, 0.6],
+                [0.05, 0.9],
+                [0.001, 0.001],
+            ]) {
                 points.push({
                     x: (1 - t) * ((1 - s) * corners[a].x + s * corners[b].x),
                     y: (1 - t) * ((1 - s) * corners[a].y + s * corners[b].y),
@@ -229,8 +349,14 @@ for (const n of [3, 4, 5]) {
     test(`weights on a pad of ${n} corners sum to one, are never negative and give their point back`, () => {
         for (const point of pointsIn(corners)) {
             const weights = page.weightsAt(point, corners);
-            close(weights.reduce((sum, weight) => sum + weight, 0), 1);
-            assert.ok(weights.every((weight) => weight >= 0), JSON.stringify(weights));
+            close(
+                weights.reduce((sum, weight) => sum + weight, 0),
+                1,
+            );
+            assert.ok(
+                weights.every((weight) => weight >= 0),
+                JSON.stringify(weights),
+            );
             const back = page.pointOf(weights, corners);
             close(back.x, point.x, 1e-9);
             close(back.y, point.y, 1e-9);
@@ -239,9 +365,15 @@ for (const n of [3, 4, 5]) {
 
     test(`a corner of ${n} is exactly its species, an edge mixes its two ends alone`, () => {
         corners.forEach((corner, index) => {
-            assert.deepEqual(page.weightsAt(corner, corners), corners.map((_, at) => (at === index ? 1 : 0)));
+            assert.deepEqual(
+                page.weightsAt(corner, corners),
+                corners.map((_, at) => (at === index ? 1 : 0)),
+            );
             const next = corners[(index + 1) % n];
-            const weights = page.weightsAt({ x: 0.25 * corner.x + 0.75 * next.x, y: 0.25 * corner.y + 0.75 * next.y }, corners);
+            const weights = page.weightsAt(
+                { x: 0.25 * corner.x + 0.75 * next.x, y: 0.25 * corner.y + 0.75 * next.y },
+                corners,
+            );
             close(weights[index], 0.25, 1e-9);
             close(weights[(index + 1) % n], 0.75, 1e-9);
         });
@@ -251,9 +383,18 @@ for (const n of [3, 4, 5]) {
     test(`a small step on a pad of ${n} corners is a small step of the weights, also towards corners and edges`, () => {
         for (const point of pointsIn(corners)) {
             const before = page.weightsAt(point, corners);
-            for (const [dx, dy] of [[1, 0], [0, 1], [-0.6, -0.8]]) {
-                const moved = page.insidePolygon({ x: point.x + 1e-5 * dx, y: point.y + 1e-5 * dy }, corners);
-                page.weightsAt(moved, corners).forEach((weight, index) => close(weight, before[index], 5e-5));
+            for (const [dx, dy] of [
+                [1, 0],
+                [0, 1],
+                [-0.6, -0.8],
+            ]) {
+                const moved = page.insidePolygon(
+                    { x: point.x + 1e-5 * dx, y: point.y + 1e-5 * dy },
+                    corners,
+                );
+                page.weightsAt(moved, corners).forEach((weight, index) =>
+                    close(weight, before[index], 5e-5),
+                );
             }
         }
     });
@@ -270,7 +411,11 @@ for (const n of [3, 4, 5]) {
             }
         }
         const near = { x: corners[1].x * 0.98, y: corners[1].y * 0.98 };
-        assert.equal(page.insidePolygon(near, corners, 0.05), corners[1], "a corner close by is taken exactly");
+        assert.equal(
+            page.insidePolygon(near, corners, 0.05),
+            corners[1],
+            "a corner close by is taken exactly",
+        );
         assert.notEqual(page.insidePolygon(near, corners), corners[1]);
     });
 }
@@ -283,32 +428,60 @@ test("mixes are spelled as the service's canonical rule does", () => {
     assert.equal(mix("b:1,a:1"), "a:0.5,b:0.5");
     assert.equal(mix("c:1,b:1,a:1"), "a:0.334,b:0.333,c:0.333");
     assert.equal(mix("a:7e-1,b:0.3,c:0"), "a:0.7,b:0.3");
-    for (const text of ["a:0.334,b:0.333,c:0.333", "a:0.7,b:0.3", "a"]) assert.equal(mix(text), text);
-    for (const text of ["", "a,a", "a:-1", "a:0", "a:0,b:0", "A", "a:x", "a:1,"]) assert.equal(page.readShares(text), undefined, text);
+    for (const text of ["a:0.334,b:0.333,c:0.333", "a:0.7,b:0.3", "a"])
+        assert.equal(mix(text), text);
+    for (const text of ["", "a,a", "a:-1", "a:0", "a:0,b:0", "A", "a:x", "a:1,"])
+        assert.equal(page.readShares(text), undefined, text);
 });
 
 test("rows of a matrix are read as they are written, and sum to one whatever share is changed", () => {
-    const rows = [[0.5, 0.5], [0.25, 0.5, 0.25]];
+    const rows = [
+        [0.5, 0.5],
+        [0.25, 0.5, 0.25],
+    ];
     assert.equal(page.rowsText(rows), "0.5,0.5;0.25,0.5,0.25");
     assert.deepEqual(page.readRows("0.5,0.5;0.25,0.5,0.25"), rows);
     assert.deepEqual(page.readRows(".5,5e-1"), [[0.5, 0.5]]);
-    for (const wrong of ["", "1", "0.5,0.5;0.5,0.5", "0.5,x", "0.5,0.5;", "NaN,1", Array(12).fill("0.5,0.5").join(";")]) {
+    for (const wrong of [
+        "",
+        "1",
+        "0.5,0.5;0.5,0.5",
+        "0.5,x",
+        "0.5,0.5;",
+        "NaN,1",
+        Array(12).fill("0.5,0.5").join(";"),
+    ]) {
         assert.equal(page.readRows(wrong), undefined, wrong);
     }
     assert.deepEqual(page.withShare([0.2, 0.6, 0.2], 2, 0.6), [0.1, 0.3, 0.6]);
-    assert.deepEqual(page.withShare([1, 0, 0], 0, 0.4), [0.4, 0.3, 0.3], "nothing has no proportion");
+    assert.deepEqual(
+        page.withShare([1, 0, 0], 0, 0.4),
+        [0.4, 0.3, 0.3],
+        "nothing has no proportion",
+    );
     assert.deepEqual(page.withShare([0.5, 0.5], 0, 7), [1, 0]);
     for (let i = 0; i < 300; ++i) {
         const row = Array.from({ length: 2 + (i % 8) }, () => Math.random());
         const made = page.withShare(row, i % row.length, Math.random());
-        assert.ok(Math.abs(made.reduce((sum, share) => sum + share, 0) - 1) < 1e-9 && made.every((share) => share >= -1e-12), made.join());
+        assert.ok(
+            Math.abs(made.reduce((sum, share) => sum + share, 0) - 1) < 1e-9 &&
+                made.every((share) => share >= -1e-12),
+            made.join(),
+        );
     }
     assert.deepEqual(page.grownBy(rows), [...rows, [0, 0.25, 0.5, 0.25]]);
 });
 
 test("rows of one's own are posted with what else is set, and leave with the preset", () => {
-    const parts = page.groupsOf({ type: "object", properties: { lod: { type: "integer", minimum: 0, maximum: 3, default: 0 },
-        matrix: { type: "string", enum: ["own", "perfect"], "x-default-from": "preset" } } }).flatMap(({ fields }) => fields);
+    const parts = page
+        .groupsOf({
+            type: "object",
+            properties: {
+                lod: { type: "integer", minimum: 0, maximum: 3, default: 0 },
+                matrix: { type: "string", enum: ["own", "perfect"], "x-default-from": "preset" },
+            },
+        })
+        .flatMap(({ fields }) => fields);
     const settings = new page.Settings(parts, "birch", page.trees);
     settings.set("lod", 2);
     assert.deepEqual(settings.readMatrix(new URLSearchParams("rows=0.5,0.5")), []);
@@ -324,11 +497,15 @@ test("rows of one's own are posted with what else is set, and leave with the pre
 
 test("another share of one species leaves the others in proportion", () => {
     const shares = page.readShares("a:0.5,b:0.3,c:0.2");
-    const weights = (index, weight) => page.reweighted(shares, index, weight).map((share) => Number(share.weight.toFixed(9)));
+    const weights = (index, weight) =>
+        page.reweighted(shares, index, weight).map((share) => Number(share.weight.toFixed(9)));
     assert.deepEqual(weights(0, 0), [0, 0.6, 0.4]);
     assert.deepEqual(weights(2, 0.6), [0.25, 0.15, 0.6]);
     assert.deepEqual(weights(1, 1), [0, 1, 0]);
-    assert.deepEqual(page.reweighted(page.readShares("a:1,b:0,c:0"), 0, 0.5).map(({ weight }) => weight), [0.5, 0.25, 0.25]);
+    assert.deepEqual(
+        page.reweighted(page.readShares("a:1,b:0,c:0"), 0, 0.5).map(({ weight }) => weight),
+        [0.5, 0.25, 0.25],
+    );
 });
 
 test("the bench's address says all shares in their order and the arcs, and is read back", () => {
@@ -341,7 +518,14 @@ test("the bench's address says all shares in their order and the arcs, and is re
     assert.deepEqual(read("morph=c,a,b:0"), []);
     assert.equal(settings.pageQuery(new URLSearchParams()), "?morph=c:0.5,a:0.5,b:0");
     assert.equal(settings.address(".glb"), "v1/mushrooms/a:0.5,c:0.5.glb");
-    for (const wrong of ["morph=a", "morph=a,z", "morph=a,a", "morph=", "morph=a,b&arcs=cap:2:1", "morph=a,b&arcs=brim:0:1"]) {
+    for (const wrong of [
+        "morph=a",
+        "morph=a,z",
+        "morph=a,a",
+        "morph=",
+        "morph=a,b&arcs=cap:2:1",
+        "morph=a,b&arcs=brim:0:1",
+    ]) {
         assert.equal(read(wrong).length, 1, wrong);
     }
     assert.deepEqual(read("species=a"), []);
@@ -356,7 +540,12 @@ test("own arcs are posted with what differs, a mix without them has its plain ad
     const { address, body } = settings.wanted(settings.draftValues(true));
     assert.equal(address, "v1/morphs/b/a.glb");
     assert.deepEqual(JSON.parse(body), {
-        t: 0.4, arcs: [{ curve: "cap", a: 0.25, b: 0.4 }], age: 0.3, lod: 1, textures: "linked", deformation: { bend_deg: 20 },
+        t: 0.4,
+        arcs: [{ curve: "cap", a: 0.25, b: 0.4 }],
+        age: 0.3,
+        lod: 1,
+        textures: "linked",
+        deformation: { bend_deg: 20 },
     });
     settings.readMorph(new URLSearchParams("morph=b:1,a:0&arcs=cap:0.25:0.4"), () => true);
     assert.equal(settings.wanted().address, "v1/mushrooms/b.glb?age=0.3&deformation.bend_deg=20");
@@ -369,7 +558,10 @@ test("arcs of one sub-curve cross when their ends change places or meet", () => 
     assert.ok(page.crosses(arc("cap", 0.2, 0.6), arc("cap", 0.2, 0.7)));
     assert.ok(!page.crosses(arc("cap", 0.2, 0.5), arc("cap", 0.4, 0.6)));
     assert.ok(!page.crosses(arc("cap", 0.2, 0.6), arc("stem", 0.4, 0.5)));
-    assert.deepEqual(page.crossing([arc("cap", 0.1, 0.1), arc("cap", 0.2, 0.6), arc("cap", 0.4, 0.5)]), [false, true, true]);
+    assert.deepEqual(
+        page.crossing([arc("cap", 0.1, 0.1), arc("cap", 0.2, 0.6), arc("cap", 0.4, 0.5)]),
+        [false, true, true],
+    );
 });
 
 test("a new arc goes into the widest gap and crosses nothing", () => {
@@ -391,7 +583,10 @@ test("undo and redo walk back and forth, and a new step forgets what was undone"
     history.push("abx");
     assert.ok(!history.redoable);
     assert.equal(history.redo(), "abx");
-    assert.deepEqual([history.undo(), history.undo(), history.undo(), history.undo()], ["ab", "a", "", ""]);
+    assert.deepEqual(
+        [history.undo(), history.undo(), history.undo(), history.undo()],
+        ["ab", "a", "", ""],
+    );
     assert.ok(!history.undoable && history.redoable);
     history.begin("z");
     assert.ok(!history.undoable && !history.redoable);
@@ -401,35 +596,66 @@ for (const n of [2, 3, 4, 5]) {
     test(`a variety sheet of ${n} has every control shape and no mushroom twice`, () => {
         const { cells, columns, rows } = page.varietyLayout(n);
         assert.equal(cells.length, n === 3 ? 21 : 25);
-        const seen = new Set(cells.map(({ weights, age }) => JSON.stringify([page.thousandths(weights), age])));
+        const seen = new Set(
+            cells.map(({ weights, age }) => JSON.stringify([page.thousandths(weights), age])),
+        );
         assert.equal(seen.size, cells.length);
         for (const { weights, column, row } of cells) {
             assert.equal(weights.length, n);
             assert.ok(weights.every((weight) => weight >= 0));
-            close(weights.reduce((sum, weight) => sum + weight, 0), 1);
+            close(
+                weights.reduce((sum, weight) => sum + weight, 0),
+                1,
+            );
             assert.ok(column >= 0 && column < columns && row >= 0 && row < rows);
         }
         for (let index = 0; index < n; ++index) {
-            assert.ok(cells.some(({ weights }) => page.controlShape(weights) === index), `control shape ${index}`);
+            assert.ok(
+                cells.some(({ weights }) => page.controlShape(weights) === index),
+                `control shape ${index}`,
+            );
         }
     });
 }
 
 test("the page's TypeScript has no type errors", () => {
-    const { status, stdout } = spawnSync(process.execPath, [packages.resolve("typescript/bin/tsc"), "--noEmit"], {
-        cwd: path.join(root, "web_viewer"),
-        encoding: "utf8",
-    });
+    const { status, stdout } = spawnSync(
+        process.execPath,
+        [packages.resolve("typescript/bin/tsc"), "--noEmit"],
+        {
+            cwd: path.join(root, "web_viewer"),
+            encoding: "utf8",
+        },
+    );
     assert.equal(status, 0, stdout);
 });
 
 test("species are found by parts of their names, form, substrate and month, all words at once", () => {
-    const hoof = { id: "fomes", scientific_name: "Fomes fomentarius", common_name: "hoof fungus", form: "bracket", substrate: "birch and beech", season: [9, 10] };
-    for (const words of ["", "  ", "HOOF", "fomes birch", "bracket oct", "beech september", "hoof fung"]) {
+    const hoof = {
+        id: "fomes",
+        scientific_name: "Fomes fomentarius",
+        common_name: "hoof fungus",
+        form: "bracket",
+        substrate: "birch and beech",
+        season: [9, 10],
+    };
+    for (const words of [
+        "",
+        "  ",
+        "HOOF",
+        "fomes birch",
+        "bracket oct",
+        "beech september",
+        "hoof fung",
+    ]) {
         assert.ok(page.answersTo(hoof, words), words);
     }
-    for (const words of ["fly", "hoof may", "birch oak", "august"]) assert.ok(!page.answersTo(hoof, words), words);
-    assert.ok(page.answersTo({ id: "x", scientific_name: "X y", common_name: "z" }, "x"), "facts may be missing");
+    for (const words of ["fly", "hoof may", "birch oak", "august"])
+        assert.ok(!page.answersTo(hoof, words), words);
+    assert.ok(
+        page.answersTo({ id: "x", scientific_name: "X y", common_name: "z" }, "x"),
+        "facts may be missing",
+    );
 });
 
 test("a naming trial counts a genus half, whatever the letters' case, and lists what was missed", () => {
@@ -438,22 +664,36 @@ test("a naming trial counts a genus half, whatever the letters' case, and lists 
     assert.equal(points("Mycenastrum corium", "Mycena haematopus"), 0);
     assert.equal(points(undefined, "Boletus edulis"), 0);
     const key = { 1: "Boletus edulis", 2: "Mycena haematopus" };
-    const result = scored(key, [{ 1: "Boletus edulis", 2: "Mycena galericulata" }, { 1: "Boletus edulis" }]);
+    const result = scored(key, [
+        { 1: "Boletus edulis", 2: "Mycena galericulata" },
+        { 1: "Boletus edulis" },
+    ]);
     assert.deepEqual(result.shares, [0.75, 0.5]);
     assert.equal(result.mean, 0.625);
-    assert.deepEqual(result.missed, [{ number: 2, is: "Mycena haematopus", said: ["Mycena galericulata", "(nothing)"] }]);
-    const table = confusionTable({ key, files: ["answers_first.json", "answers_second.json"] }, result);
+    assert.deepEqual(result.missed, [
+        { number: 2, is: "Mycena haematopus", said: ["Mycena galericulata", "(nothing)"] },
+    ]);
+    const table = confusionTable(
+        { key, files: ["answers_first.json", "answers_second.json"] },
+        result,
+    );
     assert.match(table, /Mean 62\.5 %; first 75\.0 %, second 50\.0 %/);
     assert.match(table, /\| 2 \| \*Mycena haematopus\* \| Mycena galericulata \| \(nothing\) \|/);
 });
 
 test("the trial that was held last was passed, and its table is that of its answers", async () => {
-    const folder = path.join(import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname), "naming_trial");
+    const folder = path.join(
+        import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname),
+        "naming_trial",
+    );
     const trial = await readTrial(folder);
     assert.ok(trial.judges.length >= 2);
     const result = scored(trial.key, trial.judges);
     assert.ok(result.mean >= pass, `${result.mean}`);
-    assert.equal(readFileSync(path.join(folder, "confusion.md"), "utf8").trim(), confusionTable(trial, result).trim());
+    assert.equal(
+        readFileSync(path.join(folder, "confusion.md"), "utf8").trim(),
+        confusionTable(trial, result).trim(),
+    );
 });
 
 test("a covering array holds every pair, and one of strength three every triple, in fewer rows than the product", () => {
@@ -461,12 +701,23 @@ test("a covering array holds every pair, and one of strength three every triple,
     for (const strength of [2, 3]) {
         const rows = coveringArray(sizes, strength);
         assert.ok(rows.length < product(sizes).length / 2, `${rows.length} rows`);
-        assert.ok(rows.every((row) => row.length === sizes.length && row.every((value, i) => value >= 0 && value < sizes[i])));
-        const groups = product(sizes.map(() => 2)).filter((taken) => taken.filter(Boolean).length === strength)
+        assert.ok(
+            rows.every(
+                (row) =>
+                    row.length === sizes.length &&
+                    row.every((value, i) => value >= 0 && value < sizes[i]),
+            ),
+        );
+        const groups = product(sizes.map(() => 2))
+            .filter((taken) => taken.filter(Boolean).length === strength)
             .map((taken) => [...taken.keys()].filter((i) => taken[i]));
         for (const group of groups) {
             const seen = new Set(rows.map((row) => group.map((i) => row[i]).join()));
-            assert.equal(seen.size, group.reduce((n, i) => n * sizes[i], 1), `factors ${group}`);
+            assert.equal(
+                seen.size,
+                group.reduce((n, i) => n * sizes[i], 1),
+                `factors ${group}`,
+            );
         }
     }
 });

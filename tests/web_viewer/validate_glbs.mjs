@@ -18,7 +18,8 @@ const severities = ["error", "warning", "info", "hint"];
 async function bytesOf(source) {
     if (!/^https?:/.test(source)) return new Uint8Array(await readFile(source));
     const response = await fetch(source);
-    if (!response.ok) throw new Error(`answered ${response.status}: ${(await response.text()).slice(0, 300)}`);
+    if (!response.ok)
+        throw new Error(`answered ${response.status}: ${(await response.text()).slice(0, 300)}`);
     return new Uint8Array(await response.arrayBuffer());
 }
 
@@ -35,7 +36,12 @@ async function faultsOf(source, allowed) {
         if (left.length === 0 && !issues.truncated) return [];
         return [
             `${source}: ${issues.numErrors}/${issues.numWarnings}/${issues.numInfos}/${issues.numHints}`,
-            ...left.slice(0, 12).map(({ severity, code, message, pointer }) => `  ${severities[severity]} ${code} ${pointer ?? ""}: ${message}`),
+            ...left
+                .slice(0, 12)
+                .map(
+                    ({ severity, code, message, pointer }) =>
+                        `  ${severities[severity]} ${code} ${pointer ?? ""}: ${message}`,
+                ),
             ...(left.length > 12 || issues.truncated ? ["  and more"] : []),
         ];
     } catch (error) {
@@ -50,8 +56,10 @@ async function main() {
     const argv = process.argv.slice(2);
     for (let i = 0; i < argv.length; ++i) {
         if (argv[i] === "--allow" && argv[i + 1]) allowed.push(argv[++i]);
-        else if (argv[i] === "--workers" && argv[i + 1]) workers = Math.max(1, Math.min(8, Number(argv[++i]) || 1));
-        else if (argv[i] === "-") sources.push(...(await text(process.stdin)).split("\n").filter(Boolean));
+        else if (argv[i] === "--workers" && argv[i + 1])
+            workers = Math.max(1, Math.min(8, Number(argv[++i]) || 1));
+        else if (argv[i] === "-")
+            sources.push(...(await text(process.stdin)).split("\n").filter(Boolean));
         else if (/^https?:/.test(argv[i])) sources.push(argv[i]);
         else if ((await stat(argv[i])).isDirectory()) {
             const names = (await readdir(argv[i])).filter((name) => name.endsWith(".glb")).sort();
@@ -67,22 +75,36 @@ async function main() {
     let next = 0;
     let failed = 0;
     let done = 0;
-    await Promise.all(Array.from({ length: Math.min(workers, sources.length) }, () => new Promise((resolve, reject) => {
-        const worker = new Worker(fileURLToPath(import.meta.url), { workerData: { allowed } });
-        const give = () => (next < sources.length ? worker.postMessage(sources[next++]) : worker.terminate().then(resolve));
-        worker.on("message", (faults) => {
-            if (faults.length > 0) failed += 1;
-            for (const line of faults) console.error(line);
-            done += 1;
-            if (done % 50 === 0) console.error(`[${done}/${sources.length}]`);
-            give();
-        });
-        worker.on("error", reject);
-        give();
-    })));
+    await Promise.all(
+        Array.from(
+            { length: Math.min(workers, sources.length) },
+            () =>
+                new Promise((resolve, reject) => {
+                    const worker = new Worker(fileURLToPath(import.meta.url), {
+                        workerData: { allowed },
+                    });
+                    const give = () =>
+                        next < sources.length
+                            ? worker.postMessage(sources[next++])
+                            : worker.terminate().then(resolve);
+                    worker.on("message", (faults) => {
+                        if (faults.length > 0) failed += 1;
+                        for (const line of faults) console.error(line);
+                        done += 1;
+                        if (done % 50 === 0) console.error(`[${done}/${sources.length}]`);
+                        give();
+                    });
+                    worker.on("error", reject);
+                    give();
+                }),
+        ),
+    );
     console.log(`${sources.length - failed} of ${sources.length} GLBs at 0/0/0/0`);
     process.exitCode = failed ? 1 : 0;
 }
 
 if (isMainThread) await main();
-else parentPort.on("message", async (source) => parentPort.postMessage(await faultsOf(source, workerData.allowed)));
+else
+    parentPort.on("message", async (source) =>
+        parentPort.postMessage(await faultsOf(source, workerData.allowed)),
+    );

@@ -46,10 +46,20 @@ export function crossing(arcs: readonly Arc[]): boolean[] {
 }
 
 /** The place on the other outline that arcs give a place on this one, linear between them and the curve's ends. */
-export function matched(arcs: readonly Arc[], curve: CurveName, share: number, from: "a" | "b"): number {
+export function matched(
+    arcs: readonly Arc[],
+    curve: CurveName,
+    share: number,
+    from: "a" | "b",
+): number {
     const to = from === "a" ? "b" : "a";
-    const ends: Arc[] = [{ curve, a: 0, b: 0 }, { curve, a: 1, b: 1 }];
-    const known = [...ends, ...arcs.filter((arc) => arc.curve === curve)].sort((one, other) => one[from] - other[from]);
+    const ends: Arc[] = [
+        { curve, a: 0, b: 0 },
+        { curve, a: 1, b: 1 },
+    ];
+    const known = [...ends, ...arcs.filter((arc) => arc.curve === curve)].sort(
+        (one, other) => one[from] - other[from],
+    );
     const next = known.findIndex((arc, index) => index > 0 && arc[from] >= share);
     const [low, high] = [known[Math.max(next - 1, 0)]!, known[Math.max(next, 1)]!];
     const span = high[from] - low[from];

@@ -95,7 +95,8 @@ export function scaleBar(perMetre: number, least: number): { metres: number; pix
 /** "5 cm", "0.5 cm", "20 cm": a round number of metres as a person says it. */
 export function centimetres(metres: number, digits?: number): string {
     const value = metres * 100;
-    const text = digits === undefined ? String(Number(value.toPrecision(6))) : value.toFixed(digits);
+    const text =
+        digits === undefined ? String(Number(value.toPrecision(6))) : value.toFixed(digits);
     return `${text} cm`;
 }
 

@@ -98,7 +98,13 @@ export class ContactShadow extends Group {
     }
 
     /** Draws the shadow of `model`, which stands in `scene`; metres. */
-    update(renderer: WebGLRenderer, scene: Scene, model: Object3D, half: number, height: number): void {
+    update(
+        renderer: WebGLRenderer,
+        scene: Scene,
+        model: Object3D,
+        half: number,
+        height: number,
+    ): void {
         this.plane.scale.set(half, 1, -half);
         Object.assign(this.camera, { left: -half, right: half, top: half, bottom: -half });
         this.camera.near = 0;

@@ -36,7 +36,11 @@ class Control {
             "aria-describedby": describedBy,
         };
         this.message.id = `${id}-fault`;
-        const label = make("label", { for: id, title: field.description || undefined }, field.label);
+        const label = make(
+            "label",
+            { for: id, title: field.description || undefined },
+            field.label,
+        );
         const about = make("p", { class: "about", id: `${id}-about` }, this.aboutText());
         const reset = field.owner ? `Back to the ${ownerOf(field)} own` : "Back to the default";
         this.reset.title = reset;
@@ -52,7 +56,9 @@ class Control {
         if (field.kind === "checkbox") {
             body.append(this.listen(make("input", { ...shared, id, type: "checkbox" })));
         } else if (field.kind === "select") {
-            const options = field.options.map((option) => make("option", { value: String(option) }, String(option)));
+            const options = field.options.map((option) =>
+                make("option", { value: String(option) }, String(option)),
+            );
             body.append(this.listen(make("select", { ...shared, id }, ...options)));
         } else if (field.kind === "color") {
             body.append(this.listen(make("input", { ...shared, id, type: "color" })));
@@ -61,7 +67,11 @@ class Control {
         } else {
             const { min, max } = field;
             if (min !== undefined && max !== undefined) {
-                body.append(this.listen(make("input", { ...shared, id, type: "range", min, max, step: field.step })));
+                body.append(
+                    this.listen(
+                        make("input", { ...shared, id, type: "range", min, max, step: field.step }),
+                    ),
+                );
             }
             const number = make("input", {
                 ...shared,
@@ -79,7 +89,14 @@ class Control {
         const head = make("div", { class: "head" }, label, this.reset);
         body.append(unit);
         if (field.name === "seed" && field.kind === "number") body.append(this.dice());
-        this.row = make("div", { class: `control ${field.kind}`, "data-name": field.name }, head, body, about, this.message);
+        this.row = make(
+            "div",
+            { class: `control ${field.kind}`, "data-name": field.name },
+            head,
+            body,
+            about,
+            this.message,
+        );
         this.row.classList.toggle("integer", field.integer);
     }
 
@@ -92,11 +109,20 @@ class Control {
         this.row.classList.toggle("inherited", set === undefined && this.field.owner !== "");
         this.reset.hidden = set === undefined;
         // What a species cannot have is not offered.
-        this.row.hidden = !this.settings.matters(this.field) || this.field.owner !== "" && set === undefined && effective !== undefined && own === undefined;
+        this.row.hidden =
+            !this.settings.matters(this.field) ||
+            (this.field.owner !== "" &&
+                set === undefined &&
+                effective !== undefined &&
+                own === undefined);
         for (const entry of this.entries) {
             if (entry instanceof HTMLInputElement && entry.type === "checkbox") {
                 entry.checked = value === true;
-            } else if (document.activeElement !== entry || entry.type !== "number" || Number(entry.value) !== value) {
+            } else if (
+                document.activeElement !== entry ||
+                entry.type !== "number" ||
+                Number(entry.value) !== value
+            ) {
                 entry.value = value === undefined ? "" : this.text(value, entry);
             }
             if (entry.type === "range") this.fill(entry as HTMLInputElement, value);
@@ -116,7 +142,10 @@ class Control {
 
     private aboutText(): string {
         const { field } = this;
-        const range = field.min !== undefined && field.max !== undefined ? `${field.min} to ${field.max}` : "";
+        const range =
+            field.min !== undefined && field.max !== undefined
+                ? `${field.min} to ${field.max}`
+                : "";
         const span = [range, field.unit].filter(Boolean).join(" ");
         const start = field.owner ? `the ${ownerOf(field)} own unless moved` : "";
         const facts = [span, start].filter(Boolean).join("; ");
@@ -125,7 +154,11 @@ class Control {
 
     /** What the species brings has more digits than a person wants to read. */
     private text(value: Value, entry: Entry): string {
-        if (typeof value !== "number" || entry.type !== "number" || this.settings.values.has(this.field.name)) {
+        if (
+            typeof value !== "number" ||
+            entry.type !== "number" ||
+            this.settings.values.has(this.field.name)
+        ) {
             return String(value);
         }
         return String(this.field.integer ? value : Number(value.toPrecision(3)));
@@ -150,8 +183,10 @@ class Control {
         const { field } = this;
         let value: Value;
         if (entry instanceof HTMLInputElement && entry.type === "checkbox") value = entry.checked;
-        else if (field.kind === "select") value = field.options.find((option) => String(option) === entry.value) ?? "";
-        else if (field.kind === "number") value = entry.value === "" ? Number.NaN : Number(entry.value);
+        else if (field.kind === "select")
+            value = field.options.find((option) => String(option) === entry.value) ?? "";
+        else if (field.kind === "number")
+            value = entry.value === "" ? Number.NaN : Number(entry.value);
         else value = entry.value;
         const wrong = fault(field, value);
         this.fail(wrong);
@@ -164,7 +199,12 @@ class Control {
     private dice(): HTMLElement {
         const button = make(
             "button",
-            { type: "button", class: "dice", title: "Another individual", "aria-label": "Another individual: a new seed" },
+            {
+                type: "button",
+                class: "dice",
+                title: "Another individual",
+                "aria-label": "Another individual: a new seed",
+            },
             "⚄",
         );
         button.addEventListener("click", () => {
@@ -185,7 +225,12 @@ export class Controls {
     private readonly sections: { element: HTMLElement; controls: Control[] }[] = [];
     private effective: unknown;
 
-    constructor(host: HTMLElement, groups: readonly Group[], settings: Settings, events: ControlEvents) {
+    constructor(
+        host: HTMLElement,
+        groups: readonly Group[],
+        settings: Settings,
+        events: ControlEvents,
+    ) {
         groups.forEach((group, index) => {
             const made = group.fields.map((field) => new Control(field, settings, events));
             const fields = made.map((control) => control.row);
@@ -194,7 +239,11 @@ export class Controls {
                 "details",
                 { class: "group", open: index < 2, title: group.description || undefined },
                 make("summary", {}, title),
-                make("div", { class: "fields", role: "group", "aria-label": group.label }, ...fields),
+                make(
+                    "div",
+                    { class: "fields", role: "group", "aria-label": group.label },
+                    ...fields,
+                ),
             );
             host.append(element);
             this.controls.push(...made);
@@ -208,7 +257,10 @@ export class Controls {
         for (const control of this.controls) control.show(effective);
         for (const { element, controls } of this.sections) {
             element.hidden = controls.every((control) => control.row.hidden);
-            element.classList.toggle("set", controls.some((control) => control.row.classList.contains("set")));
+            element.classList.toggle(
+                "set",
+                controls.some((control) => control.row.classList.contains("set")),
+            );
         }
     }
 

@@ -52,7 +52,10 @@ interface Operation {
     tags?: string[];
     parameters?: Parameter[];
     requestBody?: { $ref?: string; description?: string; content?: Record<string, Content> };
-    responses?: Record<string, { $ref?: string; description?: string; content?: Record<string, Content> }>;
+    responses?: Record<
+        string,
+        { $ref?: string; description?: string; content?: Record<string, Content> }
+    >;
 }
 
 type PathItem = { parameters?: Parameter[] } & Partial<Record<string, Operation>>;
@@ -88,12 +91,20 @@ function shortText(value: unknown): string {
 
 /** "number, 0 to 1", "one of a, b". */
 function typeText(schema: Node_): string {
-    const types = (Array.isArray(schema.type) ? schema.type : [schema.type]).filter(Boolean).join(" or ");
+    const types = (Array.isArray(schema.type) ? schema.type : [schema.type])
+        .filter(Boolean)
+        .join(" or ");
     if (schema.const !== undefined) return `always ${shortText(schema.const)}`;
     if (schema.enum) return `one of ${schema.enum.map(shortText).join(", ")}`;
     const { minimum, maximum } = schema;
-    const range = minimum !== undefined && maximum !== undefined ? `${minimum} to ${maximum}`
-        : minimum !== undefined ? `from ${minimum}` : maximum !== undefined ? `up to ${maximum}` : "";
+    const range =
+        minimum !== undefined && maximum !== undefined
+            ? `${minimum} to ${maximum}`
+            : minimum !== undefined
+              ? `from ${minimum}`
+              : maximum !== undefined
+                ? `up to ${maximum}`
+                : "";
     const items = schema.items ? ` of ${typeText(follow(schema.items))}` : "";
     const most = schema.maxItems === undefined ? "" : `, at most ${schema.maxItems}`;
     return [types + items + most, range].filter(Boolean).join(", ");
@@ -110,21 +121,47 @@ interface Row {
     required: boolean;
 }
 
-function rowsOf(schema: Node_, name: string, place: string, required: boolean, about = "", example: unknown = undefined, depth = 0): Row[] {
+function rowsOf(
+    schema: Node_,
+    name: string,
+    place: string,
+    required: boolean,
+    about = "",
+    example: unknown = undefined,
+    depth = 0,
+): Row[] {
     const found = follow(schema);
     const own = found["x-default-from"] !== undefined;
-    const given = example ?? found.example ?? (Array.isArray(found.examples) ? found.examples[0] : undefined);
-    const parts = [found, ...(found.oneOf ?? []), ...(found.anyOf ?? []), ...(found.allOf ?? [])].map(follow);
-    const children = depth < deepest
-        ? parts.flatMap((part) => Object.entries(part.properties ?? {}).map(([key, sub]) => ({ key, sub, required: part.required?.includes(key) ?? false })))
-        : [];
+    const given =
+        example ?? found.example ?? (Array.isArray(found.examples) ? found.examples[0] : undefined);
+    const parts = [
+        found,
+        ...(found.oneOf ?? []),
+        ...(found.anyOf ?? []),
+        ...(found.allOf ?? []),
+    ].map(follow);
+    const children =
+        depth < deepest
+            ? parts.flatMap((part) =>
+                  Object.entries(part.properties ?? {}).map(([key, sub]) => ({
+                      key,
+                      sub,
+                      required: part.required?.includes(key) ?? false,
+                  })),
+              )
+            : [];
     const rows: Row[] = [];
     if (name !== "" && (children.length === 0 || about || found.description)) {
         rows.push({
             name,
             place,
             type: typeText(found),
-            fallback: found.default !== undefined ? shortText(found.default) : own ? "the species’ own" : "",
+            fallback:
+                found.default !== undefined
+                    ? shortText(found.default)
+                    : own
+                      ? "the species’ own"
+                      : "",
             unit: unitSign(String(found["x-unit"] ?? "")),
             about: about || found.description || found.title || "",
             example: given === undefined ? "" : shortText(given),
@@ -135,16 +172,40 @@ function rowsOf(schema: Node_, name: string, place: string, required: boolean, a
     for (const { key, sub, required: needed } of children) {
         if (seen.has(key)) continue;
         seen.add(key);
-        rows.push(...rowsOf(sub, name ? `${name}.${key}` : key, place, needed, "", undefined, depth + 1));
+        rows.push(
+            ...rowsOf(sub, name ? `${name}.${key}` : key, place, needed, "", undefined, depth + 1),
+        );
     }
     const items = found.items && follow(found.items);
-    if (items?.properties && depth < deepest) rows.push(...rowsOf({ properties: items.properties }, `${name}[]`, place, false, "", undefined, depth + 1));
+    if (items?.properties && depth < deepest)
+        rows.push(
+            ...rowsOf(
+                { properties: items.properties },
+                `${name}[]`,
+                place,
+                false,
+                "",
+                undefined,
+                depth + 1,
+            ),
+        );
     return rows;
 }
 
 function table(rows: Row[]): HTMLElement {
     const columns: [string, (row: Row) => Node | string][] = [
-        ["Name", (row) => make("span", {}, make("code", {}, row.name), row.required ? make("span", { class: "required", title: "required" }, " *") : "")],
+        [
+            "Name",
+            (row) =>
+                make(
+                    "span",
+                    {},
+                    make("code", {}, row.name),
+                    row.required
+                        ? make("span", { class: "required", title: "required" }, " *")
+                        : "",
+                ),
+        ],
         ["In", (row) => row.place],
         ["Type and range", (row) => row.type],
         ["Unit", (row) => row.unit],
@@ -154,20 +215,41 @@ function table(rows: Row[]): HTMLElement {
     ];
     const used = columns.filter(([, cell]) => rows.some((row) => cell(row) !== ""));
     const cellsOf = (row: Row): HTMLElement[] => used.map(([, cell]) => make("td", {}, cell(row)));
-    return make("div", { class: "scroll", tabindex: 0, role: "region", "aria-label": "Parameters" },
-        make("table", {},
-            make("thead", {}, make("tr", {}, ...used.map(([name]) => make("th", { scope: "col" }, name)))),
-            make("tbody", {}, ...rows.map((row) => make("tr", {}, ...cellsOf(row))))));
+    return make(
+        "div",
+        { class: "scroll", tabindex: 0, role: "region", "aria-label": "Parameters" },
+        make(
+            "table",
+            {},
+            make(
+                "thead",
+                {},
+                make("tr", {}, ...used.map(([name]) => make("th", { scope: "col" }, name))),
+            ),
+            make("tbody", {}, ...rows.map((row) => make("tr", {}, ...cellsOf(row)))),
+        ),
+    );
 }
 
 function exampleOf(parameter: Parameter): unknown {
     const named = Object.values(parameter.examples ?? {})[0]?.value;
     const schema = parameter.schema ? follow(parameter.schema) : {};
-    return parameter.example ?? named ?? schema.example ?? (Array.isArray(schema.examples) ? schema.examples[0] : undefined) ?? schema.enum?.[0];
+    return (
+        parameter.example ??
+        named ??
+        schema.example ??
+        (Array.isArray(schema.examples) ? schema.examples[0] : undefined) ??
+        schema.enum?.[0]
+    );
 }
 
 /** A command that can be run as it stands where the description gives examples. */
-function curlOf(verb: string, path: string, parameters: Parameter[], body: [string, Content] | undefined): string {
+function curlOf(
+    verb: string,
+    path: string,
+    parameters: Parameter[],
+    body: [string, Content] | undefined,
+): string {
     const filled = path.replace(/\{(\w+)\}/g, (all, name: string) => {
         const example = parameters.find((one) => one.in === "path" && one.name === name);
         const value = example && exampleOf(example);
@@ -185,7 +267,8 @@ function curlOf(verb: string, path: string, parameters: Parameter[], body: [stri
         const [type, content] = body;
         const example = content.example ?? Object.values(content.examples ?? {})[0]?.value;
         parts.push(`-H 'Content-Type: ${type}'`);
-        if (example !== undefined && type.includes("json")) parts.push(`-d '${JSON.stringify(example)}'`);
+        if (example !== undefined && type.includes("json"))
+            parts.push(`-d '${JSON.stringify(example)}'`);
         else parts.push("--data-binary @file");
     }
     return `${parts.join(" ")} '${address}'`;
@@ -194,26 +277,49 @@ function curlOf(verb: string, path: string, parameters: Parameter[], body: [stri
 function example(text: string): HTMLElement {
     const button = make("button", { type: "button" }, "Copy");
     button.addEventListener("click", () => {
-        void navigator.clipboard?.writeText(text).then(() => (button.textContent = "Copied"), () => undefined);
+        void navigator.clipboard?.writeText(text).then(
+            () => (button.textContent = "Copied"),
+            () => undefined,
+        );
     });
     return make("div", { class: "example" }, make("pre", { tabindex: 0 }, text), button);
 }
 
 function paragraphs(text: string | undefined): HTMLElement[] {
-    return (text ?? "").split(/\n\s*\n/).filter(Boolean).map((part) => make("p", {}, part));
+    return (text ?? "")
+        .split(/\n\s*\n/)
+        .filter(Boolean)
+        .map((part) => make("p", {}, part));
 }
 
-function routeSection(id: string, verb: string, path: string, item: PathItem, operation: Operation): HTMLElement {
+function routeSection(
+    id: string,
+    verb: string,
+    path: string,
+    item: PathItem,
+    operation: Operation,
+): HTMLElement {
     const parameters = [...(item.parameters ?? []), ...(operation.parameters ?? [])].map(follow);
     const body = operation.requestBody && follow(operation.requestBody);
     const bodies = Object.entries(body?.content ?? {});
-    const section = make("section", { class: "route", id },
+    const section = make(
+        "section",
+        { class: "route", id },
         make("h2", {}, make("span", { class: `verb ${verb}` }, verb.toUpperCase()), path),
         ...paragraphs(operation.summary),
-        ...paragraphs(operation.description === operation.summary ? "" : operation.description));
+        ...paragraphs(operation.description === operation.summary ? "" : operation.description),
+    );
     if (parameters.length > 0) {
         const rows = parameters.flatMap((one) =>
-            rowsOf(one.schema ?? {}, one.name, one.in, one.required ?? false, one.description, one.example ?? Object.values(one.examples ?? {})[0]?.value));
+            rowsOf(
+                one.schema ?? {},
+                one.name,
+                one.in,
+                one.required ?? false,
+                one.description,
+                one.example ?? Object.values(one.examples ?? {})[0]?.value,
+            ),
+        );
         section.append(make("h3", {}, "Parameters"), table(rows));
     }
     for (const [type, content] of bodies) {
@@ -224,16 +330,46 @@ function routeSection(id: string, verb: string, path: string, item: PathItem, op
     section.append(make("h3", {}, "Example"), example(curlOf(verb, path, parameters, bodies[0])));
     const answers = Object.entries(operation.responses ?? {}).map(([status, raw]) => {
         const answer = follow(raw);
-        return make("tr", {},
+        return make(
+            "tr",
+            {},
             make("td", {}, make("code", {}, status)),
             make("td", {}, Object.keys(answer.content ?? {}).join(", ")),
-            make("td", {}, answer.description ?? ""));
+            make("td", {}, answer.description ?? ""),
+        );
     });
     if (answers.length > 0) {
-        section.append(make("details", {}, make("summary", {}, `Answers: ${Object.keys(operation.responses ?? {}).join(", ")}`),
-            make("div", { class: "scroll" }, make("table", {},
-                make("thead", {}, make("tr", {}, ...["Status", "Type", "Meaning"].map((name) => make("th", { scope: "col" }, name)))),
-                make("tbody", {}, ...answers)))));
+        section.append(
+            make(
+                "details",
+                {},
+                make(
+                    "summary",
+                    {},
+                    `Answers: ${Object.keys(operation.responses ?? {}).join(", ")}`,
+                ),
+                make(
+                    "div",
+                    { class: "scroll" },
+                    make(
+                        "table",
+                        {},
+                        make(
+                            "thead",
+                            {},
+                            make(
+                                "tr",
+                                {},
+                                ...["Status", "Type", "Meaning"].map((name) =>
+                                    make("th", { scope: "col" }, name),
+                                ),
+                            ),
+                        ),
+                        make("tbody", {}, ...answers),
+                    ),
+                ),
+            ),
+        );
     }
     return section;
 }
@@ -248,29 +384,50 @@ async function open(): Promise<void> {
     const groups = new Map<string, HTMLElement[]>();
     // What the service is for comes first, what keeps it running last.
     const isProduct = (path: string): boolean => path.startsWith("/v1/");
-    const paths = Object.entries(root.paths ?? {}).sort(([a], [b]) => Number(isProduct(b)) - Number(isProduct(a)));
+    const paths = Object.entries(root.paths ?? {}).sort(
+        ([a], [b]) => Number(isProduct(b)) - Number(isProduct(a)),
+    );
     for (const [path, item] of paths) {
         for (const verb of verbs) {
             const operation = item[verb];
             if (!operation) continue;
             const id = `${verb}${path.replace(/[^a-z0-9]+/gi, "-")}`;
             sections.push(routeSection(id, verb, path, item, operation));
-            const tag = operation.tags?.[0] ?? (isProduct(path) ? path.split("/")[2]?.replace(/\W.*$/, "") : undefined) ?? "service";
-            const link = make("a", { href: `#${id}`, title: operation.summary }, make("span", { class: `verb ${verb}` }, verb.toUpperCase()), path);
+            const tag =
+                operation.tags?.[0] ??
+                (isProduct(path) ? path.split("/")[2]?.replace(/\W.*$/, "") : undefined) ??
+                "service";
+            const link = make(
+                "a",
+                { href: `#${id}`, title: operation.summary },
+                make("span", { class: `verb ${verb}` }, verb.toUpperCase()),
+                path,
+            );
             groups.set(tag, [...(groups.get(tag) ?? []), link]);
         }
     }
-    list.append(...[...groups].flatMap(([tag, links]) => [make("h2", {}, tag.charAt(0).toUpperCase() + tag.slice(1)), ...links]));
+    list.append(
+        ...[...groups].flatMap(([tag, links]) => [
+            make("h2", {}, tag.charAt(0).toUpperCase() + tag.slice(1)),
+            ...links,
+        ]),
+    );
     main.replaceChildren(
         make("h2", {}, `${title} ${version}`.trim()),
         make("p", { class: "lead" }, [summary, description].filter(Boolean).join("\n\n")),
         ...sections,
-        make("footer", {}, "Sporeprint is for pictures, never for identifying mushrooms to eat."));
+        make("footer", {}, "Sporeprint is for pictures, never for identifying mushrooms to eat."),
+    );
     document.documentElement.dataset["docs"] = "complete";
     if (location.hash) document.getElementById(location.hash.slice(1))?.scrollIntoView();
 }
 
 open().catch((error: unknown) => {
-    const text = error instanceof RequestFailed ? error.message : `The description could not be shown: ${String(error)}`;
-    document.getElementById("content")?.replaceChildren(make("p", { class: "problem", role: "alert" }, text));
+    const text =
+        error instanceof RequestFailed
+            ? error.message
+            : `The description could not be shown: ${String(error)}`;
+    document
+        .getElementById("content")
+        ?.replaceChildren(make("p", { class: "problem", role: "alert" }, text));
 });

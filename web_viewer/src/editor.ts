@@ -28,7 +28,13 @@ export class MorphEditor {
     private readonly pad: Pad;
     private readonly graph: Graph;
     private readonly slider = make("input", {
-        type: "range", id: "morph-t", name: "t", min: 0, max: 1, step: 0.01, "aria-label": "From A to B",
+        type: "range",
+        id: "morph-t",
+        name: "t",
+        min: 0,
+        max: 1,
+        step: 0.01,
+        "aria-label": "From A to B",
     });
     private readonly history = new History<readonly Arc[]>([]);
     private selected: number | undefined;
@@ -36,8 +42,14 @@ export class MorphEditor {
     private rest: ReturnType<typeof setTimeout> | undefined;
     private known: { address: string; answer: Correspondence } | undefined;
     private asking: { address: string; stop: AbortController } | undefined;
-    private readonly curve = make("select", { id: "arc-curve", "aria-label": "Sub-curve of a new arc" });
-    private readonly buttons: Record<"add" | "remove" | "undo" | "redo" | "reset", HTMLButtonElement>;
+    private readonly curve = make("select", {
+        id: "arc-curve",
+        "aria-label": "Sub-curve of a new arc",
+    });
+    private readonly buttons: Record<
+        "add" | "remove" | "undo" | "redo" | "reset",
+        HTMLButtonElement
+    >;
 
     constructor(
         private readonly settings: Settings,
@@ -53,7 +65,16 @@ export class MorphEditor {
             this.weigh([1 - t, t], false);
         });
         this.slider.addEventListener("change", () => this.letGo("t"));
-        byId("weights").append(this.pad.element, make("div", { class: "between" }, make("b", { "aria-hidden": true }, "A"), this.slider, make("b", { "aria-hidden": true }, "B")));
+        byId("weights").append(
+            this.pad.element,
+            make(
+                "div",
+                { class: "between" },
+                make("b", { "aria-hidden": true }, "A"),
+                this.slider,
+                make("b", { "aria-hidden": true }, "B"),
+            ),
+        );
         this.graph = new Graph({
             change: (arcs, settled) => this.changeArcs(arcs, settled),
             select: (index) => {
@@ -61,7 +82,12 @@ export class MorphEditor {
                 this.showGraph();
             },
         });
-        const button = (label: string, title: string, act: () => void, name?: string): HTMLButtonElement => {
+        const button = (
+            label: string,
+            title: string,
+            act: () => void,
+            name?: string,
+        ): HTMLButtonElement => {
             const made = make("button", { type: "button", title, "aria-label": name }, label);
             made.addEventListener("click", act);
             return made;
@@ -92,12 +118,16 @@ export class MorphEditor {
         const kept = shares.filter((share) => share.id !== id);
         if (kept.length === shares.length) {
             if (shares[0] && this.familyOf(id) !== this.familyOf(shares[0].id)) {
-                return announce(`A morph needs one family: ${this.nameOf(id)} is ${this.familyOf(id)}, ${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`);
+                return announce(
+                    `A morph needs one family: ${this.nameOf(id)} is ${this.familyOf(id)}, ${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`,
+                );
             }
-            if (shares.length >= mostMembers) return announce(`A morph has at most ${mostMembers} species: take one off first`);
+            if (shares.length >= mostMembers)
+                return announce(`A morph has at most ${mostMembers} species: take one off first`);
             this.choose([...shares, { id, weight: 0 }]);
         } else {
-            if (kept.length < fewestMembers) return announce(`A morph needs ${fewestMembers} species: choose another one first`);
+            if (kept.length < fewestMembers)
+                return announce(`A morph needs ${fewestMembers} species: choose another one first`);
             this.choose(kept);
         }
     }
@@ -108,10 +138,13 @@ export class MorphEditor {
         const start = this.species.findIndex(({ id }) => id === chosen[0]?.id);
         for (let step = 1; chosen.length < fewestMembers && step <= this.species.length; ++step) {
             const next = this.species[(start + step + this.species.length) % this.species.length];
-            const kin = next && (!chosen[0] || this.familyOf(next.id) === this.familyOf(chosen[0].id));
-            if (kin && !chosen.some(({ id }) => id === next.id)) chosen.push({ id: next.id, weight: 0 });
+            const kin =
+                next && (!chosen[0] || this.familyOf(next.id) === this.familyOf(chosen[0].id));
+            if (kin && !chosen.some(({ id }) => id === next.id))
+                chosen.push({ id: next.id, weight: 0 });
         }
-        if (chosen.length < fewestMembers) return announce("This server has too few species for a morph");
+        if (chosen.length < fewestMembers)
+            return announce("This server has too few species for a morph");
         const alone = chosen.length === fewestMembers && shares.length < fewestMembers;
         this.choose(alone ? chosen.map(({ id }) => ({ id, weight: 0.5 })) : chosen);
     }
@@ -141,9 +174,17 @@ export class MorphEditor {
             const t = shares[1]!.weight;
             this.slider.value = String(t);
             this.slider.style.setProperty("--to", `${t * 100}%`);
-            this.slider.setAttribute("aria-valuetext", names.map((name, index) => `${name} ${Math.round(shares[index]!.weight * 100)} %`).join(", "));
+            this.slider.setAttribute(
+                "aria-valuetext",
+                names
+                    .map((name, index) => `${name} ${Math.round(shares[index]!.weight * 100)} %`)
+                    .join(", "),
+            );
         } else {
-            this.pad.show(names, shares.map(({ weight }) => weight));
+            this.pad.show(
+                names,
+                shares.map(({ weight }) => weight),
+            );
         }
         this.showMembers(names, shares);
     }
@@ -156,32 +197,42 @@ export class MorphEditor {
             this.asking = undefined;
             return;
         }
-        if (this.known?.address === address || this.asking?.address === address) return this.showGraph();
+        if (this.known?.address === address || this.asking?.address === address)
+            return this.showGraph();
         this.asking?.stop.abort();
         const asking = { address, stop: new AbortController() };
         this.asking = asking;
-        if (this.known && !this.known.address.startsWith(address.split("?")[0] ?? "")) this.known = undefined;
+        if (this.known && !this.known.address.startsWith(address.split("?")[0] ?? ""))
+            this.known = undefined;
         this.showGraph();
         byId("graph").setAttribute("aria-busy", "true");
-        getJson<Correspondence>(address, asking.stop.signal).then((answer) => {
-            if (this.asking !== asking) return;
-            this.known = { address, answer: this.turned(answer) };
-            this.tell("");
-        }, (error: unknown) => {
-            if (this.asking !== asking) return;
-            this.known = undefined;
-            this.tell(error instanceof Error ? error.message : "The outlines could not be read");
-        }).finally(() => {
-            if (this.asking !== asking) return;
-            this.asking = undefined;
-            byId("graph").removeAttribute("aria-busy");
-            this.showGraph();
-        });
+        getJson<Correspondence>(address, asking.stop.signal)
+            .then(
+                (answer) => {
+                    if (this.asking !== asking) return;
+                    this.known = { address, answer: this.turned(answer) };
+                    this.tell("");
+                },
+                (error: unknown) => {
+                    if (this.asking !== asking) return;
+                    this.known = undefined;
+                    this.tell(
+                        error instanceof Error ? error.message : "The outlines could not be read",
+                    );
+                },
+            )
+            .finally(() => {
+                if (this.asking !== asking) return;
+                this.asking = undefined;
+                byId("graph").removeAttribute("aria-busy");
+                this.showGraph();
+            });
     }
 
     /** Resolves once the graph shows the settings. */
     async settled(): Promise<void> {
-        while (this.asking || this.rest !== undefined) await new Promise((resolve) => setTimeout(resolve, 20));
+        while (this.asking || this.rest !== undefined)
+            await new Promise((resolve) => setTimeout(resolve, 20));
     }
 
     /** What stands against an arc, in the service's words; false when it is about something else. */
@@ -212,7 +263,13 @@ export class MorphEditor {
         const sum = shares.reduce((all, { weight }) => all + weight, 0);
         const even = shares.map(({ id }) => ({ id, weight: 1 / shares.length }));
         const joined = shares.some(({ weight }) => weight === 0) && sum > 0;
-        this.settings.setMorph({ shares: joined || sum <= 0 ? even : shares.map(({ id, weight }) => ({ id, weight: weight / sum })), arcs: [] });
+        this.settings.setMorph({
+            shares:
+                joined || sum <= 0
+                    ? even
+                    : shares.map(({ id, weight }) => ({ id, weight: weight / sum })),
+            arcs: [],
+        });
         this.events.chosen();
     }
 
@@ -222,7 +279,10 @@ export class MorphEditor {
         const parts = thousandths(weights);
         this.settings.setMorph({
             ...morph,
-            shares: morph.shares.map(({ id }, index) => ({ id, weight: (parts[index] ?? 0) / 1000 })),
+            shares: morph.shares.map(({ id }, index) => ({
+                id,
+                weight: (parts[index] ?? 0) / 1000,
+            })),
         });
         this.showWeights();
         this.events.moving();
@@ -231,10 +291,13 @@ export class MorphEditor {
 
     private letGo(name: string): void {
         clearTimeout(this.rest);
-        this.rest = setTimeout(() => {
-            this.rest = undefined;
-            this.events.moved(name);
-        }, this.slider.matches(":active") || name === "pointer" ? 0 : keyRestMs);
+        this.rest = setTimeout(
+            () => {
+                this.rest = undefined;
+                this.events.moved(name);
+            },
+            this.slider.matches(":active") || name === "pointer" ? 0 : keyRestMs,
+        );
     }
 
     private showMembers(names: readonly string[], shares: readonly Share[]): void {
@@ -242,19 +305,31 @@ export class MorphEditor {
         const ids = shares.map(({ id }) => id).join(",");
         if (list.dataset["ids"] !== ids) {
             list.dataset["ids"] = ids;
-            list.replaceChildren(...shares.map(({ id }, index) => this.member(id, index, names[index] ?? "")));
+            list.replaceChildren(
+                ...shares.map(({ id }, index) => this.member(id, index, names[index] ?? "")),
+            );
         }
         [...list.children].forEach((row, index) => {
             const entry = row.querySelector("input");
             const percent = String(Math.round((shares[index]?.weight ?? 0) * 1000) / 10);
-            if (entry && (entry !== document.activeElement || Number(entry.value) !== Number(percent))) entry.value = percent;
+            if (
+                entry &&
+                (entry !== document.activeElement || Number(entry.value) !== Number(percent))
+            )
+                entry.value = percent;
             (row as HTMLElement).style.setProperty("--share", `${percent}%`);
         });
     }
 
     private member(id: string, index: number, name: string): HTMLElement {
         const entry = make("input", {
-            type: "number", min: 0, max: 100, step: "any", inputmode: "decimal", "aria-label": `Share of ${name}, percent`, "data-share": id,
+            type: "number",
+            min: 0,
+            max: 100,
+            step: "any",
+            inputmode: "decimal",
+            "aria-label": `Share of ${name}, percent`,
+            "data-share": id,
         });
         entry.addEventListener("change", () => {
             const percent = Number(entry.value);
@@ -263,13 +338,47 @@ export class MorphEditor {
                 announce(`A share is between 0 and 100 %`);
                 return this.showWeights();
             }
-            this.weigh(reweighted(shares, index, percent / 100).map(({ weight }) => weight), true);
+            this.weigh(
+                reweighted(shares, index, percent / 100).map(({ weight }) => weight),
+                true,
+            );
         });
-        const alone = make("button", { type: "button", class: "letter", title: `Only ${name}`, "aria-label": `Only ${name}` }, letterOf(index));
-        alone.addEventListener("click", () => this.weigh((this.settings.morph?.shares ?? []).map((_, at) => (at === index ? 1 : 0)), true));
-        const off = make("button", { type: "button", class: "off", title: `Take ${name} off`, "aria-label": `Take ${name} off` }, "×");
+        const alone = make(
+            "button",
+            {
+                type: "button",
+                class: "letter",
+                title: `Only ${name}`,
+                "aria-label": `Only ${name}`,
+            },
+            letterOf(index),
+        );
+        alone.addEventListener("click", () =>
+            this.weigh(
+                (this.settings.morph?.shares ?? []).map((_, at) => (at === index ? 1 : 0)),
+                true,
+            ),
+        );
+        const off = make(
+            "button",
+            {
+                type: "button",
+                class: "off",
+                title: `Take ${name} off`,
+                "aria-label": `Take ${name} off`,
+            },
+            "×",
+        );
         off.addEventListener("click", () => this.toggle(id));
-        return make("li", { "data-member": index }, alone, make("span", { class: "member" }, name), entry, make("span", { class: "unit", "aria-hidden": true }, "%"), off);
+        return make(
+            "li",
+            { "data-member": index },
+            alone,
+            make("span", { class: "member" }, name),
+            entry,
+            make("span", { class: "unit", "aria-hidden": true }, "%"),
+            off,
+        );
     }
 
     // The graph
@@ -308,12 +417,17 @@ export class MorphEditor {
     private showGraph(): void {
         const morph = this.settings.morph;
         if (morph?.shares.length !== 2) return;
-        const names: [string, string] = [this.nameOf(morph.shares[0]!.id), this.nameOf(morph.shares[1]!.id)];
+        const names: [string, string] = [
+            this.nameOf(morph.shares[0]!.id),
+            this.nameOf(morph.shares[1]!.id),
+        ];
         this.graph.show(this.known?.answer, names);
         this.graph.showArcs(morph.arcs, new Set(this.refused.keys()), this.selected);
         const shared = this.graph.shared;
         if ([...this.curve.options].map(({ value }) => value).join() !== shared.join()) {
-            this.curve.replaceChildren(...shared.map((curve) => make("option", { value: curve }, words(curve))));
+            this.curve.replaceChildren(
+                ...shared.map((curve) => make("option", { value: curve }, words(curve))),
+            );
             if (shared.includes("cap")) this.curve.value = "cap";
         }
         const { add, remove, undo, redo, reset } = this.buttons;
@@ -329,8 +443,14 @@ export class MorphEditor {
     /** The service's sentence about the arc in hand, or about the first refused; it counts from 0, people from 1. */
     private refusal(): string {
         if (this.refused.size === 0) return "";
-        const picked = this.selected !== undefined && this.refused.has(this.selected) ? this.selected : [...this.refused.keys()][0]!;
-        const detail = (this.refused.get(picked) ?? "").replace(/\/arcs\/(\d+)/g, (_, index) => `arc ${Number(index) + 1}`);
+        const picked =
+            this.selected !== undefined && this.refused.has(this.selected)
+                ? this.selected
+                : [...this.refused.keys()][0]!;
+        const detail = (this.refused.get(picked) ?? "").replace(
+            /\/arcs\/(\d+)/g,
+            (_, index) => `arc ${Number(index) + 1}`,
+        );
         return `Arc ${picked + 1} is refused: ${detail}`;
     }
 
@@ -373,7 +493,9 @@ export class MorphEditor {
         const gap = widestGap(arcs, this.curve.value as CurveName);
         const a = rounded(gap.a);
         const guided = rounded(matched(this.graph.guides, gap.curve, a, "a"));
-        const free = arcs.every((arc) => arc.curve !== gap.curve || (arc.a - a) * (arc.b - guided) > 0);
+        const free = arcs.every(
+            (arc) => arc.curve !== gap.curve || (arc.a - a) * (arc.b - guided) > 0,
+        );
         this.selected = arcs.length;
         this.commit([...arcs, { curve: gap.curve, a, b: free ? guided : rounded(gap.b) }]);
         this.graph.focusEnd(arcs.length);
@@ -397,7 +519,10 @@ export class MorphEditor {
             if (again ? !this.history.redoable : !this.history.undoable) return;
             event.preventDefault();
             this.travel(again ? this.history.redo() : this.history.undo());
-        } else if ((event.key === "Delete" || event.key === "Backspace") && (event.target as Element).closest("[data-side]")) {
+        } else if (
+            (event.key === "Delete" || event.key === "Backspace") &&
+            (event.target as Element).closest("[data-side]")
+        ) {
             event.preventDefault();
             this.removeArc();
         }

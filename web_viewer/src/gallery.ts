@@ -39,39 +39,62 @@ function span(range: [number, number] | null | undefined): string {
 export function factLine(species: Species): string {
     const cap = span(species.cap_diameter_m);
     const tall = span(species.height_m);
-    return [cap ? `cap ${cap}` : tall && `${tall} tall`, species.substrate, seasonText(species.season)]
+    return [
+        cap ? `cap ${cap}` : tall && `${tall} tall`,
+        species.substrate,
+        seasonText(species.season),
+    ]
         .filter(Boolean)
         .join(" · ");
 }
 
 /** Whether a species answers to every word: parts of its names, form or substrate, or a month in which it fruits. */
 export function answersTo(species: Species, words: string): boolean {
-    const text = [species.common_name, species.scientific_name, species.form, species.substrate].join(" ").toLowerCase();
+    const text = [species.common_name, species.scientific_name, species.form, species.substrate]
+        .join(" ")
+        .toLowerCase();
     const fruiting = (species.season ?? []).map((month) => (months[month - 1] ?? "").toLowerCase());
-    return words.toLowerCase().split(/\s+/).filter(Boolean)
+    return words
+        .toLowerCase()
+        .split(/\s+/)
+        .filter(Boolean)
         .every((word) => text.includes(word) || fruiting.some((month) => word.startsWith(month)));
 }
 
 export class Gallery {
     private readonly buttons = new Map<string, HTMLButtonElement>();
 
-    constructor(host: HTMLElement, readonly species: readonly Species[], choose: (id: string) => void) {
+    constructor(
+        host: HTMLElement,
+        readonly species: readonly Species[],
+        choose: (id: string) => void,
+    ) {
         for (const one of species) {
             const picture = make("span", { class: "picture", "aria-hidden": true });
             const button = make(
                 "button",
-                { type: "button", "data-species": one.id, "aria-pressed": "false", title: factLine(one) || undefined },
+                {
+                    type: "button",
+                    "data-species": one.id,
+                    "aria-pressed": "false",
+                    title: factLine(one) || undefined,
+                },
                 picture,
-                make("span", { class: "names" },
+                make(
+                    "span",
+                    { class: "names" },
                     make("span", { class: "common" }, one.common_name),
-                    make("i", { lang: "la" }, one.scientific_name)),
+                    make("i", { lang: "la" }, one.scientific_name),
+                ),
             );
             button.addEventListener("click", () => choose(one.id));
             this.buttons.set(one.id, button);
             host.append(make("li", {}, button));
         }
         host.addEventListener("keydown", (event) => {
-            const all = [...this.buttons.values()].filter((button) => !button.closest("li")?.hidden);
+            const all = [...this.buttons.values()].filter(
+                (button) => !button.closest("li")?.hidden,
+            );
             const at = all.indexOf(document.activeElement as HTMLButtonElement);
             const step = { ArrowDown: 1, ArrowRight: 1, ArrowUp: -1, ArrowLeft: -1 }[event.key];
             if (at < 0 || step === undefined) return;

@@ -46,31 +46,51 @@ function polyline(points: { x: number; y: number }[]): Polyline {
 }
 
 function placeAt({ points, shares }: Polyline, share: number): { x: number; y: number } {
-    const next = Math.max(shares.findIndex((one) => one >= share), 1);
-    const [from, to] = [points[next - 1] ?? { x: 0, y: 0 }, points[next] ?? points[0] ?? { x: 0, y: 0 }];
+    const next = Math.max(
+        shares.findIndex((one) => one >= share),
+        1,
+    );
+    const [from, to] = [
+        points[next - 1] ?? { x: 0, y: 0 },
+        points[next] ?? points[0] ?? { x: 0, y: 0 },
+    ];
     const span = (shares[next] ?? 0) - (shares[next - 1] ?? 0);
     const t = span > 0 ? (share - shares[next - 1]!) / span : 0;
     return { x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) };
 }
 
 /** The share of a polyline that is nearest to a place, and how far it is. */
-function nearestOn({ points, shares }: Polyline, x: number, y: number): { share: number; distance: number } {
+function nearestOn(
+    { points, shares }: Polyline,
+    x: number,
+    y: number,
+): { share: number; distance: number } {
     let best = { share: 0, distance: Infinity };
     for (let index = 1; index < points.length; ++index) {
         const [from, to] = [points[index - 1]!, points[index]!];
         const [dx, dy] = [to.x - from.x, to.y - from.y];
         const length = dx * dx + dy * dy;
-        const t = length > 0 ? Math.min(Math.max(((x - from.x) * dx + (y - from.y) * dy) / length, 0), 1) : 0;
+        const t =
+            length > 0
+                ? Math.min(Math.max(((x - from.x) * dx + (y - from.y) * dy) / length, 0), 1)
+                : 0;
         const distance = Math.hypot(from.x + t * dx - x, from.y + t * dy - y);
         if (distance < best.distance) {
-            best = { share: shares[index - 1]! + t * (shares[index]! - shares[index - 1]!), distance };
+            best = {
+                share: shares[index - 1]! + t * (shares[index]! - shares[index - 1]!),
+                distance,
+            };
         }
     }
     return best;
 }
 
 export class Graph {
-    readonly element = draw("svg", { class: "drawing", role: "group", "aria-label": "Outlines and the arcs between them" });
+    readonly element = draw("svg", {
+        class: "drawing",
+        role: "group",
+        "aria-label": "Outlines and the arcs between them",
+    });
     private known: Correspondence | undefined;
     private names: [string, string] = ["A", "B"];
     private arcs: Arc[] = [];
@@ -110,7 +130,11 @@ export class Graph {
     }
 
     /** Shows the designer's arcs, the refused among them, and which one is picked. */
-    showArcs(arcs: readonly Arc[], refused: ReadonlySet<number>, selected: number | undefined): void {
+    showArcs(
+        arcs: readonly Arc[],
+        refused: ReadonlySet<number>,
+        selected: number | undefined,
+    ): void {
         this.arcs = arcs.map((arc) => ({ ...arc }));
         this.refused = new Set(refused);
         this.selected = selected;
@@ -123,7 +147,9 @@ export class Graph {
     }
 
     focusEnd(index: number, side: Side = "a"): void {
-        this.own.querySelector<SVGElement>(`[data-index="${index}"] [data-side="${side}"]`)?.focus();
+        this.own
+            .querySelector<SVGElement>(`[data-index="${index}"] [data-side="${side}"]`)
+            ?.focus();
     }
 
     private layOut(): void {
@@ -136,70 +162,112 @@ export class Graph {
             const centre = { a: width * 0.25, b: width * 0.75 };
             for (const side of ["a", "b"] as const) {
                 const all = Object.values(outlines[side]).flat();
-                const [low, high] = [Math.min(...all.map(([, y]) => y)), Math.max(...all.map(([, y]) => y))];
+                const [low, high] = [
+                    Math.min(...all.map(([, y]) => y)),
+                    Math.max(...all.map(([, y]) => y)),
+                ];
                 const wide = Math.max(...all.map(([r]) => r), 1e-9);
                 const scale = Math.min((height - 58) / (high - low || 1), (width * 0.225) / wide);
-                const base = height - 30 - ((height - 58) - (high - low) * scale) / 2;
+                const base = height - 30 - (height - 58 - (high - low) * scale) / 2;
                 const facing = side === "a" ? 1 : -1;
-                const place = (mirror: number) => ([r, y]: [number, number]): { x: number; y: number } => ({
-                    x: centre[side] + facing * mirror * r * scale,
-                    y: base - (y - low) * scale,
-                });
+                const place =
+                    (mirror: number) =>
+                    ([r, y]: [number, number]): { x: number; y: number } => ({
+                        x: centre[side] + facing * mirror * r * scale,
+                        y: base - (y - low) * scale,
+                    });
                 const whole = [
                     ...curveNames.flatMap((curve) => (outlines[side][curve] ?? []).map(place(1))),
-                    ...curveNames.flatMap((curve) => (outlines[side][curve] ?? []).map(place(-1))).reverse(),
+                    ...curveNames
+                        .flatMap((curve) => (outlines[side][curve] ?? []).map(place(-1)))
+                        .reverse(),
                 ];
                 parts.push(draw("path", { class: "body", d: pathOf(whole) + "Z" }));
-                parts.push(draw("line", { class: "axis", x1: centre[side], x2: centre[side], y1: base + 6, y2: base - (high - low) * scale - 6 }));
+                parts.push(
+                    draw("line", {
+                        class: "axis",
+                        x1: centre[side],
+                        x2: centre[side],
+                        y1: base + 6,
+                        y2: base - (high - low) * scale - 6,
+                    }),
+                );
                 for (const curve of curveNames) {
                     const points = (outlines[side][curve] ?? []).map(place(1));
                     if (points.length < 2) continue;
                     this.curves[side].set(curve, polyline(points));
                     parts.push(draw("path", { class: `curve ${curve}`, d: pathOf(points) }));
-                    for (const end of [points[0]!, points.at(-1)!]) parts.push(draw("circle", { class: "landmark", cx: end.x, cy: end.y, r: 2.6 }));
+                    for (const end of [points[0]!, points.at(-1)!])
+                        parts.push(
+                            draw("circle", { class: "landmark", cx: end.x, cy: end.y, r: 2.6 }),
+                        );
                 }
-                parts.push(draw("text", { class: "name", x: centre[side], y: height - 8 }, `${side.toUpperCase()}  ${this.names[side === "a" ? 0 : 1]}`));
+                parts.push(
+                    draw(
+                        "text",
+                        { class: "name", x: centre[side], y: height - 8 },
+                        `${side.toUpperCase()}  ${this.names[side === "a" ? 0 : 1]}`,
+                    ),
+                );
             }
         }
         this.ground.replaceChildren(...parts);
         this.drawArcs();
     }
 
-    private line(arc: Arc): { from: { x: number; y: number }; to: { x: number; y: number } } | undefined {
+    private line(
+        arc: Arc,
+    ): { from: { x: number; y: number }; to: { x: number; y: number } } | undefined {
         const [a, b] = [this.curves.a.get(arc.curve), this.curves.b.get(arc.curve)];
         return a && b ? { from: placeAt(a, arc.a), to: placeAt(b, arc.b) } : undefined;
     }
 
     private drawArcs(): void {
-        const given = (this.known?.arcs ?? []).filter((arc) => !this.arcs.some((own) => crosses(own, arc)));
-        this.given.replaceChildren(...given.flatMap((arc) => {
-            const line = this.line(arc);
-            return line ? [draw("path", { class: `arc ${arc.curve}`, d: lineOf(line) })] : [];
-        }));
+        const given = (this.known?.arcs ?? []).filter(
+            (arc) => !this.arcs.some((own) => crosses(own, arc)),
+        );
+        this.given.replaceChildren(
+            ...given.flatMap((arc) => {
+                const line = this.line(arc);
+                return line ? [draw("path", { class: `arc ${arc.curve}`, d: lineOf(line) })] : [];
+            }),
+        );
         const crossed = this.doubtful();
         // Handles stay the same elements, so that the focus and a pointer held down stay too.
         while (this.own.children.length > this.arcs.length) this.own.lastElementChild?.remove();
-        while (this.own.children.length < this.arcs.length) this.own.append(this.makeArc(this.own.children.length));
+        while (this.own.children.length < this.arcs.length)
+            this.own.append(this.makeArc(this.own.children.length));
         this.arcs.forEach((arc, index) => {
             const group = this.own.children[index] as SVGGElement;
             const line = this.line(arc);
             group.style.display = line ? "" : "none";
             if (!line) return;
             const refused = this.refused.has(index) || crossed[index] === true;
-            group.setAttribute("class", `arc ${refused ? "refused" : "accepted"}${this.selected === index ? " selected" : ""}`);
+            group.setAttribute(
+                "class",
+                `arc ${refused ? "refused" : "accepted"}${this.selected === index ? " selected" : ""}`,
+            );
             group.querySelector(".hit")?.setAttribute("d", lineOf(line));
             group.querySelector(".line")?.setAttribute("d", lineOf(line));
             const middle = { x: (line.from.x + line.to.x) / 2, y: (line.from.y + line.to.y) / 2 };
-            group.querySelector(".mark")?.setAttribute("transform", `translate(${middle.x} ${middle.y})`);
+            group
+                .querySelector(".mark")
+                ?.setAttribute("transform", `translate(${middle.x} ${middle.y})`);
             for (const side of ["a", "b"] as const) {
                 const handle = group.querySelector<SVGElement>(`[data-side="${side}"]`)!;
                 const at = side === "a" ? line.from : line.to;
                 handle.setAttribute("transform", `translate(${at.x} ${at.y})`);
                 const [from, to] = ends[arc.curve];
                 const percent = Math.round(arc[side] * 1000) / 10;
-                handle.setAttribute("aria-label", `Arc ${index + 1}, ${arc.curve}, end on ${this.names[side === "a" ? 0 : 1]}`);
+                handle.setAttribute(
+                    "aria-label",
+                    `Arc ${index + 1}, ${arc.curve}, end on ${this.names[side === "a" ? 0 : 1]}`,
+                );
                 handle.setAttribute("aria-valuenow", String(arc[side]));
-                handle.setAttribute("aria-valuetext", `${percent} % of the way from ${from} to ${to}${refused ? "; refused" : ""}`);
+                handle.setAttribute(
+                    "aria-valuetext",
+                    `${percent} % of the way from ${from} to ${to}${refused ? "; refused" : ""}`,
+                );
                 if (refused) handle.setAttribute("aria-invalid", "true");
                 else handle.removeAttribute("aria-invalid");
             }
@@ -210,23 +278,46 @@ export class Graph {
     private doubtful(): boolean[] {
         if (this.refused.size > 0) return [];
         const crossed = crossing(this.arcs);
-        if (this.selected !== undefined && crossed[this.selected]) return crossed.map((_, index) => index === this.selected);
-        return this.arcs.map((arc, index) => this.arcs.slice(0, index).some((other) => crosses(arc, other)));
+        if (this.selected !== undefined && crossed[this.selected])
+            return crossed.map((_, index) => index === this.selected);
+        return this.arcs.map((arc, index) =>
+            this.arcs.slice(0, index).some((other) => crosses(arc, other)),
+        );
     }
 
     private makeArc(index: number): SVGGElement {
         const handle = (side: Side): SVGGElement => {
-            const group = draw("g", { class: "end", "data-side": side, tabindex: 0, role: "slider", "aria-valuemin": 0, "aria-valuemax": 1 },
-                draw("circle", { class: "hit", r: 16 }), draw("circle", { class: "knob", r: 6.5 }));
+            const group = draw(
+                "g",
+                {
+                    class: "end",
+                    "data-side": side,
+                    tabindex: 0,
+                    role: "slider",
+                    "aria-valuemin": 0,
+                    "aria-valuemax": 1,
+                },
+                draw("circle", { class: "hit", r: 16 }),
+                draw("circle", { class: "knob", r: 6.5 }),
+            );
             group.addEventListener("keydown", (event) => this.onKey(event, index, side));
             group.addEventListener("focus", () => this.events.select(index));
             return group;
         };
-        return draw("g", { "data-index": index },
+        return draw(
+            "g",
+            { "data-index": index },
             draw("path", { class: "hit" }),
             draw("path", { class: "line" }),
-            draw("g", { class: "mark" }, draw("circle", { r: 8 }), draw("path", { d: "M-3.5-3.5L3.5 3.5M3.5-3.5L-3.5 3.5" })),
-            handle("a"), handle("b"));
+            draw(
+                "g",
+                { class: "mark" },
+                draw("circle", { r: 8 }),
+                draw("path", { d: "M-3.5-3.5L3.5 3.5M3.5-3.5L-3.5 3.5" }),
+            ),
+            handle("a"),
+            handle("b"),
+        );
     }
 
     private placeOf(event: MouseEvent): { x: number; y: number } {
@@ -289,7 +380,10 @@ export class Graph {
     /** The arcs that hold: the designer's, and those of the service that they leave room for. */
     get guides(): Arc[] {
         const given = this.known?.arcs ?? [];
-        return [...this.arcs, ...given.filter((arc) => !this.arcs.some((own) => crosses(own, arc)))];
+        return [
+            ...this.arcs,
+            ...given.filter((arc) => !this.arcs.some((own) => crosses(own, arc))),
+        ];
     }
 
     private onKey(event: KeyboardEvent, index: number, side: Side): void {
@@ -307,10 +401,18 @@ export class Graph {
 }
 
 function pathOf(points: readonly { x: number; y: number }[]): string {
-    return points.map(({ x, y }, index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`).join("");
+    return points
+        .map(({ x, y }, index) => `${index ? "L" : "M"}${x.toFixed(1)} ${y.toFixed(1)}`)
+        .join("");
 }
 
 /** A straight line, as the paper draws its arcs. */
-function lineOf({ from, to }: { from: { x: number; y: number }; to: { x: number; y: number } }): string {
+function lineOf({
+    from,
+    to,
+}: {
+    from: { x: number; y: number };
+    to: { x: number; y: number };
+}): string {
     return `M${from.x.toFixed(1)} ${from.y.toFixed(1)}L${to.x.toFixed(1)} ${to.y.toFixed(1)}`;
 }

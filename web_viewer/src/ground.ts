@@ -47,7 +47,11 @@ export class Ground extends Group {
         transparent: true,
         depthWrite: false,
     });
-    private readonly shade = new ShadowMaterial({ opacity: 0.26, transparent: true, depthWrite: false });
+    private readonly shade = new ShadowMaterial({
+        opacity: 0.26,
+        transparent: true,
+        depthWrite: false,
+    });
     private readonly ruled: Mesh;
     private readonly shadowed: Mesh;
 
@@ -60,12 +64,15 @@ export class Ground extends Group {
         this.ruled.renderOrder = -2;
         shadow.renderOrder = -1;
         // What grows below the ground is hidden from above, and seen from below.
-        const earth = new Mesh(disc, new MeshBasicMaterial({
-            colorWrite: false,
-            polygonOffset: true,
-            polygonOffsetFactor: 2,
-            polygonOffsetUnits: 8,
-        }));
+        const earth = new Mesh(
+            disc,
+            new MeshBasicMaterial({
+                colorWrite: false,
+                polygonOffset: true,
+                polygonOffsetFactor: 2,
+                polygonOffsetUnits: 8,
+            }),
+        );
         earth.renderOrder = -3;
         this.shadowed = shadow;
         this.add(earth, this.ruled, shadow);

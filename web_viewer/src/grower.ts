@@ -119,7 +119,11 @@ export class Grower {
         const { draft, clip } = pending;
         const flight: Flight = { draft, stop: new AbortController() };
         this.flight = flight;
-        const replaced = draft ? this.settings.draftValues(this.linked) : clip ? this.settings.clipValues() : undefined;
+        const replaced = draft
+            ? this.settings.draftValues(this.linked)
+            : clip
+              ? this.settings.clipValues()
+              : undefined;
         const wanted = this.settings.wanted(replaced);
         const current = (): boolean => this.flight === flight;
         try {
@@ -129,9 +133,14 @@ export class Grower {
             });
             if (!current()) return;
             this.events.progress({ stage: "unpacking" });
-            const model = await parseModel(answer.bytes, answer.response.url, draft ? this.paint : undefined);
+            const model = await parseModel(
+                answer.bytes,
+                answer.response.url,
+                draft ? this.paint : undefined,
+            );
             const refit = this.refit;
-            if (!(await this.events.show({ answer, model, draft, clip, wanted }, refit, current))) return;
+            if (!(await this.events.show({ answer, model, draft, clip, wanted }, refit, current)))
+                return;
             this.refit = false;
             if (!draft) {
                 const resource = await effective;
@@ -160,8 +169,17 @@ export class Grower {
         const known =
             error instanceof RequestFailed
                 ? error
-                : new RequestFailed("The model could not be shown", error instanceof Error ? error.message : "", 0);
-        if (draft && linked && known.status === 422 && known.items.some(({ parameter }) => parameter.replace("/", "") === "textures")) {
+                : new RequestFailed(
+                      "The model could not be shown",
+                      error instanceof Error ? error.message : "",
+                      0,
+                  );
+        if (
+            draft &&
+            linked &&
+            known.status === 422 &&
+            known.items.some(({ parameter }) => parameter.replace("/", "") === "textures")
+        ) {
             // A server with signed URLs has no linked images: drafts embed them from now on.
             this.linked = false;
             this.pending ??= { draft: true, clip: false };

@@ -67,7 +67,8 @@ async function failure(response: Response): Promise<RequestFailed> {
                 instance?: string;
                 errors?: ProblemItem[];
             };
-            const id = response.status >= 500 && problem.instance ? ` (request ${problem.instance})` : "";
+            const id =
+                response.status >= 500 && problem.instance ? ` (request ${problem.instance})` : "";
             return new RequestFailed(
                 problem.title ?? `The server answered ${response.status}`,
                 (problem.detail ?? "") + id,
@@ -78,7 +79,11 @@ async function failure(response: Response): Promise<RequestFailed> {
             // The body was no JSON after all: the status says what there is to say.
         }
     }
-    return new RequestFailed(`The server answered ${response.status}`, response.statusText, response.status);
+    return new RequestFailed(
+        `The server answered ${response.status}`,
+        response.statusText,
+        response.status,
+    );
 }
 
 /** Sends one request; 429 and 503 are tried again after the time the server names, a few times. */
@@ -117,7 +122,10 @@ export async function getModel(
     signal: AbortSignal,
     report: (progress: Progress) => void = () => undefined,
 ): Promise<Answer> {
-    const posted = body === undefined ? {} : { method: "POST", body, headers: { "Content-Type": "application/json" } };
+    const posted =
+        body === undefined
+            ? {}
+            : { method: "POST", body, headers: { "Content-Type": "application/json" } };
     const response = await send(address, { ...posted, signal }, report);
     const length = Number(response.headers.get("content-length"));
     const plain = !response.headers.get("content-encoding");
@@ -139,11 +147,11 @@ export async function getModel(
         bytes.set(piece, at);
         at += piece.byteLength;
     }
-    const timing = performance
-        .getEntriesByName(response.url, "resource")
-        .at(-1) as PerformanceResourceTiming | undefined;
+    const timing = performance.getEntriesByName(response.url, "resource").at(-1) as
+        PerformanceResourceTiming | undefined;
     const { transferSize = 0, encodedBodySize = 0 } = timing ?? {};
-    const source = transferSize >= encodedBodySize ? "server" : transferSize === 0 ? "browser" : "confirmed";
+    const source =
+        transferSize >= encodedBodySize ? "server" : transferSize === 0 ? "browser" : "confirmed";
     performance.clearResourceTimings();
     return { bytes: bytes.buffer, response, source };
 }

@@ -17,13 +17,26 @@ export class MatrixTable {
     private readonly back = make("button", { type: "button" }, "Back to the preset’s own");
     private served: Rows = [];
 
-    constructor(private readonly settings: Settings, private readonly events: MatrixEvents) {
+    constructor(
+        private readonly settings: Settings,
+        private readonly events: MatrixEvents,
+    ) {
         this.host.hidden = false;
-        this.host.append(make("details", { class: "group", open: true },
-            make("summary", {}, make("span", { id: "matrix-title" }, "Ramification matrix")),
-            make("p", { class: "about" }, "Row k: of the nodes of order k, how many bear a side branch of order 1, 2 …, and at last how many fork. Each row sums to one."),
-            make("div", { class: "matrix-paper" }, this.table), this.message,
-            make("div", { class: "matrix-tools" }, this.more, this.less, this.back)));
+        this.host.append(
+            make(
+                "details",
+                { class: "group", open: true },
+                make("summary", {}, make("span", { id: "matrix-title" }, "Ramification matrix")),
+                make(
+                    "p",
+                    { class: "about" },
+                    "Row k: of the nodes of order k, how many bear a side branch of order 1, 2 …, and at last how many fork. Each row sums to one.",
+                ),
+                make("div", { class: "matrix-paper" }, this.table),
+                this.message,
+                make("div", { class: "matrix-tools" }, this.more, this.less, this.back),
+            ),
+        );
         this.more.addEventListener("click", () => this.put(grownBy(this.rows)));
         this.less.addEventListener("click", () => this.put(this.rows.slice(0, -1)));
         this.back.addEventListener("click", () => this.put(undefined));
@@ -40,7 +53,8 @@ export class MatrixTable {
         const place = /^\/?rows(?:[/.](\d+))?(?:[/.](\d+))?$/.exec(parameter);
         if (!place) return false;
         this.message.hidden = false;
-        this.message.textContent = place[1] === undefined ? detail : `Order ${Number(place[1]) + 2}: ${detail}`;
+        this.message.textContent =
+            place[1] === undefined ? detail : `Order ${Number(place[1]) + 2}: ${detail}`;
         this.host.querySelector(`tr[data-row="${place[1]}"]`)?.classList.add("failed");
         return true;
     }
@@ -58,11 +72,31 @@ export class MatrixTable {
         this.less.disabled = rows.length <= 1;
         this.host.classList.toggle("set", this.settings.rows !== undefined);
         const kept = document.activeElement?.getAttribute("data-cell");
-        const head = make("tr", {}, make("th", { scope: "col" }, "k"),
-            ...Array.from({ length: rows.length + 1 }, (_, index) => make("th", { scope: "col" }, String(index + 1))));
-        this.table.replaceChildren(head, ...rows.map((row, index) => make("tr", { "data-row": index },
-            make("th", { scope: "row" }, String(index + 2)),
-            ...row.map((share, at) => make("td", { class: at + 1 === row.length ? "forks" : undefined }, this.cell(index, at, share))))));
+        const head = make(
+            "tr",
+            {},
+            make("th", { scope: "col" }, "k"),
+            ...Array.from({ length: rows.length + 1 }, (_, index) =>
+                make("th", { scope: "col" }, String(index + 1)),
+            ),
+        );
+        this.table.replaceChildren(
+            head,
+            ...rows.map((row, index) =>
+                make(
+                    "tr",
+                    { "data-row": index },
+                    make("th", { scope: "row" }, String(index + 2)),
+                    ...row.map((share, at) =>
+                        make(
+                            "td",
+                            { class: at + 1 === row.length ? "forks" : undefined },
+                            this.cell(index, at, share),
+                        ),
+                    ),
+                ),
+            ),
+        );
         if (kept) this.table.querySelector<HTMLElement>(`[data-cell="${kept}"]`)?.focus();
     }
 
@@ -73,20 +107,30 @@ export class MatrixTable {
     private cell(row: number, at: number, share: number): HTMLElement {
         const forks = at === row + 1;
         const entry = make("input", {
-            type: "number", min: 0, max: 1, step: 0.01, value: String(Number(share.toFixed(4))), "data-cell": `${row}-${at}`,
-            "aria-label": forks ? `Order ${row + 2}: share of forks` : `Order ${row + 2}: share with a side branch of order ${at + 1}`,
+            type: "number",
+            min: 0,
+            max: 1,
+            step: 0.01,
+            value: String(Number(share.toFixed(4))),
+            "data-cell": `${row}-${at}`,
+            "aria-label": forks
+                ? `Order ${row + 2}: share of forks`
+                : `Order ${row + 2}: share with a side branch of order ${at + 1}`,
         });
         entry.addEventListener("change", () => {
             const value = Number(entry.value);
             if (entry.value === "" || !Number.isFinite(value)) return this.show();
-            this.put(this.rows.map((old, index) => (index === row ? withShare(old, at, value) : old)));
+            this.put(
+                this.rows.map((old, index) => (index === row ? withShare(old, at, value) : old)),
+            );
         });
         return entry;
     }
 
     private put(rows: Rows | undefined): void {
         this.settings.rows = rows;
-        if (rows) for (const name of ["matrix", "blend", "order"]) this.settings.set(name, undefined);
+        if (rows)
+            for (const name of ["matrix", "blend", "order"]) this.settings.set(name, undefined);
         this.show();
         this.events.changed();
     }

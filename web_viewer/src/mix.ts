@@ -27,7 +27,9 @@ export function thousandths(weights: readonly number[]): number[] {
 export function canonicalMix(shares: readonly Share[]): string {
     const sorted = [...shares].sort((one, other) => (one.id < other.id ? -1 : 1));
     const parts = thousandths(sorted.map((share) => share.weight));
-    const kept = sorted.flatMap(({ id }, index) => (parts[index] ? [{ id, part: parts[index] }] : []));
+    const kept = sorted.flatMap(({ id }, index) =>
+        parts[index] ? [{ id, part: parts[index] }] : [],
+    );
     if (kept.length === 1 && kept[0]) return kept[0].id;
     return kept.map(({ id, part }) => `${id}:${part / 1000}`).join(",");
 }

@@ -53,7 +53,8 @@ export class ModeLinks {
     show({ mix, morph }: Settings, ids: readonly string[]): void {
         if (!this.product.ofSpecies) return;
         for (const { ofSpecies, canMorph, kind } of products) {
-            if (ofSpecies && !canMorph) this.links.get(kind)?.setAttribute("href", `?${kind}=${mix}`);
+            if (ofSpecies && !canMorph)
+                this.links.get(kind)?.setAttribute("href", `?${kind}=${mix}`);
         }
         if (!this.product.canMorph) return this.linkBack(mix);
         this.mark(morph ? this.morphLink : this.link(mushrooms));

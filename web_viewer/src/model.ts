@@ -1,5 +1,13 @@
 // A parsed GLB on its way to the stage and off it again: reading, measuring, counting, freeing.
-import { Box3, InstancedMesh, Mesh, MeshStandardMaterial, Texture, type Material, type Object3D } from "three";
+import {
+    Box3,
+    InstancedMesh,
+    Mesh,
+    MeshStandardMaterial,
+    Texture,
+    type Material,
+    type Object3D,
+} from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { Paint } from "./paint";
 
@@ -47,12 +55,18 @@ function useDerivativeTangents(mesh: Mesh): void {
 
 /** Addresses of the linked images that a model lent its paint still waits for, by what they are. */
 export function paintOf(model: Object3D): Map<string, string> {
-    return (model.userData["paint"] as Map<string, string> | undefined) ?? new Map<string, string>();
+    return (
+        (model.userData["paint"] as Map<string, string> | undefined) ?? new Map<string, string>()
+    );
 }
 
 /** Reads GLB bytes that came from an address, which links to images are resolved against; those are fetched now, or with `paint` lent
  *  now and fetched later. */
-export async function parseModel(bytes: ArrayBuffer, from: string, paint?: Paint): Promise<Object3D> {
+export async function parseModel(
+    bytes: ArrayBuffer,
+    from: string,
+    paint?: Paint,
+): Promise<Object3D> {
     const loader = new GLTFLoader();
     const late = new Map<string, string>();
     if (paint) loader.register(paint.plugin(late, from));

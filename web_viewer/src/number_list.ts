@@ -7,9 +7,7 @@ import { countsOf } from "./model";
 function timingsOf(header: string): string[] {
     return header.split(",").flatMap((part) => {
         const [name, ...rest] = part.trim().split(";");
-        const duration = rest
-            .map((item) => /^\s*dur=([\d.]+)/.exec(item)?.[1])
-            .find(Boolean);
+        const duration = rest.map((item) => /^\s*dur=([\d.]+)/.exec(item)?.[1]).find(Boolean);
         return name && duration ? [`${name} ${Number(duration).toFixed(1)}`] : [];
     });
 }

@@ -20,14 +20,24 @@ const keySteps: Record<string, Point> = {
 };
 
 export class Pad {
-    readonly element = draw("svg", { class: "pad", viewBox: "-134 -128 268 256", role: "group", "aria-label": "Weights of the species" });
+    readonly element = draw("svg", {
+        class: "pad",
+        viewBox: "-134 -128 268 256",
+        role: "group",
+        "aria-label": "Weights of the species",
+    });
     private corners: Point[] = [];
     private point: Point = { x: 0, y: 0 };
     private readonly shape = draw("polygon", { class: "field" });
     private readonly rays = draw("g", { class: "rays" });
     private readonly labels = draw("g", { class: "corners" });
-    private readonly handle = draw("g", { class: "handle", tabindex: 0, role: "slider", id: "weight-point" },
-        draw("circle", { class: "hit", r: 22 }), draw("circle", { class: "ring", r: 11 }), draw("circle", { class: "dot", r: 4 }));
+    private readonly handle = draw(
+        "g",
+        { class: "handle", tabindex: 0, role: "slider", id: "weight-point" },
+        draw("circle", { class: "hit", r: 22 }),
+        draw("circle", { class: "ring", r: 11 }),
+        draw("circle", { class: "dot", r: 4 }),
+    );
     private held: number | undefined;
 
     constructor(private readonly events: PadEvents) {
@@ -53,33 +63,62 @@ export class Pad {
     /** Shows named corners and weights. A point that stands for these weights already stays where it is. */
     show(names: readonly string[], weights: readonly number[]): void {
         if (names.length !== this.corners.length) this.corners = polygon(names.length);
-        this.shape.setAttribute("points", this.corners.map(({ x, y }) => `${x * reach},${y * reach}`).join(" "));
-        const far = weightsAt(this.point, this.corners).some((weight, index) => Math.abs(weight - (weights[index] ?? 0)) > 0.0011);
+        this.shape.setAttribute(
+            "points",
+            this.corners.map(({ x, y }) => `${x * reach},${y * reach}`).join(" "),
+        );
+        const far = weightsAt(this.point, this.corners).some(
+            (weight, index) => Math.abs(weight - (weights[index] ?? 0)) > 0.0011,
+        );
         if (far) this.point = pointOf(weights, this.corners);
-        this.labels.replaceChildren(...this.corners.map(({ x, y }, index) => {
-            const corner = draw("g", { class: "corner", "data-corner": index }, draw("title", {}, names[index] ?? ""));
-            corner.append(
-                draw("circle", { cx: x * reach, cy: y * reach, r: 14 }),
-                draw("text", { x: x * reach, y: y * reach, dy: ".35em" }, letterOf(index)),
-            );
-            return corner;
-        }));
+        this.labels.replaceChildren(
+            ...this.corners.map(({ x, y }, index) => {
+                const corner = draw(
+                    "g",
+                    { class: "corner", "data-corner": index },
+                    draw("title", {}, names[index] ?? ""),
+                );
+                corner.append(
+                    draw("circle", { cx: x * reach, cy: y * reach, r: 14 }),
+                    draw("text", { x: x * reach, y: y * reach, dy: ".35em" }, letterOf(index)),
+                );
+                return corner;
+            }),
+        );
         this.place(names, weights);
     }
 
     private place(names: readonly string[], weights: readonly number[]): void {
         const { x, y } = this.point;
         this.handle.setAttribute("transform", `translate(${x * reach} ${y * reach})`);
-        this.rays.replaceChildren(...this.corners.map((corner, index) =>
-            draw("line", {
-                x1: corner.x * reach, y1: corner.y * reach, x2: x * reach, y2: y * reach,
-                "stroke-width": (1 + 7 * (weights[index] ?? 0)).toFixed(2),
-                "data-corner": index,
-            })));
-        const parts = weights.map((weight, index) => ({ name: names[index] ?? "", percent: Math.round(weight * 100) }));
-        const spoken = parts.filter(({ percent }) => percent > 0).map(({ name, percent }) => `${name} ${percent} %`).join(", ");
-        this.handle.setAttribute("aria-label", "Point between the species; arrow keys move it, digits go to a corner, Home to the middle");
-        this.handle.setAttribute("aria-valuenow", String(Math.max(...parts.map(({ percent }) => percent))));
+        this.rays.replaceChildren(
+            ...this.corners.map((corner, index) =>
+                draw("line", {
+                    x1: corner.x * reach,
+                    y1: corner.y * reach,
+                    x2: x * reach,
+                    y2: y * reach,
+                    "stroke-width": (1 + 7 * (weights[index] ?? 0)).toFixed(2),
+                    "data-corner": index,
+                }),
+            ),
+        );
+        const parts = weights.map((weight, index) => ({
+            name: names[index] ?? "",
+            percent: Math.round(weight * 100),
+        }));
+        const spoken = parts
+            .filter(({ percent }) => percent > 0)
+            .map(({ name, percent }) => `${name} ${percent} %`)
+            .join(", ");
+        this.handle.setAttribute(
+            "aria-label",
+            "Point between the species; arrow keys move it, digits go to a corner, Home to the middle",
+        );
+        this.handle.setAttribute(
+            "aria-valuenow",
+            String(Math.max(...parts.map(({ percent }) => percent))),
+        );
         this.handle.setAttribute("aria-valuetext", spoken);
     }
 
@@ -90,7 +129,9 @@ export class Pad {
     private placeOf(event: PointerEvent): Point {
         const matrix = this.element.getScreenCTM();
         if (!matrix) return this.point;
-        const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(matrix.inverse());
+        const { x, y } = new DOMPoint(event.clientX, event.clientY).matrixTransform(
+            matrix.inverse(),
+        );
         return { x: x / reach, y: y / reach };
     }
 

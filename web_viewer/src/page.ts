@@ -234,7 +234,10 @@ export class Page {
     private showMode(): void {
         const { morph } = this.settings;
         document.documentElement.classList.toggle("morphing", morph !== undefined);
-        this.links.show(this.settings, this.gallery.species.map(({ id }) => id));
+        this.links.show(
+            this.settings,
+            this.gallery.species.map(({ id }) => id),
+        );
         if (!this.product.canMorph) return;
         byId("variety").hidden = !morph;
         // Sheets are the main purpose of the editor, and secondary for a single species.

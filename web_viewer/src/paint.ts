@@ -47,8 +47,12 @@ function ofMaterial(role: string, material: number): string {
 
 /** The material that a texture belongs to. */
 function materialOf(json: LinkedJson, texture: number): number {
-    const found = (json.materials ?? []).findIndex(({ normalTexture, occlusionTexture, pbrMetallicRoughness }) =>
-        [normalTexture, occlusionTexture, pbrMetallicRoughness?.baseColorTexture].some((one) => one?.index === texture));
+    const found = (json.materials ?? []).findIndex(
+        ({ normalTexture, occlusionTexture, pbrMetallicRoughness }) =>
+            [normalTexture, occlusionTexture, pbrMetallicRoughness?.baseColorTexture].some(
+                (one) => one?.index === texture,
+            ),
+    );
     return Math.max(found, 0);
 }
 
@@ -73,7 +77,9 @@ export class Paint {
                     if (!uri || uri.startsWith("data:")) return null;
                     const role = ofMaterial(roleOf(uri), materialOf(json, index));
                     addresses.set(role, new URL(uri, from).href);
-                    return Promise.resolve(this.texture(role, json.samplers?.[definition?.sampler ?? -1] ?? {}));
+                    return Promise.resolve(
+                        this.texture(role, json.samplers?.[definition?.sampler ?? -1] ?? {}),
+                    );
                 },
             };
         };
@@ -91,7 +97,11 @@ export class Paint {
         for (const [number, material] of materials.entries()) {
             if (!(material instanceof MeshStandardMaterial)) continue;
             const { map, normalMap, roughnessMap } = material;
-            for (const [role, from] of [["base_color", map], ["normal", normalMap], ["orm", roughnessMap]] as const) {
+            for (const [role, from] of [
+                ["base_color", map],
+                ["normal", normalMap],
+                ["orm", roughnessMap],
+            ] as const) {
                 if (!from || from.userData["shared"]) continue;
                 from.userData["shared"] = true;
                 from.userData["lent"] = true;
@@ -108,7 +118,9 @@ export class Paint {
         const made = new Texture(blank(role));
         made.flipY = false;
         made.anisotropy = 8;
-        made.magFilter = (sampler.magFilter === 9728 ? 1003 : LinearFilter) as MagnificationTextureFilter;
+        made.magFilter = (
+            sampler.magFilter === 9728 ? 1003 : LinearFilter
+        ) as MagnificationTextureFilter;
         made.minFilter = LinearMipmapLinearFilter as MinificationTextureFilter;
         made.wrapS = wrappings[sampler.wrapS ?? 10497] ?? made.wrapS;
         made.wrapT = wrappings[sampler.wrapT ?? 10497] ?? made.wrapT;
@@ -130,7 +142,8 @@ export class Paint {
         texture.dispose();
         texture.image = image;
         texture.needsUpdate = true;
-        if (typeof ImageBitmap !== "undefined" && old instanceof ImageBitmap && old !== image) old.close();
+        if (typeof ImageBitmap !== "undefined" && old instanceof ImageBitmap && old !== image)
+            old.close();
     }
 
     private async fetch(): Promise<void> {
@@ -140,12 +153,20 @@ export class Paint {
                 const wanted = this.wanted;
                 const key = [...wanted.values()].join(" ");
                 if (wanted.size === 0 || key === this.shown) return;
-                const images = await Promise.all([...wanted].map(async ([role, address]) => {
-                    const response = await fetch(address);
-                    if (!response.ok) throw new Error(`${response.status}`);
-                    const options = { premultiplyAlpha: "none", colorSpaceConversion: "none" } as const;
-                    return { role, image: await createImageBitmap(await response.blob(), options) };
-                }));
+                const images = await Promise.all(
+                    [...wanted].map(async ([role, address]) => {
+                        const response = await fetch(address);
+                        if (!response.ok) throw new Error(`${response.status}`);
+                        const options = {
+                            premultiplyAlpha: "none",
+                            colorSpaceConversion: "none",
+                        } as const;
+                        return {
+                            role,
+                            image: await createImageBitmap(await response.blob(), options),
+                        };
+                    }),
+                );
                 // A finished model may have come meanwhile, with paint of its own.
                 if (this.wanted.size === 0) {
                     for (const { image } of images) image.close();
@@ -169,7 +190,8 @@ function blank(role: string): HTMLCanvasElement {
     canvas.width = canvas.height = 4;
     const context = canvas.getContext("2d");
     if (context) {
-        context.fillStyle = { normal: "#8080ff", orm: "#ffc800" }[role.split(" ")[0] ?? ""] ?? "#e8dcc6";
+        context.fillStyle =
+            { normal: "#8080ff", orm: "#ffc800" }[role.split(" ")[0] ?? ""] ?? "#e8dcc6";
         context.fillRect(0, 0, 4, 4);
     }
     return canvas;

@@ -67,13 +67,19 @@ export function niceStep(most: number): number {
 
 /** "bend_deg" -> "Bend", "texture_size" -> "Texture size". */
 export function words(name: string): string {
-    const text = name.replace(/_(deg|m|mm|px)$/, "").replaceAll("_", " ").replace(/\blod\b/, "LOD");
+    const text = name
+        .replace(/_(deg|m|mm|px)$/, "")
+        .replaceAll("_", " ")
+        .replace(/\blod\b/, "LOD");
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
 /** The sign a person reads for a unit of the schema. */
 export function unitSign(unit: string): string {
-    return { deg: "°", degree: "°", degrees: "°", pixel: "px", pixels: "px", texels: "px" }[unit] ?? unit;
+    return (
+        { deg: "°", degree: "°", degrees: "°", pixel: "px", pixels: "px", texels: "px" }[unit] ??
+        unit
+    );
 }
 
 function resolved(schema: Schema, root: Schema): Schema {
@@ -131,7 +137,8 @@ function fieldOf(
     } else if (types.includes("integer") || types.includes("number")) {
         field.kind = "number";
         if (!field.integer) {
-            const span = field.min !== undefined && field.max !== undefined ? field.max - field.min : 1;
+            const span =
+                field.min !== undefined && field.max !== undefined ? field.max - field.min : 1;
             field.step = schema["x-step"] ?? niceStep(span / 180);
         }
     } else if (schema.format === "color") {
@@ -150,11 +157,24 @@ function propertiesOf(schema: Schema, root: Schema): Map<string, Schema> {
         for (const [name, raw] of Object.entries(part.properties ?? {})) {
             const sub = resolved(raw, root);
             const before = found.get(name);
-            const names = [...(before?.enum ?? []), ...(sub.const === undefined ? [] : [sub.const])];
-            if (sub.const !== undefined) found.set(name, { ...before, ...sub, const: undefined, enum: [...new Set(names)] } as Schema);
+            const names = [
+                ...(before?.enum ?? []),
+                ...(sub.const === undefined ? [] : [sub.const]),
+            ];
+            if (sub.const !== undefined)
+                found.set(name, {
+                    ...before,
+                    ...sub,
+                    const: undefined,
+                    enum: [...new Set(names)],
+                } as Schema);
             else if (!before) found.set(name, sub);
         }
-        for (const choice of [...(part.oneOf ?? []), ...(part.anyOf ?? []), ...(part.allOf ?? [])]) {
+        for (const choice of [
+            ...(part.oneOf ?? []),
+            ...(part.anyOf ?? []),
+            ...(part.allOf ?? []),
+        ]) {
             take(resolved(choice, root));
         }
     };
@@ -228,7 +248,8 @@ export function parsed(field: Field, text: string): Value | undefined {
     if (field.kind === "number") {
         return /^-?\d+(\.\d+)?([eE][+-]?\d+)?$/.test(text) ? Number(text) : undefined;
     }
-    if (field.kind === "checkbox") return text === "true" ? true : text === "false" ? false : undefined;
+    if (field.kind === "checkbox")
+        return text === "true" ? true : text === "false" ? false : undefined;
     if (field.kind === "select") return field.options.find((option) => String(option) === text);
     return text;
 }

@@ -1,7 +1,14 @@
 // What the person asks for: a species (or a mix) and the parameters that differ from what the
 // server would take anyway. It is written to and read from the page's URL and the service's URLs.
 import { arcsText, readArcs, type Arc } from "./arcs";
-import { canonicalMix, fewestMembers, mostMembers, readShares, sharesText, type Share } from "./mix";
+import {
+    canonicalMix,
+    fewestMembers,
+    mostMembers,
+    readShares,
+    sharesText,
+    type Share,
+} from "./mix";
 import { mushrooms, products, type Product } from "./products";
 import { readRows, rowsText } from "./rows";
 import { fault, parsed, type Field, type Value } from "./schema";
@@ -30,7 +37,14 @@ export interface Wanted {
 }
 
 /** The page's own query names, which are no parameters of what grows. */
-const pageNames = new Set([...products.map(({ kind }) => kind), "shot", "morph", "arcs", "sheet", "rows"]);
+const pageNames = new Set([
+    ...products.map(({ kind }) => kind),
+    "shot",
+    "morph",
+    "arcs",
+    "sheet",
+    "rows",
+]);
 
 export class Settings {
     mix: string;
@@ -40,7 +54,11 @@ export class Settings {
     rows: readonly (readonly number[])[] | undefined;
     readonly values = new Map<string, Value>();
 
-    constructor(readonly fields: readonly Field[], mix: string, readonly product: Product = mushrooms) {
+    constructor(
+        readonly fields: readonly Field[],
+        mix: string,
+        readonly product: Product = mushrooms,
+    ) {
         this.mix = mix;
     }
 
@@ -72,7 +90,8 @@ export class Settings {
     matters(field: Field, replaced: ReadonlyMap<string, Value> = new Map()): boolean {
         if (field.name !== "frames") return true;
         const animation = this.field("animation");
-        const chosen = replaced.get("animation") ?? this.values.get("animation") ?? animation?.fallback;
+        const chosen =
+            replaced.get("animation") ?? this.values.get("animation") ?? animation?.fallback;
         return !animation || chosen !== animation.fallback;
     }
 
@@ -121,7 +140,12 @@ export class Settings {
             // What the matrix is and how high it reaches is said by the rows.
             const { matrix: _, blend: __, order, ...rest } = this.nested(replaced);
             const reached = Math.min(Number(order ?? this.rows.length + 1), this.rows.length + 1);
-            const body = JSON.stringify({ preset: this.mix, ...rest, order: reached, rows: this.rows });
+            const body = JSON.stringify({
+                preset: this.mix,
+                ...rest,
+                order: reached,
+                rows: this.rows,
+            });
             return { address, body, key: address + body };
         }
         const [a, b] = this.morph?.shares ?? [];
@@ -131,7 +155,11 @@ export class Settings {
             return { address, body: undefined, key: address };
         }
         const address = `v1/morphs/${a.id}/${b.id}.glb`;
-        const body = JSON.stringify({ t: b.weight, arcs: this.morph.arcs, ...this.nested(replaced) });
+        const body = JSON.stringify({
+            t: b.weight,
+            arcs: this.morph.arcs,
+            ...this.nested(replaced),
+        });
         return { address, body, key: address + body };
     }
 
@@ -172,8 +200,13 @@ export class Settings {
     pageQuery(kept: URLSearchParams): string {
         const query = this.query();
         const shot = kept.get("shot");
-        const arcs = this.morph?.shares.length === 2 && this.morph.arcs.length ? `&arcs=${arcsText(this.morph.arcs)}` : "";
-        const what = this.morph ? `morph=${sharesText(this.morph.shares)}${arcs}` : `${this.product.kind}=${this.mix}`;
+        const arcs =
+            this.morph?.shares.length === 2 && this.morph.arcs.length
+                ? `&arcs=${arcsText(this.morph.arcs)}`
+                : "";
+        const what = this.morph
+            ? `morph=${sharesText(this.morph.shares)}${arcs}`
+            : `${this.product.kind}=${this.mix}`;
         const rows = this.rows ? `&rows=${rowsText(this.rows)}` : "";
         return `?${what}${rows}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
     }
@@ -184,7 +217,14 @@ export class Settings {
         const text = query.get("rows");
         if (text === null || !this.product.ramifies) return [];
         this.rows = readRows(text);
-        return this.rows ? [] : [{ parameter: "rows", detail: `'${text}' is no matrix: rows of 2, 3 and so on shares, as in 0.5,0.5;0.25,0.5,0.25` }];
+        return this.rows
+            ? []
+            : [
+                  {
+                      parameter: "rows",
+                      detail: `'${text}' is no matrix: rows of 2, 3 and so on shares, as in 0.5,0.5;0.25,0.5,0.25`,
+                  },
+              ];
     }
 
     /** Reads the bench's part of the page's query; `known` says whether a species is there. */
@@ -193,16 +233,27 @@ export class Settings {
         const text = query.get("morph");
         if (text === null) return [];
         const shares = readShares(text);
-        if (!shares) return [{ parameter: "morph", detail: `'${text}' is no list of species and their shares` }];
+        if (!shares)
+            return [
+                { parameter: "morph", detail: `'${text}' is no list of species and their shares` },
+            ];
         const stranger = shares.find(({ id }) => !known(id));
-        if (stranger) return [{ parameter: "morph", detail: `'${stranger.id}' is no species here` }];
+        if (stranger)
+            return [{ parameter: "morph", detail: `'${stranger.id}' is no species here` }];
         if (shares.length < fewestMembers || shares.length > mostMembers) {
-            return [{ parameter: "morph", detail: `a morph has ${fewestMembers} to ${mostMembers} species` }];
+            return [
+                {
+                    parameter: "morph",
+                    detail: `a morph has ${fewestMembers} to ${mostMembers} species`,
+                },
+            ];
         }
         const written = query.get("arcs") ?? "";
         const arcs = shares.length === 2 ? readArcs(written) : undefined;
         this.setMorph({ shares, arcs: arcs ?? [] });
-        return arcs || written === "" ? [] : [{ parameter: "arcs", detail: `'${written}' are no arcs between two species` }];
+        return arcs || written === ""
+            ? []
+            : [{ parameter: "arcs", detail: `'${written}' are no arcs between two species` }];
     }
 
     /** Reads a query of the page or of a canonical URL; returns what it could not use. */
@@ -213,7 +264,10 @@ export class Settings {
             if (pageNames.has(name) || name === "v") continue;
             const field = this.field(name);
             if (!field) {
-                faults.push({ parameter: name, detail: `'${name}' is no parameter of a ${this.product.noun}` });
+                faults.push({
+                    parameter: name,
+                    detail: `'${name}' is no parameter of a ${this.product.noun}`,
+                });
                 continue;
             }
             const value = parsed(field, text);

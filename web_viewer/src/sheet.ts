@@ -54,8 +54,15 @@ const growthAges = [0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1];
 /** Models on their way at once: the next is made while one is drawn. */
 const atOnce = 2;
 
-const ink = { text: "#2b211a", soft: "#6b5b4d", line: "#d8ccb6", paper: "#f5efe2", arrow: "#e3a511" };
-const serif = '"Iowan Old Style", "Palatino Linotype", Palatino, "URW Palladio L", P052, "Book Antiqua", Georgia, serif';
+const ink = {
+    text: "#2b211a",
+    soft: "#6b5b4d",
+    line: "#d8ccb6",
+    paper: "#f5efe2",
+    arrow: "#e3a511",
+};
+const serif =
+    '"Iowan Old Style", "Palatino Linotype", Palatino, "URW Palladio L", P052, "Book Antiqua", Georgia, serif';
 const sans = 'system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif';
 
 export class Sheet {
@@ -135,9 +142,15 @@ export class Sheet {
 
     private plan(kind: SheetKind): { columns: number; rows: number; plans: Plan[] } {
         const lod = this.settings.field("lod");
-        const level = Math.max(Number(this.settings.values.get("lod") ?? 0), Math.min(1, lod?.max ?? 0));
+        const level = Math.max(
+            Number(this.settings.values.get("lod") ?? 0),
+            Math.min(1, lod?.max ?? 0),
+        );
         const address = (mix: string, age?: number): string => {
-            const values = new Map<string, number | string>([["lod", level], ["textures", "embedded"]]);
+            const values = new Map<string, number | string>([
+                ["lod", level],
+                ["textures", "embedded"],
+            ]);
             if (this.settings.field("animation")) values.set("animation", "none");
             if (age !== undefined) values.set("age", age);
             const query = this.settings.query(values);
@@ -160,21 +173,33 @@ export class Sheet {
         const members = this.settings.morph?.shares ?? readShares(this.settings.mix) ?? [];
         const layout = varietyLayout(members.length);
         const ages = layout.cells.some(({ age }) => age !== undefined);
-        this.title = members.map(({ id }, index) => `${letterOf(index)} ${this.nameOf(id)}`).join("   ");
+        this.title = members
+            .map(({ id }, index) => `${letterOf(index)} ${this.nameOf(id)}`)
+            .join("   ");
         this.legend = `${layout.cells.length} morphs between ${members.length} control shapes${ages ? ", young above and old below" : ""}`;
         const plans = layout.cells.map(({ column, row, weights, age }) => {
             const parts = thousandths(weights);
-            const mix = canonicalMix(members.map(({ id }, index) => ({ id, weight: parts[index] ?? 0 })));
+            const mix = canonicalMix(
+                members.map(({ id }, index) => ({ id, weight: parts[index] ?? 0 })),
+            );
             const alone = controlShape(weights);
-            const shares = parts.flatMap((part, index) => (part ? [`${Math.round(part / 10)} ${letterOf(index)}`] : []));
+            const shares = parts.flatMap((part, index) =>
+                part ? [`${Math.round(part / 10)} ${letterOf(index)}`] : [],
+            );
             const years = age === undefined ? "" : ` · age ${age}`;
             return {
                 column,
                 row,
                 address: address(mix, age),
                 name: age === undefined ? mix : `${mix} age ${age}`,
-                caption: (alone >= 0 ? `${letterOf(alone)} ${this.nameOf(members[alone]!.id)}` : shares.join(" + ")) + years,
-                control: alone >= 0 && (age === undefined || age === 0.5) ? members[alone]!.id : undefined,
+                caption:
+                    (alone >= 0
+                        ? `${letterOf(alone)} ${this.nameOf(members[alone]!.id)}`
+                        : shares.join(" + ")) + years,
+                control:
+                    alone >= 0 && (age === undefined || age === 0.5)
+                        ? members[alone]!.id
+                        : undefined,
             };
         });
         return { columns: layout.columns, rows: layout.rows, plans };
@@ -182,7 +207,9 @@ export class Sheet {
 
     private mixTitle(shares: readonly Share[]): string {
         if (shares.length === 1 && shares[0]) return this.nameOf(shares[0].id);
-        return shares.map(({ id, weight }) => `${Math.round(weight * 100)} % ${this.nameOf(id)}`).join(" + ");
+        return shares
+            .map(({ id, weight }) => `${Math.round(weight * 100)} % ${this.nameOf(id)}`)
+            .join(" + ");
     }
 
     private async draw(kind: SheetKind): Promise<void> {
@@ -206,7 +233,10 @@ export class Sheet {
                 this.made.push(made);
                 this.drawCell(made, model, undefined);
                 disposeModel(model);
-                this.progress(this.made.length / plans.length, `${this.made.length} of ${plans.length}`);
+                this.progress(
+                    this.made.length / plans.length,
+                    `${this.made.length} of ${plans.length}`,
+                );
             }
         };
         this.progress(0, `0 of ${plans.length}`);
@@ -217,8 +247,12 @@ export class Sheet {
         } catch (error) {
             if (stop.signal.aborted) return;
             stop.abort();
-            const words_ = error instanceof RequestFailed ? error.items[0]?.detail ?? error.message : "";
-            this.progress(undefined, `Stopped after ${this.made.length} of ${plans.length}: ${words_ || "a model could not be shown"}`);
+            const words_ =
+                error instanceof RequestFailed ? (error.items[0]?.detail ?? error.message) : "";
+            this.progress(
+                undefined,
+                `Stopped after ${this.made.length} of ${plans.length}: ${words_ || "a model could not be shown"}`,
+            );
         }
     }
 
@@ -233,7 +267,10 @@ export class Sheet {
         const stop = this.stop;
         if (!stop || stop.signal.aborted || this.made.length !== this.plans.length) return;
         this.buttons(false);
-        this.work = this.drawAgain(stop.signal).then(() => this.finished(), () => undefined);
+        this.work = this.drawAgain(stop.signal).then(
+            () => this.finished(),
+            () => undefined,
+        );
         await this.work;
     }
 
@@ -275,7 +312,8 @@ export class Sheet {
     }
 
     private buttons(ready: boolean): void {
-        for (const id of ["sheet-png", "sheet-glb", "sheet-scale"]) byId<HTMLButtonElement | HTMLInputElement>(id).disabled = !ready;
+        for (const id of ["sheet-png", "sheet-glb", "sheet-scale"])
+            byId<HTMLButtonElement | HTMLInputElement>(id).disabled = !ready;
     }
 
     // The picture
@@ -296,7 +334,8 @@ export class Sheet {
         context.textAlign = "left";
         context.fillStyle = ink.text;
         let size = 30;
-        do context.font = `600 ${size}px ${serif}`; while (context.measureText(this.title).width > canvas.width - 2 * edge && --size > 13);
+        do context.font = `600 ${size}px ${serif}`;
+        while (context.measureText(this.title).width > canvas.width - 2 * edge && --size > 13);
         context.fillText(this.title, edge, 46);
         context.fillStyle = ink.soft;
         context.font = `italic 17px ${serif}`;
@@ -309,7 +348,11 @@ export class Sheet {
         return this.canvas.getContext("2d")!;
     }
 
-    private drawCell(plan: Plan, model: Parameters<Studio["photograph"]>[0], frame: Box3 | undefined): void {
+    private drawCell(
+        plan: Plan,
+        model: Parameters<Studio["photograph"]>[0],
+        frame: Box3 | undefined,
+    ): void {
         const { context, cell } = this;
         const x = edge + plan.column * cell.width;
         const y = head + plan.row * (cell.height + captionHeight);
@@ -320,9 +363,10 @@ export class Sheet {
         // Twice the pixels, halved by the canvas: edges without steps.
         this.studio ??= new Studio(cell.width * 2, cell.height * 2);
         const view: ViewName = "three-quarter";
-        const picture = this.studio.photograph(model, frame
-            ? { view, frame, margin, grounded: true }
-            : { view, margin, grounded: true });
+        const picture = this.studio.photograph(
+            model,
+            frame ? { view, frame, margin, grounded: true } : { view, margin, grounded: true },
+        );
         context.imageSmoothingQuality = "high";
         context.drawImage(picture, x, y, cell.width, cell.height);
         if (plan.control) this.arrow(x + cell.width * 0.5, y);
@@ -340,7 +384,14 @@ export class Sheet {
     /** Each mushroom of a grid has its own spot of light. */
     private light(x: number, y: number): void {
         const { context, cell } = this;
-        const light = context.createRadialGradient(x + cell.width * 0.47, y + cell.height * 0.45, 10, x + cell.width / 2, y + cell.height / 2, cell.width * 0.62);
+        const light = context.createRadialGradient(
+            x + cell.width * 0.47,
+            y + cell.height * 0.45,
+            10,
+            x + cell.width / 2,
+            y + cell.height / 2,
+            cell.width * 0.62,
+        );
         light.addColorStop(0, "#fdf9f0");
         light.addColorStop(0.6, "#f3ebdb");
         light.addColorStop(1, ink.paper);
@@ -353,18 +404,32 @@ export class Sheet {
         const context = this.context;
         context.fillStyle = ink.arrow;
         context.beginPath();
-        for (const [dx, dy] of [[-4, 0], [4, 0], [4, 9], [10, 9], [0, 21], [-10, 9], [-4, 9]] as const) context.lineTo(x + dx, y + dy);
+        for (const [dx, dy] of [
+            [-4, 0],
+            [4, 0],
+            [4, 9],
+            [10, 9],
+            [0, 21],
+            [-10, 9],
+            [-4, 9],
+        ] as const)
+            context.lineTo(x + dx, y + dy);
         context.closePath();
         context.fill();
     }
 
     private fileName(suffix: string): string {
-        const what = this.kind === "growth" ? this.settings.mix : (this.settings.morph?.shares ?? []).map(({ id }) => id).join("-");
+        const what =
+            this.kind === "growth"
+                ? this.settings.mix
+                : (this.settings.morph?.shares ?? []).map(({ id }) => id).join("-");
         return `${this.kind ?? "sheet"}-${what.replace(/[^a-z0-9_-]+/g, "-").slice(0, 80)}.${suffix}`;
     }
 
     private async savePicture(): Promise<void> {
-        const blob = await new Promise<Blob | null>((resolve) => this.canvas.toBlob(resolve, "image/png"));
+        const blob = await new Promise<Blob | null>((resolve) =>
+            this.canvas.toBlob(resolve, "image/png"),
+        );
         if (blob) this.events.save(blob, this.fileName("png"));
     }
 
@@ -375,7 +440,9 @@ export class Sheet {
         const scene = new Scene();
         scene.name = this.fileName("glb").replace(/\.glb$/, "");
         const size = new Vector3();
-        const widest = Math.max(...this.made.map(({ box }) => Math.max(box.getSize(size).x, size.z)));
+        const widest = Math.max(
+            ...this.made.map(({ box }) => Math.max(box.getSize(size).x, size.z)),
+        );
         const middle = Math.max(...this.plans.map(({ column }) => column)) / 2;
         try {
             for (const made of this.made) {
@@ -383,7 +450,11 @@ export class Sheet {
                 signal?.throwIfAborted();
                 const group = new Group();
                 group.name = made.name;
-                group.position.set((made.column - middle) * widest * 1.25, 0, made.row * widest * 1.25);
+                group.position.set(
+                    (made.column - middle) * widest * 1.25,
+                    0,
+                    made.row * widest * 1.25,
+                );
                 const meshes = [...model.children];
                 for (const mesh of meshes) {
                     mesh.name = made.name;
@@ -391,7 +462,10 @@ export class Sheet {
                     group.add(mesh);
                 }
                 scene.add(group);
-                this.progress(scene.children.length / this.made.length, `putting together ${scene.children.length} of ${this.made.length}`);
+                this.progress(
+                    scene.children.length / this.made.length,
+                    `putting together ${scene.children.length} of ${this.made.length}`,
+                );
             }
             // A node whose only child carries the mesh is one node too many.
             for (const group of [...scene.children]) {
@@ -401,12 +475,25 @@ export class Sheet {
                 scene.remove(group);
                 scene.add(only);
             }
-            const bytes = (await new GLTFExporter().parseAsync(scene, { binary: true, trs: true })) as ArrayBuffer;
+            const bytes = (await new GLTFExporter().parseAsync(scene, {
+                binary: true,
+                trs: true,
+            })) as ArrayBuffer;
             signal?.throwIfAborted();
-            this.events.save(new Blob([bytes], { type: "model/gltf-binary" }), this.fileName("glb"));
-            this.progress(undefined, `${this.made.length} mushrooms in one GLB of ${kilobytes(bytes.byteLength)}`);
+            this.events.save(
+                new Blob([bytes], { type: "model/gltf-binary" }),
+                this.fileName("glb"),
+            );
+            this.progress(
+                undefined,
+                `${this.made.length} mushrooms in one GLB of ${kilobytes(bytes.byteLength)}`,
+            );
         } catch (error) {
-            if (!signal?.aborted) this.progress(undefined, `The GLB could not be made: ${error instanceof Error ? error.message : ""}`);
+            if (!signal?.aborted)
+                this.progress(
+                    undefined,
+                    `The GLB could not be made: ${error instanceof Error ? error.message : ""}`,
+                );
         } finally {
             for (const model of scene.children) disposeModel(model);
             this.buttons(!signal?.aborted);

@@ -45,7 +45,10 @@ export interface StageStyle {
 }
 
 /** A renderer and a lit scene, the same for the stage and for thumbnails. */
-export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
+export function litScene(
+    canvas: HTMLCanvasElement,
+    antialias: boolean,
+): {
     renderer: WebGLRenderer;
     scene: Scene;
     sun: DirectionalLight;
@@ -76,7 +79,10 @@ export function litScene(canvas: HTMLCanvasElement, antialias: boolean): {
 export function aimSun(sun: DirectionalLight, ball: Sphere): void {
     const reach = ball.radius * 1.7;
     sun.target.position.copy(ball.center);
-    sun.position.copy(sunDirection).multiplyScalar(ball.radius * 4).add(ball.center);
+    sun.position
+        .copy(sunDirection)
+        .multiplyScalar(ball.radius * 4)
+        .add(ball.center);
     const camera = sun.shadow.camera;
     Object.assign(camera, { left: -reach, right: reach, top: reach, bottom: -reach });
     camera.near = ball.radius;
@@ -135,7 +141,8 @@ export class Stage {
     /** Size of what is shown, metres. */
     get size(): Size {
         const size = this.bounds.getSize(new Vector3());
-        const above = this.bounds.max.y > 0 ? this.bounds.max.y - Math.max(this.bounds.min.y, 0) : size.y;
+        const above =
+            this.bounds.max.y > 0 ? this.bounds.max.y - Math.max(this.bounds.min.y, 0) : size.y;
         return { above, width: size.x, height: size.y, depth: size.z };
     }
 
@@ -216,16 +223,25 @@ export class Stage {
             : this.camera.position.clone().sub(this.controls.target).normalize();
         if (direction.lengthSq() === 0) direction.copy(this.style.directions["three-quarter"]);
         const centre = this.framed.getCenter(new Vector3());
-        const margin = this.style.bare ? { x: 0.06, y: 0.06 } : this.host.clientWidth < 520 ? { x: 0.12, y: 0.3 } : { x: 0.14, y: 0.26 };
+        const margin = this.style.bare
+            ? { x: 0.06, y: 0.06 }
+            : this.host.clientWidth < 520
+              ? { x: 0.12, y: 0.3 }
+              : { x: 0.14, y: 0.26 };
         const distance = fittingDistance(this.framed, direction, this.camera, margin);
-        this.moveTo(centre, direction.multiplyScalar(distance).add(centre), atOnce || this.style.calm);
+        this.moveTo(
+            centre,
+            direction.multiplyScalar(distance).add(centre),
+            atOnce || this.style.calm,
+        );
     }
 
     /** Takes the individuals of a colony off their roots and stems, or puts them back. */
     private bareRoots(): void {
         const stems = this.model && stemsOf(this.model);
         this.framed = this.bared && stems ? boundsOf(stems) : this.bounds;
-        for (const node of this.model?.children ?? []) node.visible = !this.bared || !stems || node === stems;
+        for (const node of this.model?.children ?? [])
+            node.visible = !this.bared || !stems || node === stems;
     }
 
     /** Asks for one frame; many asks in one moment make one frame. */
@@ -280,7 +296,8 @@ export class Stage {
     private castContact(): void {
         if (!this.model) return;
         const { min, max } = this.bounds;
-        const half = Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
+        const half =
+            Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
         this.contact.update(this.renderer, this.scene, this.model, half, max.y - min.y);
     }
 
@@ -353,7 +370,10 @@ export class Stage {
         event.preventDefault();
         this.flight += 1;
         turn.phi = Math.min(Math.max(turn.phi, 0.01), Math.PI - 0.01);
-        turn.radius = Math.min(Math.max(turn.radius, this.controls.minDistance), this.controls.maxDistance);
+        turn.radius = Math.min(
+            Math.max(turn.radius, this.controls.minDistance),
+            this.controls.maxDistance,
+        );
         this.camera.position.setFromSpherical(turn).add(this.controls.target);
         this.draw();
     }

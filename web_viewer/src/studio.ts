@@ -1,5 +1,14 @@
 // A renderer off the page that takes pictures of models, one after the other: thumbnails and sheets.
-import { Box3, PerspectiveCamera, Sphere, Vector3, type DirectionalLight, type Object3D, type Scene, type WebGLRenderer } from "three";
+import {
+    Box3,
+    PerspectiveCamera,
+    Sphere,
+    Vector3,
+    type DirectionalLight,
+    type Object3D,
+    type Scene,
+    type WebGLRenderer,
+} from "three";
 import { fittingDistance, standing, type Directions, type Margin, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
@@ -40,7 +49,10 @@ export class Studio {
     }
 
     /** Draws a model on the canvas, on nothing; the picture has to be taken off before the next task. */
-    photograph(model: Object3D, { view, directions = standing, frame, margin, grounded = false }: Pose): HTMLCanvasElement {
+    photograph(
+        model: Object3D,
+        { view, directions = standing, frame, margin, grounded = false }: Pose,
+    ): HTMLCanvasElement {
         const bounds = boundsOf(model);
         const framed = frame ?? bounds;
         const ball = bounds.getBoundingSphere(new Sphere());
@@ -58,7 +70,8 @@ export class Studio {
         if (grounded) {
             this.ground.fit(ball.radius, 1);
             const { min, max } = bounds;
-            const half = Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
+            const half =
+                Math.max(Math.abs(min.x), Math.abs(max.x), Math.abs(min.z), Math.abs(max.z)) * 1.6;
             this.contact.position.y = ball.radius * 0.0015;
             this.contact.update(this.renderer, this.scene, model, half, max.y - min.y);
         }

@@ -35,14 +35,29 @@ async function keep(cache: Cache, id: string, version: string, picture: Blob): P
     for (const old of await cache.keys()) {
         if (new URL(old.url).pathname === pathname) await cache.delete(old);
     }
-    await cache.put(keyOf(id, version), new Response(picture, { headers: { "Content-Type": picture.type } }));
+    await cache.put(
+        keyOf(id, version),
+        new Response(picture, { headers: { "Content-Type": picture.type } }),
+    );
 }
 
-async function photograph(studio: Studio, { bytes, response }: Answer, directions: Directions): Promise<Blob> {
+async function photograph(
+    studio: Studio,
+    { bytes, response }: Answer,
+    directions: Directions,
+): Promise<Blob> {
     const model = await parseModel(bytes, response.url);
-    const canvas = studio.photograph(model, { view: "three-quarter", directions, margin: { x: 0.08, y: 0.08 } });
+    const canvas = studio.photograph(model, {
+        view: "three-quarter",
+        directions,
+        margin: { x: 0.08, y: 0.08 },
+    });
     const picture = await new Promise<Blob>((resolve, reject) => {
-        canvas.toBlob((blob) => (blob ? resolve(blob) : reject(new Error("no picture"))), "image/webp", 0.9);
+        canvas.toBlob(
+            (blob) => (blob ? resolve(blob) : reject(new Error("no picture"))),
+            "image/webp",
+            0.9,
+        );
     });
     disposeModel(model);
     return picture;
@@ -80,7 +95,9 @@ export async function makeThumbnails(
         for (const { id, address } of models) {
             if (signal.aborted) return;
             try {
-                const head = cache && (await send(address, { method: "HEAD", signal }).catch(() => undefined));
+                const head =
+                    cache &&
+                    (await send(address, { method: "HEAD", signal }).catch(() => undefined));
                 const known = head && versionOf(head);
                 const kept = known ? await cache?.match(keyOf(id, known)) : undefined;
                 if (kept) {

@@ -36,7 +36,10 @@ function makeToggle(id: string, act: (on: boolean) => void): void {
 function setDusk(stage: Stage, dusk: boolean): void {
     document.documentElement.classList.toggle("dusk", dusk);
     const style = getComputedStyle(document.documentElement);
-    stage.colours(style.getPropertyValue("--rule").trim(), style.getPropertyValue("--shade").trim());
+    stage.colours(
+        style.getPropertyValue("--rule").trim(),
+        style.getPropertyValue("--shade").trim(),
+    );
 }
 
 export class Toolbar {

@@ -49,17 +49,21 @@ export function pointOf(weights: readonly number[], corners: readonly Point[]): 
 
 /** The nearest point of a convex polygon that runs clockwise on the screen; a corner close by is taken exactly. */
 export function insidePolygon(point: Point, corners: readonly Point[], snap = 0): Point {
-    const near = corners.find((corner) => Math.hypot(corner.x - point.x, corner.y - point.y) <= snap);
+    const near = corners.find(
+        (corner) => Math.hypot(corner.x - point.x, corner.y - point.y) <= snap,
+    );
     if (near) return near;
     const n = corners.length;
-    if (corners.every((corner, index) => area(point, corner, corners[(index + 1) % n]!) >= 0)) return point;
+    if (corners.every((corner, index) => area(point, corner, corners[(index + 1) % n]!) >= 0))
+        return point;
     let best = corners[0]!;
     let least = Infinity;
     corners.forEach((a, index) => {
         const b = corners[(index + 1) % n]!;
         const along = (point.x - a.x) * (b.x - a.x) + (point.y - a.y) * (b.y - a.y);
         const t = Math.min(Math.max(along / ((b.x - a.x) ** 2 + (b.y - a.y) ** 2), 0), 1);
-        const foot = t === 0 ? a : t === 1 ? b : { x: a.x + t * (b.x - a.x), y: a.y + t * (b.y - a.y) };
+        const foot =
+            t === 0 ? a : t === 1 ? b : { x: a.x + t * (b.x - a.x), y: a.y + t * (b.y - a.y) };
         const distance = Math.hypot(foot.x - point.x, foot.y - point.y);
         if (distance < least) {
             least = distance;
