@@ -14,18 +14,18 @@ namespace sporeprint::server {
 
 namespace {
 
-constexpr std::size_t entry_overhead = 512;      ///< bytes of an entry beside what it holds
-constexpr std::size_t worth_a_file = 32u << 10;  ///< bytes; copying less is cheaper than a file
-constexpr std::uint32_t long_way_every = 256;    ///< uses of an entry
+constexpr std::size_t entry_overhead = 512;         ///< bytes of an entry beyond its contents
+constexpr std::size_t least_file_size = 32u << 10;  ///< bytes; copying less is cheaper than a file
+constexpr std::uint32_t bypass_every = 256;         ///< uses of an entry
 
-/// A file in memory that holds these bytes for good; -1 when there can be none, as half of the
-/// descriptors are for connections.
+/// Returns an in-memory file with these bytes; -1 on failure, or if fewer than half of the
+/// descriptors would be left to connections.
 int file_of(const Body& body) {
     const int file = memfd_create("answer", MFD_CLOEXEC);
     if (file < 0) return -1;
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0 ||
-        static_cast<rlim_t>(file) >= limit.rlim_cur / 2) {  // the least number that was free
+        static_cast<rlim_t>(file) >= limit.rlim_cur / 2) {  // the lowest free number
         ::close(file);
         return -1;
     }
@@ -85,7 +85,7 @@ std::shared_ptr<const HotResponse> hot_response(std::string_view target, const S
         }
         if (same_token(name, "Content-Encoding")) hot->coding = Coding::gzip;
         if (same_token(name, "X-Request-Id")) {
-            hot->tells_id = true;
+            hot->has_request_id = true;
         } else if (same_token(name, "Keep-Alive")) {
             hot->keep_alive = line;
         } else if (!same_token(name, "Date")) {
@@ -106,7 +106,7 @@ std::shared_ptr<const HotResponse> hot_response(std::string_view target, const S
     if (hot->coding == Coding::gzip && hot->etag.ends_with(of_gzip))
         hot->identity_etag = hot->etag.substr(0, hot->etag.size() - of_gzip.size()) + '"';
     hot->size = size_of(response.body);
-    if (hot->size >= worth_a_file) hot->file = file_of(response.body);
+    if (hot->size >= least_file_size) hot->file = file_of(response.body);
     if (hot->file < 0) hot->body = response.body;
     return hot;
 }
@@ -123,7 +123,7 @@ HotLookup hot_lookup(const Head& head) {
                     lookup.accept_encoding = value;
                 }
                 break;
-            case 'c':  // whoever insists on a fresh answer is heard behind
+            case 'c':  // the service handles requests for a fresh response
                 if (same_token(name, "Cache-Control")) return lookup;
                 break;
             case 'e':
@@ -163,23 +163,23 @@ const std::shared_ptr<const HotResponse>* HotTable::find(std::string_view target
     const auto found = map_.find(target);
     if (found == map_.end()) return nullptr;
     const Variants& variants = found->second;
-    // Most answers are for all clients, and what those accept is not looked at.
+    // Most responses are for all clients; then Accept-Encoding is not parsed.
     const bool gzip = variants.identity != variants.gzip && api::accepts_gzip(accept_encoding);
     const std::optional<List::iterator>& variant = gzip ? variants.gzip : variants.identity;
     if (!variant) return nullptr;
     Entry& entry = **variant;
-    entry.pending_seen = true;
-    if (!entry.pinned && ++entry.uses % long_way_every == 0) return nullptr;
+    entry.visited = true;
+    if (!entry.pinned && ++entry.uses % bypass_every == 0) return nullptr;
     return &entry.response;
 }
 
-bool HotTable::occupied(std::string_view target) const {
+bool HotTable::is_pinned(std::string_view target) const {
     const auto found = map_.find(target);
     return found != map_.end() && found->second.identity && (*found->second.identity)->pinned;
 }
 
 void HotTable::insert(std::shared_ptr<const HotResponse> response) {
-    if (occupied(response->target)) return;
+    if (is_pinned(response->target)) return;
     const auto replaced = [&](std::optional<List::iterator> Variants::*variant) {
         const auto found = map_.find(response->target);
         if (found != map_.end() && found->second.*variant) drop(*(found->second.*variant));
@@ -213,7 +213,7 @@ void HotTable::add(std::shared_ptr<const HotResponse> response, std::size_t weig
 
 void HotTable::drop(List::iterator entry) {
     if (hand_ == entry) hand_ = entry == list_.begin() ? list_.end() : std::prev(entry);
-    // The key may be the text of the answer that goes; that of the one which stays is put in its place.
+    // The key may point into the removed response; it is replaced by that of the remaining variant.
     auto node = map_.extract(entry->response->target);
     Variants& variants = node.mapped();
     if (variants.identity == entry) variants.identity.reset();
@@ -230,8 +230,8 @@ void HotTable::drop(List::iterator entry) {
 void HotTable::evict() {
     for (;;) {
         if (hand_ == list_.end()) hand_ = std::prev(list_.end());
-        if (!hand_->pending_seen) break;
-        hand_->pending_seen = false;
+        if (!hand_->visited) break;
+        hand_->visited = false;
         hand_ = hand_ == list_.begin() ? list_.end() : std::prev(hand_);
     }
     ++stats_.evictions;

@@ -1,5 +1,4 @@
-// Answers that the reactor gives by itself: those that whoever asks for the same target gets again,
-// ready to be sent. Used on one thread.
+// The hot-response table: complete responses that the reactor sends by itself, without a worker.
 #pragma once
 
 #include <array>
@@ -19,60 +18,62 @@
 
 namespace sporeprint::server {
 
-/// Which clients an answer is for: all, those that accept no gzip, or those that do.
+/// The clients that a response is for: all, those that do not accept gzip, or those that do.
 enum class Coding { any, identity, gzip };
 
-/// A 200 in pieces. Its head lacks what changes with each request: Date, X-Request-Id, Connection.
+/// A stored 200 response. Its head lacks the headers that differ per request: Date, X-Request-Id
+/// and Connection.
 struct HotResponse {
     std::string target;
     std::string head;          ///< status line and headers, each with its CR LF
-    std::string not_modified;  ///< the head of a 304 likewise; empty when there is no ETag
-    std::string keep_alive;    ///< the line that says so
+    std::string not_modified;  ///< head of the 304 response; empty if there is no ETag
+    std::string keep_alive;    ///< the Keep-Alive line
     std::string etag, cache, cache_not_modified, label;
-    std::string identity_etag;  ///< of the same without gzip, when this is gzip; else empty
+    std::string identity_etag;  ///< if this is gzip: ETag of the identity variant
     Coding coding = Coding::any;
-    bool tells_id = false;  ///< whether it carries X-Request-Id
-    Body body;              ///< or, when it is large,
-    int file = -1;          ///< a copy of it in a file in memory, which goes out without another
-    std::size_t size = 0;   ///< of the body
+    bool has_request_id = false;  ///< it has an X-Request-Id header
+    Body body;                    ///< empty if `file` is set
+    int file = -1;                ///< copy of a large body in an in-memory file, for sendfile()
+    std::size_t size = 0;         ///< of the body
 
     HotResponse() = default;
     HotResponse(const HotResponse&) = delete;
     HotResponse& operator=(const HotResponse&) = delete;
     ~HotResponse();
 
-    [[nodiscard]] std::size_t weight() const;  ///< bytes, those of its body too, though shared
+    [[nodiscard]] std::size_t weight() const;  ///< bytes, including the shared body
 };
 
-/// What of the answer to GET `target` may be given again; nullptr when it may not: when nobody has
-/// said so, the status is another than 200, it varies by another header than Accept-Encoding, or the
-/// connection ends with it.
+/// Returns the stored form of a response to GET `target`; nullptr if it is not cacheable, its
+/// status is not 200, it varies by a header other than Accept-Encoding, or it closes the
+/// connection.
 [[nodiscard]] std::shared_ptr<const HotResponse> hot_response(std::string_view target,
                                                               const Sending& sending,
                                                               std::string_view label);
 
-/// What a request's head asks of the table.
+/// The parts of a request head that a lookup needs.
 struct HotLookup {
-    bool simple = false;  ///< GET or HEAD, and nothing in the head could change the answer
-    std::string_view accept_encoding, id;  ///< empty when not given
+    bool simple = false;  ///< GET or HEAD without headers that the table does not handle
+    std::string_view accept_encoding, id;  ///< empty if absent
 
-    /// The list of If-None-Match, all its lines together; empty when not given.
+    /// Returns the list of all If-None-Match lines; empty if there are none.
     [[nodiscard]] std::string_view if_none_match() const {
         return lines.empty() ? std::string_view(line) : std::string_view(lines);
     }
-    std::string_view line;  ///< the first of them
-    std::string lines;      ///< all, when there are several
+    std::string_view line;  ///< the first If-None-Match line
+    std::string lines;      ///< all of them joined, if there are several
 };
 [[nodiscard]] HotLookup hot_lookup(const Head& head);
 
-/// A table bounded by bytes. A target has one answer for all clients, or one for those that accept
-/// gzip and one for the others. Small bodies are shared with caches behind it, but counted here in full
-/// like the copies of large ones, as what those have dropped is kept by this table alone.
+/// A table of responses, bounded by bytes. Used on one thread. A target has one response for all
+/// clients, or one for clients that accept gzip and one for the others. Small bodies are shared
+/// with the caches of the service, but counted here in full like the copies of large ones, since
+/// this table alone keeps those that the caches have evicted.
 ///
-/// source  [Zhang2024] SIEVE: one queue, a bit for those in use, a hand that passes over them once
+/// source  [Zhang2024] SIEVE: one queue, a visited bit per entry, and a hand that clears the bits
 class HotTable {
   public:
-    /// What others may read at any time.
+    /// Counters that any thread may read.
     struct Stats {
         std::atomic<std::uint64_t> hits{0}, not_modified{0}, evictions{0};
         std::atomic<std::size_t> bytes{0}, entries{0};
@@ -80,22 +81,23 @@ class HotTable {
 
     explicit HotTable(std::size_t budget) : budget_(budget) {}
 
-    /// The answer for a target and a client with this Accept-Encoding, or nullptr. Now and then it
-    /// has none for one that it holds, so that the caches behind it learn what is in use.
+    /// Returns the response to a target for a client with this Accept-Encoding, or nullptr. Every
+    /// 256th lookup of an entry misses on purpose, so that the caches of the service see which
+    /// entries are in use.
     [[nodiscard]] const std::shared_ptr<const HotResponse>* find(
         std::string_view target, std::string_view accept_encoding = {});
 
-    /// Whether a target's answer is pinned.
-    [[nodiscard]] bool occupied(std::string_view target) const;
+    /// Returns true if the response of a target is pinned.
+    [[nodiscard]] bool is_pinned(std::string_view target) const;
 
-    /// Keeps an answer in place of an earlier one, and drops others to make room. One of more than
-    /// an eighth of the budget is not kept.
+    /// Stores a response, replacing an earlier one and evicting others as needed. A response larger
+    /// than an eighth of the budget is not stored.
     void insert(std::shared_ptr<const HotResponse> response);
 
-    /// Keeps an answer for good; it counts nothing.
+    /// Stores a response that is never evicted and does not count against the budget.
     void pin(std::shared_ptr<const HotResponse> response);
 
-    /// Drops all that are not pinned.
+    /// Removes all responses that are not pinned.
     void clear();
 
     [[nodiscard]] Stats& stats() { return stats_; }
@@ -106,12 +108,12 @@ class HotTable {
         std::shared_ptr<const HotResponse> response;
         std::size_t weight = 0;
         std::uint32_t uses = 0;
-        bool pending_seen = false;
+        bool visited = false;
         bool pinned = false;
     };
     using List = std::list<Entry>;
 
-    /// The answers of one target: the same twice if it is for all clients.
+    /// The responses of one target; both are equal if it is for all clients.
     struct Variants {
         std::optional<List::iterator> identity, gzip;
     };
@@ -124,7 +126,7 @@ class HotTable {
     List list_;    ///< newest first
     List pinned_;  ///< never evicted
     List::iterator hand_ = list_.end();
-    std::unordered_map<std::string_view, Variants> map_;  ///< keys live in the answers
+    std::unordered_map<std::string_view, Variants> map_;  ///< keys point into the responses
     Stats stats_;
 };
 

@@ -1,5 +1,6 @@
-// The transport: sockets in, answers out. One thread owns every socket; a few workers call those
-// above, who may answer at once or later; whoever waits holds no thread.
+// The transport: the HTTP/1.1 server. One reactor thread owns all sockets; a few workers call the
+// handlers, which respond at once or later. A request that waits for its response occupies no
+// thread.
 #pragma once
 
 #include <array>
@@ -21,52 +22,53 @@
 
 namespace sporeprint::server {
 
+/// Limits and timeouts of a Transport.
 struct TransportOptions {
     std::string host = "127.0.0.1";
-    int port = 8080;                            ///< 0: any that is free
-    std::size_t workers = 4;                    ///< threads that call the handlers
-    std::size_t longest_queue = 1024;           ///< requests that wait for a worker; 503 beyond
-    std::size_t most_connections = 4096;        ///< open at once; 503 beyond
-    std::size_t most_of_client = 0;             ///< of those, of one client; 429 beyond; 0: all
-    Proxies proxies;                            ///< they speak for others and may open all
-    std::size_t hot_bytes = 64u << 20;          ///< of answers that are given again; 0: none
-    int backlog = 1024;                         ///< connections the kernel keeps for us
-    std::size_t most_requests = 1000;           ///< on one connection
-    std::size_t most_body_memory = 256u << 20;  ///< bytes of bodies that have arrived, all together
-    std::size_t most_body_of_client = 64u << 20;  ///< of those, of one client but a trusted proxy
-    std::size_t body_rate = 1u << 20;  ///< bytes a second that a body has to come at, beside `body`
-    std::size_t most_pinned = 256u << 20;  ///< bytes of answers that wait for slow clients likewise
-    std::chrono::milliseconds idle{30'000};   ///< for the first byte of a request
+    int port = 8080;                              ///< 0: any free port
+    std::size_t workers = 4;                      ///< threads that call the handlers
+    std::size_t longest_queue = 1024;             ///< requests that wait for a worker; 503 beyond
+    std::size_t most_connections = 4096;          ///< open connections; 503 beyond
+    std::size_t most_of_client = 0;               ///< of one client; 429 beyond; 0: unlimited
+    Proxies proxies;                              ///< trusted proxies, exempt from most_of_client
+    std::size_t hot_bytes = 64u << 20;            ///< size of the hot-response table; 0: none
+    int backlog = 1024;                           ///< of listen(): connections not yet accepted
+    std::size_t most_requests = 1000;             ///< per connection
+    std::size_t most_body_memory = 256u << 20;    ///< bytes of all request bodies in memory
+    std::size_t most_body_of_client = 64u << 20;  ///< of one client; proxies are exempt
+    std::size_t body_rate = 1u << 20;         ///< least bytes per second of a body, beyond `body`
+    std::size_t most_pinned = 256u << 20;     ///< bytes of responses in flight to slow clients
+    std::chrono::milliseconds idle{30'000};   ///< until the first byte of a request
     std::chrono::milliseconds silence{2000};  ///< between two bytes of a request
-    std::chrono::milliseconds head{5000};     ///< for a whole head
-    std::chrono::milliseconds body{10000};    ///< for a body, beside its length at body_rate
-    std::chrono::milliseconds response{
-        20'000};  ///< until PendingRequest::wait() is told that it is late
-    std::chrono::milliseconds blocked_write{5000};  ///< without the client taking a byte
-    std::chrono::milliseconds shutdown_grace{100};  ///< accepting goes on for so long in drain()
+    std::chrono::milliseconds head{5000};     ///< for a complete head
+    std::chrono::milliseconds body{10000};    ///< for a body, plus its length / body_rate
+    std::chrono::milliseconds response{20'000};     ///< until CancelReason::timed_out
+    std::chrono::milliseconds blocked_write{5000};  ///< in which the client must accept a byte
+    std::chrono::milliseconds shutdown_grace{100};  ///< drain() accepts connections this long
 };
 
-/// What happened to one request, for the log and the metrics.
+/// The outcome of one request, for the log and the metrics.
 struct Served {
     std::string method, target, id, peer;
-    std::string client;               ///< for whom a trusted proxy has asked; empty without one
-    std::string trace_id, parent_id;  ///< of a proper traceparent; empty without
-    std::string label;                ///< what Handlers::label() said of it
-    int status = 0;                   ///< 499: the client left before its answer was made
-    std::uint64_t bytes = 0;          ///< of head and body that went out
-    double milliseconds = 0;  ///< from the last byte of the request to the last of the answer
+    std::string client;               ///< reported by a trusted proxy; empty without one
+    std::string trace_id, parent_id;  ///< of a valid traceparent; empty without one
+    std::string label;                ///< from Handlers::label()
+    int status = 0;           ///< 499: the client disconnected before the response was ready
+    std::uint64_t bytes = 0;  ///< sent, of head and body
+    double milliseconds = 0;  ///< from the last byte of the request to the last of the response
     std::string cache;        ///< Cache-Status
-    bool complete = true;     ///< whether all of the answer went out
+    bool complete = true;     ///< the whole response was sent
 };
 
-/// Status of an answer that is not sent, because nobody waits for it any more.
+/// Status of a response that is not sent, because the client has disconnected.
 inline constexpr int client_left = 499;
 
-/// One request that waits for its answer. Held by whoever will answer; used on any thread. When the
-/// last who holds it lets it go unanswered, the client gets a bare 500.
+/// A request that waits for its response. Thread-safe. If its last owner destroys it without a
+/// response, the client receives a 500 without a body.
 class PendingRequest {
   public:
-    enum class CancelReason { disconnected, timed_out };  ///< the client is gone; it has waited too long
+    /// The client has disconnected; TransportOptions::response has passed.
+    enum class CancelReason { disconnected, timed_out };
 
     PendingRequest() = default;
     PendingRequest(const PendingRequest&) = delete;
@@ -75,67 +77,72 @@ class PendingRequest {
 
     [[nodiscard]] virtual const api::Request& request() const = 0;
 
-    /// Who asks: the other end, or whom it speaks for if it is a trusted proxy.
+    /// Returns the address of the client: the peer, or the one reported by a trusted proxy.
     [[nodiscard]] virtual const Address& client() const = 0;
 
-    /// Whether the client has left.
+    /// Returns true if the client has disconnected.
     [[nodiscard]] virtual bool is_gone() const = 0;
 
-    /// Answers, with status client_left for nobody. Only the first answer counts.
+    /// Sends the response; with status client_left nothing is sent. Later calls have no effect.
     virtual void reply(api::Response response) = 0;
 
-    /// Calls `go_on` on a worker; what that throws is a bare 500.
-    virtual void resume(std::function<void()> go_on) = 0;
+    /// Calls `task` on a worker; if it throws, the response is a 500 without a body.
+    virtual void resume(std::function<void()> task) = 0;
 
-    /// When the answer will come later: `over` is called on a worker if the client leaves or
-    /// TransportOptions::answer has passed before there is one; perhaps at once. Called again, the
-    /// later `over` takes the place of the earlier.
-    virtual void wait(std::function<void(CancelReason)> over) = 0;
+    /// Registers a callback for a response that will come later: `on_cancel` is called on a worker,
+    /// perhaps at once, if the client disconnects or TransportOptions::response passes before there
+    /// is a response. A later call replaces the callback.
+    virtual void wait(std::function<void(CancelReason)> on_cancel) = 0;
 };
 
-/// What the transport asks of those above it; all are called on many threads at once. Whatever they
-/// throw is caught: an exception of `answer` or `refuse` becomes a bare 500.
+/// The callbacks of a transport. They are called on several threads concurrently. All exceptions
+/// are caught; one of `respond` or `refuse` becomes a 500 without a body.
 struct Handlers {
-    /// Answers a request, now or later; must not wait for others.
+    /// Responds to a request, now or later. It must not block.
     std::function<void(const std::shared_ptr<PendingRequest>&)> respond;
-    /// A problem that the transport itself has found. This and all below must not take long: they
-    /// are called by the thread that serves all connections.
+    /// Returns the response to an error detected by the transport. This and the following callbacks
+    /// must be fast, as they run on the reactor thread.
     std::function<api::Response(const api::Request&, int status, std::string_view detail)> refuse;
+    /// Returns the greatest accepted body size of a target in bytes (413).
     std::function<std::size_t(std::string_view method, std::string_view target)> most_body;
-    /// The answer to a request whose body has not come, if it is the same whatever the body is: a
-    /// client that expects "100 Continue" gets it instead. None for no such answer.
+    /// Returns the response to a request whose body has not arrived, if its head alone determines
+    /// it. A client that expects "100 Continue" receives it instead.
     std::function<std::optional<api::Response>(const api::Request&)> judge_head;
-    /// A name for requests of this kind, of which there are few.
+    /// Returns the name of the route of a request, for the metrics.
     std::function<std::string(std::string_view method, std::string_view target)> label;
+    /// Records a request that has ended.
     std::function<void(const Served&)> served;
-    /// Targets whose answer to GET is always this: given by that thread itself, whatever waits.
+    /// Targets with a constant response to GET, which the reactor thread sends by itself.
     std::vector<std::pair<std::string, api::Response>> pinned_responses;
 };
 
 class HttpHeadCodec;
 class Reactor;
 
+/// An HTTP/1.1 server on one port.
 class Transport {
   public:
-    /// What a connection is doing.
+    /// The state of a connection.
     enum class Phase { idle, head, body, busy, writing, lingering };
     static constexpr std::array<const char*, 6> phases = {"idle", "head",    "body",
                                                           "busy", "writing", "parting"};
 
+    /// Current counts of a transport, for the metrics.
     struct Load {
         std::array<std::size_t, phases.size()> connections{};  ///< by Phase
         std::size_t queue = 0;                                 ///< requests that wait for a worker
-        std::size_t queue_limit = 0;                           ///< and how many may
-        std::uint64_t refused = 0;  ///< connections turned away because there were too many
-        std::uint64_t limited = 0;  ///< because one client had too many
-        std::uint64_t hot_hits = 0, hot_not_modified = 0, hot_evictions = 0;  ///< given again
+        std::size_t queue_limit = 0;                           ///< greatest length of that queue
+        std::uint64_t refused = 0;  ///< connections refused beyond most_connections
+        std::uint64_t limited = 0;  ///< connections refused beyond most_of_client
+        std::uint64_t hot_hits = 0, hot_not_modified = 0,
+                      hot_evictions = 0;  ///< of the hot-response table
         std::size_t hot_bytes = 0, hot_entries = 0;
-        std::size_t pinned = 0;  ///< bytes of answers that wait for slow clients
-        std::uint64_t given_up =
-            0;  ///< answers that were not waited for to their end, for others' sake
-        std::size_t body_bytes = 0;          ///< of request bodies that have arrived
-        std::uint64_t uploads_given_up = 0;  ///< bodies refused midway, as there was no room
+        std::size_t pinned = 0;              ///< bytes of responses in flight to slow clients
+        std::uint64_t given_up = 0;          ///< responses aborted to free memory
+        std::size_t body_bytes = 0;          ///< of request bodies in memory
+        std::uint64_t uploads_given_up = 0;  ///< request bodies aborted to free memory
 
+        /// Returns the number of open connections.
         [[nodiscard]] std::size_t open() const {
             std::size_t sum = 0;
             for (const std::size_t count : connections) sum += count;
@@ -143,25 +150,28 @@ class Transport {
         }
     };
 
-    /// Binds and listens; nothing is accepted before start().
+    /// Binds and listens. No connection is accepted before start().
     ///
-    /// throws  std::runtime_error, one sentence for a person, when the address cannot be had
+    /// throws  std::runtime_error with a message for the operator if it cannot bind
     Transport(TransportOptions options, Handlers handlers);
 
-    /// Drains.
+    /// Calls drain().
     ~Transport();
     Transport(const Transport&) = delete;
     Transport& operator=(const Transport&) = delete;
 
+    /// Starts the reactor thread.
     void start();
 
-    /// Accepts for a short farewell, then no more; answers what has arrived, closes every
-    /// connection after its answer, and returns when the last has ended.
+    /// Shuts down gracefully: accepts connections for the shutdown grace, responds to all requests
+    /// received, closes each connection after its response, and returns when the last is closed.
     void drain();
 
-    /// Gives no answer again that was asked for before this was called, but for those that stand.
+    /// Invalidates the hot-response table except for its pinned responses. Responses of requests
+    /// begun before this call are not stored.
     void forget();
 
+    /// Returns the bound port.
     [[nodiscard]] int port() const;
     [[nodiscard]] Load load() const;
 

@@ -86,25 +86,25 @@ void WorkerRequest::start() {
     }
 }
 
-void WorkerRequest::end(CancelReason why) {
-    if (why == CancelReason::disconnected) is_gone_ = true;
-    std::function<void(CancelReason)> tell;
+void WorkerRequest::cancel(CancelReason reason) {
+    if (reason == CancelReason::disconnected) is_gone_ = true;
+    std::function<void(CancelReason)> on_cancel;
     {
         const std::lock_guard lock(mutex_);
-        if (over_) return;
-        over_ = why;
-        tell.swap(notify_);
+        if (cancelled_) return;
+        cancelled_ = reason;
+        on_cancel.swap(on_cancel_);
     }
-    if (tell) resume([tell = std::move(tell), why] { tell(why); });
+    if (on_cancel) resume([on_cancel = std::move(on_cancel), reason] { on_cancel(reason); });
 }
 
 void WorkerRequest::drop() { static_cast<void>(claim()); }
 
 bool WorkerRequest::claim() {
     if (responded_.exchange(true)) return false;
-    std::function<void(CancelReason)> tell;  // destroyed outside the lock
+    std::function<void(CancelReason)> released;  // destroyed outside the lock
     const std::lock_guard lock(mutex_);
-    tell.swap(notify_);
+    released.swap(on_cancel_);
     return true;
 }
 
@@ -128,24 +128,24 @@ void WorkerRequest::reply(api::Response response) {
     shared_.mailbox.post(std::move(reply));
 }
 
-void WorkerRequest::resume(std::function<void()> go_on) {
-    shared_.workers.post([self = shared_from_this(), go_on = std::move(go_on)] {
+void WorkerRequest::resume(std::function<void()> task) {
+    shared_.workers.post([self = shared_from_this(), task = std::move(task)] {
         try {
-            go_on();
+            task();
         } catch (...) {
             self->reply(self->shared_.refusal(self->request_, 500, {}));
         }
     });
 }
 
-void WorkerRequest::wait(std::function<void(CancelReason)> over) {
+void WorkerRequest::wait(std::function<void(CancelReason)> on_cancel) {
     std::optional<CancelReason> already;
     {
         const std::lock_guard lock(mutex_);
-        already = over_;
-        if (!over_ && !responded_) notify_.swap(over);
+        already = cancelled_;
+        if (!cancelled_ && !responded_) on_cancel_.swap(on_cancel);
     }
-    if (already) over(*already);
+    if (already) on_cancel(*already);
 }
 
 }  // namespace sporeprint::server

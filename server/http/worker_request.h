@@ -1,5 +1,4 @@
-// A request between the thread that owns the sockets and those that answer it: it goes to a worker,
-// its answer comes back through a mailbox.
+// A request passed from the reactor thread to a worker, and the mailbox that returns its response.
 #pragma once
 
 #include <atomic>
@@ -21,18 +20,19 @@ namespace sporeprint::server {
 class Connection;
 struct HotResponse;
 
+/// A response addressed to a connection.
 struct Reply {
-    Connection* to = nullptr;  ///< lives until it has got this
+    Connection* to = nullptr;  ///< lives until it has received this
     Sending sending;
     std::string label;
-    std::shared_ptr<const HotResponse> hot;  ///< when others may get the same
-    std::uint64_t epoch = 0;                 ///< if it is still that
+    std::shared_ptr<const HotResponse> hot;  ///< set if the response may be reused
+    std::uint64_t epoch = 0;                 ///< the epoch in which it may be reused
 };
 
-/// Replies from any thread to the one that owns the connections, which it wakes.
+/// A queue of replies from any thread to the reactor thread, which it wakes.
 class Mailbox {
   public:
-    /// throws  std::runtime_error when the system has no descriptor left
+    /// throws  std::runtime_error if the system has no descriptor left
     Mailbox();
     ~Mailbox();
     Mailbox(const Mailbox&) = delete;
@@ -41,10 +41,12 @@ class Mailbox {
     void post(Reply reply);
     void wake();
 
-    /// All that has come, and quiet until more comes.
+    /// Removes and returns all replies, and clears the wake-up signal.
     [[nodiscard]] std::vector<Reply> take();
 
-    [[nodiscard]] int descriptor() const { return descriptor_; }  ///< readable when there is mail
+    [[nodiscard]] int descriptor() const {
+        return descriptor_;
+    }  ///< readable while there are replies
 
   private:
     int descriptor_;
@@ -52,67 +54,68 @@ class Mailbox {
     std::vector<Reply> replies_;
 };
 
-/// What stands behind the reactor; all may be used on any thread.
+/// The state shared by the reactor and the workers. Every member is thread-safe.
 struct SharedState {
     const Handlers& handlers;
     HttpHeadCodec& codec;
     Workers& workers;
     Mailbox& mailbox;
     std::atomic<bool> draining{false};
-    std::atomic<std::uint64_t> epoch{
-        0};  ///< raised when answers of before are not to be given again
+    std::atomic<std::uint64_t> epoch{0};  ///< incremented when earlier responses must not be reused
 
-    /// handlers.refuse, or a bare status when it throws.
+    /// Calls handlers.refuse; returns a response without headers and body if it throws.
     [[nodiscard]] api::Response refusal(const api::Request& request, int status,
                                         std::string_view detail) const;
 
-    /// handlers.judge_head, or none when it throws.
+    /// Calls handlers.judge_head; returns nothing if it throws.
     [[nodiscard]] std::optional<api::Response> judge_head(const api::Request& request) const;
 
-    /// handlers.label, or nothing when it throws.
+    /// Calls handlers.label; returns an empty text if it throws.
     [[nodiscard]] std::string label(std::string_view method, std::string_view target) const;
 };
 
+/// A pending request of one connection.
 class WorkerRequest final : public PendingRequest,
                             public std::enable_shared_from_this<WorkerRequest> {
   public:
-    /// from     gets exactly one reply, unless drop() comes first
-    /// client   who asks
-    /// closing  whether the connection ends after this
-    WorkerRequest(SharedState& back, Connection& from, api::Request request, const Address& client,
-                  bool closing)
-        : shared_(back),
+    /// from     receives exactly one reply, unless drop() is called first
+    /// client   address of the client
+    /// closing  true: the connection is closed after this response
+    WorkerRequest(SharedState& shared, Connection& from, api::Request request,
+                  const Address& client, bool closing)
+        : shared_(shared),
           from_(&from),
           request_(std::move(request)),
           client_(client),
           closing_(closing) {}
     ~WorkerRequest() override;
 
-    void start();        ///< on a worker
-    void end(CancelReason why);  ///< the client has left, or has waited long enough
-    void drop();         ///< there will be no reply
+    void start();                      ///< called on a worker
+    void cancel(CancelReason reason);  ///< called by the reactor
+    void drop();                       ///< discards the reply
 
     [[nodiscard]] const api::Request& request() const override { return request_; }
     [[nodiscard]] const Address& client() const override { return client_; }
     [[nodiscard]] bool is_gone() const override { return is_gone_; }
     void reply(api::Response response) override;
-    void resume(std::function<void()> go_on) override;
-    void wait(std::function<void(CancelReason)> over) override;
+    void resume(std::function<void()> task) override;
+    void wait(std::function<void(CancelReason)> on_cancel) override;
 
   private:
-    [[nodiscard]] bool claim();  ///< whether nobody has answered before
+    [[nodiscard]] bool claim();  ///< returns true for the first response
 
     SharedState& shared_;
     Connection* from_;
     api::Request request_;
     Address client_;
     bool closing_;
-    std::uint64_t epoch_ = 0;  ///< when it began
+    std::uint64_t epoch_ = 0;  ///< of its start
     std::string label_;
     std::atomic<bool> is_gone_{false}, responded_{false};
     std::mutex mutex_;
-    std::optional<CancelReason> over_;
-    std::function<void(CancelReason)> notify_;  ///< may hold this exchange: let go when it is answered
+    std::optional<CancelReason> cancelled_;
+    std::function<void(CancelReason)>
+        on_cancel_;  ///< may own this request, so it is released with the response
 };
 
 }  // namespace sporeprint::server

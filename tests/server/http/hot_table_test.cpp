@@ -48,7 +48,7 @@ TEST(HotResponse, LacksWhatChangesWithEachRequest) {
               "ETag: \"t\"\r\n");
     EXPECT_EQ(hot->keep_alive, "Keep-Alive: timeout=1\r\n");
     EXPECT_EQ(hot->etag, "\"t\"");
-    EXPECT_TRUE(hot->tells_id);
+    EXPECT_TRUE(hot->has_request_id);
     EXPECT_EQ(hot->size, 10u);
     const auto large = hot_response("/a", sending_of(1 << 20), "/a");
     ASSERT_TRUE(large);
@@ -172,7 +172,7 @@ TEST(HotTable, HasOneAnswerForEachEncodingWhereTheyDiffer) {
         }
         ASSERT_TRUE(table.find(target, "br, gzip"));
         EXPECT_EQ(*table.find(target, "br, gzip"), gzip);
-        EXPECT_FALSE(table.occupied(target));
+        EXPECT_FALSE(table.is_pinned(target));
     }
     EXPECT_EQ(table.stats().entries, 5u);
     const auto again = gzip_of("/a", 20);
