@@ -33,7 +33,7 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
 
 bool shows_roots(const ColonySpec& spec, const Atlas& atlas) {
     try {
-        return colony_nature(spec, atlas).roots == RootsShown::shown;
+        return colony_traits(spec, atlas).roots == RootsShown::shown;
     } catch (const InvalidInput&) {
         return false;  // what is wrong is told when the order is weighed
     }
@@ -69,8 +69,8 @@ Body grown(const Context& context, const ColonySpec& spec, const std::string& ad
             surface_spec(paint_mushroom_spec(spec), atlas, job_context.execution().caches);
         SurfaceAddress image = surface_address(surface);
         image.texture_size = {spec.params.texture_size >> spec.params.lod};
-        for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-            extras.image_addresses[i] = reference_from(
+        for (std::size_t i = 0; i < extras.image_urls.size(); ++i)
+            extras.image_urls[i] = reference_from(
                 depth,
                 with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
                              version_token(surface.mix, atlas)));

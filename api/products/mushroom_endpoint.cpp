@@ -84,8 +84,8 @@ Body grown(const Context& context, const MushroomSpec& spec, const std::string& 
         const Caches& caches = job_context.execution().caches;
         const MushroomSpec surface = surface_spec(spec, atlas, caches);
         const SurfaceAddress image = surface_address(surface);
-        for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-            extras.image_addresses[i] = reference_from(
+        for (std::size_t i = 0; i < extras.image_urls.size(); ++i)
+            extras.image_urls[i] = reference_from(
                 depth,
                 with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), image),
                              version_token(surface.mix, atlas)));

@@ -57,8 +57,8 @@ Plan plan_preset(Context& context, const Request& request, PresetRequest<Kind> r
         Extras extras;
         extras.canonical = address;
         if (spec->params.textures == Textures::linked)
-            for (std::size_t i = 0; i < extras.image_addresses.size(); ++i)
-                extras.image_addresses[i] = reference_from(
+            for (std::size_t i = 0; i < extras.image_urls.size(); ++i)
+                extras.image_urls[i] = reference_from(
                     depth, with_version(
                                canonical_image_address<Kind>(
                                    spec->preset, static_cast<ImageKind>(i), paint_of(spec->params)),

@@ -9,7 +9,7 @@ namespace {
 struct Recipe {
     static Grown grow(const TreeSpec& spec, const Extras& extras, int depth,
                       const ExecutionContext& execution) {
-        ImageAddresses of_leaves;
+        ImageUrls of_leaves;
         if (spec.params.textures == Textures::linked) {
             const LeafParams leaf = leaf_of(spec.params);
             const std::string kind = name(spec.params.look.leaf);

@@ -13,7 +13,7 @@ namespace sporeprint {
 
 namespace {
 
-/// A straight stem of one radius that widens towards the junction.
+/// Returns a straight stem of constant radius that widens towards the junction.
 SubCurve straight_stem(double radius, double base, const OutlineSample& top, double flare) {
     const double from = std::min(base, top.y - 2.0 * flare);
     std::vector<OutlineNode> nodes(3);
@@ -25,8 +25,9 @@ SubCurve straight_stem(double radius, double base, const OutlineSample& top, dou
     return SubCurve(nodes, {0.0, 1.0});
 }
 
-/// Rings from the axis over a disc inside the stem up to the junction. Below they are a little narrower than the stem, then a little
-/// wider, so that they leave its skin once and for all.
+/// Returns rings from the axis, over a disc inside the stem, up to the junction. At the lower end
+/// they are slightly narrower than the stem and then slightly wider, so that they cross its skin
+/// exactly once.
 std::vector<OutlineSample> neck_rings(const SubCurve& stem, const OutlineSample& top, double depth,
                                       int lod) {
     struct Ring {
@@ -44,7 +45,7 @@ std::vector<OutlineSample> neck_rings(const SubCurve& stem, const OutlineSample&
         sample.r *= ring.width;
         samples.push_back(sample);
     }
-    // Nothing dents the beginning of a stem, so that the pole stays one point.
+    // The start of a stem has no dents, so that the pole remains one point.
     OutlineSample pole = samples.front();
     pole.share = 0.0;
     pole.r = 0.0;
@@ -77,7 +78,7 @@ Mesh cap_mesh(Individual individual, const CapCut& cut) {
     outline.stem = straight_stem(radius, individual.stem_base, top, depth);
     individual.stem_base = outline.stem.at(0.0).y;
 
-    // Stems of a colony have a curve of their own, and the ground is not here.
+    // Stems of a colony have their own curve, and there is no ground here.
     individual.axis = AxisCurve();
     DeformationOf<Plain>& deformation = individual.model.deformation;
     deformation.bend_deg = deformation.twist_deg = deformation.lean_deg = deformation.taper = 0.0;

@@ -1,4 +1,4 @@
-// The cap of a mushroom without its stem, to be set on a stem of a colony.
+// The cap of a mushroom without its stem, to be placed on a stem of a colony.
 #pragma once
 
 #include "core/individual/individual.h"
@@ -6,32 +6,35 @@
 
 namespace sporeprint {
 
-/// Lengths of an individual that a colony needs to set it on its stem, metres.
+/// Lengths of an individual that a colony needs to place it on a stem, metres.
 struct StemFit {
-    double radius = 0.0;      ///< where stem and hymenium (or, of clubs, stem and cap) meet
-    double height = 0.0;      ///< of that junction over the ground
-    double length = 0.0;      ///< of the stem's meridian: what its image is painted for
-    double cap_radius = 0.0;  ///< largest
+    double radius = 0.0;      ///< at the junction of stem and hymenium (clubs: of stem and cap)
+    double height = 0.0;      ///< of that junction above the ground
+    double length = 0.0;      ///< of the stem's meridian, for which its image is painted
+    double cap_radius = 0.0;  ///< largest radius of the cap
 };
 [[nodiscard]] StemFit stem_fit(const Individual& individual);
 
-/// How a cap is cut off.
+/// Parameters of cutting off a cap.
 struct CapCut {
     int lod = 1;  ///< of the mushroom, up to farthest_lod
-    /// The stem that will bear it is this many times thinner than its own: between them stands a neck. At least 1.
+    /// The ratio of the mushroom's own stem radius to that of the stem that carries the cap, at
+    /// least 1; a neck connects the two.
     double neck = 1.0;
     bool textured = true;
 };
 
-/// Length of the neck below the junction, in radii of the stem that bears the cap.
+/// Returns the length of the neck below the junction, in radii of the stem that carries the cap.
 [[nodiscard]] double neck_length(double neck);
 
-/// What an individual bears above its stem, ring and blades that run down included, closed by a neck that is hidden in the stem.
-/// It is built on a straight stem, so that whatever stands on the stem fits one that is as thick as this all along.
+/// Returns the part of an individual above its stem, including ring and decurrent blades, closed by
+/// a neck that is hidden in the stem. It is built on a straight stem of constant radius, so that
+/// everything attached to the stem fits any such stem.
 ///
-/// individual  with a stem; its place in a mix, its draws and its seed stay
-/// returns     closed mesh, the middle of the junction at the origin, its axis +y, not scaled. Rings stand no lower than three fifths
-///             of the stem's height: stems of a colony are not all as long
+/// individual  with a stem; mix, random draws and seed are unchanged
+/// returns     a closed mesh with the centre of the junction at the origin and axis +y, not scaled.
+///             Rings are placed no lower than three fifths of the stem's height, because stems of a
+///             colony differ in length
 /// throws      as swept_mesh()
 [[nodiscard]] Mesh cap_mesh(Individual individual, const CapCut& cut);
 

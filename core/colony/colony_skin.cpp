@@ -16,30 +16,33 @@ namespace sporeprint {
 
 namespace {
 
-/// Where the skin of a stem ends below its junction, in radii: its round end reaches half a radius further.
+/// Distance of the end of a stem's skin below its junction, in radii; its round end reaches half a
+/// radius further.
 constexpr double short_of_cap = 0.8;
-/// How deep a stem that stands on no root begins in the ground, in radii.
+/// Depth in the ground at which a stem without root starts, in radii.
 constexpr double below_ground = 1.6;
-/// Segments of a stem are no shorter than this, in radii: cleaning would cut it there; on a root the fork takes up some more.
+/// Least length of a stem's segment, in radii: cleaning would detach shorter ones; on a root the
+/// fork takes up additional length.
 constexpr double least_segment = 2.7, least_on_root = 3.6;
-/// Nodes whose twice subdivided skin has some 60,000 triangles.
+/// Number of nodes whose twice subdivided skin has about 60,000 triangles.
 constexpr std::size_t most_near_nodes = 210;
-/// A strip that rises by more than this many of its radii is no root.
+/// A strip that rises by more than this many of its radii is a stem.
 constexpr double risen = 3.2;
 
-/// Of the nodes along a root between two forks or stems every so-manieth is left, by level of detail.
+/// Along a root between two forks or stems every n-th node remains, by level of detail.
 constexpr std::array<std::uint32_t, 4> root_strides = {1, 1, 2, 4};
 
-/// Where each distance along a strip lies on the image, in images: to and fro. Turns fall on the rings that lie next to them.
-class ToAndFro {
+/// Texture coordinates along a strip, in images, with mirrored repeat. Mirror positions are the
+/// rings next to the ends of images.
+class MirroredRepeat {
   public:
-    /// rings  distances, rising; length > 0
-    ToAndFro(const std::vector<double>& rings, double length) {
+    /// rings  ascending distances; length > 0
+    MirroredRepeat(const std::vector<double>& rings, double length) {
         double turned_at = 0.0;
         int turns = 0;
         for (std::size_t i = 0; i < rings.size(); ++i) {
             const double images = (rings[i] - turned_at) / length;
-            // The nearer of two rings about the end of an image.
+            // The nearer of two rings at the end of an image.
             const bool ends =
                 i + 1 < rings.size() && i > 0 && images > 0.25 &&
                 std::abs(images - 1.0) <= std::abs((rings[i + 1] - turned_at) / length - 1.0);
@@ -90,7 +93,7 @@ void dress(SkinnedSkeleton& made, double painted_length) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
             low = std::min(low, y);
             high = std::max(high, y);
-            // The end that has more of its height at its half.
+            // Mean heights, weighted by nearness to either end: a stem starts at the lower one.
             begins += y * (length - along);
             ends += y * along;
             rings.push_back(along);
@@ -107,7 +110,7 @@ void dress(SkinnedSkeleton& made, double painted_length) {
             sum_ends += along;
         }
         const bool upwards = begins * sum_ends <= ends * sum_begins;
-        const ToAndFro root(rings, painted_length);
+        const MirroredRepeat root(rings, painted_length);
         for (std::size_t i = first; i < last; ++i) {
             const double along = std::min(std::max(made.places[i].y, 0.0), length);
             const double share =
@@ -120,11 +123,12 @@ void dress(SkinnedSkeleton& made, double painted_length) {
     add_tangents(mesh);
 }
 
-/// Roots with fewer nodes: their ends, their forks, what bears a stem, and every `stride`-th of the others.
+/// Returns roots with fewer nodes: their ends, forks, nodes that carry a stem, and every
+/// `stride`-th of the others.
 ///
-/// ground   segments lead away from the base; each comes after the one that bears it
-/// bears    by node
-/// node_of  of each node that is left, where it lies now
+/// ground   segments lead away from the base; parents precede their children
+/// bears    by node: carries a stem
+/// node_of  set to the new index of each remaining node
 Skeleton thinned_roots(const Skeleton& ground, const std::vector<bool>& bears, std::uint32_t stride,
                        std::vector<std::uint32_t>& node_of) {
     const std::size_t count = ground.nodes.size();
@@ -163,31 +167,32 @@ Skeleton thinned_roots(const Skeleton& ground, const std::vector<bool>& bears, s
 }  // namespace
 
 double root_share(int lod) {
-    // Forks and stems stay.
+    // Forks and stems always remain.
     constexpr std::array<double, 4> shares = {1.0, 1.0, 0.75, 0.6};
     return shares[static_cast<std::size_t>(lod)];
 }
 
 Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>& members,
-                         const ColonyParams& params, const ColonyNature& nature, int segments) {
+                         const ColonyParams& params, const ColonyTraits& traits, int segments) {
     Skeleton skeleton;
-    const bool on_roots = nature.habit == Habit::rooted && nature.roots == RootsShown::shown;
+    const bool on_roots = traits.habit == Habit::rooted && traits.roots == RootsShown::shown;
     std::vector<std::uint32_t> node_of;
     if (on_roots) {
         std::vector<bool> bears(site.ground.nodes.size(), false);
-        if (nature.capped)
+        if (traits.capped)
             for (const ColonyMember& member : members)
                 bears[site.places[member.place].number] = true;
         skeleton = thinned_roots(site.ground, bears,
                                  root_strides[static_cast<std::size_t>(params.lod)], node_of);
     }
-    if (!nature.capped) return skeleton;
+    if (!traits.capped) return skeleton;
     for (const ColonyMember& member : members) {
         const ColonyPlace& place = site.places[member.place];
         const auto at = [&](double t) {
             return place.foot + t * member.rise + t * t * member.swing;
         };
-        // A neck widens to its cap; a cap that is too small for its stem takes the end of it.
+        // A neck widens to its cap; a cap that is too small for its stem determines the radius of
+        // the stem's end.
         const double top = place.radius * std::min(params.cap_scale, 1.0);
         const double height = glm::length(at(1.0) - place.foot);
         std::uint32_t below = 0;
@@ -200,8 +205,9 @@ Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>
                 {place.foot - below_ground * place.radius * way, place.radius});
         }
         const double least = on_roots ? least_on_root : least_segment;
-        const int room = static_cast<int>((height - short_of_cap * top) / (least * place.radius));
-        const int count = std::max(1, std::min(segments, room));
+        const int fitting =
+            static_cast<int>((height - short_of_cap * top) / (least * place.radius));
+        const int count = std::max(1, std::min(segments, fitting));
         const double end = 1.0 - short_of_cap * top / glm::length(member.rise + 2.0 * member.swing);
         for (int i = 1; i <= count; ++i) {
             const auto above = static_cast<std::uint32_t>(skeleton.nodes.size());
@@ -217,11 +223,11 @@ int skin_levels(std::size_t nodes, int lod) {
     return std::max((nodes <= most_near_nodes ? 2 : 1) - lod, 0);
 }
 
-Mesh colony_skin(const Skeleton& segments, const SkinDress& wanted) {
+Mesh colony_skin(const Skeleton& segments, const SkinOptions& wanted) {
     if (segments.nodes.empty()) return {};
     SkinnedSkeleton made =
         skinned(cleaned(segments).skeleton, skin_levels(segments.nodes.size(), wanted.lod),
-                wanted.textured ? SkinPlaces::told : SkinPlaces::left_out);
+                wanted.textured ? SkinPlaces::included : SkinPlaces::omitted);
     if (wanted.textured) dress(made, wanted.painted_length);
     order_for_vertex_cache(made.mesh);
     return std::move(made.mesh);

@@ -12,7 +12,7 @@ namespace sporeprint {
 
 namespace {
 
-/// Forms with a stem that can be told from what it bears.
+/// Returns true for growth forms whose stem can be separated from the rest.
 bool has_cap_on_stem(GrowthForm form) {
     switch (form) {
         case GrowthForm::agaric:
@@ -40,7 +40,7 @@ bool is_lateral(GrowthForm form) {
     return form == GrowthForm::bracket || form == GrowthForm::shelving_agaric;
 }
 
-/// Controls that only roots have, and those that only stems have.
+/// Reports controls of roots and of stems.
 template <class Report>
 void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, const Report& say) {
     static constexpr std::array<std::string_view, 4> of_stems = {"stem_height", "stem_displacement",
@@ -59,7 +59,7 @@ void report_given(const ColonyRootsOf<Maybe>& growth, bool roots, bool stems, co
 }  // namespace
 
 Habit habit_of(const Facts& facts) {
-    // The words of field guides; what is recorded first is the rule.
+    // Terms of field guides; the first one recorded is the typical habit.
     struct Word {
         std::string_view text;
         Habit habit;
@@ -89,12 +89,12 @@ Habit habit_of(const Facts& facts) {
     return is_lateral(facts.form) ? Habit::tier : found;
 }
 
-ColonyNature colony_nature(const ColonySpec& spec, const Atlas& atlas) {
+ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas) {
     const ColonyParams& params = spec.params;
     std::vector<Problem> problems;
     check(params, Info{.name = ""}, "", problems);
     const MixPart* most = nullptr;
-    ColonyNature nature;
+    ColonyTraits traits;
     for (const MixPart& part : spec.mix) {
         const AtlasEntry* entry = atlas.find(part.id);
         if (!entry) {
@@ -102,35 +102,35 @@ ColonyNature colony_nature(const ColonySpec& spec, const Atlas& atlas) {
             continue;
         }
         const Facts& facts = entry->species.facts;
-        nature.lateral = nature.lateral || is_lateral(facts.form);
-        nature.capped = nature.capped && has_cap_on_stem(facts.form);
+        traits.lateral = traits.lateral || is_lateral(facts.form);
+        traits.capped = traits.capped && has_cap_on_stem(facts.form);
         if (!most || part.weight > most->weight ||
             (part.weight == most->weight && part.id < most->id)) {
             most = &part;
-            nature.habit = habit_of(facts);
+            traits.habit = habit_of(facts);
         }
     }
     if (spec.mix.empty()) report(problems, "mix", "names no species");
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 
-    if (nature.lateral) nature.habit = Habit::tier;
-    if (params.habit && nature.lateral && *params.habit != Habit::tier)
+    if (traits.lateral) traits.habit = Habit::tier;
+    if (params.habit && traits.lateral && *params.habit != Habit::tier)
         report(problems, "/habit", "what grows from a wall stands in tiers");
-    nature.habit = params.habit.value_or(nature.habit);
-    nature.roots = params.roots.value_or(nature.habit == Habit::rooted ? RootsShown::shown
+    traits.habit = params.habit.value_or(traits.habit);
+    traits.roots = params.roots.value_or(traits.habit == Habit::rooted ? RootsShown::shown
                                                                        : RootsShown::buried);
-    if (nature.roots == RootsShown::shown && nature.habit != Habit::rooted)
+    if (traits.roots == RootsShown::shown && traits.habit != Habit::rooted)
         report(problems, "/roots", "only habit=rooted has roots to show");
-    if (params.trunk_radius && nature.habit != Habit::tier)
+    if (params.trunk_radius && traits.habit != Habit::tier)
         report(problems, "/trunk_radius", "only habit=tier has a trunk");
-    report_given(params.growth, nature.habit == Habit::rooted, nature.capped,
+    report_given(params.growth, traits.habit == Habit::rooted, traits.capped,
                  [&](std::string_view name, const char* why) {
                      report(problems, '/' + std::string(name), why);
                  });
-    if (!nature.capped && params.cap_scale != ColonyParams{}.cap_scale)
+    if (!traits.capped && params.cap_scale != ColonyParams{}.cap_scale)
         report(problems, "/cap_scale", "these species stand whole: no cap is set on a stem");
     if (!problems.empty()) throw Impossible(std::move(problems));
-    return nature;
+    return traits;
 }
 
 }  // namespace sporeprint

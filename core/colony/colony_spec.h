@@ -1,4 +1,4 @@
-// What a person may ask of a colony: a mix of species, a habit, and every control of the source.
+// The request for a colony: a mix of species, a habit, and every control of the source.
 #pragma once
 
 #include <cstdint>
@@ -10,8 +10,9 @@
 
 namespace sporeprint {
 
-/// How the individuals of a colony stand. rooted: on a root system, as in the source. tuft: fused at the base. troop: scattered,
-/// none nearer than it must. ring: a fairy ring. tier: on a trunk, one above the other.
+/// The arrangement of the individuals of a colony. rooted: on a root system, as in the source.
+/// tuft: fused at the base. troop: scattered with a minimum distance. ring: a fairy ring. tier: on
+/// a trunk, one above the other.
 enum class Habit { rooted, tuft, troop, ring, tier };
 
 constexpr const char* name(Habit habit) {
@@ -30,7 +31,7 @@ constexpr const char* name(Habit habit) {
     return nullptr;
 }
 
-/// Whether roots are seen.
+/// States whether roots are visible.
 enum class RootsShown { shown, buried };
 
 constexpr const char* name(RootsShown roots) {
@@ -43,7 +44,8 @@ constexpr const char* name(RootsShown roots) {
     return nullptr;
 }
 
-/// How a file repeats a mesh. nodes: core glTF, one node each. gpu: EXT_mesh_gpu_instancing.
+/// The way a file repeats a mesh. nodes: core glTF, one node for each. gpu:
+/// EXT_mesh_gpu_instancing.
 enum class Instancing { nodes, gpu };
 
 constexpr const char* name(Instancing instancing) {
@@ -56,7 +58,7 @@ constexpr const char* name(Instancing instancing) {
     return nullptr;
 }
 
-/// Query parameters of /v1/colonies. Unset optionals are the species' own.
+/// The query parameters of /v1/colonies. Unset optionals default to values of the species.
 struct ColonyParams {
     std::uint32_t seed = 1;
     int count = 24;
@@ -134,22 +136,23 @@ struct ColonySpec {
     ColonyParams params;
 };
 
-/// The habit that is recorded first among the words of a species' facts; a troop where none is.
+/// Returns the habit that a species' facts mention first; a troop if they mention none.
 [[nodiscard]] Habit habit_of(const Facts& facts);
 
-/// What the species of a mix make of a colony.
-struct ColonyNature {
-    Habit habit = Habit::troop;  ///< asked for, or that of the species with the most weight
-    bool capped = true;          ///< caps on stems of the colony; else whole individuals
-    bool lateral = false;        ///< they grow from a wall
+/// The properties of a colony that follow from the species of its mix.
+struct ColonyTraits {
+    Habit habit = Habit::troop;  ///< requested, or of the species with the largest weight
+    bool capped = true;          ///< caps on stems of the colony; otherwise whole individuals
+    bool lateral = false;        ///< individuals grow from a vertical surface
     RootsShown roots = RootsShown::buried;
-    bool operator==(const ColonyNature&) const = default;
+    bool operator==(const ColonyTraits&) const = default;
 };
 
-/// Refuses what does not go together, before any work.
+/// Checks that the parameters of a request are compatible with its species, before any work.
 ///
-/// throws  InvalidInput for ranges, an empty mix or an unknown species ("mix"); Impossible for a habit that the species cannot
-///         have, for controls of roots without roots, of stems without stems, of a trunk without a trunk
-[[nodiscard]] ColonyNature colony_nature(const ColonySpec& spec, const Atlas& atlas);
+/// throws  InvalidInput for ranges, an empty mix or an unknown species ("mix"); Impossible for a
+///         habit that the species cannot have, and for controls of roots, stems or a trunk that the
+///         colony does not have
+[[nodiscard]] ColonyTraits colony_traits(const ColonySpec& spec, const Atlas& atlas);
 
 }  // namespace sporeprint

@@ -17,8 +17,8 @@ namespace {
 constexpr double golden_angle = 2.39996322972865332;
 const glm::dvec3 vertical(0.0, 1.0, 0.0);
 
-/// Of a tuft: how far apart caps stand, in cap radii, and feet, in stem radii, times the root of their number; how far stems lean, in
-/// their heights.
+/// Tufts: distance of caps, in cap radii, and of stem bases, in stem radii, each per square root of
+/// their number; lean of stems, in their heights.
 constexpr double tuft_top = 0.92, tuft_foot = 1.05, tuft_lean = 0.9;
 
 glm::dvec3 horizontal(double angle) {
@@ -26,19 +26,20 @@ glm::dvec3 horizontal(double angle) {
     return {at.cosine, 0.0, at.sine};
 }
 
-/// What the habits without roots have in common.
+/// The habits without roots.
 class Layout {
   public:
-    Layout(const ColonyParams& params, const ColonyNature& nature, const ColonyRoots& growth,
+    Layout(const ColonyParams& params, const ColonyTraits& traits, const ColonyRoots& growth,
            const StemFit& fit)
         : params_(params),
-          nature_(nature),
+          traits_(traits),
           growth_(growth),
           cap_(fit.cap_radius * params.cap_scale *
-               (nature.capped ? growth.root_radius / fit.radius : 1.0)),
+               (traits.capped ? growth.root_radius / fit.radius : 1.0)),
           whole_height_(fit.height) {}
 
-    /// Its smaller stem for one that stands `share` of the way to the youngest.
+    /// Returns a place with the smaller stem of an individual at `share` of the way to the
+    /// youngest.
     ColonyPlace place(const glm::dvec3& foot, double share, const glm::dvec3& outwards,
                       Random& random) const {
         const double thick = random.symmetric(), tall = random.symmetric();
@@ -47,7 +48,7 @@ class Layout {
         place.share = share;
         place.outwards = outwards;
         place.radius = growth_.root_radius * (1.0 - 0.25 * share) * (1.0 + 0.1 * thick);
-        if (nature_.capped) {
+        if (traits_.capped) {
             place.rise = growth_.stem_height * (1.0 - 0.2 * share) * (1.0 + 0.12 * tall) * vertical;
             place.swing = growth_.stem_displacement * outwards;
         }
@@ -58,14 +59,15 @@ class Layout {
         ColonySite site;
         const double thickness = growth_.root_radius, height = growth_.stem_height;
         const double crowd = std::sqrt(static_cast<double>(params_.count));
-        // Where many stand on one base all stay smaller, as far as half, or their stems could not reach out far enough.
+        // With many on one base all are smaller, down to half, because their stems could not reach
+        // out far enough.
         double small = 1.0;
-        if (nature_.capped && tuft_top * cap_ > tuft_foot * thickness)
+        if (traits_.capped && tuft_top * cap_ > tuft_foot * thickness)
             small = std::min(
                 1.0, std::max(0.5, tuft_lean * height /
                                        (crowd * (tuft_top * cap_ - tuft_foot * thickness))));
-        const double spread = (nature_.capped ? tuft_top : 1.08) * cap_ * small;
-        const double foot_spread = nature_.capped ? tuft_foot * thickness * small : spread;
+        const double spread = (traits_.capped ? tuft_top : 1.08) * cap_ * small;
+        const double foot_spread = traits_.capped ? tuft_foot * thickness * small : spread;
         Random random(params_.seed, purposes::colony_places);
         const double first = random.uniform(0.0, 2.0 * pi);
         for (int i = 0; i < params_.count; ++i) {
@@ -76,11 +78,11 @@ class Layout {
             ColonyPlace one = place({}, ring / crowd, outwards, random);
             one.radius *= small;
             double foot = foot_spread * ring;
-            if (nature_.capped) {
+            if (traits_.capped) {
                 const double tall = one.rise.y;
                 const double lean = std::min(std::max(top - foot, 0.0), tuft_lean * tall);
                 foot = std::max(foot, top - lean);
-                // Stems of a tuft leave its base at a slant and turn up.
+                // Stems of a tuft start at a slant and turn upwards.
                 one.rise = 1.6 * lean * outwards + 0.85 * tall * vertical;
                 one.swing += -0.6 * lean * outwards + 0.15 * tall * vertical;
             }
@@ -96,7 +98,7 @@ class Layout {
         const double reach = 0.62 * apart * std::sqrt(static_cast<double>(params_.count));
         for (int i = 0; i < params_.count; ++i) {
             Random random(params_.seed, purposes::colony_places, static_cast<std::uint32_t>(i));
-            // Of a few places the one farthest from all others.
+            // The candidate farthest from all others is chosen.
             glm::dvec3 best(0.0);
             double farthest = -1.0;
             for (int look = 0; look < 10; ++look) {
@@ -133,16 +135,16 @@ class Layout {
 
     ColonySite tier(double trunk) const {
         ColonySite site;
-        const double step = std::min((nature_.capped ? 2.1 : 1.9) * cap_ / trunk, 0.7 * pi);
+        const double step = std::min((traits_.capped ? 2.1 : 1.9) * cap_ / trunk, 0.7 * pi);
         const int in_row = std::max(1, static_cast<int>(0.9 * pi / step));
         const double level =
-            nature_.lateral ? std::max(0.75 * whole_height_, 0.55 * cap_) : 1.9 * cap_;
+            traits_.lateral ? std::max(0.75 * whole_height_, 0.55 * cap_) : 1.9 * cap_;
         for (int i = 0; i < params_.count; ++i) {
             Random random(params_.seed, purposes::colony_places, static_cast<std::uint32_t>(i));
             const double aside = random.symmetric(), up = random.symmetric();
             const double share = random.uniform();
             const int row = i / in_row;
-            // Rows stand as bricks do, from the middle of the first outwards.
+            // Rows are offset like bricks, filled from the middle of the first outwards.
             const int column = i % in_row;
             const int side = (column + 1) / 2 * (column % 2 == 1 ? 1 : -1);
             const double angle = step * (side + (row % 2 == 1 ? 0.5 : 0.0) + 0.18 * aside);
@@ -151,12 +153,12 @@ class Layout {
             const glm::dvec3 foot = trunk * (outwards - glm::dvec3(0.0, 0.0, 1.0)) +
                                     level * (row + 0.2 * up) * vertical;
             ColonyPlace one = place(foot, share, outwards, random);
-            if (nature_.capped) {
-                // Out of the bark, then up.
+            if (traits_.capped) {
+                // Outwards from the bark, then upwards.
                 const double height = one.rise.y, out = std::max(0.6 * height, 1.3 * cap_);
                 one.rise = 2.0 * out * outwards;
                 one.swing = -out * outwards + height * vertical;
-            } else if (!nature_.lateral) {
+            } else if (!traits_.lateral) {
                 one.up = glm::normalize(0.9 * outwards + 0.45 * vertical);
             }
             site.places.push_back(one);
@@ -166,12 +168,12 @@ class Layout {
 
   private:
     const ColonyParams& params_;
-    const ColonyNature& nature_;
+    const ColonyTraits& traits_;
     const ColonyRoots& growth_;
     double cap_, whole_height_;
 };
 
-ColonySite rooted(const ColonyParams& params, const ColonyNature& nature,
+ColonySite rooted(const ColonyParams& params, const ColonyTraits& traits,
                   const ColonyRoots& growth) {
     const ColonySkeleton grown = colony_skeleton(growth, params.seed);
     ColonySite site;
@@ -180,7 +182,7 @@ ColonySite rooted(const ColonyParams& params, const ColonyNature& nature,
     for (const Skeleton::Segment& segment : grown.skeleton.segments)
         if (segment.from < grown.root_nodes && segment.to < grown.root_nodes)
             site.ground.segments.push_back(segment);
-    // Of too many stems each has the same chance to stay.
+    // If there are too many stems, each remains with the same probability.
     std::vector<std::pair<std::uint32_t, std::uint32_t>> chances;
     for (const ColonySkeleton::Stem& stem : grown.stems)
         chances.emplace_back(Random(params.seed, purposes::colony_thinning, stem.root).bits(),
@@ -198,7 +200,7 @@ ColonySite rooted(const ColonyParams& params, const ColonyNature& nature,
         place.share = static_cast<double>(grown.depths[stem.root]) / growth.depth;
         const double far = glm::length(place.foot);
         if (far > 1e-9) place.outwards = place.foot / far;
-        if (nature.capped) {
+        if (traits.capped) {
             place.rise = stem.height * vertical;
             place.swing = growth.stem_displacement * place.outwards;
         }
@@ -211,7 +213,7 @@ ColonySite rooted(const ColonyParams& params, const ColonyNature& nature,
 
 }  // namespace
 
-ColonyRoots colony_growth(const ColonyParams& params, const ColonyNature& nature,
+ColonyRoots colony_growth(const ColonyParams& params, const ColonyTraits& traits,
                           const StemFit& fit) {
     ColonyRoots growth;
     const auto within = [](double value, double least, double most) {
@@ -219,11 +221,11 @@ ColonyRoots colony_growth(const ColonyParams& params, const ColonyNature& nature
     };
     growth.root_radius = params.growth.root_radius.value_or(within(fit.radius, 0.0002, 0.2));
     const double cap =
-        fit.cap_radius * (nature.capped ? params.cap_scale * growth.root_radius / fit.radius : 1.0);
+        fit.cap_radius * (traits.capped ? params.cap_scale * growth.root_radius / fit.radius : 1.0);
     growth.stem_height = within(fit.height, 0.002, 1.0);
     growth.stem_displacement = within(0.18 * fit.height, 0.0, 0.5);
-    if (nature.habit != Habit::rooted) growth.stem_displacement *= 0.5;
-    // About as many caps as there is room for along a root.
+    if (traits.habit != Habit::rooted) growth.stem_displacement *= 0.5;
+    // About as many caps as fit along a root.
     growth.segment_length = within(std::max(0.7 * cap, 4.5 * growth.root_radius), 0.002, 1.0);
     growth.branch_distance = within(4.0 * growth.segment_length, 0.005, 100.0);
     growth.field_scale = within(12.0 * growth.segment_length, 0.02, 10.0);
@@ -236,13 +238,13 @@ double trunk_radius(const ColonyParams& params, const StemFit& fit) {
         std::min(std::max(2.2 * fit.cap_radius * params.cap_scale, 0.03), 5.0));
 }
 
-ColonySite colony_site(const ColonyParams& params, const ColonyNature& nature,
+ColonySite colony_site(const ColonyParams& params, const ColonyTraits& traits,
                        const ColonyRoots& growth, const StemFit& fit) {
-    if (nature.habit == Habit::rooted) return rooted(params, nature, growth);
-    const Layout layout(params, nature, growth, fit);
-    ColonySite site = nature.habit == Habit::tuft   ? layout.tuft()
-                      : nature.habit == Habit::ring ? layout.ring()
-                      : nature.habit == Habit::tier ? layout.tier(trunk_radius(params, fit))
+    if (traits.habit == Habit::rooted) return rooted(params, traits, growth);
+    const Layout layout(params, traits, growth, fit);
+    ColonySite site = traits.habit == Habit::tuft   ? layout.tuft()
+                      : traits.habit == Habit::ring ? layout.ring()
+                      : traits.habit == Habit::tier ? layout.tier(trunk_radius(params, fit))
                                                     : layout.troop();
     for (std::size_t i = 0; i < site.places.size(); ++i)
         site.places[i].number = static_cast<std::uint32_t>(i);

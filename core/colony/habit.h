@@ -1,4 +1,5 @@
-// Where the individuals of a colony stand, and how their stems rise, by habit: before any of them gives way to another.
+// The places of the individuals of a colony and the curves of their stems, by habit, before any of
+// them is moved to avoid intersections.
 #pragma once
 
 #include <cstdint>
@@ -11,47 +12,48 @@
 
 namespace sporeprint {
 
-/// The place of one individual. Its stem is the parabola foot + t rise + t^2 swing, t from 0 to 1; where a colony has no stems of its
-/// own both are zero.
+/// The place of one individual. Its stem is the parabola foot + t rise + t^2 swing, t from 0 to 1;
+/// both vectors are zero if the colony has no stems of its own.
 struct ColonyPlace {
     glm::dvec3 foot{0.0};
     glm::dvec3 rise{0.0}, swing{0.0};
-    glm::dvec3 up{0.0, 1.0, 0.0};  ///< unit: which way it grows; of those from a wall the vertical
-    glm::dvec3 outwards{0.0};      ///< horizontal, unit, or zero in the middle: which way it leans
+    glm::dvec3 up{0.0, 1.0, 0.0};  ///< unit: direction of growth; vertical for lateral ones
+    glm::dvec3 outwards{0.0};      ///< horizontal direction of lean: unit, or zero in the middle
     double radius = 0.0;           ///< of its stem, metres
     double share = 0.0;            ///< 0: oldest, 1: youngest
-    /// What its own draws go by; in habit rooted the node of the ground that bears it.
+    /// The key of its own random stream; in habit rooted the node of the ground that carries it.
     std::uint32_t number = 0;
 
     [[nodiscard]] glm::dvec3 at(double t) const { return foot + t * rise + t * t * swing; }
-    /// Not unit.
+    /// Returns the tangent of the stem at t, not normalised.
     [[nodiscard]] glm::dvec3 along(double t) const { return rise + 2.0 * t * swing; }
 };
 
-/// A colony before its individuals are moved apart. Metres at size 1, +y up; the origin is where it began: the base of the roots, the
-/// middle of a tuft, troop or ring, the surface of the trunk.
+/// A colony before its individuals are moved apart. Metres at size 1, +y up; the origin is the base
+/// of the roots, the middle of a tuft, troop or ring, or the surface of the trunk.
 struct ColonySite {
     Skeleton ground;                  ///< roots; no stems
-    std::vector<ColonyPlace> places;  ///< those that give way come later
+    std::vector<ColonyPlace> places;  ///< in order of placement
 };
 
-/// Every control at its value: what is asked for, else what suits the species.
+/// Returns every control with its value: the requested one, or a default that suits the species.
 ///
 /// fit  of the mature individual
-[[nodiscard]] ColonyRoots colony_growth(const ColonyParams& params, const ColonyNature& nature,
+[[nodiscard]] ColonyRoots colony_growth(const ColonyParams& params, const ColonyTraits& traits,
                                         const StemFit& fit);
 
-/// Radius of the trunk: what is asked for, else what suits the species.
+/// Returns the radius of the trunk: the requested one, or a default that suits the species.
 [[nodiscard]] double trunk_radius(const ColonyParams& params, const StemFit& fit);
 
-/// Stands `count` individuals. In habit rooted, as many as Bernoulli's law gives; of more than `count` each stays with one
-/// probability.
+/// Returns the places of `count` individuals. In habit rooted their number is random (Bernoulli
+/// trials); of more than `count` each remains with the same probability.
 ///
-/// growth  colony_growth()
-/// fit     of the mature individual; its cap radius is that of what is set there
-/// source  [Torres] for habit rooted: places, heights and radii are those of colony_skeleton(). The other habits are ours, from field
-///         guides: tufts spread as a sunflower's seeds, troops keep a distance, stems from a trunk turn up
-[[nodiscard]] ColonySite colony_site(const ColonyParams& params, const ColonyNature& nature,
+/// growth  result of colony_growth()
+/// fit     of the mature individual; its cap radius is that of the mesh placed there
+/// source  [Torres] for habit rooted: places, heights and radii are those of colony_skeleton(). The
+///         other habits are ours, from field guides: tufts are spread like a sunflower's seeds,
+///         troops keep a distance, stems on a trunk turn upwards
+[[nodiscard]] ColonySite colony_site(const ColonyParams& params, const ColonyTraits& traits,
                                      const ColonyRoots& growth, const StemFit& fit);
 
 }  // namespace sporeprint

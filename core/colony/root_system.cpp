@@ -22,14 +22,14 @@ glm::dvec2 turned(const glm::dvec2& v, double angle) {
     return {at.cosine * v.x - at.sine * v.y, at.sine * v.x + at.cosine * v.y};
 }
 
-// Two noises of one place of the field, or the slopes of one.
+// Two noise fields, or the gradient of one.
 class Field {
   public:
     Field(const ColonyRoots& roots, std::uint32_t seed) : roots_(roots) {
         Random random(seed, purposes::root_field);
         first_ = random.bits();
         second_ = random.bits();
-        // Lattice points of the noise have no heading: the base lies anywhere between them.
+        // The noise is zero at lattice points, so the base is placed at a random offset.
         shift_.x = random.uniform(100.0, 200.0);
         shift_.y = random.uniform(100.0, 200.0);
     }
@@ -82,7 +82,7 @@ class Grower {
             const auto index = static_cast<std::uint32_t>(made_.branches.size());
             open(index, angle, 0, turned({0.0, 1.0}, angle));
         }
-        // Breadth first, so that a branch's number does not depend on how far others grow.
+        // Breadth first, so that the index of a branch does not depend on how far others grow.
         while (!waiting_.empty()) {
             const Start start = waiting_.front();
             waiting_.pop_front();
@@ -159,7 +159,7 @@ class Grower {
         branch.length = passed;
     }
 
-    // Length to the next branching: exponential.
+    // Returns the length to the next branching, exponentially distributed.
     double split(Random& random) const {
         return -roots_.branch_distance * logarithm(1.0 - random.uniform());
     }
@@ -207,7 +207,7 @@ class Grower {
 double expected_root_nodes(const ColonyRoots& roots) {
     double tips = roots.arms, nodes = 1.0;
     for (int depth = 0; depth < roots.depth; ++depth) {
-        // Each tip grows by a segment; on it others leave, which grow from the next on.
+        // Each tip grows by one segment; side branches that start on it grow from the next one on.
         const double leaving =
             roots.segment_length * exponential(-roots.decay * depth) / roots.branch_distance;
         nodes += tips * (1.0 + leaving);

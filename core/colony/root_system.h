@@ -11,8 +11,9 @@
 
 namespace sporeprint {
 
-/// What roots take their headings from. noise: two smooth random components; branches gather and part. curl: the same without
-/// sources, branches keep their distance. radial: away from the base, so that 0 deg are rays and 90 deg nearly circles.
+/// The vector field that roots follow. noise: two smooth random components; branches converge and
+/// diverge. curl: divergence-free noise; branches keep their distance. radial: away from the base,
+/// so that 0 deg gives rays and 90 deg nearly circles.
 enum class RootField { noise, curl, radial };
 
 constexpr const char* name(RootField field) {
@@ -27,7 +28,8 @@ constexpr const char* name(RootField field) {
     return nullptr;
 }
 
-/// Every control of the source. `Maybe` is Plain where roots are grown and std::optional in a request.
+/// Every control of the source. `Maybe` is Plain where roots are grown and std::optional in a
+/// request.
 /// source [Torres] "Root and Stems Generation"
 template <template <class> class M>
 struct ColonyRootsOf {
@@ -148,48 +150,53 @@ struct ColonyRootsOf {
 using ColonyRoots = ColonyRootsOf<Plain>;
 static_assert(well_described<ColonyRoots>() && well_described<ColonyRootsOf<Maybe>>());
 
-/// Most root nodes that are grown.
+/// The largest number of root nodes.
 inline constexpr std::size_t most_root_nodes = 20'000;
 
-/// Mean number of root nodes, before any work: a branch of length l bears l / branch_distance others.
+/// Returns the mean number of root nodes, before any work: a branch of length l has l /
+/// branch_distance side branches.
 [[nodiscard]] double expected_root_nodes(const ColonyRoots& roots);
 
-/// Roots, and stems upon them. Metres, +y up, the base at the origin, roots in the plane y = 0.
+/// Roots, and the stems on them. Metres, +y up, the base at the origin, roots in the plane y = 0.
 struct ColonySkeleton {
-    /// A branch: its own nodes, from that which it leaves to its tip.
+    /// A branch: its own nodes, from the one after its start to its tip.
     struct Branch {
-        std::uint32_t parent = 0;  ///< branch; itself for those that leave the base
+        std::uint32_t parent = 0;  ///< parent branch; itself if it starts at the base
         double angle = 0.0;        ///< to the field, radians
         std::vector<std::uint32_t> nodes;
-        std::vector<double> splits;  ///< lengths along it at which others leave
+        std::vector<double> splits;  ///< lengths along it at which side branches start
         double length = 0.0;
     };
     struct Stem {
         std::uint32_t root = 0;            ///< node
-        std::vector<std::uint32_t> nodes;  ///< above it, the top last
+        std::vector<std::uint32_t> nodes;  ///< above the root node, the top last
         double height = 0.0, radius = 0.0;
-        glm::dvec3 along{0.0, 1.0, 0.0};  ///< unit, at the top: the axis of a cap
+        glm::dvec3 along{0.0, 1.0, 0.0};  ///< unit tangent at the top: the axis of the cap
     };
     Skeleton skeleton;
     std::uint32_t root_nodes = 0;  ///< the first nodes of the skeleton
-    std::vector<int> depths;       ///< of root nodes: whole segments from the base
-    std::vector<bool> inserted;    ///< of root nodes: lies within a segment, where others leave
+    std::vector<int> depths;       ///< of root nodes: number of whole segments from the base
+    std::vector<bool> inserted;    ///< of root nodes: a side branch starts within a segment
     std::vector<Branch> branches;
     std::vector<Stem> stems;
 };
 
-/// Grows roots segment by segment and stems upon their nodes; nothing is moved apart.
+/// Grows roots segment by segment and stems on their nodes; nothing is moved apart.
 ///
-/// Segment d has length L e^(-decay d) and follows the field at the branch's own angle; side branches leave after exponential
-/// lengths, at 90 deg and a perturbation to either side, and begin with the next segment's length. Radii are
-/// r e^(-decay area_decay d / 2). A stem stands on each root node with its probability, H e^(-stem_decay d) high, its axis
-/// base + h up + D (h / H)^2 outwards, as thick as its node.
+/// Segment d has length L e^(-decay d) and follows the field at the branch's own angle; side
+/// branches start after exponentially distributed lengths, at 90 deg and a perturbation to either
+/// side, and begin with the next segment's length. Radii are r e^(-area_decay decay d / 2). A stem
+/// stands on each root node with its probability, H e^(-stem_decay d) high, its axis base + h up +
+/// D (h / H)^2 outwards, with the radius of its node.
 ///
-/// throws  InvalidInput with all that check() finds; Impossible (path "/branch_distance") naming the expected number of nodes
-/// source  [Torres]; differs: branches leave where the event falls, not at the next node, so that their distances are exponential
+/// throws  InvalidInput with all that check() reports; Impossible (path "/branch_distance") naming
+///         the expected number of nodes
+/// source  [Torres]; differs: side branches start where the Poisson event falls, not at the next
+///         node, so that their distances are exponentially distributed
 [[nodiscard]] ColonySkeleton colony_skeleton(const ColonyRoots& roots, std::uint32_t seed);
 
-/// Unit heading of the field at a place of the ground (x, z); none (zero) where it has none.
+/// Returns the unit direction of the field at a position on the ground (x, z); zero where it has
+/// none.
 [[nodiscard]] glm::dvec2 field_heading(const ColonyRoots& roots, std::uint32_t seed,
                                        const glm::dvec2& place);
 

@@ -13,16 +13,17 @@ namespace sporeprint {
 
 namespace {
 
-/// Rooms are at least this deep, in their reach: points a cell apart must not pass through a thin cap.
+/// Least depth of an occupied space, relative to its reach: points a cell apart must not pass
+/// through a thin cap.
 constexpr double least_depth = 0.1;
-/// How far tops lean, in heights of their stem, and how much higher or lower they grow.
+/// Adjustments: lean of tops, in heights of their stem, and factors on the height.
 constexpr std::array<double, 3> leans = {0.12, 0.24, 0.36};
 constexpr std::array<double, 4> heights = {1.0, 0.85, 1.15, 0.7};
 constexpr std::size_t most_younger = 3;
-/// What stands whole and leans turns about its foot, radians to a lean of one.
+/// Whole individuals rotate about their base: radians per unit of lean.
 constexpr double whole_tilt = 0.7;
-/// Places of a stem that must be clear of caps: the base may be fused.
-constexpr int stem_looks = 6;
+/// Number of points of a stem that must be clear of caps; its base may be fused with others.
+constexpr int stem_samples = 6;
 
 }  // namespace
 
@@ -30,7 +31,7 @@ OccupancyGrid::OccupancyGrid(const Mesh& mesh) {
     const Bounds box = bounds(mesh);
     const double side = std::max({static_cast<double>(box.max.x - box.min.x),
                                   static_cast<double>(box.max.z - box.min.z), 1e-6});
-    // A little more, so that the border lies inside the grid.
+    // Slightly larger, so that the boundary lies inside the grid.
     cell_ = side * 1.001 / cells;
     middle_ = 0.5 * (glm::dvec3(box.min) + glm::dvec3(box.max));
     corner_ = {middle_.x - 0.5 * cells * cell_, middle_.z - 0.5 * cells * cell_};
@@ -80,14 +81,14 @@ OccupancyGrid::OccupancyGrid(const Mesh& mesh) {
         reach_ = std::max(reach_, glm::length(point - middle_) + 0.75 * cell_);
 }
 
-bool OccupancyGrid::holds(const glm::dvec3& point) const {
+bool OccupancyGrid::contains(const glm::dvec3& point) const {
     const double x = (point.x - corner_.x) / cell_, z = (point.z - corner_.y) / cell_;
     if (!(x >= 0.0 && z >= 0.0 && x < cells && z < cells)) return false;
     const Span& span = at(static_cast<int>(x), static_cast<int>(z));
     return point.y >= static_cast<double>(span.low) && point.y <= static_cast<double>(span.high);
 }
 
-bool OccupancyGrid::holds(const glm::dvec3& point, double margin) const {
+bool OccupancyGrid::contains(const glm::dvec3& point, double margin) const {
     const auto column = [&](double x) { return static_cast<int>(std::floor(x / cell_)); };
     const double x = point.x - corner_.x, z = point.z - corner_.y;
     const double whole = cells * cell_;
@@ -115,141 +116,144 @@ glm::dmat3 upright(const glm::dvec3& up, double turn) {
     return {x, up, glm::cross(x, up)};
 }
 
-bool meet(const OccupancyGrid& a, const Posture& posture_a, const OccupancyGrid& b,
-          const Posture& posture_b) {
-    const double apart = glm::length(posture_a.world(a.middle()) - posture_b.world(b.middle()));
-    if (apart > posture_a.scale * a.reach() + posture_b.scale * b.reach()) return false;
-    const auto enters = [](const OccupancyGrid& from, const Posture& pose,
-                           const OccupancyGrid& into, const Posture& other) {
-        // Both frames at once.
+bool overlap(const OccupancyGrid& a, const Pose& pose_a, const OccupancyGrid& b,
+             const Pose& pose_b) {
+    const double apart = glm::length(pose_a.world(a.middle()) - pose_b.world(b.middle()));
+    if (apart > pose_a.scale * a.reach() + pose_b.scale * b.reach()) return false;
+    const auto enters = [](const OccupancyGrid& from, const Pose& pose, const OccupancyGrid& into,
+                           const Pose& other) {
+        // The transform from one frame to the other.
         const glm::dmat3 turn = glm::transpose(other.turn) * pose.turn * (pose.scale / other.scale);
         const glm::dvec3 at = other.own(pose.at);
-        return std::any_of(from.border().begin(), from.border().end(),
-                           [&](const glm::dvec3& point) { return into.holds(at + turn * point); });
+        return std::any_of(
+            from.border().begin(), from.border().end(),
+            [&](const glm::dvec3& point) { return into.contains(at + turn * point); });
     };
-    return enters(a, posture_a, b, posture_b) || enters(b, posture_b, a, posture_a);
+    return enters(a, pose_a, b, pose_b) || enters(b, pose_b, a, pose_a);
 }
 
 namespace {
 
-class Settler {
+class Placer {
   public:
-    Settler(const ColonySite& site, const std::vector<ColonyModel>& models,
-            const ColonyParams& params, const ColonyNature& nature)
-        : site_(site), models_(models), params_(params), nature_(nature) {}
+    Placer(const ColonySite& site, const std::vector<ColonyModel>& models,
+           const ColonyParams& params, const ColonyTraits& traits)
+        : site_(site), models_(models), params_(params), traits_(traits) {}
 
     std::vector<ColonyMember> all() {
         for (std::size_t i = 0; i < site_.places.size(); ++i) {
             Random random(params_.seed, purposes::colony_postures, site_.places[i].number);
             const double turn = random.uniform(0.0, 2.0 * pi), jitter = random.symmetric();
-            settle(i, turn, jitter);
+            place_member(i, turn, jitter);
         }
-        return std::move(settled_);
+        return std::move(placed_);
     }
 
   private:
-    /// How one gives way.
-    struct Way {
+    /// A change of an individual that avoids an intersection.
+    struct Adjustment {
         glm::dvec3 lean{0.0};  ///< of the top, in heights
         std::size_t younger = 0;
         double height = 1.0;
     };
 
-    ColonyMember stood(std::size_t index, double turn, std::size_t oldest, const Way& way) const {
+    ColonyMember posed(std::size_t index, double turn, std::size_t oldest,
+                       const Adjustment& adjustment) const {
         const ColonyPlace& place = site_.places[index];
         ColonyMember member;
         member.place = index;
-        member.model = std::min(oldest + way.younger, models_.size() - 1);
+        member.model = std::min(oldest + adjustment.younger, models_.size() - 1);
         const double radius = models_[member.model].radius;
-        if (nature_.capped) {
-            member.rise = way.height * place.rise;
-            member.swing = way.height * place.swing;
+        if (traits_.capped) {
+            member.rise = adjustment.height * place.rise;
+            member.swing = adjustment.height * place.swing;
             const double height = std::max(member.rise.y + member.swing.y, 1e-6);
-            member.swing += height * way.lean;
-            member.posture.at = place.foot + member.rise + member.swing;
-            member.posture.turn = upright(glm::normalize(member.rise + 2.0 * member.swing), turn);
-            member.posture.scale = params_.cap_scale * place.radius / radius;
+            member.swing += height * adjustment.lean;
+            member.pose.at = place.foot + member.rise + member.swing;
+            member.pose.turn = upright(glm::normalize(member.rise + 2.0 * member.swing), turn);
+            member.pose.scale = params_.cap_scale * place.radius / radius;
             return member;
         }
-        member.posture.scale = place.radius / radius;
-        member.posture.at = place.foot;
-        if (nature_.lateral) {
-            // Its front away from the trunk; it may stand a little higher or lower.
+        member.pose.scale = place.radius / radius;
+        member.pose.at = place.foot;
+        if (traits_.lateral) {
+            // Its front points away from the trunk; its height may vary slightly.
             const glm::dvec3 z = place.outwards;
-            member.posture.turn = {glm::cross(place.up, z), place.up, z};
-            member.posture.at += (way.height - 1.0) * models_[member.model].room.reach() *
-                                 member.posture.scale * place.up;
+            member.pose.turn = {glm::cross(place.up, z), place.up, z};
+            member.pose.at += (adjustment.height - 1.0) * models_[member.model].occupancy.reach() *
+                              member.pose.scale * place.up;
         } else {
-            const glm::dvec3 up = glm::normalize(place.up + whole_tilt * way.lean);
-            member.posture.turn = upright(up, turn);
+            const glm::dvec3 up = glm::normalize(place.up + whole_tilt * adjustment.lean);
+            member.pose.turn = upright(up, turn);
         }
         return member;
     }
 
-    /// One that it meets, or none. Who stood in the way last is asked first.
-    [[nodiscard]] const ColonyMember* met(const ColonyMember& one) {
-        if (blocker_ < settled_.size() && meets(one, settled_[blocker_]))
-            return &settled_[blocker_];
-        for (std::size_t i = 0; i < settled_.size(); ++i)
-            if (i != blocker_ && meets(one, settled_[i])) {
+    /// Returns a placed member that it intersects, or nullptr. The last blocker is tested first.
+    [[nodiscard]] const ColonyMember* collision_of(const ColonyMember& one) {
+        if (blocker_ < placed_.size() && collides(one, placed_[blocker_]))
+            return &placed_[blocker_];
+        for (std::size_t i = 0; i < placed_.size(); ++i)
+            if (i != blocker_ && collides(one, placed_[i])) {
                 blocker_ = i;
-                return &settled_[i];
+                return &placed_[i];
             }
         return nullptr;
     }
 
-    [[nodiscard]] bool meets(const ColonyMember& one, const ColonyMember& other) const {
-        const OccupancyGrid &room = models_[one.model].room, &beside = models_[other.model].room;
-        return meet(room, one.posture, beside, other.posture) ||
-               (nature_.capped && (runs_through(one, other) || runs_through(other, one)));
+    [[nodiscard]] bool collides(const ColonyMember& one, const ColonyMember& other) const {
+        const OccupancyGrid &occupancy = models_[one.model].occupancy,
+                            &beside = models_[other.model].occupancy;
+        return overlap(occupancy, one.pose, beside, other.pose) ||
+               (traits_.capped && (stem_crosses_cap(one, other) || stem_crosses_cap(other, one)));
     }
 
-    /// Whether the stem of one runs through the cap of another.
-    [[nodiscard]] bool runs_through(const ColonyMember& one, const ColonyMember& other) const {
-        const OccupancyGrid& room = models_[other.model].room;
+    /// Returns true if the stem of one crosses the cap of another.
+    [[nodiscard]] bool stem_crosses_cap(const ColonyMember& one, const ColonyMember& other) const {
+        const OccupancyGrid& occupancy = models_[other.model].occupancy;
         const ColonyPlace& place = site_.places[one.place];
-        const double radius = place.radius / other.posture.scale;
-        for (int i = 1; i <= stem_looks; ++i) {
-            const double t = static_cast<double>(i) / stem_looks;
-            const glm::dvec3 at = other.posture.own(place.foot + t * one.rise + t * t * one.swing);
-            const glm::dvec3 off = at - room.middle();
-            const double far = room.reach() + radius;
-            if (glm::dot(off, off) <= far * far && room.holds(at, radius)) return true;
+        const double radius = place.radius / other.pose.scale;
+        for (int i = 1; i <= stem_samples; ++i) {
+            const double t = static_cast<double>(i) / stem_samples;
+            const glm::dvec3 at = other.pose.own(place.foot + t * one.rise + t * t * one.swing);
+            const glm::dvec3 off = at - occupancy.middle();
+            const double far = occupancy.reach() + radius;
+            if (glm::dot(off, off) <= far * far && occupancy.contains(at, radius)) return true;
         }
         return false;
     }
 
-    void settle(std::size_t index, double turn, double jitter) {
+    void place_member(std::size_t index, double turn, double jitter) {
         const ColonyPlace& place = site_.places[index];
         const double last = static_cast<double>(models_.size() - 1);
         const double wished = place.share * last + 0.8 * jitter;
         const auto oldest =
             static_cast<std::size_t>(std::min(std::max(std::floor(wished + 0.5), 0.0), last));
         const std::size_t younger = std::min(most_younger, models_.size() - 1 - oldest);
-        const bool leans_at_all = !nature_.lateral;
+        const bool may_lean = !traits_.lateral;
         int steps = 0;
         for (const double height : heights) {
-            if (height != 1.0 && !nature_.capped && !nature_.lateral) break;
+            if (height != 1.0 && !traits_.capped && !traits_.lateral) break;
             for (std::size_t age = 0; age <= younger; ++age) {
-                ColonyMember member = stood(index, turn, oldest, {{}, age, height});
-                const ColonyMember* blocker = met(member);
+                ColonyMember member = posed(index, turn, oldest, {{}, age, height});
+                const ColonyMember* blocker = collision_of(member);
                 member.steps = steps++;
                 if (!blocker) {
-                    settled_.push_back(member);
+                    placed_.push_back(member);
                     return;
                 }
-                if (!leans_at_all) continue;
-                glm::dvec3 aside = member.posture.at - blocker->posture.at;
+                if (!may_lean) continue;
+                glm::dvec3 aside = member.pose.at - blocker->pose.at;
                 aside.y = 0.0;
                 const double off = glm::length(aside);
                 aside = off > 1e-9 ? aside / off : place.outwards;
-                for (const glm::dvec3& way : {place.outwards, aside}) {
-                    if (way == glm::dvec3(0.0)) continue;
+                for (const glm::dvec3& direction : {place.outwards, aside}) {
+                    if (direction == glm::dvec3(0.0)) continue;
                     for (const double lean : leans) {
-                        member = stood(index, turn, oldest, {lean * way, age, height});
+                        member = posed(index, turn, oldest, {lean * direction, age, height});
                         member.steps = steps++;
-                        if (met(member)) continue;
-                        settled_.push_back(member);
+                        if (collision_of(member)) continue;
+                        placed_.push_back(member);
                         return;
                     }
                 }
@@ -260,16 +264,17 @@ class Settler {
     const ColonySite& site_;
     const std::vector<ColonyModel>& models_;
     const ColonyParams& params_;
-    const ColonyNature& nature_;
-    std::vector<ColonyMember> settled_;
+    const ColonyTraits& traits_;
+    std::vector<ColonyMember> placed_;
     std::size_t blocker_ = 0;
 };
 
 }  // namespace
 
-std::vector<ColonyMember> settled(const ColonySite& site, const std::vector<ColonyModel>& models,
-                                  const ColonyParams& params, const ColonyNature& nature) {
-    return Settler(site, models, params, nature).all();
+std::vector<ColonyMember> placed_members(const ColonySite& site,
+                                         const std::vector<ColonyModel>& models,
+                                         const ColonyParams& params, const ColonyTraits& traits) {
+    return Placer(site, models, params, traits).all();
 }
 
 }  // namespace sporeprint

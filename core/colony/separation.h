@@ -1,4 +1,4 @@
-// Keeps the individuals of a colony from cutting through each other.
+// Separation of the individuals of a colony, so that they do not intersect.
 #pragma once
 
 #include <array>
@@ -13,22 +13,24 @@
 
 namespace sporeprint {
 
-/// Room that a mesh takes: what lies between its lowest and highest point over each cell of a grid across its axis (+y). All of the
-/// mesh is in it, and what an umbrella covers is not.
+/// The space that a mesh occupies, as the interval between its lowest and highest point over each
+/// cell of a grid perpendicular to its axis (+y). It contains the whole mesh; the space under a cap
+/// is outside.
 class OccupancyGrid {
   public:
     /// cost  O(triangles); some ten microseconds for a cap
     explicit OccupancyGrid(const Mesh& mesh);
 
-    /// Whether a point of the mesh's own frame lies inside; or no farther than `margin` from it in any of three directions, metres.
-    [[nodiscard]] bool holds(const glm::dvec3& point) const;
-    [[nodiscard]] bool holds(const glm::dvec3& point, double margin) const;
+    /// Returns true if a point in the mesh's own frame lies inside, or no farther than `margin`
+    /// from the inside along any of three axes, metres.
+    [[nodiscard]] bool contains(const glm::dvec3& point) const;
+    [[nodiscard]] bool contains(const glm::dvec3& point, double margin) const;
 
-    /// Points all over the border of the room, no farther apart than a cell.
+    /// Returns points on the whole boundary, no farther apart than a cell.
     [[nodiscard]] const std::vector<glm::dvec3>& border() const { return border_; }
 
     [[nodiscard]] const glm::dvec3& middle() const { return middle_; }
-    [[nodiscard]] double reach() const { return reach_; }  ///< of the border, from the middle
+    [[nodiscard]] double reach() const { return reach_; }  ///< radius about the middle
     [[nodiscard]] double cell() const { return cell_; }    ///< side of a cell
 
   private:
@@ -46,8 +48,8 @@ class OccupancyGrid {
     std::vector<glm::dvec3> border_;
 };
 
-/// A mesh in the world: place = at + scale * turn * own.
-struct Posture {
+/// The pose of a mesh in the world: world = at + scale * turn * own.
+struct Pose {
     glm::dvec3 at{0.0};
     glm::dmat3 turn{1.0};  ///< a rotation
     double scale = 1.0;
@@ -60,40 +62,42 @@ struct Posture {
     }
 };
 
-/// The rotation that takes +y to `up` by the shortest way, after a turn about +y.
+/// Returns the smallest rotation that takes +y to `up`, after a rotation about +y by `turn`.
 ///
 /// up  unit, not -y
 [[nodiscard]] glm::dmat3 upright(const glm::dvec3& up, double turn);
 
-/// Whether the rooms of two meshes meet.
-[[nodiscard]] bool meet(const OccupancyGrid& a, const Posture& posture_a, const OccupancyGrid& b,
-                        const Posture& posture_b);
+/// Returns true if the occupied spaces of two meshes overlap.
+[[nodiscard]] bool overlap(const OccupancyGrid& a, const Pose& pose_a, const OccupancyGrid& b,
+                           const Pose& pose_b);
 
-/// One of the individuals that all others are likes of, oldest first.
+/// One of the distinct individuals, oldest first; all members of a colony are instances of them.
 struct ColonyModel {
-    OccupancyGrid room;
+    OccupancyGrid occupancy;
     double radius =
         1.0;  ///< metres of its own frame that are as wide as its place's stem at cap_scale 1
 };
 
-/// An individual that stands.
+/// A placed individual.
 struct ColonyMember {
     std::size_t place = 0;  ///< of the site
     std::size_t model = 0;
-    Posture posture;
-    glm::dvec3 rise{0.0}, swing{0.0};  ///< of its stem, after it has given way
-    int steps = 0;                     ///< of giving way; 0: it stands as its place says
+    Pose pose;
+    glm::dvec3 rise{0.0}, swing{0.0};  ///< of its stem, after adjustment
+    int steps = 0;                     ///< number of adjustments tried; 0: unchanged
 };
 
-/// Stands individuals at their places, one after the other. One that would meet another gives way: it leans out, then aside; if no
-/// lean helps, it is a younger one; then lower or higher; in the end it is left out.
+/// Places individuals one after the other (greedy placement, oldest first). One that would
+/// intersect another is adjusted: it leans outwards, then sideways; if no lean helps, a younger
+/// model is used; then a lower or higher one; finally it is left out.
 ///
-/// models  oldest first
-/// returns by place; no two rooms meet, and no stem runs through a room
-/// cost    O(n) rooms of neighbours for each try
-[[nodiscard]] std::vector<ColonyMember> settled(const ColonySite& site,
-                                                const std::vector<ColonyModel>& models,
-                                                const ColonyParams& params,
-                                                const ColonyNature& nature);
+/// models   oldest first
+/// returns  in the order of places; no two occupied spaces overlap, and no stem crosses an occupied
+///          space
+/// cost     O(n) occupied spaces of neighbours for each try
+[[nodiscard]] std::vector<ColonyMember> placed_members(const ColonySite& site,
+                                                       const std::vector<ColonyModel>& models,
+                                                       const ColonyParams& params,
+                                                       const ColonyTraits& traits);
 
 }  // namespace sporeprint

@@ -405,18 +405,18 @@ void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudg
         const double share = std::max(plan.along, 0.0) / std::max(length, 1e-12);
         const double r =
             plan.along < 0.0 ? stem.at(1.0 + plan.along / stem.length()).r : face_.at(share).r;
-        const double room = usable_gap * pi * r / shape.crowd;
+        const double available = usable_gap * pi * r / shape.crowd;
         double ripple = 0.0;
         for (const Ripple& one : blend.ripples)
             if (one.size > 0.0) ripple += one.at(share);
         plan.angle =
             rest.angle + left(vanishing_place) * (angle_at(all, blend, share) - rest.angle);
-        plan.half = left(vanishing_width) * std::min(shape.half, room);
+        plan.half = left(vanishing_width) * std::min(shape.half, available);
         // A blade that is not decurrent begins on the face as sharp as in a set without decurrent
         // species.
         if (&plan - plans_.data() <= budget.below) plan.half *= std::min(1.0, 12.0 * blend.down);
         plan.stray = left(vanishing_width) * ripple_size * blend.each *
-                     std::min(room, 3.0 * shape.half) * ripple *
+                     std::min(available, 3.0 * shape.half) * ripple *
                      smooth_step(0.0, 1.0, share / 0.15) *
                      smooth_step(0.0, 1.0, (1.0 - share) / 0.2);
         row(plan, left(vanishing_embedding));

@@ -157,14 +157,14 @@ BranchPlan branch_plan(const BranchGraph& graph, int lod) {
         const std::uint32_t fork = graph.nodes[chain.nodes.front()].parent;
         return graph.nodes[fork].parent == none ? nullptr : &places[fork];
     };
-    std::size_t kept = 0;
+    std::size_t retained = 0;
     for (std::size_t step = first_step[level]; step <= last_step[level]; ++step) {
         plan.detail = detail_steps[step];
         plan.count = {};
-        for (kept = 0; kept < plan.chains.size(); ++kept) {
-            MeshCount one = count_of(graph, plan.chains[kept], plan.detail);
+        for (retained = 0; retained < plan.chains.size(); ++retained) {
+            MeshCount one = count_of(graph, plan.chains[retained], plan.detail);
             // A parent has more tips than its branches, so it came before.
-            if (const Place* fork = fork_of(plan.chains[kept])) {
+            if (const Place* fork = fork_of(plan.chains[retained])) {
                 const MeshCount rings =
                     fork_count(graph, plan.chains[fork->chain], fork->at, plan.detail);
                 one.vertices += rings.vertices;
@@ -174,11 +174,11 @@ BranchPlan branch_plan(const BranchGraph& graph, int lod) {
             plan.count.vertices += one.vertices;
             plan.count.triangles += one.triangles;
         }
-        if (static_cast<double>(kept) >=
+        if (static_cast<double>(retained) >=
             sufficient_share[level] * static_cast<double>(plan.chains.size()))
             break;
     }
-    plan.chains.resize(kept);
+    plan.chains.resize(retained);
     for (const TubeChain& chain : plan.chains)
         if (const Place* fork = fork_of(chain)) plan.chains[fork->chain].forks.push_back(fork->at);
     for (TubeChain& chain : plan.chains) std::sort(chain.forks.begin(), chain.forks.end());

@@ -140,10 +140,10 @@ class TubeBuilder {
 
     // For each node, computes how many times more tips its segment represents than it has.
     void count_dropped_tips() {
-        std::vector<bool> kept(graph_.nodes.size(), false);
+        std::vector<bool> built(graph_.nodes.size(), false);
         double left = 0.0, all_left = 0.0;
         for (const TubeChain& chain : plan_.chains) {
-            for (const std::uint32_t i : chain.nodes) kept[i] = true;
+            for (const std::uint32_t i : chain.nodes) built[i] = true;
             left += node(chain.nodes.back()).presence;
         }
         for (const std::uint32_t root : graph_.roots) all_left += node(root).left;
@@ -153,7 +153,7 @@ class TubeBuilder {
             if (one.children[0] == none) continue;
             const double mine = std::max(node(one.children[0]).left, 1e-9);
             for (const std::uint32_t child : one.children) represented_[child] = represented_[i];
-            if (!kept[one.children[1]])
+            if (!built[one.children[1]])
                 represented_[one.children[0]] *= std::max(1.0, one.left / mine);
         }
     }

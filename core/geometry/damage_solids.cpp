@@ -135,7 +135,7 @@ void DamageSolids::solid(const std::vector<glm::dvec3>& corners, const glm::dvec
 
 void DamageSolids::add_rolls() {
     if (!individual_.damage.peels || limits_.rolls == 0) return;
-    const double most = individual_.model.surface.scars.peel_reach;
+    const double most = individual_.model.surface.damage.peel_reach;
     const double length = individual_.outline.cap.length();
     int left = limits_.rolls;
     for (const Tongue& tongue : tongues(individual_.effective.seed)) {

@@ -11,8 +11,9 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int stations = 64;         // samples of the meridian
-constexpr double usable_room = 0.6;  // share of the distance from the edges to the cap's upper face
+constexpr int stations = 64;  // samples of the meridian
+constexpr double usable_share =
+    0.6;  // share of the distance from the edges to the cap's upper face
 /// Places of extra rings of the flesh, which rises steeply at the stem and thins at the margin.
 constexpr std::array<double, 10> steep_places = {0.012, 0.026, 0.042, 0.06, 0.085,
                                                  0.12,  0.2,   0.7,   0.8,  0.9};
@@ -68,9 +69,9 @@ LowerFace::LowerFace(const Individual& individual, int lod) {
             place.normal_r = normal_r / size;
             place.normal_y = normal_y / size;
         }
-        double room = distance_to(cap, at.r, at.y, -place.normal_r, -place.normal_y, 1e-9);
-        if (place.normal_r > 1e-9) room = std::min(room, at.r / place.normal_r);
-        if (room > 1e8) room = 0.0;
+        double available = distance_to(cap, at.r, at.y, -place.normal_r, -place.normal_y, 1e-9);
+        if (place.normal_r > 1e-9) available = std::min(available, at.r / place.normal_r);
+        if (available > 1e8) available = 0.0;
         double wanted = 0.0, groove = 0.0;
         for (const SpeciesShare& part : individual.parts) {
             const HymeniumOf<Plain>& hymenium = part.model.hymenium;
@@ -84,10 +85,10 @@ LowerFace::LowerFace(const Individual& individual, int lod) {
         }
         // Tubes fill the outline itself, except in the groove round the stem.
         if (!has_solids(lod)) wanted = 0.0;
-        const double most = usable_room * room;
+        const double most = usable_share * available;
         place.recess = std::min(wanted + groove, most);
         place.scale = wanted > 0.0 ? std::min(1.0, place.recess / (wanted + groove)) : 0.0;
-        place.sink = std::min(0.12 * place.recess + 0.008 * length_, 0.15 * room);
+        place.sink = std::min(0.12 * place.recess + 0.008 * length_, 0.15 * available);
         places_.push_back(place);
     }
     // The recess is smoothed where the room ends abruptly.

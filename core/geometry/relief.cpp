@@ -151,7 +151,7 @@ Relief::Relief(const Individual& individual, const Detail& detail)
     }
     std::erase_if(styles_, [](const ReliefStyle& style) { return !style.any(); });
     if (styles_.empty()) return;
-    const double keep = room(individual.outline);
+    const double keep = available_depth(individual.outline);
     for (ReliefStyle& style : styles_) {
         style.folds *= keep;
         style.pits *= keep;
@@ -159,7 +159,7 @@ Relief::Relief(const Individual& individual, const Detail& detail)
     }
 }
 
-double Relief::room(const Outline& outline) const {
+double Relief::available_depth(const Outline& outline) const {
     double deepest = 0.0;
     for (const ReliefStyle& style : styles_) deepest += style.folds + style.pits + style.tiers;
     deepest *= meridian_;

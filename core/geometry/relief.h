@@ -43,7 +43,7 @@ class Relief {
 
     /// Returns the factor on depths that keeps the face clear of everything else in every
     /// half-plane.
-    [[nodiscard]] double room(const Outline& outline) const;
+    [[nodiscard]] double available_depth(const Outline& outline) const;
 
     std::vector<ReliefStyle> styles_;
     std::array<std::uint32_t, 3> seeds_;

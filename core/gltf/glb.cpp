@@ -48,19 +48,19 @@ void put(std::uint8_t*& at, const T& value) {
 
 std::size_t padded(std::size_t size) { return (size + 3) & ~std::size_t{3}; }
 
-/// A triple in JSON; of any type with x, y and z.
-void append_corner(std::string& out, const glm::vec3& corner) {
+/// Appends a vector of three components as a JSON array.
+void append_triple(std::string& out, const glm::vec3& corner) {
     append(out += '[', corner.x);
     append(out += ',', corner.y);
     append(out += ',', corner.z);
     out += ']';
 }
 
-/// The tables of buffer views and accessors, as JSON. Every accessor has a view of its own, and the views of accessors
-/// come before all others, so that both have one number.
+/// The tables of buffer views and accessors, as JSON. Every accessor has a view of its own, and the
+/// views of accessors precede all others, so that an accessor and its view have the same index.
 struct Tables {
     std::string views, accessors;
-    std::size_t count = 0, binary = 0;  ///< of views; bytes of the BIN chunk so far, padded
+    std::size_t count = 0, binary = 0;  ///< number of views; bytes of the BIN chunk so far, padded
 
     std::size_t view(std::size_t length, int target = 0) {
         views += count == 0 ? "" : ",";
@@ -72,7 +72,7 @@ struct Tables {
         return count++;
     }
 
-    /// `more` is the rest of the object, from a comma on.
+    /// Adds an accessor. `more` holds further members of its JSON object, with a leading comma.
     std::size_t accessor(std::size_t items, int component, const char* type, std::size_t length,
                          int target = 0, const std::string& more = {}) {
         accessors += count == 0 ? "" : ",";
@@ -88,7 +88,7 @@ struct Tables {
                         more);
     }
 
-    /// Vectors with their bounds, as the specification wants positions.
+    /// Adds vectors with their bounds, which the specification requires for positions.
     std::size_t positions(std::span<const glm::vec3> values) {
         glm::vec3 low = values.front(), high = low;
         for (const glm::vec3& p : values) {
@@ -96,13 +96,13 @@ struct Tables {
             high = glm::max(high, p);
         }
         std::string box = ",\"min\":";
-        append_corner(box, low);
-        append_corner(box += ",\"max\":", high);
+        append_triple(box, low);
+        append_triple(box += ",\"max\":", high);
         return vectors(values, box);
     }
 };
 
-/// A piece of the BIN chunk.
+/// A part of the BIN chunk.
 struct Chunk {
     explicit Chunk(std::size_t size) : bytes(std::make_shared<Bytes>(size)), at(bytes->data()) {}
 
@@ -162,17 +162,17 @@ Geometry geometry(const Mesh& mesh, bool textured, Tables& tables) {
     return out;
 }
 
-/// The targets of a primitive.
-struct Motion {
+/// The morph targets of a primitive.
+struct TargetData {
     std::shared_ptr<const Bytes> bytes;
-    std::string targets;  ///< of the primitive, from a comma on
+    std::string targets;  ///< JSON member of the primitive, with a leading comma
 };
 
-Motion motion(std::span<const MorphTarget> targets, std::size_t vertices, Tables& tables) {
+TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices, Tables& tables) {
     for (const MorphTarget& target : targets)
         if (target.positions.size() != vertices || target.normals.size() != vertices)
             throw GenerationError("a morph target has another number of vertices than its mesh");
-    Motion out;
+    TargetData out;
     if (targets.empty()) return out;
     Chunk chunk(targets.size() * vertices * 24);
     for (const MorphTarget& target : targets) {
@@ -188,8 +188,8 @@ Motion motion(std::span<const MorphTarget> targets, std::size_t vertices, Tables
     return out;
 }
 
-/// Weights and names of the targets of a mesh, from a comma on.
-std::string poses(const GlbMesh& mesh) {
+/// Returns the weights and names of the targets of a mesh as JSON members, with a leading comma.
+std::string target_weights_json(const GlbMesh& mesh) {
     const auto& targets = mesh.primitives.front().targets;
     for (const GlbPrimitive& other : mesh.primitives)
         if (other.targets.size() != targets.size())
@@ -203,13 +203,13 @@ std::string poses(const GlbMesh& mesh) {
     return ",\"weights\":[" + zeros + "],\"extras\":{\"targetNames\":[" + names + "]}";
 }
 
-/// How the first node moves.
-struct Film {
+/// The animation of the first node.
+struct AnimationData {
     std::shared_ptr<const Bytes> bytes;
-    std::string animations;  ///< from a comma on
+    std::string animations;  ///< JSON member, with a leading comma
 };
 
-Film film(const WeightClip& clip, std::size_t targets, Tables& tables) {
+AnimationData animation_data(const WeightClip& clip, std::size_t targets, Tables& tables) {
     if (targets == 0 || clip.times.empty() || clip.weights.size() != clip.times.size() * targets)
         throw GenerationError("a clip needs targets, and a weight for each of them at each key");
     Chunk chunk((clip.times.size() + clip.weights.size()) * 4);
@@ -222,7 +222,7 @@ Film film(const WeightClip& clip, std::size_t targets, Tables& tables) {
                                               clip.times.size() * 4, 0, span + ']');
     const std::size_t output =
         tables.accessor(clip.weights.size(), float_component, "SCALAR", clip.weights.size() * 4);
-    Film out;
+    AnimationData out;
     append_quoted(out.animations += ",\"animations\":[{\"name\":", clip.name);
     append(out.animations += ",\"samplers\":[{\"input\":", input);
     append(out.animations += ",\"output\":", output);
@@ -233,76 +233,79 @@ Film film(const WeightClip& clip, std::size_t targets, Tables& tables) {
     return out;
 }
 
-/// What a list of JSON objects begins with, or goes on.
-const char* next(const std::string& list) { return list.empty() ? "" : ","; }
+/// Returns the separator before the next item of a list of JSON objects.
+const char* separator(const std::string& list) { return list.empty() ? "" : ","; }
 
 /// The tables of textures, images and samplers.
-struct Wardrobe {
+struct TextureTables {
     std::string textures, images, samplers;
-    std::vector<const GlbMaterial*> worn;  ///< those that brought images, three textures each
-    std::vector<bool> rounds;              ///< by sampler
+    std::vector<const GlbMaterial*> sources;  ///< materials that added images, three textures each
+    std::vector<bool> sampler_repeats;        ///< by sampler
 
-    /// The first of a material's textures; brings its images where no other has the same.
+    /// Returns the index of the first texture of a material; adds its textures unless an earlier
+    /// material has the same images.
     std::size_t textures_of(const GlbMaterial& material, Tables& tables) {
-        for (std::size_t k = 0; k < worn.size(); ++k)
-            if (worn[k]->images == material.images &&
-                worn[k]->image_addresses == material.image_addresses &&
-                worn[k]->goes_round == material.goes_round)
+        for (std::size_t k = 0; k < sources.size(); ++k)
+            if (sources[k]->images == material.images &&
+                sources[k]->image_urls == material.image_urls &&
+                sources[k]->repeats_u == material.repeats_u)
                 return 3 * k;
-        const std::size_t sampler = sampler_of(material.goes_round);
-        const std::size_t first = 3 * worn.size();
-        worn.push_back(&material);
+        const std::size_t sampler = sampler_of(material.repeats_u);
+        const std::size_t first = 3 * sources.size();
+        sources.push_back(&material);
         for (std::size_t i = 0; i < 3; ++i) {
-            append((textures += next(textures)) += "{\"sampler\":", sampler);
+            append((textures += separator(textures)) += "{\"sampler\":", sampler);
             append(textures += ",\"source\":", first + i);
             textures += '}';
             if (material.images)
-                append((images += next(images)) += "{\"mimeType\":\"image/jpeg\",\"bufferView\":",
-                       tables.view(material.images->files[i].size));
+                append(
+                    (images += separator(images)) += "{\"mimeType\":\"image/jpeg\",\"bufferView\":",
+                    tables.view(material.images->files[i].size));
             else
-                append_quoted((images += next(images)) += "{\"uri\":", material.image_addresses[i]);
+                append_quoted((images += separator(images)) += "{\"uri\":", material.image_urls[i]);
             images += '}';
         }
         return first;
     }
 
   private:
-    std::size_t sampler_of(bool goes_round) {
-        const auto found = std::find(rounds.begin(), rounds.end(), goes_round);
-        if (found != rounds.end()) return static_cast<std::size_t>(found - rounds.begin());
-        rounds.push_back(goes_round);
-        (samplers += next(samplers)) += "{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":";
-        (samplers += goes_round ? "10497" : "33071") += ",\"wrapT\":33071}";
-        return rounds.size() - 1;
+    std::size_t sampler_of(bool repeats_u) {
+        const auto found = std::find(sampler_repeats.begin(), sampler_repeats.end(), repeats_u);
+        if (found != sampler_repeats.end())
+            return static_cast<std::size_t>(found - sampler_repeats.begin());
+        sampler_repeats.push_back(repeats_u);
+        (samplers += separator(samplers)) += "{\"magFilter\":9729,\"minFilter\":9987,\"wrapS\":";
+        (samplers += repeats_u ? "10497" : "33071") += ",\"wrapT\":33071}";
+        return sampler_repeats.size() - 1;
     }
 };
 
 constexpr const char* instancing = "EXT_mesh_gpu_instancing";
 
-/// Names of the extensions that are used, each once.
+/// The names of the extensions in use, each once.
 struct Extensions {
     std::vector<std::string> names;
 
     void use(const std::string& name) {
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
-    /// From a comma on. What readers must know stands in both lists.
+    /// Returns the JSON members, with a leading comma. Required extensions are in both lists.
     [[nodiscard]] std::string json() const {
         if (names.empty()) return {};
-        std::string list, must;
-        for (const std::string& name : names) append_quoted(list += next(list), name);
+        std::string list, required;
+        for (const std::string& name : names) append_quoted(list += separator(list), name);
         if (std::find(names.begin(), names.end(), instancing) != names.end())
-            must = std::string(",\"extensionsRequired\":[\"") + instancing + "\"]";
-        return ",\"extensionsUsed\":[" + list + "]" + must;
+            required = std::string(",\"extensionsRequired\":[\"") + instancing + "\"]";
+        return ",\"extensionsUsed\":[" + list + "]" + required;
     }
 };
 
-/// What optional extensions make of a material, from a comma on.
+/// Returns the material members of optional extensions, with a leading comma.
 ///
-/// textures  the first of its own; none for a material without images
-std::string shine_of(const MaterialLook& look, std::optional<std::size_t> textures,
-                     Extensions& used) {
-    const auto shines = [](const glm::dvec3& light) {
+/// textures  index of the first of its own; none for a material without images
+std::string material_extensions_json(const MaterialLook& look, std::optional<std::size_t> textures,
+                                     Extensions& used) {
+    const auto is_visible = [](const glm::dvec3& light) {
         return light.x > 0.0 || light.y > 0.0 || light.z > 0.0;
     };
     std::string extensions, emission;
@@ -317,21 +320,22 @@ std::string shine_of(const MaterialLook& look, std::optional<std::size_t> textur
     if (look.coat > 0.0) {
         std::string coat = "\"clearcoatFactor\":";
         append(coat, static_cast<float>(look.coat));
-        // Sharp where the skin is smooth, unseen where it is matt: so one material coats the cap alone, without an image of its own.
+        // The coat's roughness is that of the skin, so that one material coats the cap alone:
+        // smooth skin is glossy, and on matt skin the coat is invisible.
         if (textures)
             texture(coat += ",\"clearcoatRoughnessFactor\":1,\"clearcoatRoughnessTexture\":", 2);
         else
             coat += ",\"clearcoatRoughnessFactor\":0.25";
         extension("KHR_materials_clearcoat", coat);
     }
-    if (shines(look.glow)) {
-        append_corner(emission += ",\"emissiveFactor\":", glm::vec3(look.glow));
+    if (is_visible(look.glow)) {
+        append_triple(emission += ",\"emissiveFactor\":", glm::vec3(look.glow));
         if (textures) texture(emission += ",\"emissiveTexture\":", 0);
         extension("KHR_materials_emissive_strength", "\"emissiveStrength\":4");
     }
-    if (shines(look.sheen)) {
+    if (is_visible(look.sheen)) {
         std::string sheen = "\"sheenColorFactor\":";
-        append_corner(sheen, glm::vec3(look.sheen));
+        append_triple(sheen, glm::vec3(look.sheen));
         extension("KHR_materials_sheen", sheen + ",\"sheenRoughnessFactor\":0.45");
     }
     if (extensions.empty()) return {};
@@ -339,47 +343,47 @@ std::string shine_of(const MaterialLook& look, std::optional<std::size_t> textur
 }
 
 bool is_textured(const GlbMaterial& material) {
-    return material.images != nullptr || !material.image_addresses[0].empty();
+    return material.images != nullptr || !material.image_urls[0].empty();
 }
 
-std::string material_json(const GlbMaterial& material, Wardrobe& wardrobe, Tables& tables,
-                          Extensions& used) {
+std::string material_json(const GlbMaterial& material, TextureTables& texture_tables,
+                          Tables& tables, Extensions& used) {
     std::string json = "{\"name\":";
     append_quoted(json, material.name);
     if (!is_textured(material))
         return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
-               shine_of(material.look, std::nullopt, used) + "}";
-    const std::size_t first = wardrobe.textures_of(material, tables);
+               material_extensions_json(material.look, std::nullopt, used) + "}";
+    const std::size_t first = texture_tables.textures_of(material, tables);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);
     append(json += "},\"occlusionTexture\":{\"index\":", first + 2);
-    return json + "}" + shine_of(material.look, first, used) + "}";
+    return json + "}" + material_extensions_json(material.look, first, used) + "}";
 }
 
-void expect_place(const glm::dvec4& rotation, const glm::vec3& scale) {
+void check_transform(const glm::dvec4& rotation, const glm::vec3& scale) {
     if (!(std::abs(glm::dot(rotation, rotation) - 1.0) < 1e-6))
         throw GenerationError("the rotation of a node is no unit quaternion");
     if (!(std::abs(scale.x * scale.y * scale.z) > 0.0F))
         throw GenerationError("a node has a scale of nothing");
 }
 
-/// The places of a node's instances.
-struct Crowd {
+/// The transforms of a node's instances.
+struct InstanceData {
     std::shared_ptr<const Bytes> bytes;
-    std::string attributes;  ///< members
+    std::string attributes;  ///< JSON members
 };
 
-Crowd crowd_of(const std::vector<GlbPlace>& places, Tables& tables) {
+InstanceData instance_data(const std::vector<GlbTransform>& places, Tables& tables) {
     const std::size_t n = places.size();
     Chunk chunk(n * (12 + 16 + 12));
-    Crowd out;
-    for (const GlbPlace& place : places) {
-        expect_place(place.rotation, glm::vec3(place.scale));
+    InstanceData out;
+    for (const GlbTransform& place : places) {
+        check_transform(place.rotation, glm::vec3(place.scale));
         put(chunk.at, glm::vec3(place.translation));
     }
-    for (const GlbPlace& place : places) put(chunk.at, glm::vec4(place.rotation));
-    for (const GlbPlace& place : places) put(chunk.at, glm::vec3(place.scale));
+    for (const GlbTransform& place : places) put(chunk.at, glm::vec4(place.rotation));
+    for (const GlbTransform& place : places) put(chunk.at, glm::vec3(place.scale));
     append(out.attributes += "\"TRANSLATION\":",
            tables.accessor(n, float_component, "VEC3", n * 12));
     append(out.attributes += ",\"ROTATION\":", tables.accessor(n, float_component, "VEC4", n * 16));
@@ -388,23 +392,25 @@ Crowd crowd_of(const std::vector<GlbPlace>& places, Tables& tables) {
     return out;
 }
 
+/// Returns the JSON object of a node.
+///
 /// instances  attributes of its instances, if it has any
 std::string node_json(const GlbNode& node, std::size_t meshes, const std::string& instances) {
     const glm::vec3 translation(node.translation), scale(node.scale);
     const glm::vec4 rotation(node.rotation);
     if (node.mesh >= meshes) throw GenerationError("a node shows a mesh that there is not");
-    expect_place(node.rotation, scale);
+    check_transform(node.rotation, scale);
     std::string json = "{\"name\":";
     append_quoted(json, node.name);
     append(json += ",\"mesh\":", node.mesh);
-    if (translation != glm::vec3(0.0F)) append_corner(json += ",\"translation\":", translation);
+    if (translation != glm::vec3(0.0F)) append_triple(json += ",\"translation\":", translation);
     if (rotation != glm::vec4(0.0F, 0.0F, 0.0F, 1.0F)) {
-        append_corner(json += ",\"rotation\":", glm::vec3(rotation));
+        append_triple(json += ",\"rotation\":", glm::vec3(rotation));
         json.back() = ',';
         append(json, rotation.w);
         json += ']';
     }
-    if (scale != glm::vec3(1.0F)) append_corner(json += ",\"scale\":", scale);
+    if (scale != glm::vec3(1.0F)) append_triple(json += ",\"scale\":", scale);
     if (!instances.empty())
         json += std::string(",\"extensions\":{\"") + instancing + "\":{\"attributes\":{" +
                 instances + "}}}";
@@ -416,7 +422,7 @@ const std::shared_ptr<const Bytes>& zeros() {
     return bytes;
 }
 
-/// Header, JSON chunk and the beginning of the BIN chunk.
+/// Returns the header, the JSON chunk and the start of the BIN chunk.
 Slice head_of(std::string json, std::size_t binary) {
     json.append(padded(json.size()) - json.size(), ' ');
     const std::size_t total = 12 + 8 + json.size() + 8 + binary;
@@ -450,40 +456,43 @@ Body glb(const GlbScene& scene) {
             Geometry shape =
                 geometry(*primitive.mesh, is_textured(scene.materials[primitive.material]), tables);
             geometries.emplace_back(std::move(shape.bytes));
-            Motion moves = motion(primitive.targets, primitive.mesh->positions.size(), tables);
-            if (moves.bytes) geometries.emplace_back(std::move(moves.bytes));
-            (primitives += next(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
+            TargetData morph =
+                target_data(primitive.targets, primitive.mesh->positions.size(), tables);
+            if (morph.bytes) geometries.emplace_back(std::move(morph.bytes));
+            (primitives += separator(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
             append(primitives += "\"indices\":", shape.indices_accessor);
             append(primitives += ",\"material\":", primitive.material);
-            primitives += moves.targets + "}";
+            primitives += morph.targets + "}";
         }
         if (primitives.empty()) throw GenerationError("a mesh has no primitives");
-        append_quoted((meshes += next(meshes)) += "{\"name\":", mesh.name);
-        meshes += ",\"primitives\":[" + primitives + "]" + poses(mesh) + "}";
+        append_quoted((meshes += separator(meshes)) += "{\"name\":", mesh.name);
+        meshes += ",\"primitives\":[" + primitives + "]" + target_weights_json(mesh) + "}";
     }
     std::string nodes, roots;
     Extensions used;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
-        Crowd crowd;
+        InstanceData instances;
         if (!scene.nodes[i].instances.empty()) {
-            crowd = crowd_of(scene.nodes[i].instances, tables);
-            geometries.emplace_back(std::move(crowd.bytes));
+            instances = instance_data(scene.nodes[i].instances, tables);
+            geometries.emplace_back(std::move(instances.bytes));
             used.use(instancing);
         }
-        (nodes += next(nodes)) += node_json(scene.nodes[i], scene.meshes.size(), crowd.attributes);
-        append(roots += next(roots), i);
+        (nodes += separator(nodes)) +=
+            node_json(scene.nodes[i], scene.meshes.size(), instances.attributes);
+        append(roots += separator(roots), i);
     }
-    Film clip;
+    AnimationData clip;
     if (scene.clip) {
         const GlbMesh& shown = scene.meshes[scene.nodes.front().mesh];
-        clip = film(*scene.clip, shown.primitives.front().targets.size(), tables);
+        clip = animation_data(*scene.clip, shown.primitives.front().targets.size(), tables);
         geometries.emplace_back(std::move(clip.bytes));
     }
     // The views of images come after those of all accessors.
-    Wardrobe wardrobe;
+    TextureTables texture_tables;
     std::string materials;
     for (const GlbMaterial& material : scene.materials)
-        (materials += next(materials)) += material_json(material, wardrobe, tables, used);
+        (materials += separator(materials)) +=
+            material_json(material, texture_tables, tables, used);
 
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
                        std::to_string(generator_version) + "\"";
@@ -491,16 +500,16 @@ Body glb(const GlbScene& scene) {
     json += "}" + used.json() + ",\"scene\":0,\"scenes\":[{\"nodes\":[" + roots +
             "]}],\"nodes\":[" + nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" +
             materials + "]";
-    if (!wardrobe.textures.empty())
-        json += ",\"textures\":[" + wardrobe.textures + "],\"samplers\":[" + wardrobe.samplers +
-                "],\"images\":[" + wardrobe.images + "]";
+    if (!texture_tables.textures.empty())
+        json += ",\"textures\":[" + texture_tables.textures + "],\"samplers\":[" +
+                texture_tables.samplers + "],\"images\":[" + texture_tables.images + "]";
     append(json += ",\"buffers\":[{\"byteLength\":", tables.binary);
     json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +
             clip.animations + "}";
 
     Body body{head_of(std::move(json), tables.binary)};
     body.insert(body.end(), geometries.begin(), geometries.end());
-    for (const GlbMaterial* material : wardrobe.worn)
+    for (const GlbMaterial* material : texture_tables.sources)
         if (material->images)
             for (const Slice& file : material->images->files) {
                 body.push_back(file);
@@ -512,7 +521,7 @@ Body glb(const GlbScene& scene) {
 
 Body glb(const Mesh& mesh, const GlbParts& parts) {
     GlbScene scene;
-    scene.materials.push_back({parts.name, parts.images, parts.image_addresses, parts.look, false});
+    scene.materials.push_back({parts.name, parts.images, parts.image_urls, parts.look, false});
     scene.meshes.push_back({parts.name, {{&mesh, 0, parts.targets}}});
     scene.nodes.push_back({.name = parts.name});
     scene.extras_json = parts.extras_json;

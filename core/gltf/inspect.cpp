@@ -44,19 +44,19 @@ Inspection inspect_json(std::string_view json, const std::stop_token& stop) {
     if (json.size() > most_inspected_json)
         throw refusal("the JSON chunk has " + std::to_string(json.size()) + " bytes; at most " +
                       std::to_string(most_inspected_json) + " are read");
-    const auto stop_if_asked = [&] {
+    const auto stop_if_requested = [&] {
         if (stop.stop_requested()) throw Cancelled();
     };
-    stop_if_asked();
+    stop_if_requested();
     std::vector<Problem> problems;
     const Value document = parse(json, problems);
-    stop_if_asked();
+    stop_if_requested();
     if (!problems.empty())
         throw refusal("the JSON chunk cannot be read: " + problems.front().message);
     const Value* generator = document.at_pointer("/asset/generator");
     const Value* canonical = document.at_pointer("/asset/extras/canonical");
     const Value* effective = document.at_pointer("/asset/extras/effective");
-    // Tools that rewrite a file put their own name into asset.generator and leave asset.extras as they are.
+    // Tools that rewrite a file set their own asset.generator and keep asset.extras.
     if (!canonical || !canonical->is_string() || !effective || !effective->is_object())
         throw refusal(
             "this file does not carry a request of Sporeprint that made it (asset.extras)");

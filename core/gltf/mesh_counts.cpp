@@ -21,7 +21,7 @@ std::size_t size_of_tree(const Value& value) {
     return sum;
 }
 
-/// Returns what tinygltf is handed of a document.
+/// Returns the part of a document that is passed to tinygltf.
 std::string structure_of(const Value& document) {
     Value structure = Value::object();
     structure.set("asset", Value::object().set("version", "2.0"));

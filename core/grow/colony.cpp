@@ -69,10 +69,10 @@ Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const 
     return resolve(own, atlas, caches.morphs);
 }
 
-StemFit fit_of(const Individual& individual, const ColonyNature& nature) {
+StemFit fit_of(const Individual& individual, const ColonyTraits& traits) {
     StemFit fit = stem_fit(individual);
     // Mushrooms without a stem stand on thin threads.
-    if (!nature.capped) fit.radius = std::max(0.12 * fit.cap_radius, 0.0002);
+    if (!traits.capped) fit.radius = std::max(0.12 * fit.cap_radius, 0.0002);
     return fit;
 }
 
@@ -86,9 +86,9 @@ StemFit wide_enough(StemFit fit, const Mesh& mesh, bool first) {
     return fit;
 }
 
-ColonyRoots growth_of(const ColonyParams& params, const ColonyNature& nature, const StemFit& fit) {
-    const ColonyRoots growth = colony_growth(params, nature, fit);
-    if (nature.habit == Habit::rooted && expected_root_nodes(growth) > most_colony_nodes)
+ColonyRoots growth_of(const ColonyParams& params, const ColonyTraits& traits, const StemFit& fit) {
+    const ColonyRoots growth = colony_growth(params, traits, fit);
+    if (traits.habit == Habit::rooted && expected_root_nodes(growth) > most_colony_nodes)
         throw Impossible("/branch_distance",
                          "the roots would have more nodes than the " +
                              number_text(most_colony_nodes) +
@@ -113,13 +113,13 @@ std::uint64_t bytes_of(const ColonySpec& spec, std::uint64_t vertices, std::uint
 }
 
 /// Returns the parameters with every default resolved.
-ColonyParams effective_params(ColonyParams params, const ColonyNature& nature,
+ColonyParams effective_params(ColonyParams params, const ColonyTraits& traits,
                               const ColonyRoots& growth, const StemFit& fit) {
-    params.habit = nature.habit;
-    params.roots = nature.roots;
-    if (nature.habit == Habit::tier) params.trunk_radius = trunk_radius(params, fit);
+    params.habit = traits.habit;
+    params.roots = traits.roots;
+    if (traits.habit == Habit::tier) params.trunk_radius = trunk_radius(params, fit);
     // Only those that the habit has.
-    const bool rooted = nature.habit == Habit::rooted, stems = nature.capped;
+    const bool rooted = traits.habit == Habit::rooted, stems = traits.capped;
     if (rooted) {
         params.growth.field = growth.field;
         params.growth.field_scale = growth.field_scale;
@@ -167,8 +167,8 @@ void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& 
     const bool gpu = colony.effective.instancing == Instancing::gpu;
     std::vector<std::size_t> node_of(colony.models.size(), scene.nodes.max_size());
     for (const ColonyMember& member : colony.members) {
-        const Posture& at = member.posture;
-        const GlbPlace place{at.at, quaternion_of(at.turn), glm::dvec3(at.scale)};
+        const Pose& at = member.pose;
+        const GlbTransform place{at.at, quaternion_of(at.turn), glm::dvec3(at.scale)};
         GlbNode node{.name = name, .mesh = mesh_of[member.model]};
         if (!gpu) {
             node.translation = place.translation;
@@ -190,19 +190,19 @@ void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& 
 
 Estimate estimate(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
     const ColonyParams& params = spec.params;
-    const ColonyNature nature = colony_nature(spec, atlas);
+    const ColonyTraits traits = colony_traits(spec, atlas);
     const Individual individual = typical_individual(spec, atlas, caches);
-    const ColonyRoots growth = growth_of(params, nature, fit_of(individual, nature));
+    const ColonyRoots growth = growth_of(params, traits, fit_of(individual, traits));
     const auto count = static_cast<std::uint64_t>(params.count);
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
     const MeshCount one = body_count(individual, mesh_lod(individual, params.lod));
     double nodes = 0.0;
-    if (nature.roots == RootsShown::shown)
+    if (traits.roots == RootsShown::shown)
         nodes += root_share(params.lod) * (1.2 * expected_root_nodes(growth) + 20.0);
-    if (nature.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
+    if (traits.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
     // Where the number of nodes is random, the level of the finer skin is assumed.
     const auto least =
-        static_cast<std::size_t>(nature.roots == RootsShown::shown ? 0.6 * nodes : nodes);
+        static_cast<std::size_t>(traits.roots == RootsShown::shown ? 0.6 * nodes : nodes);
     const double quads =
         nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, params.lod)));
     Estimate e;
@@ -231,9 +231,9 @@ Estimate measured(const ColonySpec& spec, const Colony& colony) {
 Colony colony_parts(const ColonySpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
     const ColonyParams& params = spec.params;
     execution.observer(Step::resolve);
-    const ColonyNature nature = colony_nature(spec, atlas);
+    const ColonyTraits traits = colony_traits(spec, atlas);
     const Individual individual = typical_individual(spec, atlas, execution.caches);
-    StemFit fit = fit_of(individual, nature);
+    StemFit fit = fit_of(individual, traits);
     const double painted_length = fit.length;
 
     execution.observer(Step::build);
@@ -249,7 +249,7 @@ Colony colony_parts(const ColonySpec& spec, const Atlas& atlas, const ExecutionC
         // Placement uses one level of detail, so that members are moved or skipped alike at every
         // level.
         const auto grown = [&](int lod, bool with_texture) {
-            if (nature.capped)
+            if (traits.capped)
                 return cap_mesh(one, {.lod = lod,
                                       .neck = std::max(params.cap_scale, 1.0),
                                       .textured = with_texture});
@@ -262,27 +262,27 @@ Colony colony_parts(const ColonySpec& spec, const Atlas& atlas, const ExecutionC
         const Mesh& own_mesh = colony.models.back();
         const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
         const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
-        if (!nature.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
+        if (!traits.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
         models.push_back(
-            {OccupancyGrid(footprint_mesh), nature.capped ? stem_fit(one).radius : fit.radius});
+            {OccupancyGrid(footprint_mesh), traits.capped ? stem_fit(one).radius : fit.radius});
     }
     throw_if_cancelled(execution);
 
-    const ColonyRoots growth = growth_of(params, nature, fit);
-    const ColonySite site = colony_site(params, nature, growth, fit);
-    colony.members = settled(site, models, params, nature);
+    const ColonyRoots growth = growth_of(params, traits, fit);
+    const ColonySite site = colony_site(params, traits, growth, fit);
+    colony.members = placed_members(site, models, params, traits);
     const Skeleton skeleton =
-        colony_skeleton(site, colony.members, params, nature, segments_of(growth, params.lod));
+        colony_skeleton(site, colony.members, params, traits, segments_of(growth, params.lod));
     throw_if_cancelled(execution);
     colony.skin = colony_skin(skeleton, {params.lod, painted_length, textured(spec)});
-    colony.effective = effective_params(params, nature, growth, fit);
+    colony.effective = effective_params(params, traits, growth, fit);
     colony.junction = fit.radius;
 
     for (glm::vec3& place : colony.skin.positions) place *= static_cast<float>(params.size);
     std::vector<bool> shown(colony.models.size(), false);
     for (ColonyMember& member : colony.members) {
-        member.posture.at *= params.size;
-        member.posture.scale *= params.size;
+        member.pose.at *= params.size;
+        member.pose.scale *= params.size;
         shown[member.model] = true;
     }
     for (std::size_t i = 0; i < shown.size(); ++i)
@@ -302,7 +302,7 @@ Bounds bounds(const Colony& colony) {
     for (const glm::vec3& at : colony.skin.positions) add(at);
     for (const ColonyMember& member : colony.members)
         for (const glm::vec3& at : colony.models[member.model].positions)
-            add(glm::vec3(member.posture.world(glm::dvec3(at))));
+            add(glm::vec3(member.pose.world(glm::dvec3(at))));
     return box;
 }
 
@@ -339,7 +339,7 @@ Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extr
     const std::string name = name_of(individual);
     GlbMaterial material{.name = name, .look = look_of(individual.model)};
     const auto images = attach_images(
-        material, spec.params.textures, extras.image_addresses, execution,
+        material, spec.params.textures, extras.image_urls, execution,
         [&] { return painted_images(paint_spec_of(spec, atlas, execution.caches), execution); });
     execution.observer(Step::pack);
     GlbScene scene;

@@ -15,7 +15,7 @@ namespace sporeprint {
 /// Returns the approximate numbers of vertices and triangles in the file (seldom too low), texels
 /// and bytes. One individual is resolved, nothing is built.
 ///
-/// throws  as colony_nature(); Impossible ("/branch_distance") for roots with too many nodes
+/// throws  as colony_traits(); Impossible ("/branch_distance") for roots with too many nodes
 [[nodiscard]] Estimate estimate(const ColonySpec& spec, const Atlas& atlas,
                                 const Caches& caches = {});
 

@@ -56,7 +56,7 @@ GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh&
     const std::vector<double> ages = frame_ages(spec.params.frames);
     GrowthClip growth;
     growth.targets.resize(ages.size());
-    std::vector<std::exception_ptr> faults(ages.size());
+    std::vector<std::exception_ptr> errors(ages.size());
     std::vector<std::function<void()>> pieces;
     // All ages are weights of one set, so the correspondence is looked up once.
     std::map<std::string, std::shared_ptr<const MorphSet>> sets;
@@ -77,14 +77,14 @@ GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh&
                 growth.targets[k] = difference(
                     mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }), age);
             } catch (...) {
-                faults[k] = std::current_exception();
+                errors[k] = std::current_exception();
             }
         });
     }
     execution.parallel(pieces);
     // Of several errors the one of the youngest frame is thrown, for any number of worker threads.
-    for (const std::exception_ptr& fault : faults)
-        if (fault) std::rethrow_exception(fault);
+    for (const std::exception_ptr& error : errors)
+        if (error) std::rethrow_exception(error);
     growth.clip.name = name(Animation::growth);
     growth.clip.weights.assign(ages.size() * ages.size(), 0.0F);
     for (std::size_t k = 0; k < ages.size(); ++k) {

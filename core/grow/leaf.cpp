@@ -73,7 +73,7 @@ Grown grow_leaf(const LeafSpec& spec, const Extras& extras, const ExecutionConte
     throw_if_cancelled(execution);
     GlbParts parts{.name = spec.preset.empty() ? "leaf" : spec.preset,
                    .images = nullptr,
-                   .image_addresses = {},
+                   .image_urls = {},
                    .extras_json = extras_json(extras, write(params), mesh)};
     const auto images = attach_images(parts, params.textures, extras, execution,
                                       [&] { return painted_images(paint_of(params), execution); });

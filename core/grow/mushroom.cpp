@@ -91,7 +91,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extra
     throw_if_cancelled(execution);
     GlbParts parts{.name = name_of(individual),
                    .images = nullptr,
-                   .image_addresses = {},
+                   .image_urls = {},
                    .extras_json = extras_json(extras, write(individual.effective), mesh),
                    .look = look_of(individual.model)};
     GrowthClip growth;

@@ -139,12 +139,12 @@ SurfaceMetrics surface_metrics(const Individual& individual) {
 Mix surface_mix(const Mix& mix) {
     if (mix.empty()) return {};
     const std::vector<int> parts = apportioned(weights_of(mix), whole);
-    Mix kept;
+    Mix rounded;
     for (std::size_t i = 0; i < mix.size(); ++i)
-        if (parts[i] > 0) kept.push_back({mix[i].id, parts[i]});
-    const std::vector<int> thousandths = apportioned(weights_of(kept), 1000);
-    for (std::size_t i = 0; i < kept.size(); ++i) kept[i].weight = thousandths[i];
-    return kept;
+        if (parts[i] > 0) rounded.push_back({mix[i].id, parts[i]});
+    const std::vector<int> thousandths = apportioned(weights_of(rounded), 1000);
+    for (std::size_t i = 0; i < rounded.size(); ++i) rounded[i].weight = thousandths[i];
+    return rounded;
 }
 
 MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {

@@ -43,7 +43,7 @@ std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh)
 }
 
 std::shared_ptr<const ImageSet> attach_images(
-    GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
+    GlbMaterial& material, Textures textures, const ImageUrls& addresses,
     const ExecutionContext& execution,
     const std::function<std::shared_ptr<const ImageSet>()>& paint) {
     std::shared_ptr<const ImageSet> images;
@@ -57,7 +57,7 @@ std::shared_ptr<const ImageSet> attach_images(
             throw Impossible(
                 "/textures",
                 "'linked' needs the images to have addresses; a model of one's own has none");
-        material.image_addresses = addresses;
+        material.image_urls = addresses;
     }
     return images;
 }
@@ -66,9 +66,9 @@ std::shared_ptr<const ImageSet> attach_images(
     GlbParts& parts, Textures textures, const Extras& extras, const ExecutionContext& execution,
     const std::function<std::shared_ptr<const ImageSet>()>& paint) {
     GlbMaterial material;
-    auto images = attach_images(material, textures, extras.image_addresses, execution, paint);
+    auto images = attach_images(material, textures, extras.image_urls, execution, paint);
     parts.images = material.images;
-    parts.image_addresses = material.image_addresses;
+    parts.image_urls = material.image_urls;
     return images;
 }
 

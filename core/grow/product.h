@@ -32,11 +32,11 @@ struct Estimate {
                                             Textures textures, std::uint64_t image_bytes);
 
 /// URLs of the images of an atlas, indexed by ImageKind.
-using ImageAddresses = std::array<std::string, 3>;
+using ImageUrls = std::array<std::string, 3>;
 
 struct Extras {
-    std::string canonical;           ///< canonical URL of the request; empty for none
-    ImageAddresses image_addresses;  ///< for Textures::linked
+    std::string canonical;  ///< canonical URL of the request; empty for none
+    ImageUrls image_urls;   ///< for Textures::linked
 };
 
 /// A finished file.
@@ -62,7 +62,7 @@ struct Grown {
 
 /// Does the same for one material of a scene.
 [[nodiscard]] std::shared_ptr<const ImageSet> attach_images(
-    GlbMaterial& material, Textures textures, const ImageAddresses& addresses,
+    GlbMaterial& material, Textures textures, const ImageUrls& addresses,
     const ExecutionContext& execution,
     const std::function<std::shared_ptr<const ImageSet>()>& paint);
 

@@ -36,7 +36,7 @@ std::vector<SegmentPair> segment_pairs_of(const BranchGraph& a, const BranchGrap
         const BranchGraph::Node& node = a.nodes[i];
         SegmentPair segment;
         if (node.parent != BranchGraph::none) {
-            segment.bearer = static_cast<int>(node.parent);
+            segment.parent = static_cast<int>(node.parent);
             segment.goes_on = a.nodes[node.parent].children[0] == i;
         }
         segment.a = segment_of(a, node);

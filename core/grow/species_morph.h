@@ -37,13 +37,13 @@ struct SegmentShape {
 
 /// A segment that two species have in common.
 struct SegmentPair {
-    int bearer = -1;
+    int parent = -1;
     bool goes_on = true;
     SegmentShape a, b;
 
     static constexpr void fields(auto visit) {
         using L = SegmentPair;
-        visit(&L::bearer, Info{.name = "bearer",
+        visit(&L::parent, Info{.name = "bearer",
                                .min = -1,
                                .max = 100000,
                                .doc = "Place in this list of the limb that bears it, which comes "

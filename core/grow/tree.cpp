@@ -43,14 +43,14 @@ void finish(Mesh& mesh, const TreeParams& params) {
 
 // Throws Impossible when parameters that are each in range together exceed the bounds of a skeleton.
 void refuse_beyond_bounds(const Tree& tree) {
-    const std::vector<Problem> faults = validation_errors(tree.skeleton);
-    if (faults.empty()) return;
-    const bool of_radius = faults.front().path.ends_with("/radius");
+    const std::vector<Problem> problems = validation_errors(tree.skeleton);
+    if (problems.empty()) return;
+    const bool of_radius = problems.front().path.ends_with("/radius");
     throw Impossible(
         of_radius ? "/twig_radius" : "/twig_length",
         std::string(of_radius ? "the radius" : "the place") +
             " of a branch would be out of bounds, for its order makes so much of it: " +
-            faults.front().message);
+            problems.front().message);
 }
 
 struct Box {
@@ -87,9 +87,9 @@ Box farthest_first(std::vector<PlacedLeaf>& leaves, const Mesh& mesh) {
     Box box;
     std::array<std::size_t, 6> farthest{};
     for (std::size_t i = 0; i < leaves.size(); ++i) {
-        const glm::dvec3 room(reach * leaves[i].size);
-        if (glm::all(glm::greaterThanEqual(leaves[i].place - room, box.low)) &&
-            glm::all(glm::lessThanEqual(leaves[i].place + room, box.high)))
+        const glm::dvec3 margin(reach * leaves[i].size);
+        if (glm::all(glm::greaterThanEqual(leaves[i].place - margin, box.low)) &&
+            glm::all(glm::lessThanEqual(leaves[i].place + margin, box.high)))
             continue;
         const Box own = box_of(leaves[i], mesh);
         for (int axis = 0; axis < 3; ++axis) {
@@ -114,9 +114,9 @@ Box farthest_first(std::vector<PlacedLeaf>& leaves, const Mesh& mesh) {
 void keep_within(const Box& box, const Mesh& mesh, std::vector<PlacedLeaf>& leaves) {
     const double reach = reach_of(mesh);
     for (PlacedLeaf& leaf : leaves) {
-        const glm::dvec3 room(reach * leaf.size);
-        if (glm::all(glm::greaterThanEqual(leaf.place - room, box.low)) &&
-            glm::all(glm::lessThanEqual(leaf.place + room, box.high)))
+        const glm::dvec3 margin(reach * leaf.size);
+        if (glm::all(glm::greaterThanEqual(leaf.place - margin, box.low)) &&
+            glm::all(glm::lessThanEqual(leaf.place + margin, box.high)))
             continue;
         const Box own = box_of(leaf, mesh);
         // A leaf wider than the box is centred in it.
@@ -217,7 +217,7 @@ std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
     });
 }
 
-Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageAddresses& leaf_addresses,
+Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageUrls& leaf_urls,
                 const ExecutionContext& execution) {
     const TreeParams& params = spec.params;
     execution.observer(Step::build);
@@ -225,7 +225,7 @@ Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageAddresses
     throw_if_cancelled(execution);
     const std::string name = spec.preset.empty() ? "tree" : spec.preset;
     GlbScene scene;
-    scene.materials.push_back({.name = "bark", .goes_round = true});
+    scene.materials.push_back({.name = "bark", .repeats_u = true});
     scene.meshes.push_back({name, {{&meshes.bark, 0, {}}}});
     scene.nodes.push_back({.name = name});
     const bool leafy = !meshes.leaves.positions.empty();
@@ -234,13 +234,13 @@ Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageAddresses
         scene.meshes[0].primitives.push_back({&meshes.leaves, 1, {}});
     }
     const auto bark_images =
-        attach_images(scene.materials[0], params.textures, extras.image_addresses, execution,
+        attach_images(scene.materials[0], params.textures, extras.image_urls, execution,
                       [&] { return painted_images(paint_of(params), execution); });
     std::shared_ptr<const ImageSet> leaf_images;
     if (leafy)
-        leaf_images =
-            attach_images(scene.materials[1], params.textures, leaf_addresses, execution,
-                          [&] { return painted_images(paint_of(leaf_of(params)), execution); });
+        leaf_images = attach_images(scene.materials[1], params.textures, leaf_urls, execution, [&] {
+            return painted_images(paint_of(leaf_of(params)), execution);
+        });
     execution.observer(Step::pack);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes), meshes.triangles());
     return {glb(scene), meshes.vertices(), meshes.triangles()};

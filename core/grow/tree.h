@@ -51,12 +51,12 @@ struct TreeMeshes {
 
 /// Builds a tree: one mesh of two primitives, bark and leaves, with two materials.
 ///
-/// leaf_addresses  URLs of the images of its leaves, for Textures::linked; those of `extras` are of
+/// leaf_urls  URLs of the images of its leaves, for Textures::linked; those of `extras` are of
 ///                 the bark
 /// returns  the GLB as shared slices: header with JSON, geometry and images of bark and leaves
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
 [[nodiscard]] Grown grow_tree(const TreeSpec& spec, const Extras& extras = {},
-                              const ImageAddresses& leaf_addresses = {},
+                              const ImageUrls& leaf_urls = {},
                               const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

@@ -105,7 +105,7 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
             patch.survival = 0.02 + 0.86 * (0.8 * draw + 0.2 * reach);
             patch.id = id;
             // A crowded patch is smaller; without space its radius is 0 and it keeps its index.
-            double room = patch.radius;
+            double free_radius = patch.radius;
             const Place place = place_of(patch);
             for (std::size_t other = 0; other < out.size(); ++other) {
                 // The distance along the meridian alone rules out an overlap.
@@ -114,12 +114,14 @@ std::vector<Patch> patches(const PatchStyle& style, std::uint32_t seed, std::uin
                                               : out[other].sigma - patch.sigma;
                 if (along_only >= 0.8 * style.elongation * (patch.radius + out[other].radius))
                     continue;
-                room = std::min(room, distance(place, places[other], style.elongation) / 0.8 -
-                                          out[other].radius);
+                free_radius =
+                    std::min(free_radius, distance(place, places[other], style.elongation) / 0.8 -
+                                              out[other].radius);
             }
             // The result is continuous in the style's size, so that no patch appears suddenly while
             // the cap grows.
-            patch.radius = std::max(0.0, room) * smooth_step(0.2, 0.5, room / patch.radius);
+            patch.radius =
+                std::max(0.0, free_radius) * smooth_step(0.2, 0.5, free_radius / patch.radius);
             out.push_back(patch);
             places.push_back(place);
         }

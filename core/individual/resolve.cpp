@@ -325,10 +325,10 @@ void resolve_swept(Individual& individual, const MushroomSpec& spec,
         if (fold > most_natural_fold)
             individual.axis = individual.axis.scaled(most_natural_fold / fold);
         const double zone = (deformation.zone_to - deformation.zone_from) * slender * (180.0 / pi);
-        const double room = std::min(0.6, (0.95 - std::min(fold, most_natural_fold)) / 1.5);
-        const double of_template = std::min(deformation.bend_deg, 1.5 * room * zone);
+        const double available = std::min(0.6, (0.95 - std::min(fold, most_natural_fold)) / 1.5);
+        const double of_template = std::min(deformation.bend_deg, 1.5 * available * zone);
         const double drawn = deformation.bend_deg + draws.bend * spread.bend_deg * variation;
-        deformation.bend_deg = std::min({90.0, drawn, std::max(of_template, room * zone)});
+        deformation.bend_deg = std::min({90.0, drawn, std::max(of_template, available * zone)});
     }
 }
 

@@ -60,7 +60,7 @@ struct Source {
     }
     [[nodiscard]] bool peels() const {
         return has_margin() && std::any_of(stages.begin(), stages.end(), [](const Model* stage) {
-                   return stage->surface.scars.peel_reach > 0.0;
+                   return stage->surface.damage.peel_reach > 0.0;
                });
     }
     [[nodiscard]] bool has_margin() const {

@@ -35,7 +35,7 @@ enum Purpose : std::uint32_t {
     drips = 38,
     damage_spots = 40,        ///< four kinds on four parts
     grown_ramification = 60,  ///< biorders of a tree, sampled node by node
-    dealt_ramification = 61,  ///< biorders of a tree with exact counts, shuffled
+    exact_ramification = 61,  ///< biorders of a tree with exact counts, shuffled
     ramification_tips = 62,   ///< small trees in place of leaves
     tree_axes = 63,           ///< lengths, angles and azimuths of a tree's axes and nodes
     leaf_autumn = 64,         ///< time at which each leaf changes colour
@@ -63,9 +63,9 @@ enum Purpose : std::uint32_t {
     wander = 107,         ///< common deviation of all gills
     blade_paint = 108,
     flesh_paint = 109,
-    scars = 110,           ///< painted, ten kinds
+    painted_damage = 110,  ///< painted, ten kinds
     scale_outlines = 120,  ///< painted
-    scar_grain = 121,
+    damage_grain = 121,
 };
 
 /// Returns how many consecutive numbers a purpose takes, itself the first; 0 if no purpose begins
@@ -74,7 +74,7 @@ enum Purpose : std::uint32_t {
     switch (which) {
         case damage_spots:
             return 16;
-        case scars:
+        case painted_damage:
             return 10;
         case corners:
             return 3;
@@ -102,7 +102,7 @@ enum Purpose : std::uint32_t {
         case ragged:
         case drips:
         case grown_ramification:
-        case dealt_ramification:
+        case exact_ramification:
         case ramification_tips:
         case tree_axes:
         case leaf_autumn:
@@ -131,7 +131,7 @@ enum Purpose : std::uint32_t {
         case blade_paint:
         case flesh_paint:
         case scale_outlines:
-        case scar_grain:
+        case damage_grain:
             return 1;
     }
     return 0;

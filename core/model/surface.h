@@ -210,7 +210,7 @@ struct FleshSurface {
 };
 
 /// The species' parameters of painted damage: colours, and how its skin fails.
-struct ScarSurface {
+struct DamageSurface {
     Colour faded = {226, 204, 160};
     Colour bruise = {132, 92, 58};
     Colour dust = {246, 240, 226};
@@ -218,7 +218,7 @@ struct ScarSurface {
     double peel_reach = 0.4;
 
     static constexpr void fields(auto visit) {
-        using S = ScarSurface;
+        using S = DamageSurface;
         visit(&S::faded,
               Info{.name = "faded", .doc = "Colour that sun and rain leave of the cap."});
         visit(&S::bruise, Info{.name = "bruise", .doc = "Colour where it was handled."});
@@ -236,7 +236,7 @@ struct ScarSurface {
                    .doc = "How far the skin can be peeled off, in shares of the cap's meridian "
                           "from the margin."});
     }
-    bool operator==(const ScarSurface&) const = default;
+    bool operator==(const DamageSurface&) const = default;
 };
 
 /// The paper's images I as painting parameters.
@@ -246,7 +246,7 @@ struct Surface {
     StemSurface stem;
     VeilSurface veil;
     FleshSurface flesh;
-    ScarSurface scars;
+    DamageSurface damage;
 
     static constexpr void fields(auto visit) {
         visit(&Surface::cap, Info{.name = "cap", .doc = "Upper face."});
@@ -254,7 +254,7 @@ struct Surface {
         visit(&Surface::stem, Info{.name = "stem", .doc = "Stem."});
         visit(&Surface::veil, Info{.name = "veil", .doc = "Ring, warts and scales."});
         visit(&Surface::flesh, Info{.name = "flesh", .doc = "What tears lay open."});
-        visit(&Surface::scars, Info{.name = "scars", .doc = "What weathering shows."});
+        visit(&Surface::damage, Info{.name = "scars", .doc = "What weathering shows."});
     }
     bool operator==(const Surface&) const = default;
 };

@@ -16,12 +16,12 @@ namespace sporeprint {
 template <class T, class Use>
 void walk_corners(T& value, const Info& info, const std::string& path, const Use& use) {
     const auto each = [&](std::initializer_list<T> extremes) {
-        const T kept = value;
+        const T original = value;
         for (const T& extreme : extremes) {
             value = extreme;
             use(path);
         }
-        value = kept;
+        value = original;
     };
     if constexpr (Described<T>) {
         prove<T>();
@@ -29,22 +29,22 @@ void walk_corners(T& value, const Info& info, const std::string& path, const Use
             walk_corners(value.*member, sub, member_path(path, sub), use);
         });
     } else if constexpr (is_variant<T>) {
-        const T kept = value;
+        const T original = value;
         for (const char* form : FormsOf<T>::names) {
-            value = kept;
+            value = original;
             FormsOf<T>::select(value, form);
             use(path + '/' + form_key);
             std::visit([&](auto& one) { walk_corners(one, info, path, use); }, value);
         }
-        value = kept;
+        value = original;
     } else if constexpr (is_optional<T>) {
-        const T kept = value;
+        const T original = value;
         value.reset();
         use(path);
-        value = kept;
+        value = original;
         if (!value) value.emplace();
         walk_corners(*value, info, path, use);
-        value = kept;
+        value = original;
     } else if constexpr (is_list<T> || is_tuple<T>) {
         for (std::size_t i = 0; i < value.size(); ++i) {
             if constexpr (!std::is_same_v<T, std::vector<bool>>)
@@ -53,23 +53,23 @@ void walk_corners(T& value, const Info& info, const std::string& path, const Use
     } else if constexpr (std::is_same_v<T, Range>) {
         each({{info.min, info.min}, {info.min, info.max}, {info.max, info.max}});
     } else if constexpr (NamedEnum<T>) {
-        const T kept = value;
+        const T original = value;
         for (int i = 0; name(static_cast<T>(i)); ++i) {
             value = static_cast<T>(i);
             use(path);
         }
-        value = kept;
+        value = original;
     } else if constexpr (std::is_same_v<T, bool>) {
         each({false, true});
     } else if constexpr (std::is_same_v<T, Colour>) {
         each({{0, 0, 0}, {255, 255, 255}});
     } else if constexpr (is_choice<T>) {
-        const T kept = value;
+        const T original = value;
         for (const int one : T::values) {
             value = T{one};
             use(path);
         }
-        value = kept;
+        value = original;
     } else if constexpr (Number<T>) {
         each({static_cast<T>(info.min), static_cast<T>(info.max)});
     } else {

@@ -131,7 +131,8 @@ Value schema(const T& fallback, const Info& info) {
             out.set("minItems", 2).set("maxItems", 2);
             items = schema(double{}, info);
         }
-        for (const char* told_once : {"default", "title", "description"}) items.erase(told_once);
+        for (const char* described_once : {"default", "title", "description"})
+            items.erase(described_once);
         out.set("items", std::move(items));
         out.set("default", write(fallback));
     } else if constexpr (NamedEnum<T>) {

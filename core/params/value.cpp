@@ -52,9 +52,9 @@ class Builder final : public Sax {
     }
 
     bool parse_error(std::size_t, const std::string&,
-                     const nlohmann::json::exception& fault) override {
-        const std::string what = fault.what();
-        if (fault.id == 406) {  // "number overflow parsing '1e999'"
+                     const nlohmann::json::exception& error) override {
+        const std::string what = error.what();
+        if (error.id == 406) {  // "number overflow parsing '1e999'"
             const std::size_t quote = what.find('\'');
             report(problems_, next_path(),
                    printable(what.substr(quote == std::string::npos ? 0 : quote), 60) +
@@ -214,9 +214,9 @@ const Value* Value::at_pointer(std::string_view pointer) const {
         pointer.remove_prefix(end);
         if (at->is_array()) {
             std::size_t index = 0;
-            const auto [stop, fault] =
+            const auto [stop, error] =
                 std::from_chars(token.data(), token.data() + token.size(), index);
-            const bool whole = fault == std::errc{} && stop == token.data() + token.size() &&
+            const bool whole = error == std::errc{} && stop == token.data() + token.size() &&
                                (token.size() == 1 || token[0] != '0');
             at = whole && index < at->items().size() ? &at->items()[index] : nullptr;
         } else {

@@ -21,15 +21,15 @@ void append(Mesh& mesh, const Mesh& part) {
     for (const std::uint32_t index : part.indices) mesh.indices.push_back(index + shift);
 }
 
-// Segments that are skinned together: trunk and great branches, branches, twigs.
+// A group of orders that is skinned together: trunk and great branches, branches, twigs.
 struct Group {
     int low = 1, high = 1;  // orders
     int levels = 0;         // of subdivision
-    double gap = 0.0;       // longest way without a node, in radii
+    double gap = 0.0;       // longest distance without a node, in radii
 };
 
 std::vector<Group> groups_of(int highest, int lod) {
-    // A low tree keeps the branches that bear its leaves as long as its trunk is worth more than a line.
+    // A low tree keeps the branches that carry its leaves while its trunk is wider than a line.
     const int lowest =
         std::clamp(1 + lod, 1, std::max(1, highest - (lod + 1 == tree_lods ? 1 : 2)));
     std::vector<Group> groups;
@@ -44,15 +44,16 @@ std::vector<Group> groups_of(int highest, int lod) {
     return groups;
 }
 
-void refuse_thin(double nodes) {
+void throw_too_thin(double nodes) {
     throw Impossible("/twig_radius",
                      "bark would need about " + number_text(std::floor(nodes)) +
                          " rings, its branches are so thin for their length; at most " +
                          std::to_string(most_skeleton_nodes) + " are made");
 }
 
-// The segments of orders low..high as a skeleton of their own. Nodes that lie nearly on the way between their neighbours go, and longer
-// ways than `gap` radii get nodes: an image that turns back between two rings would be seen stretched.
+// Returns the segments of orders low..high as a skeleton of their own. Nodes nearly on the line
+// between their neighbours are removed, and distances longer than `gap` radii get nodes, because an
+// image that is mirrored between two rings would appear stretched.
 Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double gap) {
     const Ramification& grown = tree.ramification;
     const std::size_t count = grown.nodes.size();
@@ -63,7 +64,8 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double g
     for (std::uint32_t i = 1; i < count; ++i)
         if (within(i)) ++children[grown.nodes[i].parent];
     Skeleton part;
-    // Where each node lies in the part, and, of one that was left out, the last before it that was not.
+    // The index of each node in the part; of a removed node that of the last one before it that
+    // remains.
     std::vector<std::uint32_t> place(count, Ramification::none);
     const auto add = [&](const Skeleton::Node& node) {
         part.nodes.push_back(node);
@@ -77,7 +79,7 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double g
         if (parent != Ramification::none && within(parent)) {
             from = place[parent];
         } else {
-            // A part that begins on a thicker one begins inside of it, as thick as it goes on.
+            // A part that starts on a thicker one starts inside it, with its own radius.
             Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.segments[i].from];
             if (parent != Ramification::none) root.radius = std::min(root.radius, here.radius);
             from = add(root);
@@ -107,7 +109,7 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double g
         const double steps = std::floor(length / (gap * std::max(start.radius, here.radius)));
         if (static_cast<double>(part.nodes.size()) + steps >
             static_cast<double>(most_skeleton_nodes))
-            refuse_thin(static_cast<double>(part.nodes.size()) + steps);
+            throw_too_thin(static_cast<double>(part.nodes.size()) + steps);
         for (double step = 1.0; step <= steps; step += 1.0) {
             const double t = step / (steps + 1.0);
             const std::uint32_t between = add({start.place + t * (here.place - start.place),
@@ -136,7 +138,7 @@ Mesh bark_of(const Tree& tree, int lod) {
         for (std::size_t s = 0; s < skin.strips.size(); ++s) {
             const double girth = 2.0 * pi * skin.strips[s].radius;
             for (std::uint32_t i = skin.begins[s]; i < skin.begins[s + 1]; ++i) {
-                // There and back: so the image meets itself wherever it ends.
+                // Mirrored repeat, so that the image is continuous at both of its ends.
                 const double images = std::abs(skin.places[i].y) / (bark_girths * girth);
                 const double whole = 2.0 * std::floor(0.5 * images);
                 bark.texture_coordinates.emplace_back(std::clamp(skin.places[i].x, 0.0, 1.0),
@@ -153,7 +155,7 @@ TreeCount count_of_bark(const TreeShape& shape, int lod) {
     TreeCount count;
     double rings = 0.0;
     for (const Group& group : groups_of(static_cast<int>(orders.size()), lod)) {
-        // Quads round a segment and along it from ring to ring, with the seam and what forks and ends take.
+        // Quads round a segment times rings along it, plus those of the seam, forks and ends.
         double segments = 0.0, between = 0.0;
         for (int k = group.low; k <= group.high; ++k) {
             const ExpectedOrder& order = orders[static_cast<std::size_t>(k - 1)];
@@ -168,7 +170,7 @@ TreeCount count_of_bark(const TreeShape& shape, int lod) {
         count.vertices += (4.3 * segments + 1.35 * between) * (faces + 2.0);
         count.triangles += 2.0 * (4.0 * segments + 1.35 * between) * faces;
     }
-    if (rings > static_cast<double>(most_skeleton_nodes)) refuse_thin(rings);
+    if (rings > static_cast<double>(most_skeleton_nodes)) throw_too_thin(rings);
     return count;
 }
 

@@ -14,7 +14,7 @@ namespace sporeprint {
 namespace {
 
 constexpr int rows_per_piece = 32;
-// Depth of the deepest furrow, in girths.
+// Largest depth of a furrow, in girths.
 constexpr double deepest = 0.02;
 
 std::uint8_t byte(double share) {
@@ -57,7 +57,7 @@ RawImages bark_images(const BarkStyle& style, std::uint32_t seed, int side,
         std::vector<float> u(count), v(count);
         const double down =
             bark_girths * (static_cast<double>(y) + 0.5) / static_cast<double>(side);
-        // Noise with so many features round the segment, `longer` times as long as wide.
+        // Noise with `round` features round the segment, each `longer` times as long as wide.
         const auto noise = [&](int round, double longer, std::uint32_t purpose) {
             for (std::size_t x = 0; x < count; ++x) {
                 u[x] = static_cast<float>((static_cast<double>(x) + 0.5) * round / side);
@@ -74,7 +74,7 @@ RawImages bark_images(const BarkStyle& style, std::uint32_t seed, int side,
         const std::vector<float> dashes = noise(9, 0.16, 4U);
         for (std::size_t x = 0; x < count; ++x) {
             const double grain = static_cast<double>(fine[x]);
-            // Furrows run where the noise is about nothing: lines that part and meet.
+            // Furrows follow the zero set of the noise: lines that diverge and meet.
             const double from_furrow =
                 std::abs(static_cast<double>(coarse[x]) + 0.45 * static_cast<double>(middle[x]));
             const double rise = smooth_step(0.0, 0.3, from_furrow + 0.05 * grain);

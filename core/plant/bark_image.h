@@ -1,4 +1,4 @@
-// Bark as an image that goes round a segment once and repeats along it, there and back.
+// Bark as an image that wraps once round a segment and is repeated along it, mirrored.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace sporeprint {
 
-/// What bark looks like.
+/// The parameters of the look of bark.
 struct BarkStyle {
     Colour ridge{118, 102, 84};
     Colour furrow{52, 42, 34};
@@ -42,14 +42,14 @@ struct BarkStyle {
 };
 static_assert(well_described<BarkStyle>());
 
-/// One image along a segment is as long as this many of its girths.
+/// The length of one image along a segment, in girths of the segment.
 inline constexpr double bark_girths = 2.0;
 
-/// Paints base colour, normal (+Y up, towards the beginning of a segment) and occlusion-roughness-metalness; the left border goes on
-/// at the right one.
+/// Paints base colour, normal (+Y up, towards the start of a segment) and
+/// occlusion-roughness-metalness; the images wrap horizontally.
 ///
 /// side     16..2048 texels, a power of two
-/// throws   InvalidInput with all that check() finds, or for another side (path "/side")
+/// throws   InvalidInput with all that check() reports, or for another side (path "/side")
 /// cost     O(side^2)
 [[nodiscard]] RawImages bark_images(const BarkStyle& style, std::uint32_t seed, int side,
                                     const Parallel& parallel = in_turn);

@@ -12,16 +12,17 @@ namespace sporeprint {
 
 namespace {
 
-constexpr double least_foot_gap = 4e-3;
+constexpr double least_abscissa_gap = 4e-3;
 
-class FlatMaker {
+class LaminaMesher {
   public:
-    FlatMaker(const Lamina& lamina, std::vector<double> rows, std::size_t fill)
+    LaminaMesher(const Lamina& lamina, std::vector<double> rows, std::size_t fill)
         : lamina_(lamina), rows_(std::move(rows)) {
         const std::size_t lobes = lamina.lobes.size();
         for (std::size_t i = 0; i < lobes; ++i)
             for (std::size_t side = 0; side < 2; ++side)
-                feet_.push_back(feet_of(lamina.lobes[i], lamina.lobes[i].halves[side], fill));
+                abscissas_.push_back(
+                    abscissas_of(lamina.lobes[i], lamina.lobes[i].halves[side], fill));
         root_ = add({});
         for (std::size_t i = 0; i + 1 < lobes; ++i) seams_.push_back(seam(i));
         for (std::size_t i = 0; i < lobes; ++i) {
@@ -31,15 +32,15 @@ class FlatMaker {
         }
     }
 
-    FlatLamina take() { return std::move(made_); }
+    LaminaMesh take() { return std::move(made_); }
 
   private:
-    // Vertices along a line, by how far along it they lie.
+    // Vertices along a line, with their positions on it.
     struct Line {
         std::vector<double> at;
         std::vector<std::uint32_t> vertices;
 
-        // Those from one place to another, both included.
+        // Returns the vertices between two positions, both included.
         [[nodiscard]] std::vector<std::uint32_t> between(double from, double to) const {
             std::vector<std::uint32_t> found;
             for (std::size_t i = 0; i < at.size(); ++i)
@@ -50,19 +51,20 @@ class FlatMaker {
     };
     static constexpr double tolerance = 1e-7;
 
-    static std::vector<double> feet_of(const Lobe& lobe, const HalfLobe& half, std::size_t fill) {
-        std::vector<double> feet = half.feet;
-        const auto put = [&](double foot) {
-            const auto after = std::lower_bound(feet.begin(), feet.end(), foot);
-            if (after == feet.begin() || after == feet.end()) return;
-            if (*after - foot < least_foot_gap * lobe.reach ||
-                foot - *(after - 1) < least_foot_gap * lobe.reach)
+    static std::vector<double> abscissas_of(const Lobe& lobe, const HalfLobe& half,
+                                            std::size_t fill) {
+        std::vector<double> abscissas = half.abscissas;
+        const auto put = [&](double abscissa) {
+            const auto after = std::lower_bound(abscissas.begin(), abscissas.end(), abscissa);
+            if (after == abscissas.begin() || after == abscissas.end()) return;
+            if (*after - abscissa < least_abscissa_gap * lobe.reach ||
+                abscissa - *(after - 1) < least_abscissa_gap * lobe.reach)
                 return;
-            feet.insert(after, foot);
+            abscissas.insert(after, abscissa);
         };
-        if (fill == 0) return feet;
+        if (fill == 0) return abscissas;
         std::vector<double> veins = {0.0};
-        for (const HalfLobe::SideVein& vein : half.side_veins) veins.push_back(vein.foot);
+        for (const HalfLobe::SideVein& vein : half.side_veins) veins.push_back(vein.abscissa);
         veins.push_back(lobe.nodes.back());
         for (std::size_t i = 1; i < veins.size(); ++i) {
             for (std::size_t k = 1; k < fill; ++k)
@@ -70,10 +72,10 @@ class FlatMaker {
                     (veins[i] - veins[i - 1]) * static_cast<double>(k) / static_cast<double>(fill));
             put(veins[i]);
         }
-        return feet;
+        return abscissas;
     }
 
-    std::uint32_t add(const Flat& vertex) {
+    std::uint32_t add(const LaminaVertex& vertex) {
         made_.vertices.push_back(vertex);
         return static_cast<std::uint32_t>(made_.vertices.size() - 1);
     }
@@ -85,7 +87,7 @@ class FlatMaker {
             made_.triangles.push_back({a, b, c});
     }
 
-    static void tidy(std::vector<double>& sorted) {
+    static void sort_unique(std::vector<double>& sorted) {
         std::sort(sorted.begin(), sorted.end());
         sorted.erase(std::unique(sorted.begin(), sorted.end(),
                                  [](double a, double b) { return b - a < tolerance; }),
@@ -94,11 +96,12 @@ class FlatMaker {
 
     Line main_vein(std::size_t lobe) {
         const Lobe& one = lamina_.lobes[lobe];
-        Line line{feet_[2 * lobe], {}};
-        line.at.insert(line.at.end(), feet_[2 * lobe + 1].begin(), feet_[2 * lobe + 1].end());
-        tidy(line.at);
+        Line line{abscissas_[2 * lobe], {}};
+        line.at.insert(line.at.end(), abscissas_[2 * lobe + 1].begin(),
+                       abscissas_[2 * lobe + 1].end());
+        sort_unique(line.at);
         for (std::size_t i = 0; i < line.at.size(); ++i) {
-            Flat vertex;
+            LaminaVertex vertex;
             vertex.place = one.place(0, line.at[i], 0.0);
             const double share = line.at[i] / one.reach;
             vertex.groove = 1.0 - share;
@@ -109,20 +112,20 @@ class FlatMaker {
         return line;
     }
 
-    // The ray between a lobe and the next: by distance from the root.
+    // Returns the ray between a lobe and the next, by distance from the root.
     Line seam(std::size_t lobe) {
         const Lobe& right = lamina_.lobes[lobe];
         Line line;
         for (std::size_t k = 0; k < 2; ++k) {
             const Lobe& one = lamina_.lobes[lobe + k];
             const HalfLobe& half = one.halves[k];
-            for (const double foot : feet_[2 * (lobe + k) + k])
-                if (foot <= half.joined) line.at.push_back(distance(one, k, foot));
+            for (const double abscissa : abscissas_[2 * (lobe + k) + k])
+                if (abscissa <= half.joined) line.at.push_back(distance(one, k, abscissa));
         }
-        tidy(line.at);
+        sort_unique(line.at);
         const SineCosine ray = sine_cosine(right.turn + right.halves[0].limit);
         for (std::size_t i = 0; i < line.at.size(); ++i) {
-            Flat vertex;
+            LaminaVertex vertex;
             vertex.place = line.at[i] * glm::dvec2(-ray.sine, ray.cosine);
             vertex.affinity = 1.0;
             vertex.rim = i + 1 == line.at.size();
@@ -131,41 +134,41 @@ class FlatMaker {
         return line;
     }
 
-    static double distance(const Lobe& lobe, std::size_t side, double foot) {
-        return glm::length(lobe.place(side, foot, lobe.halves[side].height(foot)));
+    static double distance(const Lobe& lobe, std::size_t side, double abscissa) {
+        return glm::length(lobe.place(side, abscissa, lobe.halves[side].height(abscissa)));
     }
 
     void half(std::size_t lobe, std::size_t side, const Line& middle) {
         const Lobe& one = lamina_.lobes[lobe];
         const HalfLobe& half = one.halves[side];
-        const std::vector<double>& feet = feet_[2 * lobe + side];
+        const std::vector<double>& abscissas = abscissas_[2 * lobe + side];
         const bool mirrored = side == 1;
         const Line* seam = nullptr;
         if (half.joined > 0.0) seam = &seams_[side == 0 ? lobe : lobe - 1];
-        // Vertices of each foot, from the first row off the main vein to the border.
+        // The vertices of each abscissa, from the first row off the main vein to the border.
         const std::size_t rows = rows_.size();
-        std::vector<std::vector<std::uint32_t>> grid(feet.size());
-        for (std::size_t i = 1; i + 1 < feet.size(); ++i)
+        std::vector<std::vector<std::uint32_t>> grid(abscissas.size());
+        for (std::size_t i = 1; i + 1 < abscissas.size(); ++i)
             for (std::size_t k = 1; k < rows; ++k) {
-                if (k + 1 == rows && seam != nullptr && feet[i] <= half.joined) {
-                    const double t = distance(one, side, feet[i]);
+                if (k + 1 == rows && seam != nullptr && abscissas[i] <= half.joined) {
+                    const double t = distance(one, side, abscissas[i]);
                     grid[i].push_back(seam->between(t, t).front());
                     continue;
                 }
-                Flat vertex;
-                vertex.place = one.place(side, feet[i], rows_[k] * half.height(feet[i]));
+                LaminaVertex vertex;
+                vertex.place = one.place(side, abscissas[i], rows_[k] * half.height(abscissas[i]));
                 vertex.affinity = rows_[k];
                 vertex.rim = k + 1 == rows;
-                relief(half, feet[i], rows_[k] * half.height(feet[i]), vertex);
+                relief(half, abscissas[i], rows_[k] * half.height(abscissas[i]), vertex);
                 grid[i].push_back(add(vertex));
             }
-        for (std::size_t i = 0; i + 1 < feet.size(); ++i) {
-            const bool first = i == 0, last = i + 2 == feet.size();
-            const std::vector<std::uint32_t> inner = middle.between(feet[i], feet[i + 1]);
+        for (std::size_t i = 0; i + 1 < abscissas.size(); ++i) {
+            const bool first = i == 0, last = i + 2 == abscissas.size();
+            const std::vector<std::uint32_t> inner = middle.between(abscissas[i], abscissas[i + 1]);
             std::vector<std::uint32_t> outer;
-            if (seam != nullptr && feet[i + 1] <= half.joined)
-                outer =
-                    seam->between(distance(one, side, feet[i]), distance(one, side, feet[i + 1]));
+            if (seam != nullptr && abscissas[i + 1] <= half.joined)
+                outer = seam->between(distance(one, side, abscissas[i]),
+                                      distance(one, side, abscissas[i + 1]));
             else
                 outer = {first ? root_ : grid[i].back(),
                          last ? middle.vertices.back() : grid[i + 1].back()};
@@ -200,20 +203,20 @@ class FlatMaker {
         }
     }
 
-    // Grooves over side veins, swells between them; nothing at the border.
-    static void relief(const HalfLobe& half, double foot, double height, Flat& vertex) {
+    // Adds grooves along side veins and swellings between them; nothing at the border.
+    static void relief(const HalfLobe& half, double abscissa, double height, LaminaVertex& vertex) {
         const std::vector<HalfLobe::SideVein>& veins = half.side_veins;
         const double fade = 1.0 - vertex.affinity * vertex.affinity;
         double nearest = 1e9, gap = 1.0, length = 0.0;
         for (std::size_t i = 0; i < veins.size(); ++i) {
-            const double away = std::abs(foot - veins[i].foot);
+            const double away = std::abs(abscissa - veins[i].abscissa);
             if (away >= nearest) continue;
             nearest = away;
             length = veins[i].length;
-            gap =
-                foot < veins[i].foot
-                    ? veins[i].foot - (i == 0 ? 0.0 : veins[i - 1].foot)
-                    : (i + 1 < veins.size() ? veins[i + 1].foot : half.feet.back()) - veins[i].foot;
+            gap = abscissa < veins[i].abscissa
+                      ? veins[i].abscissa - (i == 0 ? 0.0 : veins[i - 1].abscissa)
+                      : (i + 1 < veins.size() ? veins[i + 1].abscissa : half.abscissas.back()) -
+                            veins[i].abscissa;
         }
         const double from_vein = std::min(nearest / (0.5 * std::max(gap, 1e-9)), 1.0);
         vertex.swell = from_vein * fade * std::min(1.0, 4.0 * vertex.affinity);
@@ -225,16 +228,16 @@ class FlatMaker {
 
     const Lamina& lamina_;
     std::vector<double> rows_;
-    std::vector<std::vector<double>> feet_;  ///< of each half: 2 lobe + side
-    FlatLamina made_;
+    std::vector<std::vector<double>> abscissas_;  ///< of each half, indexed by 2 lobe + side
+    LaminaMesh made_;
     std::uint32_t root_ = 0;
     std::vector<Line> seams_;
 };
 
 }  // namespace
 
-FlatLamina flat_lamina(const Lamina& lamina, std::vector<double> rows, std::size_t fill) {
-    return FlatMaker(lamina, std::move(rows), fill).take();
+LaminaMesh lamina_mesh(const Lamina& lamina, std::vector<double> rows, std::size_t fill) {
+    return LaminaMesher(lamina, std::move(rows), fill).take();
 }
 
 }  // namespace sporeprint

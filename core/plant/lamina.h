@@ -11,29 +11,31 @@
 
 namespace sporeprint {
 
-/// A place of the lamina in its plane, and its relief.
-struct Flat {
+/// A vertex of the lamina in its plane, with its relief.
+struct LaminaVertex {
     glm::dvec2 place{0.0};
     double affinity = 0.0;
     bool rim = false;
-    double groove = 0.0;  ///< 0..1: how deep a vein lies here
-    double rib = 0.0;     ///< 0..1: how far it stands out below
-    double swell = 0.0;   ///< 0..1: how far the lamina rises between veins
+    double groove = 0.0;  ///< 0..1: depth of a vein in the upper face
+    double rib = 0.0;     ///< 0..1: height of the vein on the lower face
+    double swell = 0.0;   ///< 0..1: height of the lamina between veins
 };
 
-/// A lamina as triangles.
-struct FlatLamina {
-    std::vector<Flat> vertices;
+/// The lamina as triangles.
+struct LaminaMesh {
+    std::vector<LaminaVertex> vertices;
     std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise from above
 };
 
-/// Lays a grid of feet and affinities over each half and closes the gaps between grids: along the main vein and along the rays
-/// between lobes both sides share the places of either.
+/// Returns a mesh of the lamina: a grid of abscissas and affinities over each half. Gaps between
+/// grids are closed: along the main vein and along the rays between lobes both sides share the
+/// vertices of either.
 ///
 /// rows     affinities of the grid's rows, ascending from 0 to 1
-/// fill     parts of the way from one vein's foot to the next, at whose ends feet are put; 0 for those of the border alone
-/// returns  the root first; each place once, so that the lamina is one piece
-[[nodiscard]] FlatLamina flat_lamina(const Lamina& lamina, std::vector<double> rows,
+/// fill     number of parts into which the interval between the abscissas of neighbouring veins is
+///          divided; 0 for the abscissas of the border alone
+/// returns  the root first; each position once, so that the lamina is one piece
+[[nodiscard]] LaminaMesh lamina_mesh(const Lamina& lamina, std::vector<double> rows,
                                      std::size_t fill);
 
 }  // namespace sporeprint

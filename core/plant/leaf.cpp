@@ -29,7 +29,8 @@ struct Level {
     int petiole_sides, petiole_rings;
 };
 
-// The more corners a border has, the less is spent on each.
+// Returns the resolution of a level of detail: the more corners a border has, the fewer triangles
+// each gets.
 Level level_of(const Venation& venation, int lod) {
     int corners = 0;
     for (int j = 0; j <= venation.lobes.value / 2; ++j) {
@@ -49,7 +50,8 @@ Level level_of(const Venation& venation, int lod) {
     return {1, {0.0, 1.0}, 0, 3, 2};
 }
 
-// The middle surface: folded about the middle vein, waving, bent along it. Lengths of the lamina.
+// The middle surface: folded about the middle vein, with waves, bent along it. Unit: length of the
+// lamina.
 class Bending {
   public:
     explicit Bending(const LeafShape& shape)
@@ -66,7 +68,7 @@ class Bending {
         up += shape_.wave * 0.6 * (x * x * phase.sine + x * std::abs(x) * phase.cosine);
         const double side = x * fold_.cosine;
         if (std::abs(curl_) < 1e-9) return {-side, up, y};
-        // What stands on the inner side of the bend never reaches its centre.
+        // Relief on the inner side of the bend must not reach the centre of curvature.
         up /= 1.0 + std::max(0.0, -curl_ * up);
         const SineCosine turn = sine_cosine(curl_ * y);
         return {-side, (turn.cosine - 1.0) / curl_ + up * turn.cosine,
@@ -79,13 +81,14 @@ class Bending {
     double curl_;
 };
 
-void refuse_faults(const LeafShape& shape) {
+void throw_if_invalid(const LeafShape& shape) {
     std::vector<Problem> problems;
     check(shape, Info{.name = ""}, "", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
 }
 
-// Positions in lengths of the lamina until the end, so that normals are as exact for needles as for palms.
+// A mesh under construction. Positions are in lengths of the lamina until the end, so that normals
+// are equally exact for small and large leaves.
 struct Shell {
     std::vector<glm::dvec3> places;
     std::vector<glm::vec2> texture;
@@ -121,7 +124,8 @@ struct Shell {
     }
 };
 
-// A tube that begins under the middle vein in a point and ends, a little thicker, in a disc at the pivot.
+// Adds a tube that starts at a point under the middle vein and ends, slightly thicker, in a disc at
+// the pivot.
 void add_petiole(const LeafShape& shape, const Bending& bent, const Level& level, Shell& shell) {
     const auto sides = static_cast<std::size_t>(level.petiole_sides);
     const auto rings = static_cast<std::size_t>(level.petiole_rings);
@@ -204,14 +208,14 @@ double twice_area(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c)
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-// Leaves `count` corners of the right half of a border, from the root to the tip, which stay: that whose loss changes the area
-// least goes first. All are seen from the centre.
+// Returns the right half of a border, from the root to the tip, reduced to `count` corners: the
+// corner whose removal changes the area least is removed first. All remain visible from the centre.
 std::vector<glm::dvec2> simplified(std::vector<glm::dvec2> half, const glm::dvec2& centre,
                                    std::size_t count) {
     const auto ahead = [&](std::size_t a, std::size_t b) {
         return twice_area(centre, half[a], half[b]) > 1e-6;
     };
-    // Of two corners that lie behind each other the one nearer to the centre goes.
+    // Of two corners in the same direction from the centre the nearer one is removed.
     for (std::size_t i = 0; i + 1 < half.size();) {
         if (ahead(i, i + 1) || half.size() == 2) {
             ++i;
@@ -248,14 +252,15 @@ double lamina_area(const LeafShape& shape) {
 
 namespace {
 
-/// What a polygon of few corners keeps of the lamina.
-enum class Keeps {
-    area,   ///< seen from above; it is as much shorter as the lamina has bays
-    extent  ///< length and width; its area as far as corners between them can be drawn in
+/// The property of the lamina that a polygon of few corners preserves.
+enum class Preserved {
+    area,   ///< seen from above; bays of the border make it shorter
+    extent  ///< length and width; the area as far as moving other corners allows
 };
 
-/// Makes the right half of a border, from the root to the tip, as long and as wide as a whole one, and draws in those of its corners
-/// that are neither its widest nor its tip until it has that one's area.
+/// Scales the right half of a border, from the root to the tip, to the length and width of the
+/// whole border, and moves the corners that are neither widest nor tip inwards until the areas are
+/// equal.
 void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
              const std::vector<glm::dvec2>& whole) {
     glm::dvec2 low(0.0), high(0.0);
@@ -280,7 +285,8 @@ void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
         place.y *= place.y < 0.0 ? deeper : longer;
     }
     centre.y *= longer;
-    // Twice the area of the half is the sum of each corner's x times the way from its neighbour to its neighbour along y.
+    // Twice the area of the half is the sum over its corners of x times the difference in y of the
+    // two neighbours.
     double fixed = 0.0, drawn = 0.0;
     for (std::size_t i = 1; i + 1 < half.size(); ++i)
         (i == widest ? fixed : drawn) += half[i].x * (half[i + 1].y - half[i - 1].y);
@@ -298,11 +304,12 @@ void stretch(std::vector<glm::dvec2>& half, glm::dvec2& centre,
     half = before;
 }
 
-// The lamina alone, root at the origin.
+// Returns the lamina alone, root at the origin.
 Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t triangles,
-                    Keeps keeps) {
+                    Preserved preserved) {
     const Lamina lamina = lamina_of(shape.venation, leaf_steps(shape.venation, 0));
-    // Between its veins' ends the border goes straight, or every corner would go into the bays of a frond.
+    // The border is straight between the ends of veins; otherwise all corners would be spent on the
+    // bays of a frond.
     Venation plain = shape.venation;
     plain.sinus = plain.teeth = 0.0;
     const Lamina outline = lamina_of(plain, plain.lobes.value == 1 ? 2 : 1);
@@ -316,10 +323,11 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
     }
     std::vector<glm::dvec2> border = simplified(half, centre, triangles / 4 + 1);
     const std::vector<glm::dvec2> whole = border_of(lamina);
-    if (keeps == Keeps::extent) stretch(border, centre, whole);
+    if (preserved == Preserved::extent) stretch(border, centre, whole);
     for (std::size_t i = border.size() - 2; i > 0; --i)
         border.emplace_back(-border[i].x, border[i].y);
-    const double grown = keeps == Keeps::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
+    const double grown =
+        preserved == Preserved::area ? std::sqrt(area_of(whole) / area_of(border)) : 1.0;
     const LeafChart chart = chart_of(lamina);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(border.size());
@@ -340,23 +348,23 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
 }  // namespace
 
 Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
-    refuse_faults(shape);
+    throw_if_invalid(shape);
     if (triangles < 8 || triangles > most_foliage_triangles || triangles % 4 != 0)
         throw InvalidInput("/triangles", std::to_string(triangles) + " is not 8, 12 or 16");
-    return foliage_shell(shape, Bending(shape), triangles, Keeps::area).mesh(shape.length);
+    return foliage_shell(shape, Bending(shape), triangles, Preserved::area).mesh(shape.length);
 }
 
 namespace {
 
-// Both faces on the grid of a level.
-Shell limb_shell(const LeafShape& shape, const Bending& bent, const Level& level) {
+// Returns both faces on the grid of a level.
+Shell lamina_shell(const LeafShape& shape, const Bending& bent, const Level& level) {
     const Lamina lamina = lamina_of(shape.venation, level.steps);
     const LeafChart chart = chart_of(lamina);
-    const FlatLamina flat = flat_lamina(lamina, level.rows, level.fill);
+    const LaminaMesh flat = lamina_mesh(lamina, level.rows, level.fill);
     Shell shell;
     const auto count = static_cast<std::uint32_t>(flat.vertices.size());
     for (const bool upper : {true, false})
-        for (const Flat& vertex : flat.vertices) {
+        for (const LaminaVertex& vertex : flat.vertices) {
             double lift = 0.0;
             if (!vertex.rim && &vertex != flat.vertices.data()) {
                 lift = shape.relief * (0.012 * vertex.swell - 0.008 * vertex.groove);
@@ -371,7 +379,8 @@ Shell limb_shell(const LeafShape& shape, const Bending& bent, const Level& level
     return shell;
 }
 
-/// Stretches a lamina of few corners, which curls and waves in larger steps, to the box of another one; the root stays.
+/// Scales a lamina of few corners, which approximates curl and waves coarsely, to the bounding box
+/// of another; the root stays in place.
 void fit_to(const Shell& like, Shell& shell) {
     const auto box = [](const Shell& one) {
         std::array<glm::dvec3, 2> corners = {glm::dvec3(0.0), glm::dvec3(0.0)};
@@ -390,7 +399,8 @@ void fit_to(const Shell& like, Shell& shell) {
     for (glm::dvec3& place : shell.places)
         for (int axis = 0; axis < 3; ++axis)
             place[axis] *= scale[place[axis] < 0.0 ? 0U : 1U][axis];
-    // Folds that lie between its corners may reach above all of them: its highest corners on either side rise to there.
+    // Folds between its corners may reach above all of them, so the highest corner on either side
+    // is raised to that height.
     double top = 0.0, highest = -1e9;
     const auto beside = [](const glm::dvec3& place) { return std::abs(place.x) > 1e-6; };
     for (const glm::dvec3& place : shell.places) {
@@ -405,15 +415,15 @@ void fit_to(const Shell& like, Shell& shell) {
 }  // namespace
 
 Mesh leaf_mesh(const LeafShape& shape, int lod, double size) {
-    refuse_faults(shape);
+    throw_if_invalid(shape);
     if (lod < 0 || lod >= leaf_lods)
         throw InvalidInput("/lod",
                            std::to_string(lod) + " is outside 0.." + std::to_string(leaf_lods - 1));
     const Level level = level_of(shape.venation, lod);
     const Bending bent(shape);
-    Shell shell = limb_shell(shape, bent, level);
+    Shell shell = lamina_shell(shape, bent, level);
     if (lod + 1 == leaf_lods && shell.triangles.size() > most_foliage_triangles) {
-        Shell far = foliage_shell(shape, bent, most_foliage_triangles, Keeps::extent);
+        Shell far = foliage_shell(shape, bent, most_foliage_triangles, Preserved::extent);
         fit_to(shell, far);
         shell = std::move(far);
     }
@@ -427,23 +437,25 @@ LeafCount most_of_leaf(const Venation& venation, int lod) {
     const auto sides = static_cast<std::uint64_t>(level.petiole_sides);
     const auto rings = static_cast<std::uint64_t>(level.petiole_rings);
     LeafCount count{rings * (sides + 1) + sides + 2, 2 * sides * rings};
-    // The polygon of a needle has fewer corners, and then two to a triangle at the most.
+    // The polygon of a needle has fewer corners, with at most two per triangle.
     if (lod + 1 == leaf_lods)
         return {count.vertices + 2 * most_foliage_triangles,
                 count.triangles + most_foliage_triangles};
-    // Feet of half a lobe: its border's corners and what lies between them, where it is joined to its neighbour, and filled in.
+    // Abscissas of half a lobe: the corners of its border and those between them, where it is
+    // joined to its neighbour, and filled ones.
     const auto nodes = static_cast<std::uint64_t>(venation.nodes);
     const auto lobes = static_cast<std::uint64_t>(venation.lobes.value);
     const std::uint64_t between =
         (venation.sinus > 0.0 ? 2 : 1) * std::max<std::uint64_t>(nodes, 2);
     const bool toothed = level.steps > 1 && venation.teeth > 0.0;
     const int places = std::max(level.steps, toothed ? 2 * venation.teeth_per_vein : 0);
-    const std::uint64_t feet =
+    const std::uint64_t abscissas =
         between * static_cast<std::uint64_t>(places) + 6 + level.fill * (nodes + 1);
     const std::uint64_t rows = level.rows.size();
-    // Both halves of a lobe share their main vein, neighbours the ray between; either line has the feet of both sides.
-    count.vertices += 2 * lobes * (2 * feet * (rows - 1) + 4 * feet);
-    count.triangles += 2 * lobes * (2 * feet * 2 * (rows - 1) + 8 * feet);
+    // Both halves of a lobe share their main vein, neighbours the ray between them; either line has
+    // the abscissas of both sides.
+    count.vertices += 2 * lobes * (2 * abscissas * (rows - 1) + 4 * abscissas);
+    count.triangles += 2 * lobes * (2 * abscissas * 2 * (rows - 1) + 8 * abscissas);
     return count;
 }
 
@@ -477,7 +489,7 @@ LeafShape individual_leaf(const LeafShape& shape, std::uint32_t seed, double var
         within(info_of<Venation>("side_length"), veins.side_length * exponential(0.1 * longer));
     veins.side_deg = turned(info_of<Venation>("side_deg"), veins.side_deg, 2.5);
     veins.vein_deg = turned(info_of<Venation>("vein_deg"), veins.vein_deg, 2.5);
-    // Angles that leave lobes no room stay as they were.
+    // Angles that would leave too little space for the lobes keep their original values.
     std::vector<Problem> problems;
     veins.check("", problems);
     if (problems.empty()) return leaf;

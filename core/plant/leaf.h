@@ -1,4 +1,4 @@
-// A leaf as a closed thin shell, cut out without alpha, with its petiole.
+// A leaf as a closed thin shell, modelled without alpha cut-outs, with its petiole.
 #pragma once
 
 #include <cstdint>
@@ -11,7 +11,7 @@
 
 namespace sporeprint {
 
-/// What a leaf is made from.
+/// The parameters of a leaf's shape.
 struct LeafShape {
     Venation venation;
     double length = 0.08;
@@ -68,7 +68,7 @@ struct LeafShape {
 };
 static_assert(well_described<LeafShape>());
 
-/// A leaf to begin with.
+/// A preset: a leaf to start from.
 struct LeafPreset {
     const char* id;
     const char* name;
@@ -76,66 +76,72 @@ struct LeafPreset {
     LeafPalette palette;
 };
 
-/// maple, oak, birch, ivy, fern, shoot, needle.
+/// Returns the presets: maple, oak, birch, ivy, fern, shoot, needle.
 [[nodiscard]] std::span<const LeafPreset> leaf_presets();
-/// nullptr if there is none.
+/// Returns a preset, or nullptr if there is none.
 [[nodiscard]] const LeafPreset* leaf_preset(std::string_view id);
 
-/// Where a leaf lies on its image: the upper face in the left half, the lower one in the right half, both from above,
-/// and under them a strip for the petiole.
+/// The chart of a leaf on its image: the upper face in the left half, the lower one in the right
+/// half, both seen from above, and below them a strip for the petiole.
 struct LeafChart {
-    glm::dvec2 corner{0.0};  ///< of the lamina's box, in its plane
+    glm::dvec2 corner{0.0};  ///< lower corner of the lamina's bounding box, in its plane
     double scale = 1.0;      ///< texture lengths per length of the lamina
 
     [[nodiscard]] glm::dvec2 texture_point(const glm::dvec2& place, bool upper) const;
-    /// The way back; whether a texture point is on either face at all is for a LaminaReader to say.
+    /// The inverse of texture_point(). Whether a point lies on the lamina at all is decided by
+    /// LaminaSampler.
     [[nodiscard]] glm::dvec2 place(const glm::dvec2& texture_point, bool& upper) const;
 };
-/// Top of the petiole's strip; v goes down as in glTF.
+/// The top of the petiole's strip; v goes down as in glTF.
 inline constexpr double petiole_strip = 0.94;
 [[nodiscard]] LeafChart chart_of(const Lamina& lamina);
 
-/// Levels of detail of a lone leaf.
+/// The number of levels of detail of a leaf as a product of its own.
 inline constexpr int leaf_lods = 4;
 
-/// Steps that lamina_of() takes for a leaf at a level of detail.
+/// Returns the argument `steps` of lamina_of() for a leaf at a level of detail.
 [[nodiscard]] int leaf_steps(const Venation& venation, int lod);
 
-/// The whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face up.
+/// Returns the whole leaf: pivot at the far end of the petiole, the lamina along +z, its upper face
+/// up.
 ///
-/// lod      0 about 2,000 triangles; 1 some 500; 2 the polygon of the source; 3 a fan of most_foliage_triangles as long and as wide
-///          as that, or the polygon where it has no more triangles
+/// lod      0: about 2,000 triangles; 1: about 500; 2: the polygon of the source; 3: a fan of
+///          most_foliage_triangles of the same length and width, or the polygon if it has no more
+///          triangles
 /// size     scale of the whole
-/// returns  two closed pieces: lamina, its veins as relief, and petiole
-/// throws   InvalidInput with all that check() finds
+/// returns  two closed pieces: the lamina, with its veins as relief, and the petiole
+/// throws   InvalidInput with all that check() reports
 [[nodiscard]] Mesh leaf_mesh(const LeafShape& shape, int lod, double size = 1.0);
 
 struct LeafCount {
     std::uint64_t vertices = 0, triangles = 0;
 };
 
-/// Most that leaf_mesh() comes to; nanoseconds. Up to six times as many where few corners are many lobes.
+/// Returns upper bounds of the counts of leaf_mesh(), in nanoseconds; up to six times the actual
+/// counts where few corners are divided among many lobes.
 [[nodiscard]] LeafCount most_of_leaf(const Venation& venation, int lod);
 
-/// One of many leaves of a shape: a little longer or shorter, more or less curled, with other angles between its veins.
+/// Returns the shape of one individual: slightly longer or shorter, more or less curled, with other
+/// angles between its veins.
 ///
-/// shape      with nothing that check() finds
-/// variation  0 the shape itself, 1 as far as leaves of one plant differ
-/// returns    a shape with nothing that check() finds
+/// shape      with nothing that check() reports
+/// variation  0: the shape itself; 1: as different as leaves of one plant
+/// returns    a shape with nothing that check() reports
 [[nodiscard]] LeafShape individual_leaf(const LeafShape& shape, std::uint32_t seed,
                                         double variation);
 
-/// Most triangles of foliage_leaf().
+/// The largest number of triangles of foliage_leaf().
 inline constexpr std::size_t most_foliage_triangles = 16;
 
-/// The leaf of a tree: one closed piece of a few triangles with the area of the lamina, seen from above, without a petiole
-/// (root of the lamina at the origin).
+/// Returns the leaf of a tree: one closed piece of a few triangles with the area of the lamina seen
+/// from above, without a petiole (root of the lamina at the origin).
 ///
-/// triangles  even, 6..16
+/// triangles  8, 12 or 16
+/// throws     InvalidInput with all that check() reports, or for another number of triangles
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
                                 std::size_t triangles = most_foliage_triangles);
 
-/// Area of the lamina in its plane, square metres.
+/// Returns the area of the lamina in its plane, square metres.
 [[nodiscard]] double lamina_area(const LeafShape& shape);
 
 }  // namespace sporeprint

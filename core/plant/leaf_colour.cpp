@@ -20,7 +20,8 @@ glm::dvec3 mixed(const glm::dvec3& a, const glm::dvec3& b, double share) {
     return a + share * (b - a);
 }
 
-// 1 on a vein, 0 beside it. Main veins grow thinner to the tip, side veins are half as wide and end in the lamina.
+// Returns 1 on a vein, 0 beside it. Main veins taper to the tip, side veins are half as wide and
+// end within the lamina.
 double vein_share(const LeafColours& colours, const LaminaPlace& place) {
     const auto line = [](double distance, double width) {
         return width > 0.0 ? 1.0 - smooth_step(0.25 * width, 0.5 * width, distance) : 0.0;
@@ -51,7 +52,7 @@ double gradation(GradationLaw law, double ratio) {
     return x;
 }
 
-LeafColourist::Season LeafColourist::season(const LeafColours& colours) {
+LeafColourMap::Season LeafColourMap::season(const LeafColours& colours) {
     Season made = {colours,
                    linear(colours.vein),
                    linear(colours.inner),
@@ -60,16 +61,16 @@ LeafColourist::Season LeafColourist::season(const LeafColours& colours) {
                    {}};
     LaminaPlace beyond;
     beyond.affinity = beyond.homothety = 1.0;
-    made.beyond = blade(made, beyond);
+    made.beyond = lamina_colour(made, beyond);
     return made;
 }
 
-LeafColourist::LeafColourist(const LeafPalette& palette)
+LeafColourMap::LeafColourMap(const LeafPalette& palette)
     : seasons_{season(palette.summer), season(palette.turning), season(palette.fallen)},
       paler_below_(palette.paler_below),
       widest_(std::max(palette.summer.vein_width, palette.fallen.vein_width)) {}
 
-glm::dvec3 LeafColourist::blade(const Season& season, const LaminaPlace& place) {
+glm::dvec3 LeafColourMap::lamina_colour(const Season& season, const LaminaPlace& place) {
     const LeafColours& colours = season.colours;
     const glm::dvec3 across =
         mixed(season.inner, season.border, gradation(colours.affinity, place.affinity));
@@ -77,8 +78,8 @@ glm::dvec3 LeafColourist::blade(const Season& season, const LaminaPlace& place) 
                  colours.homothety_share * gradation(colours.homothety, place.homothety));
 }
 
-LeafColourist::Faces LeafColourist::at(const LaminaPlace& place, double autumn) const {
-    // What is far from veins turns first: by up to a third of a season.
+LeafColourMap::Faces LeafColourMap::at(const LaminaPlace& place, double autumn) const {
+    // Places far from veins turn first, by up to a third of a season.
     constexpr double lag = 0.17, whole = 0.5 - lag;
     const auto turned = [&](double begin, double depth) {
         const double t =
@@ -95,8 +96,8 @@ LeafColourist::Faces LeafColourist::at(const LaminaPlace& place, double autumn) 
     };
     const double far = std::clamp(0.6 * place.affinity + 0.4 * place.homothety, 0.0, 1.0);
     const bool beyond = place.affinity >= 1.0 && place.homothety >= 1.0;
-    glm::dvec3 colour =
-        seasonal([&](const Season& one) { return beyond ? one.beyond : blade(one, place); }, far);
+    glm::dvec3 colour = seasonal(
+        [&](const Season& one) { return beyond ? one.beyond : lamina_colour(one, place); }, far);
     if (place.from_main < 0.5 * widest_ || place.from_side < 0.25 * widest_) {
         const double line = (1.0 - autumn) * vein_share(seasons_[0].colours, place) +
                             autumn * vein_share(seasons_[2].colours, place);
@@ -108,14 +109,15 @@ LeafColourist::Faces LeafColourist::at(const LaminaPlace& place, double autumn) 
 
 glm::dvec3 leaf_colour(const LeafPalette& palette, const LaminaPlace& place, double autumn,
                        bool upper) {
-    const LeafColourist::Faces faces = LeafColourist(palette).at(place, autumn);
+    const LeafColourMap::Faces faces = LeafColourMap(palette).at(place, autumn);
     return upper ? faces.upper : faces.lower;
 }
 
 double leaf_autumn(double autumn, double spread, std::uint32_t seed, std::uint32_t leaf) {
     Random random(seed, purposes::leaf_autumn, leaf);
     const double drawn = random.symmetric();
-    // A bow through (0, 0) and (1, 1), up for early leaves and down for late ones.
+    // A curve through (0, 0) and (1, 1), above the diagonal for early leaves and below it for late
+    // ones.
     return std::clamp(autumn + spread * drawn * 2.0 * autumn * (1.0 - autumn), 0.0, 1.0);
 }
 

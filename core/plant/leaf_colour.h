@@ -1,4 +1,4 @@
-// Colours of a leaf as data for a painter: gradations by affinity and homothety, and what autumn makes of them.
+// Colours of a leaf: gradations by affinity and homothety, and their change in autumn.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 namespace sporeprint {
 
-/// How a ratio of 0..1 becomes a share of colour.
+/// The law that maps a ratio of 0..1 to a share of colour.
 enum class GradationLaw { linear, soft, late, early, banded };
 
 constexpr const char* name(GradationLaw law) {
@@ -29,12 +29,13 @@ constexpr const char* name(GradationLaw law) {
     return nullptr;
 }
 
-/// 0 at 0, 1 at 1, never falling; flat at both ends (soft), only near 1 (late), at once (early), in four steps (banded).
+/// Returns the share of colour for a ratio: 0 at 0, 1 at 1, non-decreasing; flat at both ends
+/// (soft), steep only near 1 (late) or near 0 (early), in four steps (banded).
 [[nodiscard]] double gradation(GradationLaw law, double ratio);
 
-/// Colours of one face of a leaf.
-/// source [Viennot1989] section 6.1: each lobe by an affinity (axis its main vein, direction its side veins) and a homothety about
-/// the root
+/// The colours of one face of a leaf.
+/// source  [Viennot1989] section 6.1: in each lobe an affinity (axis: its main vein; direction: its
+///         side veins) and a homothety about the root
 struct LeafColours {
     Colour vein{150, 176, 92};
     Colour inner{74, 116, 42};
@@ -68,8 +69,8 @@ struct LeafColours {
 };
 static_assert(well_described<LeafColours>());
 
-/// Colours of a kind of leaf through the year: the upper face in summer, in its first autumn colour and in its last, and how much
-/// paler the lower one is.
+/// The colours of a kind of leaf through the year: the upper face in summer, in its first and in
+/// its last autumn colour, and how much paler the lower face is.
 struct LeafPalette {
     LeafColours summer, turning, fallen;
     double paler_below = 0.35;
@@ -88,39 +89,42 @@ struct LeafPalette {
 };
 static_assert(well_described<LeafPalette>());
 
-/// Colours the places of one face after another; what a palette says is made linear once.
-class LeafColourist {
+/// Maps positions on a lamina to colours; the colours of the palette are converted to linear light
+/// once.
+class LeafColourMap {
   public:
-    explicit LeafColourist(const LeafPalette& palette);
+    explicit LeafColourMap(const LeafPalette& palette);
 
-    /// Linear colours of both faces at a place, 0..1.
+    /// The linear colours of both faces at a position, 0..1.
     struct Faces {
         glm::dvec3 upper, lower;
     };
 
-    /// autumn   0 summer, 0.5 turning, 1 fallen. Leaves turn from their border and tip inwards, veins last
+    /// Returns the colours at a position. Leaves turn from border and tip inwards, veins last.
+    ///
+    /// autumn  0: summer; 0.5: turning; 1: fallen
     [[nodiscard]] Faces at(const LaminaPlace& place, double autumn) const;
 
   private:
     struct Season {
         LeafColours colours;
         glm::dvec3 vein, inner, border, tip;
-        glm::dvec3 beyond;  ///< of the lamina's border
+        glm::dvec3 beyond;  ///< colour beyond the border
     };
     [[nodiscard]] static Season season(const LeafColours& colours);
-    [[nodiscard]] static glm::dvec3 blade(const Season& season, const LaminaPlace& place);
+    [[nodiscard]] static glm::dvec3 lamina_colour(const Season& season, const LaminaPlace& place);
 
     std::array<Season, 3> seasons_;  ///< summer, turning, fallen
     double paler_below_;
-    double widest_;  ///< of all veins in summer and when fallen
+    double widest_;  ///< largest vein width, in summer and when fallen
 };
 
-/// The same for one place.
+/// Returns the colour of one face at one position.
 [[nodiscard]] glm::dvec3 leaf_colour(const LeafPalette& palette, const LaminaPlace& place,
                                      double autumn, bool upper);
 
-/// When one of many leaves turns: its own share of `autumn`, earlier and later by `spread` (0..1), from its own stream; 0 and 1
-/// stay themselves for all.
+/// Returns the `autumn` of one of many leaves, which turns earlier or later by `spread` (0..1),
+/// from its own random stream; 0 and 1 are the same for all.
 [[nodiscard]] double leaf_autumn(double autumn, double spread, std::uint32_t seed,
                                  std::uint32_t leaf);
 

@@ -16,13 +16,14 @@ namespace sporeprint {
 namespace {
 
 constexpr int rows_per_piece = 32;
-constexpr int finest_row = 512;  // points that show the veins of a leaf whole
+constexpr int finest_row = 512;  // points per row that resolve the veins of a leaf
 
 std::uint8_t byte(double share) {
     return static_cast<std::uint8_t>(std::clamp(share, 0.0, 1.0) * 255.0 + 0.5);
 }
 
-// sRGB of linear light in 4096 steps: finer than its 256 bytes, but for the darkest.
+// Returns a table of sRGB bytes for linear light in 4096 steps: finer than bytes, except for the
+// darkest.
 const std::array<std::uint8_t, 4097>& encoded_table() {
     static const std::array<std::uint8_t, 4097> table = [] {
         std::array<std::uint8_t, 4097> made{};
@@ -33,20 +34,20 @@ const std::array<std::uint8_t, 4097>& encoded_table() {
     return table;
 }
 
-// 1 on a line, 0 beside it, round between.
-double bead(double distance, double width) {
+// Returns 1 on a line, 0 beside it, with a smooth profile between.
+double line_profile(double distance, double width) {
     return distance < width ? 1.0 - smooth_step(0.0, width, distance) : 0.0;
 }
 
-// How far a vein lies in the lamina here, 0..1.
+// Returns the depth of a vein at a place, 0..1.
 double vein_depth(const LaminaPlace& place) {
-    const double main = bead(place.from_main, 0.028 * (1.0 - 0.7 * place.homothety));
-    double side = bead(place.from_side, 0.014);
+    const double main = line_profile(place.from_main, 0.028 * (1.0 - 0.7 * place.homothety));
+    double side = line_profile(place.from_side, 0.014);
     if (side > 0.0) side *= 1.0 - smooth_step(0.7, 1.1, place.along_side);
     return std::max(main, 0.6 * side);
 }
 
-// Of a place beyond the border.
+// The coordinates of a place beyond the border.
 constexpr LaminaPlace beyond_lamina = {.affinity = 1.0, .homothety = 1.0, .from_main = 1e9};
 
 struct Texel {
@@ -65,9 +66,9 @@ class LeafPainter {
   public:
     LeafPainter(const LeafShape& shape, const LeafPalette& palette, double autumn,
                 std::uint32_t seed, std::size_t side)
-        : reader_(lamina_of(shape.venation, leaf_steps(shape.venation, 0))),
-          chart_(chart_of(reader_.lamina())),
-          colourist_(palette),
+        : sampler_(lamina_of(shape.venation, leaf_steps(shape.venation, 0))),
+          chart_(chart_of(sampler_.lamina())),
+          colour_map_(palette),
           autumn_(autumn),
           relief_(shape.relief),
           seed_(seed),
@@ -77,7 +78,7 @@ class LeafPainter {
           tile_(std::max<std::size_t>(side / most_tiles, 1)) {
         LaminaPlace vein;
         vein.from_side = 0.0;
-        petiole_ = colourist_.at(vein, autumn_).upper;
+        petiole_ = colour_map_.at(vein, autumn_).upper;
         heights_.assign(count_ * count_ / 2, 0.0F);
         images_.side = static_cast<int>(side);
         for (Bytes& image : images_.rgb) image.assign(3 * count_ * count_, 0);
@@ -87,8 +88,8 @@ class LeafPainter {
             for (std::size_t k = 0; k < 2; ++k)
                 across_[k].push_back(static_cast<float>(columns_.back() + 8.0) * features[k]);
         }
-        find_limb();
-        const LeafColourist::Faces beyond = colourist_.at(beyond_lamina, autumn_);
+        find_lamina_tiles();
+        const LeafColourMap::Faces beyond = colour_map_.at(beyond_lamina, autumn_);
         for (const bool upper : {true, false}) {
             const Painted flat = painted_texel(
                 {upper ? beyond.upper : beyond.lower, 1.0, (upper ? 0.5 : 0.75) + 0.2 * autumn_});
@@ -100,7 +101,7 @@ class LeafPainter {
         }
     }
 
-    // Colour, occlusion, roughness, and how far the upper face stands out.
+    // Computes colour, occlusion, roughness and the height of the upper face.
     void colour_row(std::size_t y) {
         const std::size_t half = count_ / 2;
         const bool of_petiole =
@@ -125,7 +126,7 @@ class LeafPainter {
                 }
             const Painted one = painted_texel(upper);
             put_texel(y * count_ + x, one);
-            // The strip of the petiole goes on where both halves meet.
+            // The strip of the petiole is mirrored where both halves meet.
             if (of_petiole)
                 put_texel((y + 1) * count_ - 1 - x, one);
             else
@@ -134,12 +135,12 @@ class LeafPainter {
         }
     }
 
-    // The slopes of the upper face and, the other way, of the lower one.
+    // Computes the normals from the slopes of the upper face, negated for the lower one.
     void normal_row(std::size_t y) {
         const std::size_t half = count_ / 2;
         std::uint8_t* upper = &images_.rgb[1][3 * y * count_];
         std::uint8_t* lower = upper + 3 * half;
-        // What is flat has no slope.
+        // Rows without relief have a constant normal.
         Span span = spans_[y / tile_];
         for (const std::size_t row :
              {y - std::min<std::size_t>(y, 1), std::min(y + 1, count_ - 1)}) {
@@ -166,7 +167,8 @@ class LeafPainter {
         for (std::size_t x = span.first; x < span.last; ++x)
             put_normals(upper + 3 * x, lower + 3 * x, along[x] * size[x], across[x] * size[x],
                         size[x]);
-        // The faces lie side by side, and their slopes are no slope between them: each has one at its outer border alone.
+        // The faces are adjacent in the image but not on the leaf, so no slope is computed across
+        // the line between them; each face has a one-sided slope at its outer edge.
         const auto outer = [&](std::uint8_t* at, std::size_t x, double slope, double sign) {
             const double one = 1.0 / std::sqrt(slope * slope + across[x] * across[x] + 1.0);
             std::array<std::uint8_t, 3> other{};
@@ -182,34 +184,35 @@ class LeafPainter {
     [[nodiscard]] RawImages take() { return std::move(images_); }
 
   private:
-    // Blotches, and the net between veins, to the length of a lamina.
+    // Numbers of blotches and of cells between veins per length of a lamina.
     static constexpr std::array<float, 2> features = {7.0F, 60.0F};
 
     static constexpr std::size_t most_points = 4;
 
-    // Beside the lamina as much is painted as mipmaps of a quarter of the images' sides mix in, in lengths of it: what lies beyond is
-    // flat. It is looked up in tiles.
+    // Width of the painted margin around the lamina, in its lengths: as much as mipmaps of a
+    // quarter of the side blend in. Beyond it the image is constant. The margin is found by tiles.
     static constexpr double margin = 0.016;
     static constexpr std::size_t most_tiles = 64;
 
-    // Columns of a half.
+    // A range of columns of one half.
     struct Span {
         std::size_t first = 0, last = 0;
     };
 
-    // A line of points: where it lies, its noise from a point on, and where its last point lay.
+    // A line of sample points: its position, its noise from a point on, and the state of the
+    // previous lookup.
     struct Line {
         double y = 0.0;
         std::size_t from = 0;
         std::vector<float> spots, cells;
-        LaminaReader::Trail trail;
+        LaminaSampler::Hint hint;
     };
 
     // Colour, occlusion and roughness.
     using Painted = std::array<std::uint8_t, 5>;
 
-    // Tiles that the lamina's border goes through or beside, and those inside of it.
-    void find_limb() {
+    // Finds the tiles that contain the lamina's border, its margin or its interior.
+    void find_lamina_tiles() {
         const std::size_t rows = count_ / tile_, columns = rows / 2;
         shown_.assign(rows * columns, false);
         const auto tile_of = [&](double texture, std::size_t most) {
@@ -223,21 +226,21 @@ class LeafPainter {
                 for (std::size_t j = tile_of(low.x, columns); j <= tile_of(high.x, columns); ++j)
                     shown_[i * columns + j] = true;
         };
-        const std::vector<glm::dvec2> border = border_of(reader_.lamina());
+        const std::vector<glm::dvec2> border = border_of(sampler_.lamina());
         for (std::size_t i = 0; i < border.size(); ++i) {
             const glm::dvec2 from = border[i], way = border[(i + 1) % border.size()] - from;
             const double steps = std::floor(glm::length(way) / margin) + 1.0;
             for (double step = 0.0; step < steps; step += 1.0) show(from + (step / steps) * way);
         }
         for (std::size_t i = 0; i < rows; ++i) {
-            LaminaReader::Trail trail;
+            LaminaSampler::Hint hint;
             Span span{count_, 0};
             for (std::size_t j = 0; j < columns; ++j) {
                 bool upper = false;
                 const auto middle = [&](std::size_t tile) {
                     return (static_cast<double>(tile) + 0.5) / static_cast<double>(rows);
                 };
-                if (reader_.at(chart_.place({middle(j), middle(i)}, upper), trail).inside)
+                if (sampler_.at(chart_.place({middle(j), middle(i)}, upper), hint).inside)
                     shown_[i * columns + j] = true;
                 if (!shown_[i * columns + j]) continue;
                 span.first = std::min(span.first, j * tile_);
@@ -247,7 +250,7 @@ class LeafPainter {
         }
     }
 
-    // Of components -1..1.
+    // Writes the normals of both faces; components are in -1..1.
     static void put_normals(std::uint8_t* upper, std::uint8_t* lower, double x, double y,
                             double z) {
         const auto part = [](double share) {
@@ -296,15 +299,16 @@ class LeafPainter {
         return {y, span.first * points_, noise(0, y, span), noise(1, y, span), {}};
     }
 
-    // Both faces show the same places, and blotches go through the leaf: what is seen is looked up once for the two.
+    // Both faces show the same positions and blotches go through the leaf, so each point is looked
+    // up once for both.
     void add_faces(Line& line, std::size_t point, Texel& upper, Texel& lower,
                    double& height) const {
         const auto blotch = static_cast<double>(line.spots[point - line.from]);
         const auto cell = static_cast<double>(line.cells[point - line.from]);
-        const LaminaPlace place = reader_.at({columns_[point], line.y}, line.trail);
+        const LaminaPlace place = sampler_.at({columns_[point], line.y}, line.hint);
         const double depth = vein_depth(place);
         const double own = std::clamp(autumn_ + blotch * autumn_ * (1.0 - autumn_), 0.0, 1.0);
-        const LeafColourist::Faces faces = colourist_.at(place, own);
+        const LeafColourMap::Faces faces = colour_map_.at(place, own);
         const double shade = share_ * (1.0 + 0.16 * blotch + 0.1 * cell);
         const double rough = 0.08 * cell + 0.2 * autumn_;
         upper.add(share_, shade * faces.upper, 1.0 - 0.25 * relief_ * depth, 0.5 + rough);
@@ -319,23 +323,23 @@ class LeafPainter {
         texel.add(share_, shade * petiole_, 1.0, 0.75 + 0.08 * cell + 0.2 * autumn_);
     }
 
-    LaminaReader reader_;
+    LaminaSampler sampler_;
     LeafChart chart_;
-    LeafColourist colourist_;
+    LeafColourMap colour_map_;
     const std::array<std::uint8_t, 4097>& encoded_ = encoded_table();
     double autumn_, relief_;
     std::uint32_t seed_;
     std::size_t count_;   // texels in a row
-    std::size_t points_;  // across a texel, which is wider than a vein in small images
-    double share_;        // of a point in its texel
+    std::size_t points_;  // per texel in each direction, because veins are narrow
+    double share_;        // weight of a point in its texel
     glm::dvec3 petiole_{0.0};
-    std::vector<double> columns_;               // of the plane of the lamina, by point
-    std::array<std::vector<float>, 2> across_;  // the same in features of noise
+    std::vector<double> columns_;               // x in the plane of the lamina, by point
+    std::array<std::vector<float>, 2> across_;  // the same in units of the noise lattice
     std::size_t tile_;                          // texels across
-    std::vector<bool> shown_;                   // by row and column of tiles: all that is not flat
+    std::vector<bool> shown_;                   // by row and column of tiles: not constant
     std::vector<Span> spans_;                   // of each row of tiles
-    std::array<Bytes, 3> flat_;                 // a row of each image where no leaf is
-    std::vector<float> heights_;  // of the upper face, outwards, in lengths of the lamina
+    std::array<Bytes, 3> flat_;                 // a row of each image outside the leaf
+    std::vector<float> heights_;                // of the upper face, in lengths of the lamina
     RawImages images_;
 };
 

@@ -248,7 +248,7 @@ std::vector<LeafPreset> make_presets() {
                                    0.25)});
     }
     {
-        // A shoot of a conifer as one leaf: needles in two rows.
+        // A shoot of a conifer modelled as one leaf: needles in two rows.
         LeafShape shoot;
         shoot.venation = {.lobes = {1},
                           .nodes = 24,

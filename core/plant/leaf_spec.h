@@ -1,4 +1,4 @@
-// What a person may ask of a leaf: a preset, and every parameter of its shape and colours.
+// The request for a leaf: a preset, and every parameter of its shape and colours.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace sporeprint {
 
-/// Parameters of a leaf. Those of shape and colours are a preset's unless they are given.
+/// The parameters of a leaf. Those of shape and colours default to those of the preset.
 struct LeafParams {
     std::uint32_t seed = 1;
     double size = 1.0;
@@ -50,7 +50,7 @@ struct LeafParams {
 };
 static_assert(well_described<LeafParams>());
 
-/// Sides of an image at any level of detail.
+/// The side of an image at any level of detail, texels.
 using ImageSide = Choice<16, 32, 64, 128, 256, 512, 1024, 2048>;
 
 /// Everything that the images of a leaf depend on.
@@ -80,17 +80,17 @@ struct LeafPaint {
 static_assert(well_described<LeafPaint>());
 
 struct LeafSpec {
-    std::string preset;  ///< names the file; what it brings is in the parameters
+    std::string preset;  ///< names the file; its values are in the parameters
     LeafParams params;
 };
 
-/// What a preset is where nothing else is asked for.
+/// Returns the parameters of a preset without overrides.
 [[nodiscard]] LeafParams params_of(const LeafPreset& preset);
 
-/// What of an order shows in its images.
+/// Returns the part of the parameters that the images depend on.
 [[nodiscard]] LeafPaint paint_of(const LeafParams& params);
 
-/// The shape of the individual that is ordered.
+/// Returns the shape of the individual that seed and variation select.
 [[nodiscard]] LeafShape shape_of(const LeafParams& params);
 
 }  // namespace sporeprint

@@ -22,7 +22,8 @@ std::vector<Spot> spots_of(std::span<const PlacedLeaf> leaves, double leaf_area,
     std::vector<Spot> spots;
     for (const PlacedLeaf& leaf : thinned(leaves, share)) {
         if (spots.size() == count) break;  // a share of a whole number of leaves may round up
-        // A larger spot stands for leaves about the same place, so it does not move outwards with its size.
+        // A larger spot represents leaves near the same position, so it does not move outwards with
+        // its size.
         const double grown = leaves[spots.size()].size;
         spots.push_back({leaf.place + middle * grown * leaf.along, leaf.up,
                          leaf_area * leaf.size * leaf.size, leaf.id});
@@ -61,7 +62,8 @@ Mesh polygonal_spots(std::span<const Spot> spots, int corners, std::uint32_t see
                                             radius * (at.cosine * first + at.sine * second));
                 mesh.normals.emplace_back(side * spot.normal);
             }
-        // The two faces of a square are split along different diagonals: so no edge belongs to four triangles.
+        // The two faces of a square are split along different diagonals, so that no edge has four
+        // triangles.
         using Triangle = std::array<std::uint32_t, 3>;
         constexpr std::array<Triangle, 2> three = {{{0, 1, 2}, {3, 5, 4}}};
         constexpr std::array<Triangle, 4> four = {{{0, 1, 2}, {0, 2, 3}, {4, 7, 5}, {5, 7, 6}}};

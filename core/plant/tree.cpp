@@ -33,11 +33,11 @@ double by_order(OrderLaw law, double rise, int order, double leaves) {
     return 1.0;
 }
 
-// Nodes of one order that follow each other: an axis as far as it keeps its order.
+// The axes of a tree: maximal runs of consecutive nodes of one order.
 struct Axes {
-    std::vector<std::uint32_t> first;     ///< of each node's axis
-    std::vector<std::uint32_t> position;  ///< of each node on it, from 0
-    std::vector<std::uint32_t> length;    ///< in nodes, by the first
+    std::vector<std::uint32_t> first;     ///< first node of each node's axis
+    std::vector<std::uint32_t> position;  ///< of each node on its axis, from 0
+    std::vector<std::uint32_t> length;    ///< in nodes, indexed by the first node
 };
 
 Axes axes_of(const Ramification& tree) {
@@ -55,9 +55,9 @@ Axes axes_of(const Ramification& tree) {
     return axes;
 }
 
-// How many times longer the edges of each node's axis are for all axes of its order to be as long as each other; by no more than
-// three times either way, so that no branch is drawn out to a bare stick.
-std::vector<double> evened(const Ramification& tree, const Axes& axes, double evenness) {
+// Returns the factors on the lengths of each node's edges that make all axes of its order equally
+// long; between 1/3 and 3, so that no branch is stretched to a bare stick.
+std::vector<double> evenness_factors(const Ramification& tree, const Axes& axes, double evenness) {
     std::vector<double> edges(most_order + 5, 0.0), begun = edges, factors;
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
         const auto order = static_cast<std::size_t>(tree.nodes[i].order);
@@ -74,7 +74,7 @@ std::vector<double> evened(const Ramification& tree, const Axes& axes, double ev
     return factors;
 }
 
-// Leaves that each node bears.
+// Returns the number of leaves in the subtree of each node.
 std::vector<double> leaves_of(const Ramification& tree) {
     std::vector<double> leaves(tree.nodes.size(), 0.0);
     for (std::size_t i = tree.nodes.size(); i > 0; --i) {
@@ -98,7 +98,8 @@ void TreeShape::check(const std::string& path, std::vector<Problem>& problems) c
 
 std::vector<ExpectedOrder> expected_orders(const TreeShape& shape) {
     const TreeTopology& topology = shape.topology;
-    // Axes, edges and leaves of each order of a tree of the matrix, from the top down.
+    // Returns the expected number of edges of each order of a tree of the matrix, computed from the
+    // highest order down.
     const auto orders_of = [](const RamificationMatrix& matrix, int order) {
         std::vector<double> axes(static_cast<std::size_t>(order) + 1, 0.0), edges = axes;
         axes.back() = 1.0;
@@ -130,10 +131,10 @@ std::vector<ExpectedOrder> expected_orders(const TreeShape& shape) {
     for (std::size_t k = 1; k < edges.size(); ++k) {
         const int order = static_cast<int>(k);
         const int own = std::clamp(order - raised, 1, topology.order);
-        // An axis bears all its leaves at its first edge and those of its fork at its last.
+        // An axis carries all its leaves at its first edge and those of its fork at its last.
         const double most = expected_leaves(matrix, own) * mean_tips;
         const double least = own > 1 ? 2.0 * expected_leaves(matrix, own - 1) * mean_tips : 1.0;
-        // Branches along their bearer shorten evenly.
+        // Branches shorten linearly along their parent axis.
         const double scale = k + 1 < edges.size() ? 1.0 - 0.5 * shape.shortening : 1.0;
         orders.push_back(
             {edges[k],
@@ -155,7 +156,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
     const std::size_t count = grown.nodes.size();
     const Axes axes = axes_of(grown);
     const std::vector<double> leaves = leaves_of(grown);
-    const std::vector<double> even = evened(grown, axes, shape.evenness);
+    const std::vector<double> even = evenness_factors(grown, axes, shape.evenness);
     const int highest = grown.nodes[0].order;
     const auto radius_of = [&](int order, double borne) {
         return shape.twig_radius * by_order(shape.width_law, shape.width_rise, order, borne);
@@ -170,7 +171,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
     tree.across.assign(count, glm::dvec3(0.0, 0.0, 1.0));
     std::vector<double> scale(count, 1.0);
     tree.skeleton.nodes[0] = {glm::dvec3(0.0), radius_of(highest, leaves[0])};
-    // Every node knows how its edge leaves its parent before it is reached.
+    // Parents precede their children: the direction of each edge is known when its node is reached.
     for (std::uint32_t i = 0; i < count; ++i) {
         const Ramification::Node& node = grown.nodes[i];
         const std::uint32_t first = axes.first[i];
@@ -178,7 +179,7 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         const auto along = static_cast<double>(axes.length[first]);
         const double passed = (axes.position[i] + 1.0) / along;
 
-        // Lengths vary from axis to axis, not from edge to edge.
+        // Lengths vary between axes, not between edges of one axis.
         Random by_axis(seed, purposes::tree_axes, first);
         const double drawn_length = by_axis.symmetric(), drawn_angle = by_axis.symmetric();
         const double drawn_start = by_axis.uniform();
@@ -198,7 +199,8 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
                         by_order(shape.length_law, shape.length_rise, node.order, leaves[i]);
         if (i == 0) length += shape.trunk;
         const double thick = radius_of(node.order, leaves[i]);
-        // From one order to the next the radius goes evenly along the axis. Pipes do so by themselves.
+        // Between two orders the radius changes linearly along the axis; with pipes it does so by
+        // itself.
         const double thin = node.order == 1 ? 0.7 * thick
                             : shape.width_law == OrderLaw::pipe
                                 ? thick
@@ -214,7 +216,8 @@ Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
         double azimuth = radians(shape.azimuth_deg + 25.0 * shape.variation * drawn_azimuth);
         if (axes.position[i] == 0) azimuth = 2.0 * pi * drawn_start * shape.variation;
         across = turned_square(across, heading, azimuth);
-        // The branches lie in a plane; that of low orders turns level.
+        // The branches of a fork lie in a plane; for low orders it is turned towards the
+        // horizontal.
         const double level =
             highest > 1
                 ? shape.plagiotropy * (1.0 - (node.order - 1.0) / static_cast<double>(highest))
@@ -278,7 +281,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
             leaf.place = from.place + t * (to.place - from.place);
             const double azimuth = 2.0 * pi * start + radians(137.5) * k + 0.3 * turn_drawn;
             const glm::dvec3 out = turned_square(tree.across[i], heading, azimuth);
-            // The last leaf goes on where the twig ends.
+            // The last leaf continues the direction of the twig.
             const double open = k == 0 ? 0.4 : 1.0;
             glm::dvec3 along = off.cosine * heading + open * off.sine * out;
             along -= 0.9 * style.droop * upwards;
@@ -305,7 +308,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
 std::vector<PlacedLeaf> thinned(std::span<const PlacedLeaf> leaves, double share) {
     const auto count = static_cast<std::size_t>(
         std::ceil(std::clamp(share, 0.0, 1.0) * static_cast<double>(leaves.size())));
-    std::vector<PlacedLeaf> kept(leaves.begin(), leaves.begin() + static_cast<long>(count));
+    std::vector<PlacedLeaf> retained(leaves.begin(), leaves.begin() + static_cast<long>(count));
     double all = 0.0, left = 0.0;
     for (std::size_t i = 0; i < leaves.size(); ++i) {
         const double area = leaves[i].size * leaves[i].size;
@@ -313,8 +316,8 @@ std::vector<PlacedLeaf> thinned(std::span<const PlacedLeaf> leaves, double share
         if (i < count) left += area;
     }
     if (left > 0.0)
-        for (PlacedLeaf& leaf : kept) leaf.size *= std::sqrt(all / left);
-    return kept;
+        for (PlacedLeaf& leaf : retained) leaf.size *= std::sqrt(all / left);
+    return retained;
 }
 
 Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf) {

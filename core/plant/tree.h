@@ -1,4 +1,4 @@
-// A tree: a ramification in space, its bark and its leaves.
+// A tree: a ramification placed in space, its bark and its leaves.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +17,9 @@
 
 namespace sporeprint {
 
-/// How lengths and widths grow with the order k of an edge, from that of twigs (order 1):
-/// 1, 1 + A (k - 1), 1 + A log(k), or A^(k - 1) times; pipe: the A-th root of the number of leaves that an edge bears.
+/// The law by which lengths and radii grow with the order k of an edge, relative to order 1
+/// (twigs): 1, 1 + A (k - 1), 1 + A log(k) or A^(k - 1) times; pipe: the A-th root of the number of
+/// leaves that the edge carries.
 enum class OrderLaw { constant, linear, logarithmic, geometric, pipe };
 
 constexpr const char* name(OrderLaw law) {
@@ -37,7 +38,7 @@ constexpr const char* name(OrderLaw law) {
     return nullptr;
 }
 
-/// What a tree looks like, besides its leaves.
+/// The parameters of a tree's shape, leaves excluded.
 struct TreeShape {
     TreeTopology topology;
     double fork_deg = 30.0;
@@ -150,25 +151,26 @@ struct TreeShape {
     }
     bool operator==(const TreeShape&) const = default;
 
-    /// Pipes of an exponent below 1.
+    /// Reports pipes with an exponent below 1.
     void check(const std::string& path, std::vector<Problem>& problems) const;
 };
 static_assert(well_described<TreeShape>());
 
-/// What is to be expected of the edges of one order.
+/// The expected properties of the edges of one order.
 struct ExpectedOrder {
-    double edges = 0.0;   ///< how many
+    double edges = 0.0;   ///< number
     double length = 0.0;  ///< mean, metres
-    double radius = 0.0;  ///< of the thinnest, metres
+    double radius = 0.0;  ///< smallest, metres
 };
 
-/// By order from 1 on, before any work. With small trees at the tips the orders above them are those that most trees have.
+/// Returns the expected edges of each order from 1 on, before any work. With small trees at the
+/// tips, the orders above them are those of most trees.
 ///
-/// shape  with nothing that check() finds
+/// shape  with nothing that check() reports
 [[nodiscard]] std::vector<ExpectedOrder> expected_orders(const TreeShape& shape);
 
-/// A tree in space. Node 0 of the skeleton stands on the ground; node i + 1 is the end of the edge that enters node i of the
-/// ramification, and segment i that edge.
+/// A tree in space. Node 0 of the skeleton stands on the ground; node i + 1 is the end of the edge
+/// that enters node i of the ramification, and segment i is that edge.
 struct Tree {
     Ramification ramification;
     Skeleton skeleton;
@@ -177,21 +179,25 @@ struct Tree {
         across;  ///< unit, square to them: the way to the side of its first child
 };
 
-/// Grows a tree: root at the origin, up along +y.
+/// Grows a tree: root at the origin, upwards along +y.
 ///
-/// throws  InvalidInput with all that check() finds; Impossible (path "/order") naming the expected number of more than most_tips
+/// throws  InvalidInput with all that check() reports; Impossible (path "/order") naming the
+///         expected number of tips if it exceeds most_tips
 /// cost    O(tips)
-/// source  [Viennot1989] sections 4 and 5; angles by biorder, lengths and widths by order, azimuths and tropisms as described
+/// source  [Viennot1989] sections 4 and 5; angles by biorder, lengths and widths by order, azimuths
+///         and tropisms as described
 [[nodiscard]] Tree grown_tree(const TreeShape& shape, std::uint32_t seed);
 
-/// Levels of detail of a tree.
+/// The number of levels of detail of a tree.
 inline constexpr int tree_lods = 4;
 
-/// The skin of trunk, branches and twigs. Thick orders are subdivided, twigs are not; each level leaves one more order out and
-/// subdivides less; what a low tree has left at last is its trunk with its branches.
+/// Returns the mesh of trunk, branches and twigs. High orders are subdivided, twigs are not; each
+/// level of detail drops one more of the low orders and subdivides less; of a low tree the trunk
+/// and its branches always remain.
 ///
-/// returns  closed pieces with tangents; u goes once round a segment, v along it to the end of the image and back, in girths of the
-///          segment, so that bark is nowhere stretched
+/// returns  closed pieces with tangents; u goes once round a segment, v along it to the end of the
+///          image and back (mirrored repeat), in girths of the segment, so that bark is not
+///          stretched anywhere
 /// throws   Impossible (path "/twig_radius") for more than most_skeleton_nodes rings
 [[nodiscard]] Mesh bark_of(const Tree& tree, int lod);
 
@@ -199,13 +205,14 @@ struct TreeCount {
     double vertices = 0.0, triangles = 0.0;
 };
 
-/// About what bark_of() comes to, rather more; microseconds. Of a tree that is drawn freely, about the mean.
+/// Returns slightly high estimates of the counts of bark_of(), in microseconds; for a sampled
+/// topology about the mean.
 ///
-/// shape   with nothing that check() finds
+/// shape   with nothing that check() reports
 /// throws  Impossible (path "/twig_radius") for more than most_skeleton_nodes rings
 [[nodiscard]] TreeCount count_of_bark(const TreeShape& shape, int lod);
 
-/// How a tree bears its leaves.
+/// The arrangement of leaves on twigs.
 struct LeafStyle {
     int per_tip = 3;
     double leaf_size = 1.0;
@@ -239,29 +246,31 @@ struct LeafStyle {
 };
 static_assert(well_described<LeafStyle>());
 
-/// A leaf on a tree: where its root is, its own axes, its size in that of the leaf that is placed.
+/// One placed leaf: the position of its root, its axes, and its size relative to the leaf mesh.
 struct PlacedLeaf {
     glm::dvec3 place{0.0}, along{0.0, 0.0, 1.0}, up{0.0, 1.0, 0.0};
     double size = 1.0;
-    std::uint32_t id = 0;  ///< names its own random stream
+    std::uint32_t id = 0;  ///< key of its own random stream
 };
 
-/// Most leaves that are placed.
+/// The largest number of leaves of a tree.
 inline constexpr std::size_t most_leaves = 100'000;
 
-/// Places leaves along all twigs, in the order in which thinning leaves them out: the last first, so that levels of detail nest.
+/// Places leaves along all twigs. Thinning drops them from the end of the list, so that levels of
+/// detail are nested.
 ///
 /// throws  Impossible (path "/per_tip") for more than most_leaves
 [[nodiscard]] std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
                                                     std::uint32_t seed);
 
-/// Some of the leaves, larger: the first `share` of them, in the same places, with the same area in all.
+/// Returns the first `share` of the leaves, at the same positions, enlarged to the same total area.
 [[nodiscard]] std::vector<PlacedLeaf> thinned(std::span<const PlacedLeaf> leaves, double share);
 
-/// All leaves as one mesh, each a copy of `leaf` (root at the origin, along +z, upper face up).
+/// Returns all leaves as one mesh of copies of `leaf` (root at the origin, along +z, upper face
+/// up).
 [[nodiscard]] Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf);
 
-/// A tree to begin with.
+/// A preset: a tree to start from.
 struct TreePreset {
     const char* id;
     const char* name;
@@ -271,9 +280,9 @@ struct TreePreset {
     BarkStyle bark;
 };
 
-/// broadleaf, birch, spruce, poplar, shrub, herb.
+/// Returns the presets: broadleaf, birch, spruce, poplar, shrub, herb.
 [[nodiscard]] std::span<const TreePreset> tree_presets();
-/// nullptr if there is none.
+/// Returns a preset, or nullptr if there is none.
 [[nodiscard]] const TreePreset* tree_preset(std::string_view id);
 
 }  // namespace sporeprint

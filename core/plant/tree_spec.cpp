@@ -13,8 +13,8 @@ LeafKind kind_of(std::string_view id) {
     return LeafKind::oak;
 }
 
-// Triangles that the foliage of a tree may have, as long as a leaf keeps eight.
-constexpr std::size_t affordable = 160'000;
+// Largest number of triangles of a tree's foliage, unless each leaf already has only eight.
+constexpr std::size_t most_tree_foliage_triangles = 160'000;
 
 }  // namespace
 
@@ -52,7 +52,7 @@ double leaf_share(int lod, double leaves) {
 
 std::size_t leaf_triangles(int lod, std::size_t leaves) {
     std::size_t triangles = lod == 0 ? most_foliage_triangles : lod == 1 ? 12 : 8;
-    while (triangles > 8 && triangles * leaves > affordable) triangles -= 4;
+    while (triangles > 8 && triangles * leaves > most_tree_foliage_triangles) triangles -= 4;
     return triangles;
 }
 

@@ -1,4 +1,4 @@
-// What a person may ask of a tree: a preset, and every parameter of how it branches, of its leaves and its bark.
+// The request for a tree: a preset, and every parameter of its branching, its leaves and its bark.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +10,7 @@
 
 namespace sporeprint {
 
-/// Kinds of leaves that a tree may bear: the presets of leaves.
+/// The kind of leaf of a tree: a preset of leaves.
 enum class LeafKind { maple, oak, birch, ivy, fern, shoot, needle };
 
 constexpr const char* name(LeafKind kind) {
@@ -33,7 +33,7 @@ constexpr const char* name(LeafKind kind) {
     return nullptr;
 }
 
-/// What a preset brings.
+/// The parameters that a preset sets.
 struct TreeLook {
     TreeShape shape;
     LeafKind leaf = LeafKind::oak;
@@ -51,7 +51,7 @@ struct TreeLook {
 };
 static_assert(well_described<TreeLook>());
 
-/// Parameters of a tree. Those of its look are a preset's unless they are given.
+/// The parameters of a tree. Those of its look default to those of the preset.
 struct TreeParams {
     std::uint32_t seed = 1;
     double size = 1.0;
@@ -87,7 +87,7 @@ struct TreeParams {
 };
 static_assert(well_described<TreeParams>());
 
-/// Everything that the images of bark depend on: all individuals of a kind wear the same.
+/// Everything that the images of bark depend on: all individuals of a kind use the same images.
 struct TreePaint {
     ImageSide texture_size{1024};
     BarkStyle bark;
@@ -103,28 +103,31 @@ struct TreePaint {
 static_assert(well_described<TreePaint>());
 
 struct TreeSpec {
-    std::string preset;  ///< names the file; what it brings is in the parameters
+    std::string preset;  ///< names the file; its values are in the parameters
     TreeParams params;
 };
 
-/// What a preset is where nothing else is asked for.
+/// Returns the parameters of a preset without overrides.
 [[nodiscard]] TreeParams params_of(const TreePreset& preset);
 
-/// Forgets rows that no matrix of the order asks for, so that one tree has one canonical text.
+/// Removes rows that no matrix of the spec uses, so that equal trees have equal canonical texts.
 void without_unused_rows(TreeParams& params);
 
-/// What of an order shows in the images of its bark.
+/// Returns the part of the parameters that the images of bark depend on.
 [[nodiscard]] TreePaint paint_of(const TreeParams& params);
 
-/// The leaf that a tree bears many times: its kind, as it grows where nothing else is asked for, at the tree's moment of the year
-/// and with images of the tree's size. So its images are those of that leaf alone.
+/// Returns the leaf of which a tree has many copies: the preset of its kind without overrides, at
+/// the tree's moment of the year and with images of the tree's size. Its images are those of that
+/// leaf as a product of its own.
 [[nodiscard]] LeafParams leaf_of(const TreeParams& params);
 
-/// Share of so many leaves that are left at a level of detail; they are larger by as much. Of few leaves more are left: large ones
-/// would be all that is seen of a herb.
+/// Returns the share of leaves that remains at a level of detail; these are enlarged to the same
+/// total area. With few leaves the share is larger, so that a herb does not end in a few huge
+/// leaves.
 [[nodiscard]] double leaf_share(int lod, double leaves);
 
-/// Triangles of a leaf at a level of detail, by how many of them are left: 8, 12 or 16.
+/// Returns the number of triangles of a leaf at a level of detail, by the number of leaves that
+/// remain: 8, 12 or 16.
 [[nodiscard]] std::size_t leaf_triangles(int lod, std::size_t leaves);
 
 }  // namespace sporeprint

@@ -12,13 +12,13 @@ namespace sporeprint {
 
 namespace {
 
-constexpr double most_turn_deg = 165.0;                // of the outermost main vein
-constexpr double behind_deg = 177.0, clear_deg = 3.0;  // nothing comes nearer to the petiole's line
-constexpr double least_reach_deg = 5.0;  // side veins rise by this over the ray to the neighbour
-constexpr double web = 0.08;             // neighbours are joined so far at least
-constexpr double blade = 0.02;           // half as wide is a lobe at least
-constexpr double apart = 0.97;           // what is not joined keeps from the ray between
-constexpr double least_gap = 1e-3;       // between two feet of a border
+constexpr double most_turn_deg = 165.0;                // angle of the outermost main vein
+constexpr double behind_deg = 177.0, clear_deg = 3.0;  // minimum distance to the petiole's line
+constexpr double least_reach_deg = 5.0;    // least angle of side veins to the ray to the neighbour
+constexpr double least_join = 0.08;        // least abscissa up to which neighbours are joined
+constexpr double least_half_width = 0.02;  // least half width of a lobe
+constexpr double clearance = 0.97;         // parts not joined reach this share of the ray's height
+constexpr double least_gap = 1e-3;         // between two abscissas of a border
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -34,34 +34,35 @@ double edge_length(const Venation& venation, int d) {
     return 1.0;
 }
 
-// A place of the border over the main vein: its foot and its height.
-using Rise = glm::dvec2;
+// A point of the border over the main vein: its abscissa and its height.
+using BorderPoint = glm::dvec2;
 
-// The corners of a half's border: the ends of veins lifted by the border factor, and what lies between two of them.
+// A corner of a half's border: the end of a vein, lifted by the border factor, or a point between
+// two of them.
 struct Corner {
-    Rise at{0.0};
-    bool end = false;  ///< of a vein
+    BorderPoint at{0.0};
+    bool end = false;  ///< end of a vein
 };
 
-// Half the width of a lobe that has nothing but its main vein.
-double bare(const Lobe& lobe, double foot) {
-    const double share = foot / lobe.reach;
-    return blade * lobe.reach * 4.0 * share * (1.0 - share);
+// Returns half the width of a lobe that has only its main vein.
+double least_height(const Lobe& lobe, double abscissa) {
+    const double share = abscissa / lobe.reach;
+    return least_half_width * lobe.reach * 4.0 * share * (1.0 - share);
 }
 
 std::vector<Corner> corners_of(const Venation& venation, const Lobe& lobe, const HalfLobe& half) {
     std::vector<Corner> ends = {{{0.0, 0.0}, true}};
     for (const HalfLobe::SideVein& vein : half.side_veins)
-        ends.push_back({{vein.foot, venation.border * vein.length}, true});
+        ends.push_back({{vein.abscissa, venation.border * vein.length}, true});
     if (half.side_veins.empty())
-        ends.push_back({{0.5 * lobe.reach, bare(lobe, 0.5 * lobe.reach)}, true});
+        ends.push_back({{0.5 * lobe.reach, least_height(lobe, 0.5 * lobe.reach)}, true});
     ends.push_back({{lobe.reach, 0.0}, true});
     if (venation.sinus == 0.0) return ends;
-    // Next to the petiole neighbours grow together, so only a lone lobe has a bay there.
+    // Next to the petiole neighbours are joined, so only a single lobe has a bay there.
     std::vector<Corner> corners = {ends[0]};
     if (venation.lobes.value > 1) corners.push_back(ends[1]);
     for (std::size_t i = corners.size(); i < ends.size(); ++i) {
-        Rise between = 0.5 * (ends[i - 1].at + ends[i].at);
+        BorderPoint between = 0.5 * (ends[i - 1].at + ends[i].at);
         between.y *= 1.0 - venation.sinus;
         corners.push_back({between, false});
         corners.push_back(ends[i]);
@@ -69,27 +70,29 @@ std::vector<Corner> corners_of(const Venation& venation, const Lobe& lobe, const
     return corners;
 }
 
-// Tangents of a cubic may not carry its feet beyond its middle, nor its heights below the main vein: then it stays a function.
-Rise held(const Rise& from, const Rise& tangent, double sign, const Rise& other) {
-    const Rise handle = from + (sign / 3.0) * tangent;
+// Returns the control point of a cubic for a tangent, limited so that abscissas do not pass the
+// middle and heights do not become negative: the border remains a function.
+BorderPoint bounded_handle(const BorderPoint& from, const BorderPoint& tangent, double sign,
+                           const BorderPoint& other) {
+    const BorderPoint handle = from + (sign / 3.0) * tangent;
     const double middle = 0.5 * (from.x + other.x);
     return {
         sign > 0.0 ? std::clamp(handle.x, from.x, middle) : std::clamp(handle.x, middle, from.x),
         std::max(handle.y, 0.0)};
 }
 
-std::vector<Rise> drawn_border(const Venation& venation, const Lobe& lobe, std::size_t which,
-                               int steps) {
+std::vector<BorderPoint> border_curve(const Venation& venation, const Lobe& lobe, std::size_t which,
+                                      int steps) {
     const HalfLobe& half = lobe.halves[which];
     const std::vector<Corner> corners = corners_of(venation, lobe, half);
-    std::vector<Rise> border = {corners.front().at};
+    std::vector<BorderPoint> border = {corners.front().at};
     const int teeth = steps == 1 || venation.teeth == 0.0 ? 0
                       : venation.sinus == 0.0             ? venation.teeth_per_vein
                                                           : (venation.teeth_per_vein + 1) / 2;
     for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
-        const Rise from = corners[i].at, to = corners[i + 1].at, chord = to - from;
+        const BorderPoint from = corners[i].at, to = corners[i + 1].at, chord = to - from;
         const auto tangent = [&](std::size_t k) {
-            Rise turned = chord;
+            BorderPoint turned = chord;
             if (k == 0) {
                 turned = {0.25 * chord.x, 1.25 * chord.y};
             } else if (k + 1 == corners.size()) {
@@ -102,10 +105,10 @@ std::vector<Rise> drawn_border(const Venation& venation, const Lobe& lobe, std::
             if (corners[k].end && k > 0) turned += venation.pointed * (chord - turned);
             return chord + venation.smooth * (turned - chord);
         };
-        const Rise leaving = held(from, tangent(i), 1.0, to);
-        const Rise arriving = held(to, tangent(i + 1), -1.0, from);
+        const BorderPoint leaving = bounded_handle(from, tangent(i), 1.0, to);
+        const BorderPoint arriving = bounded_handle(to, tangent(i + 1), -1.0, from);
         const double tooth = teeth == 0 ? 0.0 : venation.teeth * 0.5 * glm::length(chord) / teeth;
-        // A tooth leans to the tip: it rises slowly and falls at once.
+        // A tooth leans to the tip: it rises slowly and falls steeply.
         const int count = teeth > 0 ? 2 * teeth : steps;
         for (int step = 1; step <= count; ++step) {
             double t = static_cast<double>(step) / count;
@@ -116,24 +119,25 @@ std::vector<Rise> drawn_border(const Venation& venation, const Lobe& lobe, std::
             }
             const double s = 1.0 - t;
             border.push_back(s * s * s * from + 3.0 * s * s * t * leaving +
-                             3.0 * s * t * t * arriving + t * t * t * to + Rise(0.0, lift));
+                             3.0 * s * t * t * arriving + t * t * t * to + BorderPoint(0.0, lift));
         }
     }
-    for (Rise& place : border) place.y = std::max(place.y, bare(lobe, place.x));
+    for (BorderPoint& place : border) place.y = std::max(place.y, least_height(lobe, place.x));
     border.front().y = border.back().y = 0.0;
     return border;
 }
 
-// Height at which the ray of side veins from a foot meets the ray from the root at `limit`; huge where it never does.
-double limit_at(const Lobe& lobe, std::size_t side, double limit, double foot) {
-    const double between = lobe.angle(side, foot) - limit;
-    return between <= 1e-6 ? 1e9 : foot * sine(limit) / sine(between);
+// Returns the height at which the line parallel to the side veins from an abscissa meets the ray
+// from the root at `limit`; 1e9 if it never does.
+double limit_at(const Lobe& lobe, std::size_t side, double limit, double abscissa) {
+    const double between = lobe.angle(side, abscissa) - limit;
+    return between <= 1e-6 ? 1e9 : abscissa * sine(limit) / sine(between);
 }
 
-// Foot at which a border crosses the ray at `limit` for the last time; 0 if it never reaches it. Inner halves only: there the
-// ray is a straight line over the feet.
+// Returns the abscissa at which a border crosses the ray at `limit` for the last time; 0 if it
+// never reaches it. Inner halves only: there the ray is a straight line over the abscissas.
 double last_crossing(const Lobe& lobe, std::size_t side, double limit,
-                     const std::vector<Rise>& border) {
+                     const std::vector<BorderPoint>& border) {
     const double slope = limit_at(lobe, side, limit, 1.0);
     for (std::size_t i = border.size() - 1; i > 0; --i) {
         const double after = border[i].y - slope * border[i].x;
@@ -144,50 +148,52 @@ double last_crossing(const Lobe& lobe, std::size_t side, double limit,
     return 0.0;
 }
 
-// Distance from the root, along the ray at `limit`, of the ray of side veins from a foot of 1.
+// Returns the distance from the root, along the ray at `limit`, of the line parallel to the side
+// veins from abscissa 1.
 double along_limit(const Lobe& lobe, std::size_t side, double limit) {
     return sine(lobe.side_angle[side]) / sine(lobe.side_angle[side] - limit);
 }
 
-// Cuts a border to its wedge and joins it to its neighbour; `joined` and `own` are feet, the first not beyond the second.
-void settle(const Lobe& lobe, std::size_t side, double joined, double own,
-            const std::vector<Rise>& border, HalfLobe& half) {
+// Clips a border to its wedge and joins it to its neighbour; `joined` and `own` are abscissas, the
+// first not beyond the second.
+void join_border(const Lobe& lobe, std::size_t side, double joined, double own,
+                 const std::vector<BorderPoint>& border, HalfLobe& half) {
     half.joined = joined;
-    half.feet = {0.0};
+    half.abscissas = {0.0};
     half.heights = {0.0};
-    const auto put = [&](double foot, double height, double share) {
-        if (foot - half.feet.back() < least_gap * lobe.reach) return;
-        half.feet.push_back(foot);
-        half.heights.push_back(std::min(std::max(height, bare(lobe, foot)),
-                                        share * limit_at(lobe, side, half.limit, foot)));
+    const auto put = [&](double abscissa, double height, double share) {
+        if (abscissa - half.abscissas.back() < least_gap * lobe.reach) return;
+        half.abscissas.push_back(abscissa);
+        half.heights.push_back(std::min(std::max(height, least_height(lobe, abscissa)),
+                                        share * limit_at(lobe, side, half.limit, abscissa)));
     };
     if (joined > 0.0) {
-        half.feet.push_back(joined);
+        half.abscissas.push_back(joined);
         half.heights.push_back(limit_at(lobe, side, half.limit, joined));
         put(own, 1e9, 1.0);
     }
-    const double last = half.feet.back(), high = half.heights.back();
-    std::vector<Rise> places = border;
-    // From a web wider than the border the way down is a slope.
+    const double last = half.abscissas.back(), high = half.heights.back();
+    std::vector<BorderPoint> places = border;
+    // Where the joined part is wider than the border, a slope leads down to it.
     const double run = 0.6 * high;
-    const auto over = [&](double foot) {
-        return joined > 0.0 ? high - (foot - last) * (high / run) : 0.0;
+    const auto over = [&](double abscissa) {
+        return joined > 0.0 ? high - (abscissa - last) * (high / run) : 0.0;
     };
     if (joined > 0.0)
         for (const double share : {0.5, 1.0}) {
-            const double foot = last + share * run;
+            const double abscissa = last + share * run;
             const auto after =
-                std::upper_bound(places.begin(), places.end(), foot,
-                                 [](double x, const Rise& place) { return x < place.x; });
+                std::upper_bound(places.begin(), places.end(), abscissa,
+                                 [](double x, const BorderPoint& place) { return x < place.x; });
             if (after == places.begin() || after == places.end()) continue;
-            const Rise a = *(after - 1), b = *after;
-            const double t = (foot - a.x) / (b.x - a.x);
-            places.insert(after, {foot, a.y + t * (b.y - a.y)});
+            const BorderPoint a = *(after - 1), b = *after;
+            const double t = (abscissa - a.x) / (b.x - a.x);
+            places.insert(after, {abscissa, a.y + t * (b.y - a.y)});
         }
-    for (const Rise& place : places)
+    for (const BorderPoint& place : places)
         if (place.x > last && place.x < (1.0 - least_gap) * lobe.reach)
-            put(place.x, std::max(place.y, over(place.x)), apart);
-    half.feet.push_back(lobe.reach);
+            put(place.x, std::max(place.y, over(place.x)), clearance);
+    half.abscissas.push_back(lobe.reach);
     half.heights.push_back(0.0);
 }
 
@@ -201,8 +207,8 @@ bool crossing(const Vein& a, const Vein& b) {
 Vein side_vein(const Lamina& lamina, std::size_t lobe, std::size_t side,
                const HalfLobe::SideVein& vein) {
     const Lobe& one = lamina.lobes[lobe];
-    return {lobe, false, side, one.place(side, vein.foot, 0.0),
-            one.place(side, vein.foot, vein.length)};
+    return {lobe, false, side, one.place(side, vein.abscissa, 0.0),
+            one.place(side, vein.abscissa, vein.length)};
 }
 
 Vein main_vein(const Lamina& lamina, std::size_t lobe) {
@@ -210,32 +216,32 @@ Vein main_vein(const Lamina& lamina, std::size_t lobe) {
             lamina.lobes[lobe].place(0, lamina.lobes[lobe].nodes.back(), 0.0)};
 }
 
-// Goes through the lobes from the middle out; what crosses anything that stays is deleted.
+// Visits the lobes from the middle outwards and deletes side veins that cross any remaining vein.
 void delete_crossings(Lamina& lamina) {
     const std::size_t count = lamina.lobes.size(), middle = count / 2;
-    std::vector<Vein> kept;
-    for (std::size_t lobe = 0; lobe < count; ++lobe) kept.push_back(main_vein(lamina, lobe));
+    std::vector<Vein> retained;
+    for (std::size_t lobe = 0; lobe < count; ++lobe) retained.push_back(main_vein(lamina, lobe));
     for (std::size_t out = 0; out <= middle; ++out)
         for (const std::size_t lobe : {middle - out, middle + out}) {
             if (out == 0 && lobe != middle) continue;
-            const std::size_t before = kept.size();
+            const std::size_t before = retained.size();
             for (std::size_t side = 0; side < 2; ++side) {
                 std::vector<HalfLobe::SideVein>& veins = lamina.lobes[lobe].halves[side].side_veins;
-                std::vector<HalfLobe::SideVein> stay;
+                std::vector<HalfLobe::SideVein> remaining;
                 for (const HalfLobe::SideVein& vein : veins) {
                     const Vein line = side_vein(lamina, lobe, side, vein);
-                    // Veins of one lobe do not cross: their rays part.
+                    // Veins of one lobe do not cross, because their lines diverge.
                     const bool crosses =
-                        std::any_of(kept.begin(), kept.begin() + static_cast<long>(before),
+                        std::any_of(retained.begin(), retained.begin() + static_cast<long>(before),
                                     [&](const Vein& other) {
                                         return other.lobe != lobe && crossing(line, other);
                                     });
                     if (!crosses) {
-                        stay.push_back(vein);
-                        kept.push_back(line);
+                        remaining.push_back(vein);
+                        retained.push_back(line);
                     }
                 }
-                veins = std::move(stay);
+                veins = std::move(remaining);
             }
             if (out == 0) break;
         }
@@ -258,22 +264,22 @@ void Venation::check(const std::string& path, std::vector<Problem>& problems) co
                    number_text(least_reach_deg));
 }
 
-double HalfLobe::height(double foot) const {
-    const auto after = std::upper_bound(feet.begin(), feet.end(), foot);
-    if (after == feet.begin() || after == feet.end()) return 0.0;
-    const auto i = static_cast<std::size_t>(after - feet.begin());
-    const double t = (foot - feet[i - 1]) / (feet[i] - feet[i - 1]);
+double HalfLobe::height(double abscissa) const {
+    const auto after = std::upper_bound(abscissas.begin(), abscissas.end(), abscissa);
+    if (after == abscissas.begin() || after == abscissas.end()) return 0.0;
+    const auto i = static_cast<std::size_t>(after - abscissas.begin());
+    const double t = (abscissa - abscissas[i - 1]) / (abscissas[i] - abscissas[i - 1]);
     return heights[i - 1] + t * (heights[i] - heights[i - 1]);
 }
 
-double Lobe::angle(std::size_t side, double foot) const {
-    const double left = 1.0 - foot / reach;
+double Lobe::angle(std::size_t side, double abscissa) const {
+    const double left = 1.0 - abscissa / reach;
     return side_angle[side] + (base_angle[side] - side_angle[side]) * left * left;
 }
 
-glm::dvec2 Lobe::place(std::size_t side, double foot, double height) const {
-    const SineCosine at = sine_cosine(angle(side, foot)), turned = sine_cosine(turn);
-    const double along = foot + height * at.cosine;
+glm::dvec2 Lobe::place(std::size_t side, double abscissa, double height) const {
+    const SineCosine at = sine_cosine(angle(side, abscissa)), turned = sine_cosine(turn);
+    const double along = abscissa + height * at.cosine;
     const double left = (side == 0 ? height : -height) * at.sine;
     return {-turned.sine * along - turned.cosine * left,
             turned.cosine * along - turned.sine * left};
@@ -287,7 +293,7 @@ Lamina lamina_of(const Venation& venation, int steps) {
     const double between = radians(venation.vein_deg), rim = radians(behind_deg);
     Lamina lamina;
     double unit = 1.0;
-    // The middle lobe is laid out first: its reach is the unit.
+    // The middle lobe is laid out first, because its reach is the unit of length.
     for (int j = 0; j <= pairs; ++j) {
         Lobe lobe;
         const int nodes = std::max(
@@ -308,16 +314,17 @@ Lamina lamina_of(const Venation& venation, int steps) {
         lobe.reach = along + (venation.border - 1.0) * edge;
         if (j == 0) unit = 1.0 / lobe.reach;
         for (double& node : lobe.nodes) node *= unit;
-        for (HalfLobe::SideVein& vein : side_veins) vein = {vein.foot * unit, vein.length * unit};
+        for (HalfLobe::SideVein& vein : side_veins)
+            vein = {vein.abscissa * unit, vein.length * unit};
         lobe.reach *= unit;
         lobe.turn = j * between;
         const double side = radians(venation.side_deg);
         lobe.side_angle = {side, side};
         if (j == pairs) {
-            // Rays that stay ahead of the petiole's line never meet it.
-            const double room = rim - lobe.turn - radians(clear_deg);
-            lobe.side_angle[0] = std::min(side, room);
-            lobe.base_angle[0] = std::min(side + radians(venation.base_deg), room);
+            // Lines that stay in front of the petiole's line never meet it.
+            const double largest_angle = rim - lobe.turn - radians(clear_deg);
+            lobe.side_angle[0] = std::min(side, largest_angle);
+            lobe.base_angle[0] = std::min(side + radians(venation.base_deg), largest_angle);
             if (pairs > 0) lobe.base_angle[1] = side;
         } else {
             lobe.base_angle = lobe.side_angle;
@@ -337,22 +344,23 @@ Lamina lamina_of(const Venation& venation, int steps) {
     delete_crossings(lamina);
 
     const std::size_t count = lamina.lobes.size();
-    std::vector<std::array<std::vector<Rise>, 2>> drawn(count);
+    std::vector<std::array<std::vector<BorderPoint>, 2>> drawn(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t side = 0; side < 2; ++side)
-            drawn[i][side] = drawn_border(venation, lamina.lobes[i], side, steps);
+            drawn[i][side] = border_curve(venation, lamina.lobes[i], side, steps);
     Lobe& first = lamina.lobes.front();
     Lobe& last = lamina.lobes.back();
     first.halves[1].limit = rim + first.turn;
     last.halves[0].limit = rim - last.turn;
-    settle(first, 1, 0.0, 0.0, drawn.front()[1], first.halves[1]);
-    settle(last, 0, 0.0, 0.0, drawn.back()[0], last.halves[0]);
+    join_border(first, 1, 0.0, 0.0, drawn.front()[1], first.halves[1]);
+    join_border(last, 0, 0.0, 0.0, drawn.back()[0], last.halves[0]);
     for (std::size_t i = 0; i + 1 < count; ++i) {
         Lobe& right = lamina.lobes[i];
         Lobe& left = lamina.lobes[i + 1];
-        // Where both borders cross the ray last at one distance from the root, they meet there.
+        // The borders meet where both have their last crossing of the ray at the same distance from
+        // the root.
         const auto reach = [&](const Lobe& lobe, std::size_t side, double limit,
-                               const std::vector<Rise>& border) {
+                               const std::vector<BorderPoint>& border) {
             return last_crossing(lobe, side, limit, border) * along_limit(lobe, side, limit);
         };
         const double flat = radians(venation.side_deg - clear_deg);
@@ -368,19 +376,19 @@ Lamina lamina_of(const Venation& venation, int steps) {
         left.halves[1].limit = between - limit;
         const double from_right = reach(right, 0, limit, drawn[i][0]);
         const double from_left = reach(left, 1, between - limit, drawn[i + 1][1]);
-        const double least = web * std::min(right.reach, left.reach);
+        const double least = least_join * std::min(right.reach, left.reach);
         const double shared = std::max(std::min(from_right, from_left), least);
         const double scale_right = along_limit(right, 0, limit);
         const double scale_left = along_limit(left, 1, between - limit);
-        settle(right, 0, shared / scale_right, std::max(shared, from_right) / scale_right,
-               drawn[i][0], right.halves[0]);
-        settle(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left,
-               drawn[i + 1][1], left.halves[1]);
+        join_border(right, 0, shared / scale_right, std::max(shared, from_right) / scale_right,
+                    drawn[i][0], right.halves[0]);
+        join_border(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left,
+                    drawn[i + 1][1], left.halves[1]);
     }
     for (Lobe& lobe : lamina.lobes)
         for (HalfLobe& half : lobe.halves)
             for (HalfLobe::SideVein& vein : half.side_veins)
-                vein.length = std::min(vein.length, half.height(vein.foot));
+                vein.length = std::min(vein.length, half.height(vein.abscissa));
     return lamina;
 }
 
@@ -399,13 +407,13 @@ std::vector<glm::dvec2> border_of(const Lamina& lamina) {
     std::vector<glm::dvec2> border = {glm::dvec2(0.0)};
     for (const Lobe& lobe : lamina.lobes) {
         const HalfLobe& right = lobe.halves[1];
-        for (std::size_t i = 1; i < right.feet.size(); ++i)
-            if (right.feet[i] > right.joined)
-                border.push_back(lobe.place(1, right.feet[i], right.heights[i]));
+        for (std::size_t i = 1; i < right.abscissas.size(); ++i)
+            if (right.abscissas[i] > right.joined)
+                border.push_back(lobe.place(1, right.abscissas[i], right.heights[i]));
         const HalfLobe& left = lobe.halves[0];
-        for (std::size_t i = left.feet.size() - 1; i > 1; --i)
-            if (left.feet[i - 1] >= left.joined)
-                border.push_back(lobe.place(0, left.feet[i - 1], left.heights[i - 1]));
+        for (std::size_t i = left.abscissas.size() - 1; i > 1; --i)
+            if (left.abscissas[i - 1] >= left.joined)
+                border.push_back(lobe.place(0, left.abscissas[i - 1], left.heights[i - 1]));
     }
     return border;
 }
@@ -418,12 +426,12 @@ constexpr double per_radian = static_cast<double>(directions) / (2.0 * pi);
 constexpr double near_sine =
     0.0125;  // of a point to the direction of the last one: four directions
 
-// In directions, from straight back on to the left.
+// Returns the index of a direction, counted from straight back to the left.
 double direction_of(const glm::dvec2& p) { return (arc_tangent(-p.x, p.y) + pi) * per_radian; }
 
 }  // namespace
 
-LaminaReader::LaminaReader(Lamina lamina)
+LaminaSampler::LaminaSampler(Lamina lamina)
     : lamina_(std::move(lamina)), reach_(directions + 1, 0.0) {
     const std::vector<glm::dvec2> border = border_of(lamina_);
     for (const Lobe& lobe : lamina_.lobes) {
@@ -436,13 +444,13 @@ LaminaReader::LaminaReader(Lamina lamina)
             half.cotangent = root.cosine / root.sine;
             half.parallel = lobe.base_angle[side] == lobe.side_angle[side];
             const HalfLobe& drawn = lobe.halves[side];
-            for (std::size_t i = 0; i + 1 < drawn.feet.size(); ++i)
+            for (std::size_t i = 0; i + 1 < drawn.abscissas.size(); ++i)
                 half.slopes.push_back((drawn.heights[i + 1] - drawn.heights[i]) /
-                                      (drawn.feet[i + 1] - drawn.feet[i]));
+                                      (drawn.abscissas[i + 1] - drawn.abscissas[i]));
             halves_.push_back(std::move(half));
         }
     }
-    // Directions are turns to the left of the middle main vein.
+    // Directions are angles to the left of the middle main vein.
     for (std::size_t k = 0; k <= directions; ++k) {
         const SineCosine ray = sine_cosine(static_cast<double>(k) / per_radian - pi);
         rays_.emplace_back(-ray.sine, ray.cosine);
@@ -463,16 +471,16 @@ LaminaReader::LaminaReader(Lamina lamina)
     }
 }
 
-// Turn to the left of the middle main vein, and how far the border reaches there.
-double LaminaReader::turn_of(const glm::dvec2& point, double distance, Trail& trail,
-                             double& reach) const {
-    const glm::dvec2& ray = rays_[trail.direction];
+// Returns the angle to the left of the middle main vein, and the distance of the border there.
+double LaminaSampler::turn_of(const glm::dvec2& point, double distance, Hint& hint,
+                              double& reach) const {
+    const glm::dvec2& ray = rays_[hint.direction];
     const double sine = cross(ray, point) / distance, z = sine * sine;
     double where = 0.0;
     if (z < near_sine * near_sine && glm::dot(ray, point) > 0.0) {
-        // The arc of a small sine: what is left out is below 1e-17.
+        // Series of the arcsine for a small sine; the truncation error is below 1e-17.
         const double arc = sine * (1.0 + z * (1.0 / 6.0 + z * (3.0 / 40.0 + z * (15.0 / 336.0))));
-        where = static_cast<double>(trail.direction) + arc * per_radian;
+        where = static_cast<double>(hint.direction) + arc * per_radian;
         if (where < 0.0) where += static_cast<double>(directions);
         if (where >= static_cast<double>(directions)) where -= static_cast<double>(directions);
     } else {
@@ -480,30 +488,30 @@ double LaminaReader::turn_of(const glm::dvec2& point, double distance, Trail& tr
     }
     const std::size_t k =
         std::min(static_cast<std::size_t>(static_cast<int>(where)), directions - 1);
-    if (z > 0.25 * near_sine * near_sine) trail.direction = k;
+    if (z > 0.25 * near_sine * near_sine) hint.direction = k;
     reach = reach_[k] + (where - static_cast<double>(k)) * (reach_[k + 1] - reach_[k]);
     return where / per_radian - pi;
 }
 
-double LaminaReader::border_over(const HalfLobe& half, double foot, Trail& trail) const {
-    if (!(foot >= half.feet.front() && foot < half.feet.back())) return 0.0;
-    std::size_t i = std::min(trail.corner, half.feet.size() - 2);
-    while (foot < half.feet[i]) --i;
-    while (foot >= half.feet[i + 1]) ++i;
-    trail.corner = i;
-    return half.heights[i] + (foot - half.feet[i]) * halves_[trail.half].slopes[i];
+double LaminaSampler::border_over(const HalfLobe& half, double abscissa, Hint& hint) const {
+    if (!(abscissa >= half.abscissas.front() && abscissa < half.abscissas.back())) return 0.0;
+    std::size_t i = std::min(hint.corner, half.abscissas.size() - 2);
+    while (abscissa < half.abscissas[i]) --i;
+    while (abscissa >= half.abscissas[i + 1]) ++i;
+    hint.corner = i;
+    return half.heights[i] + (abscissa - half.abscissas[i]) * halves_[hint.half].slopes[i];
 }
 
-LaminaPlace LaminaReader::at(const glm::dvec2& point) const {
-    Trail trail;
-    return at(point, trail);
+LaminaPlace LaminaSampler::at(const glm::dvec2& point) const {
+    Hint hint;
+    return at(point, hint);
 }
 
-LaminaPlace LaminaReader::at(const glm::dvec2& point, Trail& trail) const {
+LaminaPlace LaminaSampler::at(const glm::dvec2& point, Hint& hint) const {
     LaminaPlace place;
     const double distance = glm::length(point);
     double reach = reach_[directions / 2], turn = 0.0;
-    if (distance > 0.0) turn = turn_of(point, distance, trail, reach);
+    if (distance > 0.0) turn = turn_of(point, distance, hint, reach);
     while (place.lobe + 1 < lamina_.lobes.size() &&
            turn > lamina_.lobes[place.lobe].turn + lamina_.lobes[place.lobe].halves[0].limit)
         ++place.lobe;
@@ -514,75 +522,77 @@ LaminaPlace LaminaReader::at(const glm::dvec2& point, Trail& trail) const {
     place.side = left >= 0.0 ? 0 : 1;
     const HalfLobe& half = lobe.halves[place.side];
     const Half& known = halves_[2 * place.lobe + place.side];
-    if (trail.half != 2 * place.lobe + place.side) {
-        trail.half = 2 * place.lobe + place.side;
-        trail.known = 0;
+    if (hint.half != 2 * place.lobe + place.side) {
+        hint.half = 2 * place.lobe + place.side;
+        hint.known = 0;
     }
     place.from_main = std::abs(left);
-    // The foot whose ray goes through the point: rays part, so there is one at most.
+    // The abscissa whose line goes through the point: lines diverge, so there is at most one.
     const double at_root = place.from_main * known.cotangent - along;
     SineCosine at = known.root;
     if (known.parallel) {
-        place.foot = -at_root;
+        place.abscissa = -at_root;
     } else if (lobe.reach + place.from_main * known.tip.cosine / known.tip.sine <= along) {
         // Beyond the tip.
-        place.foot = lobe.reach;
+        place.abscissa = lobe.reach;
         at = known.tip;
-        trail.known = 0;
+        hint.known = 0;
     } else if (at_root < 0.0) {
-        // Newton from where the last feet point to, or the steep end; the excess never falls, so what leaves the bracket is halved
-        // instead.
+        // Newton's method, started from the extrapolated previous abscissas or the steep end. The
+        // function is monotonic, so steps that leave the bracket are replaced by bisection.
         double low = 0.0, high = lobe.reach;
-        if (trail.known > 0) {
-            const std::array<double, 3>& f = trail.feet;
-            const double next = trail.known == 1   ? f[0]
-                                : trail.known == 2 ? 2.0 * f[0] - f[1]
-                                                   : 3.0 * (f[0] - f[1]) + f[2];
-            place.foot = std::clamp(next, low, high);
-            at = sine_cosine(lobe.angle(place.side, place.foot));
+        if (hint.known > 0) {
+            const std::array<double, 3>& f = hint.abscissas;
+            const double next = hint.known == 1   ? f[0]
+                                : hint.known == 2 ? 2.0 * f[0] - f[1]
+                                                  : 3.0 * (f[0] - f[1]) + f[2];
+            place.abscissa = std::clamp(next, low, high);
+            at = sine_cosine(lobe.angle(place.side, place.abscissa));
         }
         const double bend =
             2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) / lobe.reach;
         for (int step = 0; step < 48; ++step) {
-            const double value = place.foot + place.from_main * at.cosine / at.sine - along;
-            (value < 0.0 ? low : high) = place.foot;
-            const double slope = 1.0 + place.from_main * bend * (1.0 - place.foot / lobe.reach) /
+            const double value = place.abscissa + place.from_main * at.cosine / at.sine - along;
+            (value < 0.0 ? low : high) = place.abscissa;
+            const double slope = 1.0 + place.from_main * bend *
+                                           (1.0 - place.abscissa / lobe.reach) /
                                            (at.sine * at.sine);
-            const double next = place.foot - value / slope, before = place.foot;
-            place.foot = next >= low && next <= high ? next : 0.5 * (low + high);
-            const double moved = place.foot - before;
+            const double next = place.abscissa - value / slope, before = place.abscissa;
+            place.abscissa = next >= low && next <= high ? next : 0.5 * (low + high);
+            const double moved = place.abscissa - before;
             const double turning =
-                lobe.angle(place.side, place.foot) - lobe.angle(place.side, before);
+                lobe.angle(place.side, place.abscissa) - lobe.angle(place.side, before);
             if (std::abs(moved) < 1e-7) {
-                // As exact as the feet are: the square of what is left.
+                // The rotation to second order: its error is of the order of that of the abscissas.
                 at = {at.sine + turning * (at.cosine - 0.5 * turning * at.sine),
                       at.cosine - turning * (at.sine + 0.5 * turning * at.cosine)};
                 break;
             }
-            at = sine_cosine(lobe.angle(place.side, place.foot));
+            at = sine_cosine(lobe.angle(place.side, place.abscissa));
         }
-        trail.feet = {place.foot, trail.feet[0], trail.feet[1]};
-        trail.known = std::min(trail.known + 1, trail.feet.size());
+        hint.abscissas = {place.abscissa, hint.abscissas[0], hint.abscissas[1]};
+        hint.known = std::min(hint.known + 1, hint.abscissas.size());
     } else {
-        trail.known = 0;
+        hint.known = 0;
     }
     place.height = place.from_main / at.sine;
-    const double border = border_over(half, place.foot, trail);
-    place.inside =
-        place.foot >= 0.0 && place.foot <= lobe.reach && place.height <= border && at_root <= 0.0;
+    const double border = border_over(half, place.abscissa, hint);
+    place.inside = place.abscissa >= 0.0 && place.abscissa <= lobe.reach &&
+                   place.height <= border && at_root <= 0.0;
     place.affinity = border > 0.0 ? place.height / border : 1.0;
     place.homothety = reach > 0.0 ? std::min(distance / reach, 1.0) : 1.0;
     if (half.side_veins.empty()) return place;
-    // The nearest is one of the two on whose feet's sides the foot lies.
+    // The nearest side vein is one of the two whose abscissas enclose this one.
     const std::vector<HalfLobe::SideVein>& veins = half.side_veins;
-    std::size_t next = std::min(trail.vein, veins.size());
-    while (next > 0 && place.foot < veins[next - 1].foot) --next;
-    while (next < veins.size() && place.foot >= veins[next].foot) ++next;
-    trail.vein = next;
-    const bool above = next == veins.size() || (next > 0 && place.foot - veins[next - 1].foot <=
-                                                                veins[next].foot - place.foot);
+    std::size_t next = std::min(hint.vein, veins.size());
+    while (next > 0 && place.abscissa < veins[next - 1].abscissa) --next;
+    while (next < veins.size() && place.abscissa >= veins[next].abscissa) ++next;
+    hint.vein = next;
+    const bool above =
+        next == veins.size() || (next > 0 && place.abscissa - veins[next - 1].abscissa <=
+                                                 veins[next].abscissa - place.abscissa);
     const HalfLobe::SideVein& vein = veins[above ? next - 1 : next];
-    place.from_side = std::abs(place.foot - vein.foot) * at.sine;
+    place.from_side = std::abs(place.abscissa - vein.abscissa) * at.sine;
     place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
     return place;
 }

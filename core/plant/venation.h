@@ -1,4 +1,4 @@
-// The veins of a leaf and the border that follows from them: Viennot's leaf, flat.
+// The veins of a leaf and the border that follows from them, as in [Viennot1989], in the plane.
 #pragma once
 
 #include <array>
@@ -12,7 +12,8 @@
 
 namespace sporeprint {
 
-/// How long an edge of the venation is, by its distance d in edges from its beginning to the tip of its main vein.
+/// The law of the length of an edge of the venation, by its distance d, in edges, from its start to
+/// the tip of its main vein.
 enum class LengthLaw { constant, linear, logarithmic };
 
 constexpr const char* name(LengthLaw law) {
@@ -27,9 +28,9 @@ constexpr const char* name(LengthLaw law) {
     return nullptr;
 }
 
-/// What a leaf's veins and border are made from.
-/// source [Viennot1989] section 6.1; beyond it: base_deg, side_length, narrow_base, narrow_tip, sinus, pointed,
-/// teeth
+/// The parameters of a leaf's veins and border.
+/// source  [Viennot1989] section 6.1; additional: base_deg, side_length, narrow_base, narrow_tip,
+///         sinus, pointed, teeth
 struct Venation {
     Choice<1, 3, 5, 7, 9, 11, 13> lobes{1};
     int nodes = 8;
@@ -127,45 +128,50 @@ struct Venation {
     }
     bool operator==(const Venation&) const = default;
 
-    /// Outermost lobes that would meet behind the petiole, side veins too flat to reach a neighbour.
+    /// Reports outermost lobes that would meet behind the petiole, and side veins too flat to reach
+    /// a neighbour.
     void check(const std::string& path, std::vector<Problem>& problems) const;
 };
 static_assert(well_described<Venation>());
 
-/// Half of a lobe, on one side of its main vein. A place in it is a foot on the main vein and a height above it along the
-/// direction that a side vein has there: the affinity of the source, in which the border is a function of the foot.
+/// Half of a lobe, on one side of its main vein. A point in it has an abscissa, the base on the
+/// main vein of the line parallel to the side veins there, and a height along that line: the
+/// affinity of the source, in which the border is a function of the abscissa.
 struct HalfLobe {
     /// Angle from the main vein to the ray from the root that this half never crosses.
     double limit = 0.0;
-    /// Foot up to which it is joined to its neighbour along that ray; 0 for the two outermost.
+    /// Abscissa up to which it is joined to its neighbour along that ray; 0 for the two outermost.
     double joined = 0.0;
     struct SideVein {
-        double foot = 0.0, length = 0.0;
+        double abscissa = 0.0, length = 0.0;
     };
     std::vector<SideVein> side_veins;  ///< from the root to the tip
-    /// The border from the root (0, 0) to the tip (reach, 0): feet ascend, heights are above 0 between.
-    std::vector<double> feet, heights;
+    /// The border from the root (0, 0) to the tip (reach, 0): ascending abscissas, positive heights
+    /// between the ends.
+    std::vector<double> abscissas, heights;
 
-    [[nodiscard]] double height(double foot) const;
+    [[nodiscard]] double height(double abscissa) const;
 };
 
 /// A lobe: a main vein from the root, its side veins and the border around both.
 struct Lobe {
-    double turn = 0.0;          ///< of its main vein from the middle one, radians, to the left
+    double turn = 0.0;          ///< of its main vein from the middle one, radians to the left
     std::vector<double> nodes;  ///< along the main vein, from the first after the root to its tip
-    double reach = 0.0;         ///< foot of the tip of its border
-    /// Of side veins, left and right: at the tip and, never flatter, at the root. Radians; those of the outermost halves keep
-    /// clear of the petiole's line.
+    double reach = 0.0;         ///< abscissa of the tip of its border
+    /// Angles of side veins, left and right, radians: at the tip and, never smaller, at the root.
+    /// Those of the outermost halves keep clear of the petiole's line.
     std::array<double, 2> side_angle{}, base_angle{};
     std::array<HalfLobe, 2> halves;  ///< left and right
 
-    /// Angle of side veins at a foot, left (0) or right (1).
-    [[nodiscard]] double angle(std::size_t side, double foot) const;
-    /// In the plane of the lamina: x to the right, y along the middle main vein.
-    [[nodiscard]] glm::dvec2 place(std::size_t side, double foot, double height) const;
+    /// Returns the angle of side veins at an abscissa, left (0) or right (1).
+    [[nodiscard]] double angle(std::size_t side, double abscissa) const;
+    /// Returns the position in the plane of the lamina: x to the right, y along the middle main
+    /// vein.
+    [[nodiscard]] glm::dvec2 place(std::size_t side, double abscissa, double height) const;
 };
 
-/// The lamina of a leaf in its plane: root at the origin, the tip of the middle lobe's border at (0, 1).
+/// The lamina of a leaf in its plane: root at the origin, tip of the middle lobe's border at (0,
+/// 1).
 struct Lamina {
     std::vector<Lobe> lobes;  ///< from the rightmost to the leftmost
 };
@@ -178,69 +184,76 @@ struct Vein {
     glm::dvec2 from{0.0}, to{0.0};
 };
 
-/// Lays out veins and border. Of two veins that cross the one on the outer lobe is deleted, of a main and a side vein the latter.
+/// Lays out veins and border. If two veins cross, the one on the outer lobe is deleted; of a main
+/// and a side vein the latter.
 ///
-/// steps    places of the border from one of its corners to the next, at least 1; from 2 on where there are teeth, a tip and
-///          a notch each. 1 is the polygon of the source: no curves, no teeth
-/// returns  halves that share nothing but their main vein and the rays between lobes, so that the border is a simple polygon
-/// throws   InvalidInput with what check() finds
-/// source   [Viennot1989] section 6.1; differs: lobes part along the ray on which both borders cross it last at one place,
-///          not by a search for crossings of their borders
+/// steps    points of the border from one of its corners to the next, at least 1; from 2 on teeth
+///          are drawn, with a tip and a notch each. 1 gives the polygon of the source: no curves,
+///          no teeth
+/// returns  halves that share only their main vein and the rays between lobes, so that the border
+///          is a simple polygon
+/// throws   InvalidInput with all that check() reports
+/// source   [Viennot1989] section 6.1; differs: neighbouring lobes are divided by the ray on which
+///          both borders have their last crossing at one point, not by a search for intersections
+///          of their borders
 [[nodiscard]] Lamina lamina_of(const Venation& venation, int steps);
 
-/// Every vein that was not deleted, main veins first.
+/// Returns every vein that was not deleted, main veins first.
 [[nodiscard]] std::vector<Vein> veins_of(const Lamina& lamina);
 
-/// The border of the whole lamina, counter-clockwise from the root, no place twice.
+/// Returns the border of the whole lamina, counter-clockwise from the root, each point once.
 [[nodiscard]] std::vector<glm::dvec2> border_of(const Lamina& lamina);
 
-/// Where in the lamina a point of its plane lies: what a colour gradation, a relief or a painter asks for.
+/// Coordinates of a point of the plane relative to the lamina, for colour gradations, relief and
+/// painting.
 struct LaminaPlace {
     bool inside = false;
     std::size_t lobe = 0, side = 0;
-    double foot = 0.0, height = 0.0;
+    double abscissa = 0.0, height = 0.0;
     double affinity = 0.0;  ///< height over that of the border: 0 on the main vein, 1 on the border
-    double homothety = 0.0;  ///< 0 at the root, 1 on the border, along the ray from the root
+    double homothety = 0.0;  ///< 0 at the root, 1 on the border, on the ray from the root
     double from_main = 0.0;  ///< distance from the main vein
     double from_side =
         1e9;  ///< distance from the line of the nearest side vein; 1e9 if there is none
-    double along_side = 0.0;  ///< height over the length of that vein
+    double along_side = 0.0;  ///< height divided by the length of that vein
 };
 
-/// Answers places of one lamina; what can be known beforehand is.
-class LaminaReader {
+/// Computes the coordinates of points of one lamina; everything that does not depend on the point
+/// is computed once.
+class LaminaSampler {
   public:
-    /// What is known of the last point asked for, from which one beside it is found at once. A trail is no part of an answer, but for
-    /// its rounding.
-    struct Trail {
+    /// State of the previous lookup, which speeds up the lookup of a point next to it. It affects
+    /// results by rounding only.
+    struct Hint {
         std::size_t direction = 0, half = 0, corner = 0, vein = 0;
-        std::array<double, 3> feet{};  ///< the last ones on this half, newest first
-        std::size_t known = 0;         ///< of them
+        std::array<double, 3> abscissas{};  ///< previous ones on this half, newest first
+        std::size_t known = 0;              ///< how many of them are valid
     };
 
-    explicit LaminaReader(Lamina lamina);
+    explicit LaminaSampler(Lamina lamina);
     [[nodiscard]] LaminaPlace at(const glm::dvec2& point) const;
-    /// The same, for points in even steps along a line.
-    [[nodiscard]] LaminaPlace at(const glm::dvec2& point, Trail& trail) const;
+    /// Returns the same faster for points in equal steps along a line.
+    [[nodiscard]] LaminaPlace at(const glm::dvec2& point, Hint& hint) const;
     [[nodiscard]] const Lamina& lamina() const { return lamina_; }
 
   private:
-    /// Direction of side veins at the root and the tip, and whether they are one; how steep the border is from each corner on.
+    /// Directions of side veins at the root and the tip, whether they are equal, and the slope of
+    /// the border from each corner on.
     struct Half {
         SineCosine root{0.0, 1.0}, tip{0.0, 1.0};
         double cotangent = 0.0;
         bool parallel = true;
         std::vector<double> slopes;
     };
-    [[nodiscard]] double turn_of(const glm::dvec2& point, double distance, Trail& trail,
+    [[nodiscard]] double turn_of(const glm::dvec2& point, double distance, Hint& hint,
                                  double& reach) const;
-    [[nodiscard]] double border_over(const HalfLobe& half, double foot, Trail& trail) const;
+    [[nodiscard]] double border_over(const HalfLobe& half, double abscissa, Hint& hint) const;
 
     Lamina lamina_;
-    std::vector<SineCosine> turns_;  ///< of each lobe
-    std::vector<Half> halves_;       ///< 2 lobe + side
+    std::vector<SineCosine> turns_;  ///< direction of each lobe
+    std::vector<Half> halves_;       ///< indexed by 2 lobe + side
     std::vector<glm::dvec2> rays_;   ///< directions from the root
-    std::vector<double> reach_;      ///< farthest place of the border along each
+    std::vector<double> reach_;      ///< largest distance of the border along each
 };
 
 }  // namespace sporeprint

@@ -228,7 +228,7 @@ Ramification exact_ramification(const RamificationMatrix& matrix, int order, std
                 counts[static_cast<std::size_t>(k)].sides[static_cast<std::size_t>(i - 1)];
             side_orders.insert(side_orders.end(), static_cast<std::size_t>(count), i);
         }
-        Random random(seed, purposes::dealt_ramification, static_cast<std::uint32_t>(k));
+        Random random(seed, purposes::exact_ramification, static_cast<std::uint32_t>(k));
         for (std::size_t i = side_orders.size(); i > 1; --i) {
             const double drawn = random.uniform();
             std::swap(side_orders[i - 1],

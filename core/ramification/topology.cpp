@@ -37,9 +37,9 @@ RamificationMatrix tip_matrix(const TreeTopology& topology) {
 
 void TreeTopology::check(const std::string& path, std::vector<Problem>& problems) const {
     if (!rows.empty()) {
-        const std::vector<Problem> faults =
+        const std::vector<Problem> found =
             validation_errors(RamificationMatrix{rows}, path + "/rows");
-        problems.insert(problems.end(), faults.begin(), faults.end());
+        problems.insert(problems.end(), found.begin(), found.end());
     }
     if (!uses_rows()) return;
     const bool of_tips = tips == MatrixKind::own && tip_order > 1;
@@ -67,7 +67,7 @@ RamificationMatrix matrix_of(const TreeTopology& topology) {
 
 double expected_tips(const TreeTopology& topology) {
     const RamificationMatrix matrix = matrix_of(topology);
-    const double leaves = topology.growth == TreeGrowth::dealt
+    const double leaves = topology.growth == TreeGrowth::exact
                               ? exact_leaves(matrix, topology.order)
                               : expected_leaves(matrix, topology.order);
     double mean = 0.0;
@@ -78,7 +78,7 @@ double expected_tips(const TreeTopology& topology) {
 
 Ramification ramified(const TreeTopology& topology, std::uint32_t seed, std::size_t most) {
     const RamificationMatrix matrix = matrix_of(topology);
-    Ramification grown = topology.growth == TreeGrowth::dealt
+    Ramification grown = topology.growth == TreeGrowth::exact
                              ? exact_ramification(matrix, topology.order, seed, most)
                              : sampled_ramification(matrix, topology.order, seed, most);
     if (topology.tip_order > 1)

@@ -34,13 +34,13 @@ constexpr const char* name(MatrixKind kind) {
 
 /// dealt: exactly the numbers of the matrix, with a size known in advance. drawn: sampled node by
 /// node, with any size.
-enum class TreeGrowth { dealt, drawn };
+enum class TreeGrowth { exact, sampled };
 
 constexpr const char* name(TreeGrowth growth) {
     switch (growth) {
-        case TreeGrowth::dealt:
+        case TreeGrowth::exact:
             return "dealt";
-        case TreeGrowth::drawn:
+        case TreeGrowth::sampled:
             return "drawn";
     }
     return nullptr;
@@ -56,7 +56,7 @@ struct TreeTopology {
     double tokunaga_c = 2.0;
     std::vector<std::vector<double>> rows;
     int order = 7;
-    TreeGrowth growth = TreeGrowth::dealt;
+    TreeGrowth growth = TreeGrowth::exact;
     MatrixKind tips = MatrixKind::fishbone;
     int tip_order = 1;
 

@@ -396,15 +396,15 @@ class Aligner {
                     {glm::dvec2(sample.r, sample.y) / shape.size,
                      glm::dvec2(sample.tangent_r, sample.tangent_y) * (speed / shape.size)});
             }
-            const auto pin = [&](OutlineNode& node, const OutlinePoint& p) {
+            const auto snap = [&](OutlineNode& node, const OutlinePoint& p) {
                 node.position = glm::dvec2(p.r, p.y) / shape.size;
             };
             const Silhouette& silhouette = shape.silhouette;
             const auto& points = name_ == CurveName::stem       ? silhouette.stem
                                  : name_ == CurveName::hymenium ? silhouette.hymenium
                                                                 : silhouette.cap;
-            pin(nodes.front(), points.front());
-            pin(nodes.back(), points.back());
+            snap(nodes.front(), points.front());
+            snap(nodes.back(), points.back());
         }
     }
 

@@ -258,8 +258,8 @@ CurveName MorphSet::curve_of(const Intersection& intersection, int lod) const {
 Certificate MorphSet::certificate() const {
     Certificate known;
     known.method = certified_for_all_weights_ ? ProofMethod::certificate : ProofMethod::checked;
-    if (!indirect_paths_.none()) known.detour = 1.0;
-    if (certified_for_all_weights_ || known.detour > 0.0) return known;
+    if (!indirect_paths_.none()) known.indirect = 1.0;
+    if (certified_for_all_weights_ || known.indirect > 0.0) return known;
     // Mixes of one age use only the two stages of each species that are nearest to it.
     std::vector<double> ages = ages_;
     ages.insert(ages.end(), {0.0, 1.0});
@@ -281,9 +281,10 @@ Certificate MorphSet::certificate(std::span<const double> from, std::span<const 
     const auto taken = [&](std::size_t s) { return from[s] > 0.0 || to[s] > 0.0; };
     for (std::size_t i = 0; i < from.size(); ++i)
         for (std::size_t j = 0; j < from.size(); ++j)
-            if (taken(i) && taken(j) && indirect_paths_.via(i, j) != Via::none) known.detour = 1.0;
+            if (taken(i) && taken(j) && indirect_paths_.via(i, j) != Via::none)
+                known.indirect = 1.0;
     const OutlineNodes a = unchecked(from), b = unchecked(to);
-    if (known.detour == 0.0) {
+    if (known.indirect == 0.0) {
         for (int lod = 0; lod < static_cast<int>(details.size()) && known.simple; ++lod)
             known.simple = !first_intersection(polyline(a, lod), polyline(b, lod));
         return known;

@@ -19,7 +19,7 @@ namespace sporeprint {
 struct Certificate {
     bool simple = true;
     ProofMethod method = ProofMethod::exact;
-    double detour = 0.0;
+    double indirect = 0.0;
 
     static constexpr void fields(auto visit) {
         using C = Certificate;
@@ -32,7 +32,7 @@ struct Certificate {
                         "certificate: what keeps segments apart holds for all weights; checked: "
                         "mixes are checked when they are made, and give way towards a round bud if "
                         "they touch themselves."});
-        visit(&C::detour,
+        visit(&C::indirect,
               Info{.name = "detour",
                    .max = 1,
                    .doc = "How far the shapes go over to their mature stages half way, or to a "

@@ -197,19 +197,19 @@ std::vector<OutlineSample> SubCurve::placed(std::span<const double> u) const {
             std::clamp((parameter - a.parameter) / (b.parameter - a.parameter), 0.0, 1.0);
         samples.push_back(sample(parameter, a.arc + t * (b.arc - a.arc)));
     }
-    pin_ends(samples);
+    snap_ends(samples);
     return samples;
 }
 
 // The ends are copied from the nodes, so that neighbouring sub-curves weld bit for bit.
-void SubCurve::pin_ends(std::vector<OutlineSample>& samples) const {
-    const auto pin = [](OutlineSample& sample, const glm::dvec2& position, double share) {
+void SubCurve::snap_ends(std::vector<OutlineSample>& samples) const {
+    const auto snap = [](OutlineSample& sample, const glm::dvec2& position, double share) {
         sample.r = position.x;
         sample.y = position.y;
         sample.share = share;
     };
-    pin(samples.front(), segments_.front().from, 0.0);
-    pin(samples.back(), segments_.back().to, 1.0);
+    snap(samples.front(), segments_.front().from, 0.0);
+    snap(samples.back(), segments_.back().to, 1.0);
 }
 
 std::vector<double> SubCurve::segment_shares() const {
@@ -248,7 +248,7 @@ std::vector<OutlineSample> SubCurve::sampled(int count) const {
         samples.push_back(
             sample(a.parameter + t * (b.parameter - a.parameter), a.arc + t * (b.arc - a.arc)));
     }
-    pin_ends(samples);
+    snap_ends(samples);
     return samples;
 }
 

@@ -102,7 +102,7 @@ class SubCurve {
         double bends = 0.0;  // capped turning up to here, added to the length when rings are placed
     };
     void tabulate(int knots_per_segment);
-    void pin_ends(std::vector<OutlineSample>& samples) const;
+    void snap_ends(std::vector<OutlineSample>& samples) const;
     [[nodiscard]] OutlineSample sample(double parameter, double arc) const;
 
     std::vector<SplineSegment<glm::dvec2>> segments_;

@@ -120,7 +120,7 @@ SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int lev
     const std::size_t vertex_estimate = fine.points.size() + fine.points.size() / 8;
     mesh.positions.reserve(vertex_estimate);
     mesh.normals.reserve(vertex_estimate);
-    if (places == SkinPlaces::told) made.places.reserve(vertex_estimate);
+    if (places == SkinPlaces::included) made.places.reserve(vertex_estimate);
     made.begins.push_back(0);
     for (const Scaffold::Strip& strip : coarse.strips) {
         copies.begin_strip(made.begins.back());
@@ -138,7 +138,7 @@ SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int lev
                 if (vertices[i] != next) continue;
                 mesh.positions.emplace_back(fine.points[point]);
                 mesh.normals.emplace_back(normals[point]);
-                if (places == SkinPlaces::told) made.places.push_back(place);
+                if (places == SkinPlaces::included) made.places.push_back(place);
             }
             for (const auto& [a, b, c, d] : Patch::quads)
                 for (const std::size_t corner : {a, b, c, a, c, d}) *index++ = vertices[corner];

@@ -18,7 +18,7 @@ struct SkinnedSkeleton {
 };
 
 /// States whether a skin includes the places of its vertices, which texture coordinates need.
-enum class SkinPlaces { told, left_out };
+enum class SkinPlaces { included, omitted };
 
 /// Returns the Catmull-Clark subdivision of the scaffold of a clean skeleton.
 ///
@@ -27,6 +27,6 @@ enum class SkinPlaces { told, left_out };
 /// throws   Impossible with broken_limits()
 /// cost     O(nodes 4^levels)
 [[nodiscard]] SkinnedSkeleton skinned(const Skeleton& clean, int levels,
-                                      SkinPlaces places = SkinPlaces::told);
+                                      SkinPlaces places = SkinPlaces::included);
 
 }  // namespace sporeprint

@@ -112,10 +112,10 @@ Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality
     if (!handle) throw GenerationError("no JPEG encoder");
     const int subsampling = chroma == Chroma::halved ? TJSAMP_420 : TJSAMP_444;
     // The buffer has the size of the worst case; pages that are not written are never touched.
-    const std::size_t room = tjBufSize(width, height, subsampling);
-    const auto buffer = std::make_unique_for_overwrite<unsigned char[]>(room);
+    const std::size_t capacity = tjBufSize(width, height, subsampling);
+    const auto buffer = std::make_unique_for_overwrite<unsigned char[]>(capacity);
     unsigned char* out = buffer.get();
-    unsigned long size = static_cast<unsigned long>(room);
+    unsigned long size = static_cast<unsigned long>(capacity);
     if (tjCompress2(handle.get(), rgb.data(), width, 0, height, TJPF_RGB, &out, &size, subsampling,
                     quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0)
         throw GenerationError(std::string("JPEG encoder: ") + tjGetErrorStr2(handle.get()));

@@ -149,9 +149,10 @@ class DamagePlanner {
             painted.reach = 1.5F * single(std::max(length, width));
             painted.rows = single(std::sqrt(static_cast<double>(oval_window(kind))) *
                                   diagonal(length * at.along_y, width * at.along_x));
-            painted.seed = Random(params_.seed, purposes::scars + static_cast<std::uint32_t>(part),
-                                  static_cast<std::uint32_t>(kind) * 1000U + spot.id)
-                               .bits();
+            painted.seed =
+                Random(params_.seed, purposes::painted_damage + static_cast<std::uint32_t>(part),
+                       static_cast<std::uint32_t>(kind) * 1000U + spot.id)
+                    .bits();
             const double shown = std::min(1.0, radius / chart.texel());
             switch (kind) {
                 case DamageKind::pit:
@@ -226,11 +227,11 @@ class DamagePlanner {
 
     void add_cracks(double amount) {
         // Share of radial cracks: the growth strain, shifted by the preference of the species.
-        const double own = params_.surface.scars.cracking;
+        const double own = params_.surface.damage.cracking;
         const double strain = params_.metrics.radial_strain / 16.0;
         const double radial =
             std::clamp(own < 0.0 ? strain * (1.0 + own) : strain + (1.0 - strain) * own, 0.0, 1.0);
-        const std::uint32_t seed = Random(params_.seed, purposes::scars + 8U).bits();
+        const std::uint32_t seed = Random(params_.seed, purposes::painted_damage + 8U).bits();
         const double net_share = 1.0 - smooth_step(0.55, 1.0, radial);
         const auto pieces = [&](const Crack& crack, auto width_at) {
             for (std::size_t i = 0; i + 1 < crack.points.size(); ++i) {
@@ -270,7 +271,7 @@ class DamagePlanner {
     void add_furrows(double amount) {
         constexpr int steps = 28;
         const double aspect = plan_.stem.aspect;
-        const std::uint32_t seed = Random(params_.seed, purposes::scars + 9U).bits();
+        const std::uint32_t seed = Random(params_.seed, purposes::painted_damage + 9U).bits();
         for (const Furrow& furrow : furrows(params_.seed)) {
             const double scale = grown(furrow.onset, amount);
             if (scale <= 0.0) continue;
@@ -321,7 +322,7 @@ class DamagePlanner {
     }
 
     void add_tongues(double amount) {
-        const double most = params_.surface.scars.peel_reach;
+        const double most = params_.surface.damage.peel_reach;
         for (const Tongue& tongue : tongues(params_.seed)) {
             const double scale = grown(tongue.onset, amount);
             if (scale <= 0.0 || most <= 0.0) continue;
@@ -356,7 +357,7 @@ class DamagePlanner {
         painted.middle_y = single(middle * turn.sine);
         painted.reach = painted.rows =
             single(std::max(1.35 * half_width + 2.0 * rim, 0.5 * out + 0.08) + 0.06);
-        painted.seed = Random(params_.seed, purposes::scars + 7U, id).bits();
+        painted.seed = Random(params_.seed, purposes::painted_damage + 7U, id).bits();
         add(part, painted);
     }
 
@@ -401,14 +402,14 @@ void sort_into_rows(PaintPlan& plan, Part part) {
 
 void plan_damage(const PaintParams& params, PaintPlan& plan) {
     DamagePlan& damage = plan.damage;
-    const ScarSurface& look = params.surface.scars;
+    const DamageSurface& look = params.surface.damage;
     damage.flesh = light_of(params.surface.flesh.colour);
     damage.bruise = light_of(look.bruise);
     damage.faded = light_of(look.faded);
     damage.dusty = light_of(look.dust);
     damage.dust = single(params.weathering.dust);
     damage.melted = single(params.weathering.deliquescence);
-    damage.seed = Random(params.seed, purposes::scar_grain).bits();
+    damage.seed = Random(params.seed, purposes::damage_grain).bits();
     const double gone = melted(params.weathering.deliquescence);
     const double arc = length_of_step(params.metrics.cap_arc),
                  lower = std::max(length_of_step(params.metrics.hymenium_arc), 1e-5);

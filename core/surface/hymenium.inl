@@ -41,7 +41,7 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));  // in gaps, to the nearest blade
-    VF room = one;  // width between two blades, as a share of the gap
+    VF clear_width = one;  // width between two blades, as a share of the gap
     float scale = 1.0F;
     for (int tier = 0; tier < plan.tiers; ++tier, scale *= 2.0F) {
         const VF fine = x * set(scale);
@@ -60,14 +60,14 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
         const VF here = hn::Abs(fine - place - set(0.5F)) * set(1.0F / scale);
         // A blade that has not yet begun counts as far away.
         distance = hn::Min(distance, here + (one - grown) * set(0.5F / scale));
-        room = room * (one - set(0.5F) * grown);
+        clear_width = clear_width * (one - set(0.5F) * grown);
     }
-    const VF half = gap * room * set(0.5F);
+    const VF half = gap * clear_width * set(0.5F);
     const VF edge = hn::Min(set(plan.blade), half * set(0.36F));
     const VF soft = gap * set(0.75F) / hn::Max(gap_texels, set(0.5F));
     Slot slot;
     slot.depth = unit((distance * gap - edge) / hn::Max(half - edge, soft));
-    slot.visible = shown(gap_texels * room, 4.0F);
+    slot.visible = shown(gap_texels * clear_width, 4.0F);
     return slot;
 }
 
@@ -80,7 +80,7 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
     const VF gap = p.radius * set(6.2831853F / n) * wide;
     const VF gap_texels = p.rho * set(6.2831853F / (n * plan.disc.per_texel)) * wide;
     VF distance = hn::Abs(x - hn::Floor(x + set(0.5F)));
-    VF room = one;
+    VF clear_width = one;
     const double hidden = 1.0 - static_cast<double>(plan.forking);
     float scale = 1.0F;
     for (int level = 0; level < 2; ++level, scale *= 2.0F) {
@@ -100,9 +100,9 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
         // start.
         const VF begun = unit((share - begin) * set(40.0F));
         distance = hn::Min(distance, (hn::Abs(within - fork) + (one - begun)) * set(1.0F / scale));
-        room = room * (one - swing);
+        clear_width = clear_width * (one - swing);
     }
-    const VF half = gap * room * set(0.5F);
+    const VF half = gap * clear_width * set(0.5F);
     Slot slot;
     slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.12F, 1.15F);
     // Low and thin cross veins; those of the rows above and below may overlap.
@@ -131,7 +131,7 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
         }
         slot.depth = slot.depth * (one - set(0.45F) * cross);
     }
-    slot.visible = shown(gap_texels * room, 4.0F);
+    slot.visible = shown(gap_texels * clear_width, 4.0F);
     return slot;
 }
 

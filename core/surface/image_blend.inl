@@ -66,9 +66,9 @@ struct BlendedChannel {
     HWY_INLINE VF restored(VF around, float surplus) const {
         const VF missing = (mean - around) * set(surplus);
         const auto lower = missing < set(0.0F);
-        const VF room = hn::Max(hn::IfThenElse(lower, mean - least, most - mean), set(1e-6F));
-        const VF q = hn::Min(hn::Abs(missing) / room, set(1.5F));
-        const VF step = room * q * (set(1.0F) - q * q * set(4.0F / 27.0F));
+        const VF headroom = hn::Max(hn::IfThenElse(lower, mean - least, most - mean), set(1e-6F));
+        const VF q = hn::Min(hn::Abs(missing) / headroom, set(1.5F));
+        const VF step = headroom * q * (set(1.0F) - q * q * set(4.0F / 27.0F));
         return hn::IfThenElse(lower, mean - step, mean + step);
     }
 };

@@ -51,7 +51,7 @@ void packed(benchmark::State& state, const std::string& id) {
     const MushroomSpec spec = order_of(id, 0);
     const Mesh generated = mushroom_mesh(spec, resolve(spec, *atlas));
     const GlbParts parts{
-        .name = id, .images = nullptr, .image_addresses = {"a", "b", "c"}, .extras_json = "{}"};
+        .name = id, .images = nullptr, .image_urls = {"a", "b", "c"}, .extras_json = "{}"};
     for (auto _ : state) benchmark::DoNotOptimize(glb(generated, parts));
 }
 

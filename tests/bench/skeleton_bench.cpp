@@ -55,9 +55,9 @@ void skeleton_to_glb(benchmark::State& state) {
     std::size_t bytes = 0;
     for (auto _ : state) {
         const SkinnedSkeleton generated =
-            skinned(cleaned(skeleton).skeleton, 2, SkinPlaces::left_out);
-        bytes = size_of(
-            glb(generated.mesh, {.name = "roots", .image_addresses = {}, .extras_json = ""}));
+            skinned(cleaned(skeleton).skeleton, 2, SkinPlaces::omitted);
+        bytes =
+            size_of(glb(generated.mesh, {.name = "roots", .image_urls = {}, .extras_json = ""}));
     }
     state.counters["bytes"] = static_cast<double>(bytes);
 }

@@ -126,9 +126,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 between[k] = first[k] + (second[k] - first[k]) * i / 8.0;
             expect_simple(set, between, "no mix along the path crosses itself");
         }
-        expect(path.detour >= 0.0 && path.detour <= 1.0, "a detour is a share");
+        expect(path.indirect >= 0.0 && path.indirect <= 1.0, "a detour is a share");
         const Certificate whole = set.certificate();
-        expect(whole.detour >= 0.0 && whole.detour <= 1.0, "a detour is a share");
+        expect(whole.indirect >= 0.0 && whole.indirect <= 1.0, "a detour is a share");
         const std::vector<double> grown = set.growth_weights(arcs_age);
         expect(grown.size() == set.size(), "every shape has its growth");
         if (shapes.back().species_index == 1)

@@ -461,7 +461,7 @@ void print_tree(std::uint32_t number) {
     shape.phototropism = random.uniform(0.0, 0.2);
     shape.plagiotropy = random.uniform();
     shape.variation = random.uniform();
-    if (random.bits() % 4 == 0) shape.topology.growth = TreeGrowth::drawn;
+    if (random.bits() % 4 == 0) shape.topology.growth = TreeGrowth::sampled;
     const std::string request =
         std::string("tree/") + preset.id + '?' + query_text(params, params_of(preset));
     try {

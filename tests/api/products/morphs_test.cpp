@@ -198,9 +198,9 @@ TEST_F(MorphsTest, LimbKOfOneBushBecomesLimbKOfTheOther) {
     int there[2] = {0, 0}, trunks = 0;
     double highest[2] = {0.0, 0.0};
     for (std::size_t i = 0; i < segments.size(); ++i) {
-        const double bearer = segments[i].find("bearer")->as_number();
-        EXPECT_LT(bearer, static_cast<double>(i)) << "bearers come first";
-        trunks += bearer < 0.0 ? 1 : 0;
+        const double parent = segments[i].find("bearer")->as_number();
+        EXPECT_LT(parent, static_cast<double>(i)) << "bearers come first";
+        trunks += parent < 0.0 ? 1 : 0;
         for (int side = 0; side < 2; ++side) {
             const Value& one = *segments[i].find(side == 0 ? "a" : "b");
             highest[side] = std::max(highest[side], one.at_pointer("/end/1")->as_number());

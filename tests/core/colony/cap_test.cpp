@@ -20,7 +20,7 @@ std::vector<std::string> with_stems() {
     for (const std::string& id : swept_ids()) {
         ColonySpec spec;
         spec.mix = {{id, 1000}};
-        if (colony_nature(spec, atlas()).capped) ids.push_back(id);
+        if (colony_traits(spec, atlas()).capped) ids.push_back(id);
     }
     return ids;
 }

@@ -46,16 +46,16 @@ Skeleton pole(double length, int nodes, const glm::dvec3& along) {
 TEST(ColonySkin, IsClosedAndWearsTheStemOfItsSpecies) {
     ColonyParams params;
     params.habit = Habit::rooted;
-    ColonyNature nature;
-    nature.habit = Habit::rooted;
-    nature.roots = RootsShown::shown;
+    ColonyTraits traits;
+    traits.habit = Habit::rooted;
+    traits.roots = RootsShown::shown;
     const StemFit fit{0.004, 0.08, 0.085, 0.03};
-    const ColonySite site = colony_site(params, nature, colony_growth(params, nature, fit), fit);
+    const ColonySite site = colony_site(params, traits, colony_growth(params, traits, fit), fit);
     const std::vector<ColonyMember> members = unmoved(site);
     ASSERT_GT(members.size(), 5U);
     for (int lod = 0; lod < 4; ++lod) {
         const Mesh mesh =
-            colony_skin(colony_skeleton(site, members, params, nature, 5), {lod, fit.length, true});
+            colony_skin(colony_skeleton(site, members, params, traits, 5), {lod, fit.length, true});
         expect_valid(mesh);
         for (const glm::vec2& at : mesh.texture_coordinates) {
             EXPECT_GT(static_cast<double>(at.x), chart.u + 0.9 * chart.inset * chart.width);
@@ -114,13 +114,13 @@ TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
     ColonyParams params;
     for (const Habit habit : {Habit::tuft, Habit::troop, Habit::tier})
         for (const double thick : {0.002, 0.004, 0.016}) {
-            ColonyNature nature;
-            nature.habit = habit;
+            ColonyTraits traits;
+            traits.habit = habit;
             const StemFit fit{thick, 0.08, 0.085, 0.03};
             const ColonySite site =
-                colony_site(params, nature, colony_growth(params, nature, fit), fit);
+                colony_site(params, traits, colony_growth(params, traits, fit), fit);
             const std::vector<ColonyMember> members = unmoved(site);
-            const Mesh mesh = colony_skin(colony_skeleton(site, members, params, nature, 8),
+            const Mesh mesh = colony_skin(colony_skeleton(site, members, params, traits, 8),
                                           {0, fit.length, true});
             expect_valid(mesh);
             EXPECT_EQ(pieces(mesh).size(), members.size())

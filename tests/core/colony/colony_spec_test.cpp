@@ -36,33 +36,33 @@ TEST(ColonySpec, TheHabitIsTheOneRecordedFirst) {
 TEST(ColonySpec, StemsBearCapsAndTheRestStandsWhole) {
     for (const char* id : {"amanita_muscaria", "boletus_edulis", "cantharellus_cibarius",
                            "hydnum_repandum", "morchella_esculenta", "phallus_impudicus"})
-        EXPECT_TRUE(colony_nature(colony_of(id), atlas()).capped) << id;
+        EXPECT_TRUE(colony_traits(colony_of(id), atlas()).capped) << id;
     for (const char* id : {"disciotis_venosa", "lycoperdon_perlatum", "geastrum_triplex",
                            "tremella_mesenterica", "trametes_versicolor", "pleurotus_ostreatus"})
-        EXPECT_FALSE(colony_nature(colony_of(id), atlas()).capped) << id;
-    EXPECT_TRUE(colony_nature(colony_of("fomes_fomentarius"), atlas()).lateral);
+        EXPECT_FALSE(colony_traits(colony_of(id), atlas()).capped) << id;
+    EXPECT_TRUE(colony_traits(colony_of("fomes_fomentarius"), atlas()).lateral);
     ColonySpec mix = colony_of("armillaria_mellea");
     mix.mix = {{"armillaria_mellea", 600}, {"lycoperdon_perlatum", 400}};
-    EXPECT_FALSE(colony_nature(mix, atlas()).capped);
-    EXPECT_EQ(colony_nature(mix, atlas()).habit, Habit::tuft) << "that of the most weight";
+    EXPECT_FALSE(colony_traits(mix, atlas()).capped);
+    EXPECT_EQ(colony_traits(mix, atlas()).habit, Habit::tuft) << "that of the most weight";
     std::swap(mix.mix[0].weight, mix.mix[1].weight);
-    EXPECT_EQ(colony_nature(mix, atlas()).habit, Habit::troop);
+    EXPECT_EQ(colony_traits(mix, atlas()).habit, Habit::troop);
 }
 
 TEST(ColonySpec, RootsAreShownWhereThereAreSome) {
     ColonySpec spec = colony_of("armillaria_mellea");
-    EXPECT_EQ(colony_nature(spec, atlas()).roots, RootsShown::buried);
+    EXPECT_EQ(colony_traits(spec, atlas()).roots, RootsShown::buried);
     spec.params.habit = Habit::rooted;
-    EXPECT_EQ(colony_nature(spec, atlas()).roots, RootsShown::shown);
+    EXPECT_EQ(colony_traits(spec, atlas()).roots, RootsShown::shown);
     spec.params.roots = RootsShown::buried;
-    EXPECT_EQ(colony_nature(spec, atlas()).roots, RootsShown::buried);
+    EXPECT_EQ(colony_traits(spec, atlas()).roots, RootsShown::buried);
 }
 
 TEST(ColonySpec, WhatDoesNotGoTogetherIsRefusedByName) {
     const auto problems = [](const std::string& id, auto change) {
         ColonySpec spec = colony_of(id);
         change(spec.params);
-        return refusal([&] { (void)colony_nature(spec, atlas()); });
+        return refusal([&] { (void)colony_traits(spec, atlas()); });
     };
     EXPECT_TRUE(names(problems("trametes_versicolor", [](auto& p) { p.habit = Habit::ring; }),
                       "/habit", "wall"));
@@ -91,7 +91,7 @@ TEST(ColonySpec, WhatDoesNotGoTogetherIsRefusedByName) {
                     .empty())
         << "every habit with stems has these";
     ColonySpec nobody;
-    EXPECT_TRUE(names(refusal([&] { (void)colony_nature(nobody, atlas()); }), "mix"));
+    EXPECT_TRUE(names(refusal([&] { (void)colony_traits(nobody, atlas()); }), "mix"));
 }
 
 }  // namespace

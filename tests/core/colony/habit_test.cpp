@@ -14,26 +14,26 @@ namespace {
 // A mushroom with a cap of 60 mm on a stem of 80 x 8 mm.
 constexpr StemFit fit{0.004, 0.08, 0.085, 0.03};
 
-ColonyNature nature_of(Habit habit, bool capped = true) {
-    ColonyNature nature;
-    nature.habit = habit;
-    nature.capped = capped;
-    if (habit == Habit::rooted) nature.roots = RootsShown::shown;
-    return nature;
+ColonyTraits nature_of(Habit habit, bool capped = true) {
+    ColonyTraits traits;
+    traits.habit = habit;
+    traits.capped = capped;
+    if (habit == Habit::rooted) traits.roots = RootsShown::shown;
+    return traits;
 }
 
-ColonySite site_of(const ColonyParams& params, const ColonyNature& nature) {
-    return colony_site(params, nature, colony_growth(params, nature, fit), fit);
+ColonySite site_of(const ColonyParams& params, const ColonyTraits& traits) {
+    return colony_site(params, traits, colony_growth(params, traits, fit), fit);
 }
 
 TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
     ColonyParams params;
     params.count = 256;
     params.seed = 7;
-    const ColonyNature nature = nature_of(Habit::rooted);
-    const ColonyRoots growth = colony_growth(params, nature, fit);
+    const ColonyTraits traits = nature_of(Habit::rooted);
+    const ColonyRoots growth = colony_growth(params, traits, fit);
     const ColonySkeleton source = colony_skeleton(growth, params.seed);
-    const ColonySite site = colony_site(params, nature, growth, fit);
+    const ColonySite site = colony_site(params, traits, growth, fit);
     ASSERT_EQ(site.places.size(), source.stems.size());
     ASSERT_EQ(site.ground.nodes.size(), source.root_nodes);
     EXPECT_EQ(site.ground.segments.size() + 1, site.ground.nodes.size()) << "a tree";
@@ -55,17 +55,17 @@ TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
 // Of more stems than asked for each has the same chance: over many seeds the ones kept lie as far out as all do.
 TEST(ColonyHabit, ThinningPrefersNoPlace) {
     ColonyParams params;
-    const ColonyNature nature = nature_of(Habit::rooted);
+    const ColonyTraits traits = nature_of(Habit::rooted);
     double all = 0.0, kept = 0.0;
     std::size_t stems = 0, places = 0;
     for (params.seed = 1; params.seed <= 300; ++params.seed) {
         params.count = 256;
-        for (const ColonyPlace& place : site_of(params, nature).places) {
+        for (const ColonyPlace& place : site_of(params, traits).places) {
             all += place.share;
             ++stems;
         }
         params.count = 6;
-        const ColonySite thinned = site_of(params, nature);
+        const ColonySite thinned = site_of(params, traits);
         EXPECT_LE(thinned.places.size(), 6U);
         for (const ColonyPlace& place : thinned.places) {
             kept += place.share;
@@ -98,8 +98,8 @@ TEST(ColonyHabit, EveryOtherHabitStandsAsManyAsAskedFor) {
 TEST(ColonyHabit, ATuftRisesFromOneBaseAndLeansOut) {
     ColonyParams params;
     params.count = 10;
-    const ColonyNature nature = nature_of(Habit::tuft);
-    const ColonySite site = site_of(params, nature);
+    const ColonyTraits traits = nature_of(Habit::tuft);
+    const ColonySite site = site_of(params, traits);
     double foot = 0.0, top = 0.0;
     for (const ColonyPlace& place : site.places) {
         const glm::dvec3 head = place.at(1.0);
@@ -162,9 +162,9 @@ TEST(ColonyHabit, ATierStandsOnItsTrunk) {
     for (const bool capped : {true, false}) {
         ColonyParams params;
         params.trunk_radius = 0.11;
-        ColonyNature nature = nature_of(Habit::tier, capped);
-        nature.lateral = !capped;
-        const ColonySite site = site_of(params, nature);
+        ColonyTraits traits = nature_of(Habit::tier, capped);
+        traits.lateral = !capped;
+        const ColonySite site = site_of(params, traits);
         for (const ColonyPlace& place : site.places) {
             const glm::dvec3 from_axis = place.foot + glm::dvec3(0.0, 0.0, 0.11);
             EXPECT_NEAR(std::hypot(from_axis.x, from_axis.z), 0.11, 1e-12);
@@ -178,14 +178,14 @@ TEST(ColonyHabit, ATierStandsOnItsTrunk) {
 
 TEST(ColonyHabit, WhatIsAskedForStandsBeforeWhatSuitsTheSpecies) {
     ColonyParams params;
-    const ColonyNature nature = nature_of(Habit::rooted);
-    const ColonyRoots own = colony_growth(params, nature, fit);
+    const ColonyTraits traits = nature_of(Habit::rooted);
+    const ColonyRoots own = colony_growth(params, traits, fit);
     EXPECT_EQ(own.root_radius, fit.radius);
     EXPECT_EQ(own.stem_height, fit.height);
     params.growth.root_radius = 0.008;
     params.growth.stem_height = 0.2;
     params.growth.depth = 5;
-    const ColonyRoots asked = colony_growth(params, nature, fit);
+    const ColonyRoots asked = colony_growth(params, traits, fit);
     EXPECT_EQ(asked.root_radius, 0.008);
     EXPECT_EQ(asked.stem_height, 0.2);
     EXPECT_EQ(asked.depth, 5);

@@ -22,41 +22,42 @@ Mesh cap_of(const char* id, double age = 0.6) {
 TEST(OccupancyGrid, HoldsAllOfItsMeshAndLittleMore) {
     for (const char* id : {"armillaria_mellea", "mycena_haematopus", "macrolepiota_procera"}) {
         const Mesh mesh = cap_of(id);
-        const OccupancyGrid room(mesh);
-        for (const glm::dvec3& point : samples_of(mesh)) EXPECT_TRUE(room.holds(point)) << id;
+        const OccupancyGrid occupancy(mesh);
+        for (const glm::dvec3& point : samples_of(mesh))
+            EXPECT_TRUE(occupancy.contains(point)) << id;
         const Bounds box = bounds(mesh);
-        const double above = box.max.y + 0.2 * room.reach();
-        EXPECT_FALSE(room.holds({0.0, above, 0.0}));
-        EXPECT_TRUE(room.holds({0.0, box.max.y - 1e-4, 0.0}));
-        for (const glm::dvec3& point : room.border())
-            EXPECT_LE(glm::length(point - room.middle()), room.reach());
+        const double above = box.max.y + 0.2 * occupancy.reach();
+        EXPECT_FALSE(occupancy.contains({0.0, above, 0.0}));
+        EXPECT_TRUE(occupancy.contains({0.0, box.max.y - 1e-4, 0.0}));
+        for (const glm::dvec3& point : occupancy.border())
+            EXPECT_LE(glm::length(point - occupancy.middle()), occupancy.reach());
     }
     // What an umbrella covers is free.
     const Mesh umbrella = cap_of("macrolepiota_procera");
-    const OccupancyGrid room(umbrella);
+    const OccupancyGrid occupancy(umbrella);
     const Bounds box = bounds(umbrella);
-    EXPECT_FALSE(room.holds({0.6 * box.max.x, box.min.y, 0.0}));
+    EXPECT_FALSE(occupancy.contains({0.6 * box.max.x, box.min.y, 0.0}));
 }
 
 TEST(OccupancyGrid, TwoMeetExactlyWhereTheyTouchOrNearly) {
     const Mesh mesh = cap_of("armillaria_mellea");
-    const OccupancyGrid room(mesh);
+    const OccupancyGrid occupancy(mesh);
     const Bounds box = bounds(mesh);
     const double wide = box.max.x - box.min.x, high = box.max.y - box.min.y;
-    const Posture here;
-    const auto meets = [&](const glm::dvec3& at, const glm::dmat3& turn = glm::dmat3(1.0)) {
-        const Posture there{at, turn, 1.0};
-        const bool one = meet(room, here, room, there);
-        EXPECT_EQ(one, meet(room, there, room, here)) << "it is mutual";
+    const Pose here;
+    const auto collides = [&](const glm::dvec3& at, const glm::dmat3& turn = glm::dmat3(1.0)) {
+        const Pose there{at, turn, 1.0};
+        const bool one = overlap(occupancy, here, occupancy, there);
+        EXPECT_EQ(one, overlap(occupancy, there, occupancy, here)) << "it is mutual";
         return one;
     };
-    EXPECT_TRUE(meets({0.0, 0.0, 0.0}));
-    EXPECT_TRUE(meets({0.9 * wide, 0.0, 0.0}));
-    EXPECT_FALSE(meets({1.12 * wide, 0.0, 0.0}));
-    EXPECT_FALSE(meets({0.0, 1.02 * high, 0.0}));
-    EXPECT_TRUE(meets({0.0, 0.3 * high, 0.0}));
+    EXPECT_TRUE(collides({0.0, 0.0, 0.0}));
+    EXPECT_TRUE(collides({0.9 * wide, 0.0, 0.0}));
+    EXPECT_FALSE(collides({1.12 * wide, 0.0, 0.0}));
+    EXPECT_FALSE(collides({0.0, 1.02 * high, 0.0}));
+    EXPECT_TRUE(collides({0.0, 0.3 * high, 0.0}));
     // One edgewise through the other.
-    EXPECT_TRUE(meets({0.3 * wide, 0.0, 0.0}, upright({1.0, 0.0, 0.0}, 0.3)));
+    EXPECT_TRUE(collides({0.3 * wide, 0.0, 0.0}, upright({1.0, 0.0, 0.0}, 0.3)));
 }
 
 TEST(OccupancyGrid, PosturesAreThereAndBack) {
@@ -64,20 +65,19 @@ TEST(OccupancyGrid, PosturesAreThereAndBack) {
     for (int i = 0; i < 50; ++i) {
         const double x = random.symmetric(), z = random.symmetric(), turn = random.uniform(0, 6);
         const glm::dvec3 up = glm::normalize(glm::dvec3(x, 0.6, z));
-        const Posture posture{{1.0, 2.0, 3.0}, upright(up, turn), 1.7};
-        EXPECT_NEAR(glm::determinant(posture.turn), 1.0, 1e-12);
-        EXPECT_LT(glm::length(posture.turn * glm::dvec3(0, 1, 0) - up), 1e-12);
+        const Pose pose{{1.0, 2.0, 3.0}, upright(up, turn), 1.7};
+        EXPECT_NEAR(glm::determinant(pose.turn), 1.0, 1e-12);
+        EXPECT_LT(glm::length(pose.turn * glm::dvec3(0, 1, 0) - up), 1e-12);
         const glm::dvec3 point(0.3, -0.2, 0.7);
-        EXPECT_LT(glm::length(posture.own(posture.world(point)) - point), 1e-12);
-        EXPECT_NEAR(glm::length(posture.world(point) - posture.at), 1.7 * glm::length(point),
-                    1e-12);
+        EXPECT_LT(glm::length(pose.own(pose.world(point)) - point), 1e-12);
+        EXPECT_NEAR(glm::length(pose.world(point) - pose.at), 1.7 * glm::length(point), 1e-12);
     }
 }
 
 // Two stems side by side, caps as wide as may be: the first stands, the second gives way as told.
 class TwoStems : public ::testing::Test {
   protected:
-    std::vector<ColonyMember> stood(double apart, const std::vector<ColonyModel>& models) {
+    std::vector<ColonyMember> posed(double apart, const std::vector<ColonyModel>& models) {
         site_.places.clear();
         for (const double x : {0.0, apart}) {
             ColonyPlace place;
@@ -89,7 +89,7 @@ class TwoStems : public ::testing::Test {
             site_.places.push_back(place);
         }
         ColonyParams params;
-        return settled(site_, models, params, ColonyNature{});
+        return placed_members(site_, models, params, ColonyTraits{});
     }
 
     ColonySite site_;
@@ -99,18 +99,18 @@ class TwoStems : public ::testing::Test {
 };
 
 TEST_F(TwoStems, WithRoomStandAsTheirPlacesSay) {
-    const auto members = stood(1.3 * across_, {wide_});
+    const auto members = posed(1.3 * across_, {wide_});
     ASSERT_EQ(members.size(), 2U);
     for (const ColonyMember& member : members) {
         EXPECT_EQ(member.steps, 0);
         EXPECT_EQ(member.rise, site_.places[member.place].rise);
         EXPECT_EQ(member.swing, site_.places[member.place].swing);
-        EXPECT_EQ(member.posture.scale, 1.0);
+        EXPECT_EQ(member.pose.scale, 1.0);
     }
 }
 
 TEST_F(TwoStems, LeanFirst) {
-    const auto members = stood(0.9 * across_, {wide_, narrow_});
+    const auto members = posed(0.9 * across_, {wide_, narrow_});
     ASSERT_EQ(members.size(), 2U);
     EXPECT_EQ(members[0].steps, 0);
     EXPECT_GT(members[1].swing.x, 0.0) << "away from the other";
@@ -118,8 +118,8 @@ TEST_F(TwoStems, LeanFirst) {
 }
 
 TEST_F(TwoStems, AreYoungerWhereNoLeanHelps) {
-    const auto alone = stood(0.2 * across_, {wide_});
-    const auto members = stood(0.2 * across_, {wide_, narrow_});
+    const auto alone = posed(0.2 * across_, {wide_});
+    const auto members = posed(0.2 * across_, {wide_, narrow_});
     ASSERT_EQ(members.size(), 2U);
     EXPECT_EQ(members[1].model, 1U);
     ASSERT_LE(alone.size(), 2U);
@@ -129,7 +129,7 @@ TEST_F(TwoStems, AreYoungerWhereNoLeanHelps) {
 }
 
 TEST_F(TwoStems, OfTwoAtOnePlaceOneIsLeftOut) {
-    const auto members = stood(0.02 * across_, {wide_});
+    const auto members = posed(0.02 * across_, {wide_});
     ASSERT_EQ(members.size(), 1U);
     EXPECT_EQ(members[0].place, 0U);
 }

@@ -29,7 +29,7 @@ const std::vector<std::string> full = {"NORMAL", "POSITION", "TANGENT", "TEXCOOR
 GlbParts parts_of(const std::string& name, const std::array<std::string, 3>& addresses = {}) {
     GlbParts parts;
     parts.name = name;
-    parts.image_addresses = addresses;
+    parts.image_urls = addresses;
     return parts;
 }
 
@@ -287,9 +287,9 @@ struct Group {
                            {.name = "painted", .images = &images},
                            {.name = "coated", .images = &images, .look = {.coat = 0.5}},
                            {.name = "linked",
-                            .image_addresses = {"/a.jpg", "/b.jpg", "/c.jpg"},
+                            .image_urls = {"/a.jpg", "/b.jpg", "/c.jpg"},
                             .look = {.coat = 0.5},
-                            .goes_round = true}};
+                            .repeats_u = true}};
         scene.meshes = {{"both", {{&painted_mesh, 1, {}}, {&bare, 0, {}}, {&painted_mesh, 2, {}}}},
                         {"one", {{&painted_mesh, 3, {}}}}};
         scene.nodes = {{.name = "here"},
@@ -356,7 +356,7 @@ TEST(Glb, NodesShowMeshesWhereTheyAreAndLeaveOutTheIdentity) {
 
 TEST(Glb, InstancesOfANodeReadBackAsTheyWere) {
     Group group;
-    const std::vector<GlbPlace> places = {
+    const std::vector<GlbTransform> places = {
         {{0.5, -1.0, 0.25}, {0.0, 0.6, 0.0, 0.8}, glm::dvec3(2.0)},
         {{3.0, 0.0, 0.0}, {0.0, 0.0, 0.0, 1.0}, glm::dvec3(0.5)}};
     group.scene.nodes.resize(2);

@@ -119,7 +119,7 @@ TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
         for (const int lod : {0, 2}) {
             ColonySpec spec = colony_of(GetParam(), 20, 5);
             spec.params.lod = lod;
-            if (rooted && colony_nature(spec, atlas()).lateral) continue;
+            if (rooted && colony_traits(spec, atlas()).lateral) continue;
             if (rooted) spec.params.habit = Habit::rooted;
             const Estimate e = estimate(spec, atlas(), remembering().caches);
             const Grown colony = grown(spec);
@@ -142,8 +142,8 @@ TEST_P(EveryColony, IsTheSameAtEveryLevelOfDetail) {
         ASSERT_EQ(far.members.size(), near.members.size());
         for (std::size_t i = 0; i < near.members.size(); ++i) {
             EXPECT_EQ(far.members[i].model, near.members[i].model);
-            EXPECT_EQ(far.members[i].posture.at, near.members[i].posture.at);
-            EXPECT_EQ(far.members[i].posture.turn, near.members[i].posture.turn);
+            EXPECT_EQ(far.members[i].pose.at, near.members[i].pose.at);
+            EXPECT_EQ(far.members[i].pose.turn, near.members[i].pose.turn);
         }
         EXPECT_LT(distance(bounds(far), bounds(near)), 0.06 * diagonal(bounds(near))) << lod;
     }
@@ -171,16 +171,15 @@ double deepest(const Colony& colony) {
     for (const ColonyMember& one : colony.members)
         for (const ColonyMember& other : colony.members) {
             if (&one == &other) continue;
-            const double far = glm::length(one.posture.at - other.posture.at);
-            if (far >
-                one.posture.scale * reach[one.model] + other.posture.scale * reach[other.model])
+            const double far = glm::length(one.pose.at - other.pose.at);
+            if (far > one.pose.scale * reach[one.model] + other.pose.scale * reach[other.model])
                 continue;
-            const double diameter = std::min(one.posture.scale * across[one.model],
-                                             other.posture.scale * across[other.model]);
+            const double diameter = std::min(one.pose.scale * across[one.model],
+                                             other.pose.scale * across[other.model]);
             for (const glm::dvec3& point : samples[one.model]) {
-                const glm::dvec3 at = other.posture.own(one.posture.world(point));
-                worst = std::max(worst,
-                                 solids[other.model]->depth(at) * other.posture.scale / diameter);
+                const glm::dvec3 at = other.pose.own(one.pose.world(point));
+                worst =
+                    std::max(worst, solids[other.model]->depth(at) * other.pose.scale / diameter);
             }
         }
     return worst;
@@ -191,12 +190,12 @@ TEST(ColonyCaps, OverlapIsMeasured) {
     Colony colony = parts_of(colony_of("lycoperdon_perlatum", 2, 1));
     ASSERT_EQ(colony.members.size(), 2U);
     EXPECT_EQ(deepest(colony), 0.0);
-    const double across = 2.0 * bounds(colony.models[0]).max.x * colony.members[0].posture.scale;
-    colony.members[1].posture = colony.members[0].posture;
-    colony.members[1].posture.at.x += 0.9 * across;
+    const double across = 2.0 * bounds(colony.models[0]).max.x * colony.members[0].pose.scale;
+    colony.members[1].pose = colony.members[0].pose;
+    colony.members[1].pose.at.x += 0.9 * across;
     EXPECT_GT(deepest(colony), 0.02);
     EXPECT_LT(deepest(colony), 0.12);
-    colony.members[1].posture.at.x -= 0.5 * across;
+    colony.members[1].pose.at.x -= 0.5 * across;
     EXPECT_GT(deepest(colony), 0.2);
 }
 
@@ -250,7 +249,7 @@ TEST(ColonyCaps, FollowTheLawOfTheSourceOnTheirStems) {
         EXPECT_NEAR(glm::length(member.swing) * (glm::length(member.swing) > 0 ? 1.0 : 0.0),
                     glm::length(member.swing) > 0 ? *growth.stem_displacement : 0.0, 1e-12);
         EXPECT_LE(member.rise.y, *growth.stem_height + 1e-12);
-        const glm::dvec3 axis = member.posture.turn[1];
+        const glm::dvec3 axis = member.pose.turn[1];
         EXPECT_LT(glm::length(axis - glm::normalize(member.rise + 2.0 * member.swing)), 1e-12)
             << "its frame is that of its stem";
         // As wide as the stem at the junction, times cap_scale: height falls as exp(-decay), radius
@@ -258,7 +257,7 @@ TEST(ColonyCaps, FollowTheLawOfTheSourceOnTheirStems) {
         const double depth = std::log(*growth.stem_height / member.rise.y) / *growth.stem_decay;
         const double radius =
             *growth.root_radius * std::exp(-0.5 * *growth.decay * *growth.area_decay * depth);
-        EXPECT_NEAR(member.posture.scale * colony.junction, 0.8 * radius, 0.35 * radius);
+        EXPECT_NEAR(member.pose.scale * colony.junction, 0.8 * radius, 0.35 * radius);
     }
     EXPECT_GT(unmoved, 5U);
 }
@@ -269,7 +268,7 @@ TEST(ColonyCaps, GrowWithCapScaleAndColoniesWithSize) {
     const Colony one = parts_of(spec);
     spec.params.cap_scale = 2.0;
     const Colony wide = parts_of(spec);
-    EXPECT_NEAR(wide.members[0].posture.scale, 2.0 * one.members[0].posture.scale, 1e-12);
+    EXPECT_NEAR(wide.members[0].pose.scale, 2.0 * one.members[0].pose.scale, 1e-12);
     spec.params.size = 3.0;
     const Colony large = parts_of(spec);
     EXPECT_LT(distance(bounds(large), {3.0F * bounds(wide).min, 3.0F * bounds(wide).max}), 1e-5);
@@ -325,14 +324,14 @@ TEST(ColonyFile, ItsPosturesAreThoseOfItsNodes) {
     ASSERT_EQ(found.nodes.size(), colony.members.size() + 1);
     for (std::size_t i = 0; i < colony.members.size(); ++i) {
         const ReadNode& node = found.nodes[i + 1];
-        const Posture& posture = colony.members[i].posture;
+        const Pose& pose = colony.members[i].pose;
         const glm::dvec3 point(0.01, 0.02, -0.03);
         // v + 2 q x (q x v + w v)
         const glm::dvec3 q(node.rotation[0], node.rotation[1], node.rotation[2]);
         const glm::dvec3 turned =
             point + 2.0 * glm::cross(q, glm::cross(q, point) + node.rotation[3] * point);
         const glm::dvec3 at(node.translation[0], node.translation[1], node.translation[2]);
-        EXPECT_LT(glm::length(at + node.scale[0] * turned - posture.world(point)), 1e-6);
+        EXPECT_LT(glm::length(at + node.scale[0] * turned - pose.world(point)), 1e-6);
     }
 }
 
@@ -365,7 +364,7 @@ TEST(ColonyFile, AMixIsOneMushroomInManyInstances) {
     spec.mix = {{"armillaria_mellea", 500}, {"hypholoma_fasciculare", 500}};
     (void)expect_scene(joined(grown(spec).glb));
     spec.mix = {{"armillaria_mellea", 500}, {"trametes_versicolor", 500}};
-    EXPECT_EQ(colony_nature(spec, atlas()).habit, Habit::tier);
+    EXPECT_EQ(colony_traits(spec, atlas()).habit, Habit::tier);
     (void)expect_scene(joined(grown(spec).glb));
 }
 
@@ -418,8 +417,7 @@ TEST(ColonyCorners, AreValidOrRefusedByName) {
                     const Colony colony = parts_of(spec);
                     if (!colony.skin.positions.empty()) expect_valid(colony.skin);
                     for (const ColonyMember& member : colony.members)
-                        EXPECT_TRUE(std::isfinite(member.posture.at.y) &&
-                                    member.posture.scale > 0.0);
+                        EXPECT_TRUE(std::isfinite(member.pose.at.y) && member.pose.scale > 0.0);
                 } catch (const InvalidInput& refused) {
                     EXPECT_FALSE(refused.problems().empty());
                 }

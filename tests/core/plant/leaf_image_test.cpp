@@ -28,7 +28,7 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
         const Lamina lamina =
             lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0));
         const LeafChart chart = chart_of(lamina);
-        const LaminaReader reader(lamina);
+        const LaminaSampler reader(lamina);
         for (const bool upper : {true, false}) {
             // The middle of a texel.
             glm::dvec2 at = chart.texture_point({0.0, 0.45}, upper);

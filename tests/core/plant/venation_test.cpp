@@ -98,7 +98,7 @@ TEST(Venation, EdgesFollowTheirLaw) {
             before = lobe.nodes[q];
             if (q == 0) continue;
             const HalfLobe::SideVein& vein = lobe.halves[0].side_veins[q - 1];
-            EXPECT_NEAR(vein.foot, lobe.nodes[q - 1], 1e-12);
+            EXPECT_NEAR(vein.abscissa, lobe.nodes[q - 1], 1e-12);
             EXPECT_NEAR(vein.length, 1.3 * unit * length(law, 8.0 - static_cast<double>(q)), 1e-12);
         }
     }
@@ -130,9 +130,9 @@ TEST(Venation, ThePolygonOfTheSourceGoesThroughTheLiftedEnds) {
     const Lamina lamina = lamina_of(venation, 1);
     const Lobe& lobe = lamina.lobes[0];
     const HalfLobe& half = lobe.halves[1];
-    ASSERT_EQ(half.feet.size(), 7U);
+    ASSERT_EQ(half.abscissas.size(), 7U);
     for (std::size_t i = 0; i < 5; ++i) {
-        EXPECT_NEAR(half.feet[i + 1], half.side_veins[i].foot, 1e-12);
+        EXPECT_NEAR(half.abscissas[i + 1], half.side_veins[i].abscissa, 1e-12);
         EXPECT_NEAR(half.heights[i + 1], 1.25 * half.side_veins[i].length, 1e-12);
     }
     EXPECT_NEAR(lobe.reach, lobe.nodes[5] + 0.25 * (lobe.nodes[5] - lobe.nodes[4]), 1e-12);
@@ -171,15 +171,15 @@ TEST(Venation, BordersAreSimpleAndVeinsApartWhateverIsAskedFor) {
         ASSERT_GT(area(border), 0.0) << i;
         for (const Lobe& lobe : lamina.lobes)
             for (const HalfLobe& half : lobe.halves) {
-                ASSERT_EQ(half.feet.size(), half.heights.size());
-                for (std::size_t k = 1; k < half.feet.size(); ++k) {
-                    ASSERT_GT(half.feet[k], half.feet[k - 1]) << i;
-                    if (k + 1 < half.feet.size()) {
+                ASSERT_EQ(half.abscissas.size(), half.heights.size());
+                for (std::size_t k = 1; k < half.abscissas.size(); ++k) {
+                    ASSERT_GT(half.abscissas[k], half.abscissas[k - 1]) << i;
+                    if (k + 1 < half.abscissas.size()) {
                         ASSERT_GT(half.heights[k], 0.0) << i;
                     }
                 }
                 for (const HalfLobe::SideVein& vein : half.side_veins)
-                    ASSERT_LE(vein.length, half.height(vein.foot) + 1e-12) << i;
+                    ASSERT_LE(vein.length, half.height(vein.abscissa) + 1e-12) << i;
             }
         if (i % 20 != 0) continue;
         const std::vector<Vein> veins = veins_of(lamina);
@@ -208,7 +208,7 @@ TEST(Venation, PlacesOfTheLimbAreReadBack) {
     Random random(8, 1);
     const std::size_t draws = effort(300, 30);
     for (std::size_t i = 0; i < draws; ++i) {
-        const LaminaReader reader(lamina_of(drawn<Venation>(random), 2));
+        const LaminaSampler reader(lamina_of(drawn<Venation>(random), 2));
         for (std::size_t k = 0; k < 20; ++k) {
             const double pick = random.uniform(), side_pick = random.uniform();
             const double along = random.uniform(0.02, 0.98), up = random.uniform(0.05, 0.95);
@@ -216,13 +216,13 @@ TEST(Venation, PlacesOfTheLimbAreReadBack) {
                 static_cast<std::size_t>(pick * static_cast<double>(reader.lamina().lobes.size()));
             const std::size_t side = side_pick < 0.5 ? 0 : 1;
             const Lobe& lobe = reader.lamina().lobes[l];
-            const double foot = along * lobe.reach;
-            const double height = up * lobe.halves[side].height(foot);
-            const LaminaPlace place = reader.at(lobe.place(side, foot, height));
+            const double abscissa = along * lobe.reach;
+            const double height = up * lobe.halves[side].height(abscissa);
+            const LaminaPlace place = reader.at(lobe.place(side, abscissa, height));
             EXPECT_TRUE(place.inside);
             EXPECT_EQ(place.lobe, l);
             EXPECT_EQ(place.side, side);
-            EXPECT_NEAR(place.foot, foot, 1e-6);
+            EXPECT_NEAR(place.abscissa, abscissa, 1e-6);
             EXPECT_NEAR(place.affinity, up, 1e-4);
             EXPECT_GE(place.homothety, 0.0);
             EXPECT_LE(place.homothety, 1.0);
@@ -236,17 +236,17 @@ TEST(Venation, PlacesAreTheSameByWhateverTrail) {
     Random random(9, 1);
     const std::size_t draws = effort(1000, 40);
     for (std::size_t i = 0; i < draws; ++i) {
-        const LaminaReader reader(lamina_of(drawn<Venation>(random), 2));
+        const LaminaSampler reader(lamina_of(drawn<Venation>(random), 2));
         const double y = random.uniform(-0.3, 1.1), step = random.uniform(0.0005, 0.05);
-        LaminaReader::Trail trail;
+        LaminaSampler::Hint hint;
         for (double x = -1.2; x < 1.2; x += step) {
-            const LaminaPlace on = reader.at({x, y}, trail), alone = reader.at({x, y});
+            const LaminaPlace on = reader.at({x, y}, hint), alone = reader.at({x, y});
             SCOPED_TRACE(std::to_string(x) + ", " + std::to_string(y));
             ASSERT_EQ(on.lobe, alone.lobe);
             ASSERT_EQ(on.side, alone.side);
             ASSERT_EQ(on.inside, alone.inside);
             ASSERT_NEAR(on.homothety, alone.homothety, 1e-11);
-            ASSERT_NEAR(on.foot, alone.foot, 1e-11);
+            ASSERT_NEAR(on.abscissa, alone.abscissa, 1e-11);
             if (on.inside) {
                 ASSERT_NEAR(on.affinity, alone.affinity, 1e-8);
             }
@@ -259,7 +259,7 @@ TEST(Venation, HomothetyIsOneOnTheBorder) {
     Venation venation;
     venation.lobes.value = 3;
     const Lamina lamina = lamina_of(venation, 3);
-    const LaminaReader reader(lamina);
+    const LaminaSampler reader(lamina);
     const std::vector<glm::dvec2> border = border_of(lamina);
     for (std::size_t i = 1; i < border.size(); ++i) {
         EXPECT_NEAR(reader.at(0.999 * border[i]).homothety, 1.0, 0.03);

@@ -316,7 +316,7 @@ TEST(MorphSet, FewPairsNeedAnIndirectPathAndAllAreProven) {
                                                           mix_of(set, indices, {0.0, 1.0}, age_b));
                 EXPECT_NE(known.method, ProofMethod::checked) << a << " and " << b;
                 (known.method == ProofMethod::exact ? exact : certified)++;
-                EXPECT_EQ(known.method == ProofMethod::exact, known.detour == 0.0);
+                EXPECT_EQ(known.method == ProofMethod::exact, known.indirect == 0.0);
             }
     }
     EXPECT_GT(exact, 4 * certified) << "detours are for closed cups and the like";
@@ -426,7 +426,7 @@ TEST(MorphSet, MorphsAreContinuous) {
 
 TEST(MorphSet, IndirectPathsReproduceEveryShapeAtWeightOne) {
     const MorphSet set = set_of({fly_agaric, cup}), alone = set_of({fly_agaric});
-    EXPECT_GT(set.certificate().detour, 0.0) << "a closed cup turns its margin over";
+    EXPECT_GT(set.certificate().indirect, 0.0) << "a closed cup turns its margin over";
     EXPECT_EQ(set_of({fly_agaric, cep}).certificate(),
               (Certificate{true, ProofMethod::certificate, 0.0}));
     for (const double age : {0.0, 0.1, 0.6}) {

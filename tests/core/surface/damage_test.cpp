@@ -41,8 +41,8 @@ PaintParams clean() {
     params.ornaments = {};
     params.surface.cap.ramp = {{150, 20, 20}};
     params.surface.flesh.colour = {250, 250, 250};
-    params.surface.scars.bruise = {20, 20, 200};
-    params.surface.scars.dust = {10, 200, 10};
+    params.surface.damage.bruise = {20, 20, 200};
+    params.surface.damage.dust = {10, 200, 10};
     return params;
 }
 
