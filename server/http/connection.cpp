@@ -18,13 +18,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t head_at_once = 16u << 10;     ///< bytes received while a head is awaited
-constexpr std::size_t most_in_a_turn = 64u << 10;   ///< bytes received before others come first
+constexpr std::size_t head_at_once = 16u << 10;      ///< bytes received while a head is awaited
+constexpr std::size_t most_in_a_turn = 64u << 10;    ///< bytes received before others come first
 constexpr std::size_t discarded_at_once = 1u << 20;  ///< by one call, which copies nothing
-constexpr std::size_t most_discarded = 16u << 20;   ///< bytes of a refused request read and dropped
-constexpr milliseconds discarding{1000};            ///< at most so long
-constexpr milliseconds moment{500};                 ///< for whoever has just come to say something
-constexpr milliseconds second_thoughts{100};        ///< a closed writing end counts after so long
+constexpr std::size_t most_discarded = 16u << 20;  ///< bytes of a refused request read and dropped
+constexpr milliseconds discarding{1000};           ///< at most so long
+constexpr milliseconds moment{500};                ///< for whoever has just come to say something
+constexpr milliseconds second_thoughts{100};       ///< a closed writing end counts after so long
 constexpr std::string_view too_many_of_client =
     "too many connections from this address; close some, or try again in a moment";
 constexpr std::size_t slowest = 16 * 1024;  ///< bytes a second that an answer must go out at
@@ -80,7 +80,7 @@ Connection::Connection(ReactorState& reactor_state, int socket, const Address& p
       peer_(peer),
       client_(peer),
       peer_text_(text_of(peer)),
-      by_proxy_(reactor_state.options.proxies.trusted.contain(peer)),
+      by_proxy_(reactor_state.options.proxies.trusted.contains(peer)),
       began_(reactor_state.now) {
     add(state_.phases[static_cast<std::size_t>(phase_)], std::size_t{1});
     const milliseconds patience =
@@ -108,7 +108,7 @@ bool Connection::happened(std::uint32_t events) {
             put_off_until(std::min(deadline(), state_.now + second_thoughts));
     }
     // Bulk data waits for its share of the round, so that small requests are served before it.
-    if (phase_ == Phase::body || phase_ == Phase::lingering) return yield() != Step::end;
+    if (is_receiving()) return yield() != Step::end;
     return advance();
 }
 
@@ -138,7 +138,7 @@ bool Connection::is_late() {
             if (left_)
                 client_has_left();
             else if (const auto worker_request = worker_request_.lock())
-                worker_request->end(PendingRequest::CancelReason::timed_out);
+                worker_request->cancel(PendingRequest::CancelReason::timed_out);
             return true;  // the answer comes, and is not waited for any longer than that
         case Phase::writing:
             report(false);
@@ -251,7 +251,7 @@ Connection::Step Connection::begin(Scan scan) {
     const Trace trace = trace_in(head.headers).value_or(Trace());
     trace_id_ = trace.trace_id;
     parent_id_ = trace.parent_id;
-    if (by_proxy_) client_ = state_.options.proxies.behind(peer_, head.headers);
+    if (by_proxy_) client_ = state_.options.proxies.client_address(peer_, head.headers);
     if (scan.state == Scan::State::complete && respond_at_once(head)) {
         in_.erase(0, scan.used);
         scanned_ = 0;
@@ -284,7 +284,7 @@ Connection::Step Connection::begin(Scan scan) {
     } catch (...) {  // then none
     }
     body_client_ = client_of(client_);
-    body_has_share_ = !state_.options.proxies.trusted.contain(client_);
+    body_has_share_ = !state_.options.proxies.trusted.contains(client_);
     most = std::min(most, body_has_share_ ? state_.options.most_body_of_client
                                           : state_.options.most_body_memory);
     if (length > most)
@@ -305,7 +305,7 @@ Connection::Step Connection::begin(Scan scan) {
 /// Answers from the table, if it can. The head is to be forgotten then.
 bool Connection::respond_at_once(const Head& head) {
     const HotLookup lookup = hot_lookup(head);
-    if (!lookup.simple || (limited_ && !state_.hot.occupied(head.target))) return false;
+    if (!lookup.simple || (limited_ && !state_.hot.is_pinned(head.target))) return false;
     state_.keep_up();
     const auto* const found = state_.hot.find(head.target, lookup.accept_encoding);
     if (!found) return false;
@@ -327,7 +327,7 @@ bool Connection::respond_at_once(const Head& head) {
     status_ = fresh ? 304 : 200;
     cache_ = fresh ? hot.cache_not_modified : hot.cache;
     text_.assign("Date: ").append(http_date());
-    if (hot.tells_id) text_.append("\r\nX-Request-Id: ").append(id_);
+    if (hot.has_request_id) text_.append("\r\nX-Request-Id: ").append(id_);
     text_.append("\r\n").append(closing_ ? "Connection: close\r\n" : hot.keep_alive).append("\r\n");
 
     const std::string& start = fresh ? hot.not_modified : hot.head;
@@ -545,7 +545,7 @@ void Connection::enter(Phase phase) {
 
 void Connection::client_has_left() {
     if (const auto worker_request = worker_request_.lock())
-        worker_request->end(PendingRequest::CancelReason::disconnected);
+        worker_request->cancel(PendingRequest::CancelReason::disconnected);
 }
 
 void Connection::unpin() {

@@ -87,6 +87,11 @@ class Connection final : public Timed {
         bool has_share = false;  ///< whether its client may only take its share
     };
 
+    /// Returns true while it receives the body of a request, or drops that of a refused one.
+    [[nodiscard]] bool is_receiving() const {
+        return phase_ == Phase::body || phase_ == Phase::lingering;
+    }
+
     /// What it is receiving; nothing when nothing of a body has arrived, unless it waits for room.
     [[nodiscard]] std::optional<Upload> upload() const;
 

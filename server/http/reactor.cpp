@@ -22,6 +22,7 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t turned_away_at_once = 256;  ///< connections beyond a limit that are told so
 constexpr int accepted_in_a_turn = 64;
+constexpr milliseconds upload_share{1};  ///< of a round
 constexpr milliseconds pause{10};  ///< of accepting, when the system is out of memory or buffers
 
 int spare_descriptor() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
@@ -138,10 +139,7 @@ void Reactor::run() {
             if (shared_.draining && !draining_) begin_to_drain();
         }
         state_.deadlines.expire(state_.now, late);
-        again.clear();
-        again.swap(state_.again);
-        for (Connection* one : again)
-            let(*one, [](Connection& connection) { return connection.go_on(); });
+        continue_transfers(again);
         if (state_.now >= accepting_again_) watch_listener(true);
         if (state_.now >= shutdown_grace_end_) stop_listening();
         spare_memory();
@@ -149,6 +147,27 @@ void Reactor::run() {
         reap();
         body_bytes_.store(state_.bodies.bytes(), std::memory_order_relaxed);
     }
+}
+
+/// Lets connections with more to do take turns: each response once, then uploads until their share
+/// of the round is used up. The others come first in the next round, after the requests that have
+/// arrived meanwhile.
+void Reactor::continue_transfers(std::vector<Connection*>& turns) {
+    turns.clear();
+    turns.swap(state_.again);
+    const auto go_on = [this](Connection& one) {
+        let(one, [](Connection& connection) { return connection.go_on(); });
+    };
+    const auto uploads = std::stable_partition(
+        turns.begin(), turns.end(), [](const Connection* one) { return !one->is_receiving(); });
+    std::for_each(turns.begin(), uploads, [&](Connection* one) { go_on(*one); });
+    const Clock::time_point end = Clock::now() + upload_share;
+    auto next = uploads;
+    while (next != turns.end()) {
+        go_on(**next++);
+        if (Clock::now() >= end) break;
+    }
+    state_.again.insert(state_.again.begin(), next, turns.end());
 }
 
 int Reactor::milliseconds_to_wait() const {
@@ -194,7 +213,7 @@ bool Reactor::has_too_many(const Address& peer) const {
 }
 
 void Reactor::welcome(int socket, const Address& peer) {
-    const bool counts = options_.most_of_client > 0 && !options_.proxies.trusted.contain(peer);
+    const bool counts = options_.most_of_client > 0 && !options_.proxies.trusted.contains(peer);
     const bool limited = counts && has_too_many(peer);
     const std::size_t open = connections_.size() - ended_.size();
     const bool full = !limited && open >= options_.most_connections && !make_room();
@@ -297,7 +316,7 @@ bool Reactor::give_up_an_upload(const Address* of_client, std::string_view why) 
         if (std::any_of(candidates.begin(), candidates.end(), much))
             std::erase_if(candidates, [&](const Candidate& one) { return !much(one); });
     };
-    keep([&](const Candidate& one) { return state_.bodies.takes_much(one.upload.client); });
+    keep([&](const Candidate& one) { return state_.bodies.takes_at_least_mean(one.upload.client); });
     std::size_t sum = 0;
     for (const Candidate& one : candidates) sum += one.upload.bytes;
     keep([count = candidates.size(), sum](const Candidate& one) {

@@ -36,6 +36,7 @@ class Reactor {
     [[nodiscard]] Transport::Load load() const;  ///< on any thread
 
   private:
+    void continue_transfers(std::vector<Connection*>& turns);
     [[nodiscard]] int milliseconds_to_wait() const;
     void accept_all();
     void welcome(int socket, const Address& peer);

@@ -148,6 +148,11 @@ function memory() {
 }
 
 async function polite() {
+    try {
+        os.setPriority(-10); // what is measured is the server's delay, not this process waiting for a processor
+    } catch {
+        console.log("this client cannot raise its own priority: its waits for a processor count too");
+    }
     const agent = new http.Agent({ keepAlive: true, maxSockets: 32 });
     const hits = Array.from({ length: 20 }, (_, i) => `/v1/mushrooms/boletus_edulis.glb?texture_size=512&seed=${i}`);
     for (const path of [...hits, ...hits]) await send("GET", path, { agent });
