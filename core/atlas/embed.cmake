@@ -1,4 +1,5 @@
-# Writes every template of the atlas as a raw string literal. OUTPUT: the source; TEMPLATES: list of JSON files.
+# Writes every template of the atlas as a raw string literal. OUTPUT: the source; TEMPLATES: list of
+# JSON files.
 set(text "// Made from core/atlas/*.json.\n#include <string>\n#include <vector>\n\nnamespace sporeprint {\n\n")
 string(APPEND text "const std::vector<std::string>& built_in_templates() {\n    static const std::vector<std::string> texts = {\n")
 foreach(template IN LISTS TEMPLATES)

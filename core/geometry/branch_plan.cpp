@@ -29,10 +29,10 @@ constexpr std::array<TubeDetail, 10> detail_steps = {
 /// the limit, the smallest tubes are dropped.
 constexpr std::array<std::size_t, 5> first_step = {0, 3, 7, 8, 9};
 constexpr std::array<std::size_t, 5> last_step = {6, 6, 7, 8, 9};
-/// Share of tubes that must be kept at a resolution before a coarser one is tried. A round tube of
+/// Share of tubes that must remain at a resolution before a coarser one is tried. A round tube of
 /// four sides is more visible than a missing twig.
 constexpr std::array<double, 5> sufficient_share = {0.9, 0.5, 0.0, 0.0, 0.0};
-/// Largest number of triangles at farthest_lod, which no request asks for by itself.
+/// Largest number of triangles at farthest_lod, which no request can select by itself.
 constexpr std::uint64_t most_at_farthest = 150;
 /// Number of tips from which on a tube counts as thick.
 constexpr int thick_tube_tips = 12;
@@ -50,8 +50,8 @@ std::vector<TubeChain> chains_of(const BranchGraph& graph) {
             chain.nodes.push_back(at);
         chains.push_back(std::move(chain));
     }
-    // Tubes with most tips are kept first, then isolated ones. Ties are broken by scattered
-    // numbers, so that some of them are kept on every side.
+    // Tubes with most tips come first, then isolated ones. Ties are broken by scattered numbers, so
+    // that some of them remain on every side.
     const auto scattered = [](const TubeChain& chain) { return chain.nodes.front() * 0x9e3779b1U; };
     std::stable_sort(chains.begin(), chains.end(), [&](const TubeChain& a, const TubeChain& b) {
         if (a.root != b.root) return a.root;

@@ -29,7 +29,7 @@ class DamageSolids {
     /// All references must outlive this object.
     ///
     /// cap          grid of the cap in the mesh; its columns are those of the cuts
-    /// keep_absent  whether triangles of absent solids are kept, with zero area
+    /// keep_absent  whether triangles of absent solids are emitted, with zero area
     DamageSolids(Mesh& mesh, const FaceGrid& cap, const Individual& individual,
                  const MarginCuts& cuts, int lod, bool keep_absent);
 

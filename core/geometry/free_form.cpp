@@ -98,8 +98,8 @@ void FreeForm::apply(std::span<SurfacePoint> points) const {
     for (SurfacePoint& point : points) {
         if (!contains(point.position)) continue;
         const auto [value, derivative] = dent_weights((point.position - corner_) / size_);
-        // The general form starts its sums at zero; adding zero is kept here, because it affects
-        // the sign of a zero.
+        // The general form starts its sums at zero; adding zero is not omitted here, because it
+        // affects the sign of a zero.
         const glm::dvec3 by_x = (none + derivative.x * value.y * value.z * by) / size_.x,
                          by_y = (none + value.x * derivative.y * value.z * by) / size_.y,
                          by_z = (none + value.x * value.y * derivative.z * by) / size_.z;
@@ -166,7 +166,7 @@ double FreeForm::stretch_bound() const {
 FreeForm dent(const glm::dvec3& centre, const glm::dvec3& size, const glm::dvec3& push) {
     constexpr double share = (6.0 / 16.0) * (6.0 / 16.0) * (6.0 / 16.0);  // B_2^4(1/2) cubed
     // For this lattice the bound of stretch_bound() is |push| * 1.1858 / 0.375 / size per axis; it
-    // is kept below 0.7.
+    // is limited to 0.7.
     const glm::dvec3 steep = glm::dvec3(1.20 / 0.375) / size;
     const double bound = std::sqrt(glm::dot(push, push)) * std::sqrt(glm::dot(steep, steep));
     const double keep = bound > 0.7 ? 0.7 / bound : 1.0;

@@ -37,7 +37,7 @@ struct WeatheringCount {
 /// and adds solids. An individual that cannot be damaged keeps its mesh bit for bit.
 ///
 /// body, cuts   the columns of the body are those of the cuts
-/// keep_absent  whether triangles of absent parts are kept, with zero area
+/// keep_absent  whether triangles of absent parts are emitted, with zero area
 /// returns      the curl of the margin, for solids added later
 Curl weather(Mesh& mesh, const SweptBody& body, const Individual& individual,
              const MarginCuts& cuts, int lod, bool keep_absent);

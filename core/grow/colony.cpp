@@ -37,7 +37,8 @@ int cap_lod(int lod) { return std::min(lod + 1, 3); }
 /// Level of detail of their meshes, at most.
 int mesh_lod(int lod) { return std::min(lod + 1, farthest_lod); }
 
-/// The same for one of them: an outline that touches itself with so few rings keeps those of the level before.
+/// Returns the same for one individual: if its outline intersects itself with so few rings, the
+/// previous level.
 int mesh_lod(const Individual& individual, int lod) {
     const int level = mesh_lod(lod);
     return level == farthest_lod && !individual.is_branched() &&

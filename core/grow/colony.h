@@ -23,7 +23,7 @@ namespace sporeprint {
 struct Colony {
     Mesh skin;                          ///< roots and stems; empty where there are none
     std::vector<Mesh> models;           ///< caps or whole individuals; unused ones are empty
-    std::vector<ColonyMember> members;  ///< their postures are those of the file
+    std::vector<ColonyMember> members;  ///< with the poses of the file
     ColonyParams effective;  ///< every parameter resolved; requesting it gives the same colony
     double junction = 0.0;   ///< radius of the stem at size 1 where caps are cut off
 };

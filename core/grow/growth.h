@@ -25,13 +25,13 @@ struct GrowthClip {
 /// frames   at least 2
 [[nodiscard]] std::vector<double> frame_ages(int frames);
 
-/// Returns the frames of an order's clip as differences from its mesh. Between two frames a viewer
-/// shows their weighted mean; without playback it shows the mesh itself. Key k is at k / (frames -
-/// 1) * growth_seconds.
+/// Returns the frames of a clip as differences from the mesh of its spec. Between two frames a
+/// viewer shows their weighted mean; without playback it shows the mesh itself. Key k is at k /
+/// (frames - 1) * growth_seconds.
 ///
-/// order    with animation growth
-/// mesh     mushroom_mesh() of the order
-/// throws   Impossible if the order cannot be grown at one of the ages, which the message names;
+/// spec     with animation growth
+/// mesh     mushroom_mesh() of the spec
+/// throws   Impossible if the spec cannot be grown at one of the ages, which the message names;
 ///          Cancelled
 /// cost     that of one mesh per frame
 [[nodiscard]] GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh& mesh,

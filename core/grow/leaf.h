@@ -19,13 +19,13 @@ namespace sporeprint {
 /// throws  InvalidInput
 [[nodiscard]] Mesh leaf_mesh(const LeafSpec& spec);
 
-/// Returns the estimate of an order whose mesh is built, with exact vertex and triangle counts.
+/// Returns the estimate of a spec whose mesh is built, with exact vertex and triangle counts.
 [[nodiscard]] Estimate measured(const LeafSpec& spec, const Mesh& mesh);
 
 /// Returns the cache key of a leaf's images: equal keys, equal images.
 [[nodiscard]] std::string image_key(const LeafPaint& paint);
 
-/// Returns the images, cached in workshop.memo or painted now.
+/// Returns the images, cached in execution.caches or painted now.
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,

@@ -52,7 +52,7 @@ int own_layout_share(int part) {
     return (part * share + span * span * span / 2) / (span * span * span);
 }
 
-// Lengths and lightness of one species alone, at the age and variation of an order.
+// Lengths and lightness of one species alone, at the age and variation of a spec.
 struct SpeciesPaint {
     SurfaceMetrics metrics;
     double lightness = 1.0;

@@ -1,5 +1,5 @@
-// Painting of a mushroom: what an order's images depend on, and the images, blended from those of
-// its species.
+// Painting of a mushroom: the data that the images of a spec depend on, and the images, blended
+// from those of its species.
 #pragma once
 
 #include <string>
@@ -34,17 +34,17 @@ using PaintSpec = std::vector<PaintShare>;
 /// mix  positive weights that sum to 1000, or nothing
 [[nodiscard]] Mix surface_mix(const Mix& mix);
 
-/// Returns the order at the resolution of images: age in steps of 1/64, size in steps of 2 %,
+/// Returns the spec at the resolution of images: age in steps of 1/64, size in steps of 2 %,
 /// surface_mix, without parameters of the shape; overrides that no species of that mix can have are
-/// dropped. Its images equal those of the order. A user-defined model is unchanged.
+/// dropped. Its images equal those of the original spec. A user-defined model is unchanged.
 [[nodiscard]] MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas,
                                         const Caches& caches = {});
 
-/// Returns what painting an order depends on. Each species is painted as it would be alone: at this
-/// age and size, with the requested overrides and its own lengths and lightness, so that the cache
-/// finds its painting at every weight. Only its blades use the common gill layout, that of the
-/// species with the most blades at the margin; towards weight 1 they change to the species' own
-/// layout, as a second painting.
+/// Returns everything that painting a spec depends on. Each species is painted as it would be
+/// alone: at this age and size, with the requested overrides and its own lengths and lightness, so
+/// that the cache finds its painting at every weight. Only its blades use the common gill layout,
+/// that of the species with the most blades at the margin; towards weight 1 they change to the
+/// species' own layout, as a second painting.
 ///
 /// throws  InvalidInput, Impossible as resolve()
 [[nodiscard]] PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas,
@@ -62,8 +62,8 @@ using PaintSpec = std::vector<PaintShare>;
 /// key of its painting.
 [[nodiscard]] std::string image_key(const PaintSpec& paint_spec);
 
-/// Returns the images, cached in workshop.memo or painted now. A mix is blended from paintings that
-/// may be cached too; uploaded images of several species are rotated to match first.
+/// Returns the images, cached in execution.caches or painted now. A mix is blended from paintings
+/// that may be cached too; uploaded images of several species are rotated to match first.
 ///
 /// throws  InvalidInput if an uploaded image cannot be read; Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,

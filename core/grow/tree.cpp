@@ -41,7 +41,7 @@ void finish(Mesh& mesh, const TreeParams& params) {
     order_for_vertex_cache(mesh);
 }
 
-// Throws Impossible when parameters that are each in range together exceed the bounds of a skeleton.
+// Throws Impossible if parameters, each of them in range, together exceed the bounds of a skeleton.
 void refuse_beyond_bounds(const Tree& tree) {
     const std::vector<Problem> problems = validation_errors(tree.skeleton);
     if (problems.empty()) return;
@@ -78,8 +78,8 @@ Box box_of(const PlacedLeaf& leaf, const Mesh& mesh) {
     return box;
 }
 
-/// Moves the leaves that reach farthest, two along each axis, before all others, so that every level
-/// of detail has them.
+/// Moves the leaves that reach farthest, two along each axis, before all others, so that every
+/// level of detail has them.
 ///
 /// returns  the bounding box of all leaves
 Box farthest_first(std::vector<PlacedLeaf>& leaves, const Mesh& mesh) {
@@ -128,8 +128,9 @@ void keep_within(const Box& box, const Mesh& mesh, std::vector<PlacedLeaf>& leav
     }
 }
 
-/// Returns the mesh of the leaves at a level of detail. At coarse levels a leaf represents others near
-/// it: it is enlarged about its middle, not away from its twig, and the crown keeps its extent.
+/// Returns the mesh of the leaves at a level of detail. At coarse levels a leaf represents others
+/// near it: it is enlarged about its middle, not away from its twig, and the crown keeps its
+/// extent.
 Mesh leaves_of(const Tree& tree, const TreeParams& params) {
     const LeafShape shape = shape_of(leaf_of(params));
     std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);

@@ -13,7 +13,7 @@ namespace sporeprint {
 /// Returns slightly high estimates of vertices and triangles, texels and bytes; takes microseconds.
 /// For a sampled topology the expected numbers are used.
 ///
-/// order   with nothing that check() reports
+/// spec    with nothing that check() reports
 /// throws  Impossible (path "/order") naming the expected number if it exceeds most_tips, (path
 ///         "/leaves/per_tip") if it exceeds most_leaves, (path "/twig_length") for segments too
 ///         long for their radius
@@ -37,13 +37,13 @@ struct TreeMeshes {
 /// Returns the bounding box of both meshes.
 [[nodiscard]] Bounds bounds(const TreeMeshes& meshes);
 
-/// Returns the estimate of an order whose meshes are built, with exact vertex and triangle counts.
+/// Returns the estimate of a spec whose meshes are built, with exact vertex and triangle counts.
 [[nodiscard]] Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes);
 
 /// Returns the cache key of the images of bark: equal keys, equal images.
 [[nodiscard]] std::string image_key(const TreePaint& paint);
 
-/// Returns the images of bark, cached in workshop.memo or painted now.
+/// Returns the images of bark, cached in execution.caches or painted now.
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,

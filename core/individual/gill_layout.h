@@ -40,7 +40,8 @@ struct SlotAssignment {
 
 /// Returns the slot assignment of a species.
 ///
-/// comb  blades that reach the stem in the layout of the set; 0 for a species without a set
+/// gill_layout  number of blades that reach the stem in the layout of the set; 0 for a species
+///              without a set
 [[nodiscard]] SlotAssignment slot_assignment(int gill_layout, HymeniumPattern pattern, int blades,
                                              int tiers);
 
@@ -56,8 +57,8 @@ struct SlotAssignment {
 }
 /// Random variation of that share, and the steepness with which shorter gills rise.
 inline constexpr double tier_strays = 0.11, tier_rise = 9.0;
-/// The same for the two levels of forks of a ridge at maximal forking; and how fast forks move to
-/// the middle of the gap.
+/// The same two values for the two levels of forks of a ridge at maximal forking, and the speed at
+/// which forks move to the middle of the gap.
 inline constexpr std::array<double, 2> fork_begins = {0.24, 0.66}, fork_strays = {0.17, 0.10};
 inline constexpr double fork_swing = 3.2, fork_missing = 1.1;
 /// Amplitude of the deviation of gills and ridges from their meridian, in turns, per unit of

@@ -75,7 +75,7 @@ struct Individual {
     double waves = 0.0;     ///< of the margin, from the species with a margin only
     DamageAmounts damage;
     GillLayout gill_layout;
-    int blade_tiers = 0;     ///< solid blades are placed on comb.blades << blade_tiers slots
+    int blade_tiers = 0;     ///< solid blades are placed on gill_layout.blades << blade_tiers slots
     bool runs_down = false;  ///< gills of some species of the mix run down the stem at some age
 
     [[nodiscard]] bool is_branched() const { return !branch_graph.empty(); }

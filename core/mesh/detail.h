@@ -35,8 +35,8 @@ inline constexpr std::array<Detail, 4> details = {{
     {4, 3, 4, 8, 0, 0, 0, 1},
 }};
 
-/// One level beyond those that a request may ask for: the individuals of a colony at LOD 3. It has the
-/// columns of LOD 3, which keep the outline seen from above, and fewer rings. Outlines are not proven
+/// One level beyond those of a request: the individuals of a colony at LOD 3. It has the columns of
+/// LOD 3, which preserve the outline seen from above, and fewer rings. Outlines are not proven
 /// simple at it.
 inline constexpr int farthest_lod = 4;
 inline constexpr Detail farthest_detail = {3, 2, 3, 8, 0, 0, 0, 1};

@@ -90,7 +90,7 @@ std::vector<std::string> defects(const Mesh& mesh) {
     struct Edge {
         std::uint32_t from, to;
         int times;  // 1 in the direction of its triangle, -1 in that of its neighbour
-        // NOLINTNEXTLINE(modernize-use-nullptr): clang-tidy 14 sees a null in a defaulted comparison
+        // NOLINTNEXTLINE(modernize-use-nullptr): wrong for defaulted comparisons
         auto operator<=>(const Edge&) const = default;
     };
     std::vector<Edge> edges;

@@ -354,7 +354,7 @@ consteval bool well_described() {
            found.bounded && found.in_bounds;
 }
 
-/// Runs the same proof with a message for each fault; every consumer of a description calls it.
+/// Runs the same proof with a message for each error; every consumer of a description calls it.
 template <Described T>
 consteval void prove() {
     constexpr Description found = description_of<T>;

@@ -32,7 +32,7 @@ RamificationMatrix self_similar(int order, const auto& sides) {
     return matrix;
 }
 
-void refuse_faults(const RamificationMatrix& matrix, int order) {
+void throw_if_invalid(const RamificationMatrix& matrix, int order) {
     std::vector<Problem> problems = validation_errors(matrix);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
     if (order < 1 || order > matrix.order())
@@ -199,7 +199,7 @@ double expected_leaves(const RamificationMatrix& matrix, int order) {
 
 Ramification sampled_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
                                   std::size_t most) {
-    refuse_faults(matrix, order);
+    throw_if_invalid(matrix, order);
     Random random(seed, purposes::grown_ramification);
     Ramification tree;
     const std::uint32_t root = appended(tree, none, order);
@@ -213,7 +213,7 @@ double exact_leaves(const RamificationMatrix& matrix, int order) {
 
 Ramification exact_ramification(const RamificationMatrix& matrix, int order, std::uint32_t seed,
                                 std::size_t most) {
-    refuse_faults(matrix, order);
+    throw_if_invalid(matrix, order);
     const std::vector<OrderCounts> counts = counts_by_order(matrix, order);
     if (counts[1].segments > static_cast<double>(most)) refuse_size(counts[1].segments, most);
     Ramification tree;
@@ -268,7 +268,7 @@ Ramification exact_ramification(const RamificationMatrix& matrix, int order, std
 
 Ramification with_tips(const Ramification& tree, const RamificationMatrix& tips, int tip_order,
                        std::uint32_t seed, std::size_t most) {
-    refuse_faults(tips, tip_order);
+    throw_if_invalid(tips, tip_order);
     Ramification grown = tree;
     const std::size_t before = tree.nodes.size();
     for (std::uint32_t node = 0; node < before; ++node) {

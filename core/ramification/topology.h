@@ -32,8 +32,9 @@ constexpr const char* name(MatrixKind kind) {
     return nullptr;
 }
 
-/// dealt: exactly the numbers of the matrix, with a size known in advance. drawn: sampled node by
-/// node, with any size.
+/// The way numbers of branches are chosen; JSON spells them as name() does. exact: exactly the
+/// proportions of the matrix, with a size known in advance. sampled: random node by node, with any
+/// size.
 enum class TreeGrowth { exact, sampled };
 
 constexpr const char* name(TreeGrowth growth) {
@@ -121,7 +122,7 @@ inline constexpr std::size_t most_tips = 40'000;
 /// topology  with nothing that check() reports
 [[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
 
-/// Returns the expected number of tips (the exact one for TreeGrowth::dealt without small trees at
+/// Returns the expected number of tips (the exact one for TreeGrowth::exact without small trees at
 /// the tips), before any work.
 [[nodiscard]] double expected_tips(const TreeTopology& topology);
 

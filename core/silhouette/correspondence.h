@@ -25,7 +25,7 @@ class ShareMap {
     /// Builds the map through knots.
     ///
     /// from, to  knots, equally many, strictly ascending from 0 to 1. Derivatives at the knots are
-    ///           kept within [1 / steepest, steepest], and always low enough for the map to be
+    ///           limited to [1 / steepest, steepest], and always low enough for the map to be
     ///           monotone.
     ShareMap(std::vector<double> from, std::vector<double> to, double steepest = 8.0);
 

@@ -247,7 +247,7 @@ CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
         const std::uint32_t b = result.node_of[skeleton.segments[i].to];
         if (a != b) segments.push_back({{std::min(a, b), std::max(a, b)}, i});
     }
-    // Of several segments between the same nodes the first is kept.
+    // Only the first of several segments between the same nodes remains.
     std::sort(segments.begin(), segments.end(), [](const auto& a, const auto& b) {
         return std::pair(a.first.from, a.first.to) < std::pair(b.first.from, b.first.to) ||
                (a.first == b.first && a.second < b.second);

@@ -27,8 +27,8 @@ struct Skeleton {
 inline constexpr std::size_t most_skeleton_nodes = 200'000;
 
 /// Returns the errors of a skeleton that cannot be cleaned: too many nodes, a position or radius
-/// that is not finite or out of bounds, a segment to a missing node. Paths are /nodes/i and
-/// /limbs/i.
+/// that is not finite or out of bounds, a segment to a missing node. Paths contain the index of the
+/// node or segment.
 [[nodiscard]] std::vector<Problem> validation_errors(const Skeleton& skeleton);
 
 /// The limits that a skeleton must meet to be skinned without folds.
@@ -57,8 +57,8 @@ struct CleanSkeleton {
     std::vector<std::uint32_t> node_of;
 };
 
-/// Prepares a skeleton for skinned(). Of two conflicting segments the thinner is detached, of equal
-/// ones the later.
+/// Returns a skeleton that meets the limits of skinned(). Of two conflicting segments the thinner
+/// is detached, of equal ones the later.
 ///
 /// throws  InvalidInput with validation_errors()
 /// cost    O(nodes + segments), times the length of the longest run of coincident nodes

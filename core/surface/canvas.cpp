@@ -13,7 +13,7 @@
 namespace sporeprint {
 namespace {
 
-// Pool of the memory of finished paintings; at most four of the default size are kept.
+// Pool of the memory of finished paintings, for at most four of the default size.
 class CanvasPool {
   public:
     Bytes acquire(std::size_t size) {

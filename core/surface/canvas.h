@@ -14,8 +14,8 @@ namespace sporeprint {
 /// Number of rows that one task paints.
 inline constexpr int rows_per_piece = 128;
 
-/// Three RGB images of an atlas. Their memory comes from a pool, because page faults of fresh
-/// memory cost as much as painting.
+/// Three RGB images of an atlas. Their memory comes from a pool, because touching fresh memory
+/// costs as much as painting.
 class Canvas {
   public:
     explicit Canvas(int side);

@@ -11,7 +11,7 @@ namespace sporeprint {
 enum class ChartMap { disc, strip };
 
 /// Rectangle in texture coordinates (0..1, v down as in glTF). `inset` is the share of each side
-/// kept as padding for mipmaps.
+/// that is padding for mipmaps.
 struct Chart {
     ChartMap map = ChartMap::disc;
     double u = 0.0, v = 0.0, width = 1.0, height = 1.0;

@@ -75,8 +75,7 @@ Picture decoded_png(std::span<const std::uint8_t> file, const std::string& path)
         ~Release() { png_image_free(image); }
     } release{&image};
     check_size(image.width, image.height, path);
-    image.format =
-        PNG_FORMAT_RGBA;  // straight alpha: the colours under it are kept, the alpha is dropped
+    image.format = PNG_FORMAT_RGBA;  // straight alpha: colours are unchanged, alpha is dropped
     Bytes rgba(PNG_IMAGE_SIZE(image));
     Picture picture = empty_picture(static_cast<int>(image.width), static_cast<int>(image.height));
     if (png_image_finish_read(&image, nullptr, rgba.data(), 0, nullptr) == 0)

@@ -31,8 +31,8 @@ enum class Chroma { halved, full };
 [[nodiscard]] Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality,
                          Chroma chroma);
 
-/// Returns the number of pixels that decoded_picture() will decode, as the header of the file declares
-/// it; 0 where decoded_picture() refuses the file by its header.
+/// Returns the number of pixels that decoded_picture() will decode, as the header of the file
+/// declares it; 0 if decoded_picture() refuses the file by its header.
 ///
 /// cost  microseconds
 [[nodiscard]] std::uint64_t declared_pixels(std::span<const std::uint8_t> file);

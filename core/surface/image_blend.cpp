@@ -15,8 +15,8 @@ namespace {
 
 using Channels = std::array<double, blended_channels>;
 
-// Groups of channels that share one contrast gain, so that hues and directions of slopes are kept:
-// colour, slopes, occlusion, roughness.
+// Groups of channels that share one contrast gain, so that hues and directions of slopes do not
+// change: colour, slopes, occlusion, roughness.
 struct Group {
     std::size_t from, to;
 };

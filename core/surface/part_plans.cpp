@@ -27,7 +27,7 @@ ReliefPlan relief_plan(const PaintParams& params) {
     const ReliefStyle& style = params.relief;
     ReliefPlan plan;
     plan.seed = relief_seeds(params.seed);
-    // Geometry in the mesh needs no painted slopes; a quarter is kept, because its triangles smooth
+    // Geometry in the mesh needs no painted slopes; a quarter remains, because its triangles smooth
     // sharp features.
     const auto left = [](double carried) { return 1.0 - 0.75 * carried; };
     plan.folds = single(style.folds);
