@@ -1,4 +1,4 @@
-// The program: options in, a running service out. It ends on SIGTERM or SIGINT, gracefully.
+// The program: reads the options and runs the service until SIGTERM or SIGINT.
 #include <pthread.h>
 #include <signal.h>
 #include <unistd.h>
@@ -42,16 +42,16 @@ int complain(const std::string& sentence, int code) {
     return code;
 }
 
-/// The text of the file of options; of none when no file is named.
+/// Returns the text of the configuration file; empty if no file is named.
 ///
-/// throws  std::runtime_error when it cannot be read
+/// throws  std::runtime_error if it cannot be read
 std::string config_text(const std::string& file) {
     if (file.empty()) return {};
     if (std::optional<std::string> text = read_text(file)) return *std::move(text);
     throw std::runtime_error("--config: " + file + " cannot be read");
 }
 
-/// The folder of the built page: the one given, or where a build or an installation has it.
+/// Returns the folder of the built page: the one given, or that of the build or installation.
 std::filesystem::path page_folder(const Options& options) {
     namespace fs = std::filesystem;
     if (!options.assets.empty()) return options.assets.string();
@@ -68,13 +68,13 @@ bool is_loopback(std::string_view host) {
     return host == "localhost" || host == "::1" || host.starts_with("127.");
 }
 
-std::string address_of(std::string_view host, int port) {
+std::string url_of(std::string_view host, int port) {
     const bool bare_v6 = host.find(':') != std::string_view::npos;
     return "http://" + (bare_v6 ? '[' + std::string(host) + ']' : std::string(host)) + ':' +
            std::to_string(port) + '/';
 }
 
-/// What api says of itself at /v1.
+/// Returns the generator version that the API reports at /v1.
 std::string generator_version(api::Service& service) {
     api::Request request;
     request.method = "GET";
@@ -90,20 +90,20 @@ std::string generator_version(api::Service& service) {
     return version->is_string() ? version->as_string() : dump(*version);
 }
 
-/// Waits for a signal of those that every thread has blocked; at most so long. Returns 0 when none has come.
-int next_signal(const sigset_t& signals, std::chrono::milliseconds patience) {
-    const timespec time{patience.count() / 1000, (patience.count() % 1000) * 1'000'000};
+/// Waits for one of these signals, which all threads have blocked. Returns 0 after the timeout.
+int next_signal(const sigset_t& signals, std::chrono::milliseconds timeout) {
+    const timespec time{timeout.count() / 1000, (timeout.count() % 1000) * 1'000'000};
     return std::max(sigtimedwait(&signals, nullptr, &time), 0);
 }
 
-/// Whether SIGTERM or SIGINT, both blocked, has come and waits to be taken.
-bool is_asked_to_end() {
+/// Returns true if SIGTERM or SIGINT, both blocked, is pending.
+bool is_stop_requested() {
     sigset_t waiting;
     return sigpending(&waiting) == 0 &&
            (sigismember(&waiting, SIGTERM) == 1 || sigismember(&waiting, SIGINT) == 1);
 }
 
-/// Tells the person who has started this where it is, and what to know of that.
+/// Prints the URL of the service, and warnings about its configuration.
 void announce(const Options& options, bool has_page, int port) {
     if (!is_loopback(options.host) && options.sign_keys.empty())
         std::fprintf(stderr,
@@ -113,11 +113,11 @@ void announce(const Options& options, bool has_page, int port) {
                      options.host.string().c_str());
     if (!has_page)
         std::fprintf(stderr, "sporeprint: the page is not built; the API is served without it\n");
-    std::printf("Sporeprint is ready at %s\n", address_of(options.host, port).c_str());
+    std::printf("Sporeprint is ready at %s\n", url_of(options.host, port).c_str());
     std::fflush(stdout);
 }
 
-/// The variables of this process.
+/// Returns the environment variables of this process.
 Given variables_of_process() {
     Given variables;
     for (char* const* one = environ; *one; ++one) {
@@ -135,7 +135,7 @@ Value list_of(const std::vector<std::string>& texts) {
     return Value(std::move(list));
 }
 
-/// Says which variables have no effect.
+/// Logs the variables that have no effect.
 void report_ignored(const Environment& environment, Log& log) {
     if (!environment.service_links.empty())
         log.event(LogLevel::info,
@@ -147,9 +147,9 @@ void report_ignored(const Environment& environment, Log& log) {
                   {{"variables", list_of(environment.unknown)}});
 }
 
-/// The text of a file that an option names.
+/// Returns the text of a file named by an option.
 ///
-/// throws  InvalidInput when it cannot be read
+/// throws  InvalidInput if it cannot be read
 std::string text_of_option(const std::string& flag, const std::string& file) {
     if (std::optional<std::string> text = read_text(file)) return *std::move(text);
     throw InvalidInput(flag, file + " cannot be read; allowed is the path of a file");
@@ -161,7 +161,7 @@ int serve(const Options& options, const Environment& environment) {
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGHUP);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by every thread made from here on
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by all threads created later
     signal(SIGPIPE, SIG_IGN);
 
     Log log(options.log_level);
@@ -233,8 +233,8 @@ int serve(const Options& options, const Environment& environment) {
     transport.start();
     if (metrics_transport) metrics_transport->start();
     if (!options.warm.empty())
-        warm(options.warm.string(), warm_list, request_handler, log, is_asked_to_end);
-    if (!is_asked_to_end()) {
+        warm(options.warm.string(), warm_list, request_handler, log, is_stop_requested);
+    if (!is_stop_requested()) {
         request_handler.open();
         announce(options, !service_options.assets.empty(), transport.port());
         log.event(LogLevel::info, "ready",
@@ -243,10 +243,10 @@ int serve(const Options& options, const Environment& environment) {
                    {"slots", Value(request_handler_options.threads)}});
     }
 
-    state = {};
+    state = {};  // from here on owned by the request handler only, so that a reload frees it
     for (int signal = 0; signal != SIGTERM && signal != SIGINT;) {
         signal = next_signal(signals, std::chrono::hours(1));
-        if (signal == SIGHUP && reload(sources, request_handler, log)) transport.forget();
+        if (signal == SIGHUP && reload(sources, request_handler, log)) transport.invalidate();
     }
     log.event(LogLevel::info, "stopping: no new connections, finishing what has begun");
     request_handler.close();
@@ -259,33 +259,33 @@ int serve(const Options& options, const Environment& environment) {
     while (!drained)
         if (const int signal = next_signal(signals, std::chrono::milliseconds(20));
             signal == SIGTERM || signal == SIGINT)
-            _exit(failed);  // asked twice
+            _exit(failed);  // a second signal
     log.event(LogLevel::info, "stopped");
     return fine;
 }
 
-/// What --sign and the flags beside it ask for.
+/// The values of --sign and related flags.
 struct SigningRequest {
     std::string target;
     std::string method = "GET";
     std::string body;          ///< file of the body of a POST, "-" for standard input
-    std::int64_t seconds = 0;  ///< that the URL is good for from now on; 0 for ever
+    std::int64_t seconds = 0;  ///< of validity from now on; 0: it does not expire
 };
 
-/// All that can be read from standard input.
+/// Reads standard input to its end.
 ///
-/// throws  std::runtime_error when it cannot be read
+/// throws  std::runtime_error if it cannot be read
 std::string standard_input() {
     std::string text;
-    std::array<char, 65536> piece{};
-    while (const std::size_t got = std::fread(piece.data(), 1, piece.size(), stdin))
-        text.append(piece.data(), got);
+    std::array<char, 65536> block{};
+    while (const std::size_t got = std::fread(block.data(), 1, block.size(), stdin))
+        text.append(block.data(), got);
     if (std::ferror(stdin) != 0)
         throw std::runtime_error("--sign-body: cannot read standard input");
     return text;
 }
 
-/// Prints a URL with the signature of the first key.
+/// Prints a target with the signature of the first key.
 int sign(const Options& options, const SigningRequest& requested) {
     const std::string& target = requested.target;
     if (options.sign_keys.empty())
@@ -393,7 +393,7 @@ int run(int argc, char** argv) {
             return complain("--sign-method and --sign-body need --sign, the URL to sign",
                             wrong_usage);
         return to_sign.target.empty() ? serve(options, environment) : sign(options, to_sign);
-    } catch (const InvalidInput& invalid) {  // an instruction set or a template that is no good
+    } catch (const InvalidInput& invalid) {  // an invalid instruction set or template
         for (const Problem& problem : invalid.problems())
             complain((problem.path == "simd" ? "--simd" : problem.path) + ": " + problem.message,
                      wrong_usage);

@@ -11,10 +11,12 @@ namespace sporeprint::server {
 
 namespace {
 
-/// Calls `read`; logs what is wrong with the source when it throws.
+/// Calls `read` and logs the outcome.
+///
+/// returns  false if it has thrown
 template <class Read>
 bool try_to(const char* what, const std::filesystem::path& source, Log& log, Read read) {
-    const auto stays = [&](const std::string& path, const std::string& why) {
+    const auto log_failure = [&](const std::string& path, const std::string& why) {
         log.event(LogLevel::error, "reloading failed; all stays as it was",
                   {{"what", Value(what)},
                    {"source", Value(source.string())},
@@ -24,10 +26,11 @@ bool try_to(const char* what, const std::filesystem::path& source, Log& log, Rea
     try {
         read();
     } catch (const InvalidInput& invalid) {
-        for (const Problem& problem : invalid.problems()) stays(problem.path, problem.message);
+        for (const Problem& problem : invalid.problems())
+            log_failure(problem.path, problem.message);
         return false;
     } catch (const std::exception& error) {
-        stays("", error.what());
+        log_failure("", error.what());
         return false;
     }
     log.event(LogLevel::info, "reloaded",

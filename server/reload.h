@@ -1,4 +1,4 @@
-// Reloading: files that the service was started with are read again, while it serves.
+// Reloading: templates and signing keys are read again while requests are served.
 #pragma once
 
 #include <filesystem>
@@ -8,16 +8,16 @@
 
 namespace sporeprint::server {
 
-/// What is read again; an empty path is not.
+/// The sources that a reload reads; an empty path is skipped.
 struct Sources {
     std::filesystem::path atlas;  ///< folder of templates
     std::filesystem::path keys;   ///< file of signing keys
 };
 
-/// Reads them again and gives the reception what they hold now. Of a source that is no good all stays as it was, and the log
-/// names what is wrong. Answers that were ready to be given again are the transport's to forget.
+/// Reads the sources again and passes the new state to the request handler. An invalid source
+/// changes nothing and is logged with the reasons. The caller has to call Transport::invalidate().
 ///
-/// returns  whether anything was put in the place of another
+/// returns  true if anything was replaced
 bool reload(const Sources& sources, RequestHandler& request_handler, Log& log);
 
 }  // namespace sporeprint::server

@@ -11,7 +11,7 @@ namespace sporeprint::server {
 
 namespace {
 
-/// The problem of an answer as the client would get it.
+/// Returns the problem of a response as a client would receive it.
 Value problem_of(const api::Response& response) {
     std::string text;
     for (const Slice& slice : response.body)

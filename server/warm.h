@@ -1,4 +1,4 @@
-// Warming: what is sure to be asked for is made before the service is ready.
+// Cache warming: listed resources are generated before the service is ready.
 #pragma once
 
 #include <cstddef>
@@ -11,13 +11,14 @@
 
 namespace sporeprint::server {
 
-/// Makes what a list names, path and query a line (lines_of()), as many at once as there are slots, and logs each line of
-/// which nothing can be made, with its number and the problem; at the end how many were good. No line is fatal.
+/// Generates the resources of a list, which has one path and query per line (lines_of()), as many
+/// in parallel as the pool has threads. Each line that fails is logged with its number and the
+/// problem, and at the end the number of successes. No line is fatal.
 ///
-/// file     where the list is from, for the log
-/// text     of the list
-/// stop     asked now and then: whether to leave the rest
-/// returns  how many lines were good
+/// file     path of the list, for the log
+/// text     content of the list
+/// stop     polled between batches; true: skip the remaining lines
+/// returns  the number of lines that succeeded
 std::size_t warm(const std::filesystem::path& file, std::string_view text,
                  RequestHandler& request_handler, Log& log, const std::function<bool()>& stop);
 

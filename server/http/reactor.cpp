@@ -64,7 +64,7 @@ void Reactor::drain() {
     mailbox_.wake();
 }
 
-void Reactor::forget() {
+void Reactor::invalidate() {
     ++shared_.epoch;
     mailbox_.wake();
 }

@@ -31,7 +31,7 @@ class Reactor {
     void run();
 
     void drain();   ///< on any thread
-    void forget();  ///< on any thread
+    void invalidate();  ///< on any thread; see Transport::invalidate()
 
     [[nodiscard]] Transport::Load load() const;  ///< on any thread
 

@@ -31,7 +31,7 @@ void Transport::drain() {
     codec_->close();
 }
 
-void Transport::forget() { reactor_->forget(); }
+void Transport::invalidate() { reactor_->invalidate(); }
 
 int Transport::port() const {
     sockaddr_storage address{};

@@ -169,7 +169,7 @@ class Transport {
 
     /// Invalidates the hot-response table except for its pinned responses. Responses of requests
     /// begun before this call are not stored.
-    void forget();
+    void invalidate();
 
     /// Returns the bound port.
     [[nodiscard]] int port() const;

@@ -53,22 +53,23 @@ bool is_healthy(const std::string& url, std::string& why) {
     why = "no address";
     for (const addrinfo* address = found; address; address = address->ai_next) {
         const Socket socket{::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0)};
-        const timeval patience{2, 0};
-        setsockopt(socket.number, SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
-        setsockopt(socket.number, SOL_SOCKET, SO_SNDTIMEO, &patience, sizeof patience);
+        const timeval timeout{2, 0};
+        setsockopt(socket.number, SOL_SOCKET, SO_RCVTIMEO, &timeout, sizeof timeout);
+        setsockopt(socket.number, SOL_SOCKET, SO_SNDTIMEO, &timeout, sizeof timeout);
         std::array<char, 16> response{};
-        std::size_t got = 0;
+        std::size_t received = 0;
         if (::connect(socket.number, address->ai_addr, address->ai_addrlen) != 0 ||
             ::send(socket.number, request.data(), request.size(), MSG_NOSIGNAL) < 0) {
             why = std::strerror(errno);
             continue;
         }
-        while (got < 12) {
-            const ssize_t more = ::recv(socket.number, response.data() + got, 12 - got, 0);
+        while (received < 12) {
+            const ssize_t more =
+                ::recv(socket.number, response.data() + received, 12 - received, 0);
             if (more <= 0) break;
-            got += static_cast<std::size_t>(more);
+            received += static_cast<std::size_t>(more);
         }
-        const std::string_view line(response.data(), got);
+        const std::string_view line(response.data(), received);
         if (line.size() == 12 && line.starts_with("HTTP/1.") && line.substr(8) == " 200")
             return true;
         why = line.empty() ? "no answer in time" : "the answer was " + std::string(line);

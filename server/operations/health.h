@@ -1,14 +1,14 @@
-// A health check as small as a client can be, for containers that have no curl.
+// A minimal HTTP client for health checks, for containers without curl.
 #pragma once
 
 #include <string>
 
 namespace sporeprint::server {
 
-/// Asks for an http:// address and looks at the status alone.
+/// Requests an http:// URL and checks the status.
 ///
-/// why      when the result is false: a sentence for a person
-/// returns  whether 200 came back within two seconds
+/// why      set to a message for the operator if the result is false
+/// returns  true if the status is 200; connecting, sending and receiving may take two seconds each
 [[nodiscard]] bool is_healthy(const std::string& url, std::string& why);
 
 }  // namespace sporeprint::server

@@ -16,26 +16,27 @@ namespace sporeprint::server {
 
 namespace {
 
-constexpr std::size_t block = 64u << 10;  ///< bytes of lines that are written, or dropped, at once
-constexpr std::size_t most_blocks = 64;   ///< that wait: 4 MB
-constexpr std::chrono::milliseconds gathering{10};
+constexpr std::size_t block = 64u << 10;  ///< bytes of lines that are written or dropped together
+constexpr std::size_t most_blocks = 64;   ///< queued: 4 MB
+constexpr std::chrono::milliseconds batch_time{10};
 
-/// Appends the time, "2026-01-31T23:59:59.123Z"; all but the milliseconds is made once a second.
+/// Appends the time, "2026-01-31T23:59:59.123Z"; the part up to the seconds is formatted once per
+/// second.
 void append_time(std::string& to) {
     const auto now = std::chrono::system_clock::now();
     const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
     const auto milliseconds = std::chrono::duration_cast<std::chrono::milliseconds>(
                                   now.time_since_epoch() % std::chrono::seconds(1))
                                   .count();
-    thread_local std::time_t generated = -1;
+    thread_local std::time_t formatted_at = -1;
     thread_local std::string text;
-    if (seconds != generated) {
+    if (seconds != formatted_at) {
         std::tm utc{};
         gmtime_r(&seconds, &utc);
         std::array<char, 64> line{};
         text.assign(line.data(),
                     std::strftime(line.data(), line.size(), "%Y-%m-%dT%H:%M:%S.", &utc));
-        generated = seconds;
+        formatted_at = seconds;
     }
     to += text;
     for (const auto digit : {milliseconds / 100, milliseconds / 10 % 10, milliseconds % 10})
@@ -43,7 +44,7 @@ void append_time(std::string& to) {
     to += 'Z';
 }
 
-/// Appends a JSON string; every byte that came from a client is escaped.
+/// Appends a JSON string with all special characters escaped.
 void append_text(std::string& to, std::string_view text) {
     const bool plain = std::all_of(text.begin(), text.end(), [](char c) {
         return c >= 0x20 && c < 0x7f && c != '"' && c != '\\';
@@ -87,7 +88,7 @@ bool is_health_check(std::string_view target) {
     return path == "/livez" || path == "/readyz" || path == "/metrics";
 }
 
-/// Whether the name of a parameter, percent-encoded or not, is "sig".
+/// Returns true if the name of a parameter, percent-encoded or not, is "sig".
 bool is_secret(std::string_view name) {
     constexpr std::string_view secret = "sig";
     const auto digit = [](char c) {
@@ -117,7 +118,7 @@ std::string redacted(std::string_view target) {
     std::string text(target.substr(0, query));
     if (query == target.npos) return text;
     std::string_view rest = target.substr(query);
-    while (!rest.empty()) {  // begins with the mark before a parameter
+    while (!rest.empty()) {  // begins with the separator before a parameter
         const std::size_t end = std::min(rest.find_first_of("?&;#", 1), rest.size());
         const std::string_view parameter = rest.substr(1, end - 1);
         const std::size_t equals = parameter.find('=');
@@ -133,7 +134,7 @@ std::string redacted(std::string_view target) {
 Log::Log(LogLevel least)
     : logger_(std::make_unique<spdlog::logger>("sporeprint",
                                                std::make_shared<spdlog::sinks::stderr_sink_st>())) {
-    // Lines come with their ends, many at a time.
+    // Each record is a block of many lines that include their line ends.
     logger_->set_formatter(
         std::make_unique<spdlog::pattern_formatter>("%v", spdlog::pattern_time_type::utc, ""));
     logger_->set_level(level_of(least));
@@ -182,7 +183,7 @@ void Log::request(const Served& served) {
     if (!served.cache.empty()) text(",\"cache\":", served.cache);
     if (!served.complete) line += ",\"complete\":false";
     line += "}\n";
-    gather(line);
+    enqueue(line);
 }
 
 void Log::event(LogLevel level, std::string_view message, const Value::Object& members) {
@@ -194,7 +195,7 @@ void Log::event(LogLevel level, std::string_view message, const Value::Object& m
     for (const auto& [member, value] : members)
         ((line += ',') += json_string(member) + ':') += dump(value);
     line += "}\n";
-    gather(line);
+    enqueue(line);
 }
 
 void RepeatedWarning::operator()(Value::Object members, Clock::time_point now) {
@@ -208,7 +209,7 @@ void RepeatedWarning::operator()(Value::Object members, Clock::time_point now) {
     log_.event(LogLevel::warning, message_, members);
 }
 
-void Log::gather(std::string_view line) {
+void Log::enqueue(std::string_view line) {
     bool first = false;
     {
         const std::lock_guard lock(mutex_);
@@ -227,12 +228,13 @@ void Log::write() {
     for (;;) {
         wake_.wait(lock, [&] { return ending_ || !waiting_.empty(); });
         if (waiting_.empty()) return;
-        if (!ending_) wake_.wait_for(lock, gathering, [&] { return ending_; });
+        if (!ending_) wake_.wait_for(lock, batch_time, [&] { return ending_; });
         while (!waiting_.empty()) {
             const std::string lines = std::move(waiting_.front());
             waiting_.pop_front();
             lock.unlock();
-            // Each line has passed its own level. Given as an argument: braces in a client's bytes are no format.
+            // Each line has passed its own level. The text is an argument, since braces in it must
+            // not be read as a format.
             logger_->log(spdlog::level::critical, "{}", lines);
             logger_->flush();
             lock.lock();

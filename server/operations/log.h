@@ -1,5 +1,5 @@
-// The log: one line of JSON for each request and event, gathered without waiting and written by a
-// thread of its own.
+// The log: one JSON line per request and event, queued without blocking and written by a background
+// thread.
 #pragma once
 
 #include <chrono>
@@ -24,33 +24,38 @@ class logger;
 
 namespace sporeprint::server {
 
-/// A target as it may be logged: the value of each `sig` of its query, a secret while it is good,
-/// replaced by [redacted]. A name in other capitals, or percent-encoded, is taken for it too.
+/// Returns a target with the value of each `sig` parameter of its query, which is a secret while it
+/// is valid, replaced by [redacted]. The name is matched in any case and percent-encoding.
 [[nodiscard]] std::string redacted(std::string_view target);
 
+/// Writes JSON lines to standard error. Thread-safe.
 class Log {
   public:
-    /// Writes to standard error, what has come in 10 ms at once. When lines come faster than they
-    /// can be written the oldest waiting ones are dropped: a slow reader of the log never stops the
-    /// service.
+    /// Starts the writer thread, which writes the lines of 10 ms at once. If lines arrive faster
+    /// than they can be written, the oldest queued ones are dropped, so that a slow reader of the
+    /// log never blocks the service.
+    ///
+    /// least  least level that is logged
     explicit Log(LogLevel least);
-    ~Log();  ///< writes what waits
+    ~Log();  ///< writes the queued lines
     Log(const Log&) = delete;
     Log& operator=(const Log&) = delete;
 
-    /// One request, its target redacted(); health checks are logged at debug, server faults at error.
+    /// Logs one request with redacted() target. The level of health checks is debug, that of server
+    /// errors is error.
     ///
     /// cost  under a microsecond
     void request(const Served& served);
 
-    /// An event with further members.
+    /// Logs an event with additional members.
     void event(LogLevel level, std::string_view message, const Value::Object& members = {});
 
   private:
-    void gather(std::string_view line);
+    void enqueue(std::string_view line);
     void write();
 
-    std::unique_ptr<spdlog::logger> logger_;  ///< knows the least level; writes on writer_ only
+    std::unique_ptr<spdlog::logger>
+        logger_;  ///< has the least level; used for writing by writer_ only
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<std::string> waiting_;  ///< blocks of lines, oldest first
@@ -58,18 +63,17 @@ class Log {
     std::jthread writer_;
 };
 
-/// A warning whose cause may recur many times a second: logged at once, then at most once in each
-/// pause. Thread-safe.
+/// A rate-limited warning: logged at once, then at most once per pause. Thread-safe.
 class RepeatedWarning {
   public:
     using Clock = std::chrono::steady_clock;
 
-    /// log  outlives this
+    /// pre  log outlives this object
     RepeatedWarning(Log& log, std::string message, std::chrono::seconds pause)
         : log_(log), message_(std::move(message)), pause_(pause) {}
 
-    /// Logs the warning with these members and `times`, how often it has come since it was last
-    /// logged; or only counts it.
+    /// Logs the warning with these members and `times`, the number of occurrences since it was last
+    /// logged; or only counts the occurrence.
     void operator()(Value::Object members, Clock::time_point now = Clock::now());
 
   private:

@@ -23,7 +23,7 @@ namespace fs = std::filesystem;
 const double process_started =
     std::chrono::duration<double>(std::chrono::system_clock::now().time_since_epoch()).count();
 
-/// What a file of the system says; nothing in it when there is none.
+/// Returns the text of a system file; empty if it cannot be read.
 std::string text_of(const fs::path& file) { return read_text(file).value_or(""); }
 
 std::optional<double> number_in(std::string_view text) {
@@ -33,7 +33,7 @@ std::optional<double> number_in(std::string_view text) {
     return number;
 }
 
-/// The smallest quota from this process's group up to the root.
+/// Returns the smallest CPU quota of this process's control group and its ancestors.
 std::optional<double> group_quota() {
     const fs::path root = "/sys/fs/cgroup";
     std::optional<double> least;
@@ -111,7 +111,7 @@ void raise_descriptor_limit() {
     rlimit limit{};
     if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= limit.rlim_max) return;
     limit.rlim_cur = limit.rlim_max;
-    setrlimit(RLIMIT_NOFILE, &limit);  // if not, connections end when there are no more
+    setrlimit(RLIMIT_NOFILE, &limit);  // on failure the limit stays as it is
 }
 
 void bound_malloc() {
@@ -122,8 +122,9 @@ void bound_malloc() {
 
 void lower_thread_priority() {
     constexpr int nice = 10;
-    const auto thread = static_cast<id_t>(gettid());  // Linux keeps a niceness for each thread
-    // If this fails, all threads have the same one.
+    const auto thread =
+        static_cast<id_t>(gettid());  // on Linux each thread has a nice value of its own
+    // On failure all threads keep the same priority.
     if (getpriority(PRIO_PROCESS, thread) < nice) setpriority(PRIO_PROCESS, thread, nice);
 }
 

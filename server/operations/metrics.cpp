@@ -31,7 +31,7 @@ const char* method_label(std::string_view method) {
 
 using Labels = std::vector<std::pair<std::string, std::string>>;
 
-/// Collects families whose values are read now.
+/// Appends metric families whose values are read at this scrape.
 class Snapshot {
   public:
     explicit Snapshot(std::vector<MetricFamily>& families) : families_(families) {}
@@ -73,7 +73,7 @@ struct Metrics::Parts {
     prometheus::Counter& collapses;
     std::string version, generator_version;
 
-    /// What is counted of requests of one kind; found again without labels being put together.
+    /// The counters of one kind of request, cached so that labels are not formatted per request.
     struct Kind {
         prometheus::Counter* requests = nullptr;
         prometheus::Histogram* durations = nullptr;

@@ -1,5 +1,5 @@
-// The metrics, in Prometheus's text format: requests counted here, caches counted by api, the rest
-// asked for when somebody looks.
+// Metrics in the Prometheus text format: requests are counted here, caches by api, and gauges are
+// read at each scrape.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,17 @@
 
 namespace sporeprint::server {
 
-/// Read off at the moment of looking.
+/// Values read at each scrape.
 struct Gauges {
     std::size_t workers = 0, busy_workers = 0;
     std::size_t queue = 0, queue_limit = 0;
     std::size_t in_flight = 0, waiters = 0;
-    std::size_t clients = 0;  ///< whose budgets are remembered
+    std::size_t clients = 0;  ///< in the table of budgets
     Transport::Load connections;
     bool ready = false;
 };
 
+/// Counts requests and formats all metrics. Thread-safe.
 class Metrics {
   public:
     Metrics(std::string version, std::string generator_version);
@@ -30,20 +31,20 @@ class Metrics {
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
-    /// One request. Its label is the template of its path, "UNKNOWN" when there is none: the number
-    /// of time series must not depend on what strangers ask for.
+    /// Counts one request. Its label is the URL template of its route, or "UNKNOWN", so that
+    /// clients cannot increase the number of time series.
     void served(const Served& served);
 
-    /// One flight's steps, by those it took.
+    /// Records the duration of each step of a computation.
     void generated(const api::Timing& timing);
 
-    /// One request that joined somebody else's flight.
+    /// Counts a request that joined a computation in flight.
     void collapsed();
 
-    /// One request that was not let in: "queue", "deadline", "left",
-    /// "signature" or "budget".
+    /// Counts a rejected request: "queue", "deadline", "left", "signature" or "budget".
     void rejected(std::string_view reason);
 
+    /// Returns all metrics as text.
     [[nodiscard]] std::string text(const api::Counters& counters, const Gauges& gauges) const;
 
   private:

@@ -33,7 +33,8 @@ std::string allowed(const Info& info) {
         return {};
 }
 
-/// Reads texts over `options`; `named` makes the path of a problem from an option's name.
+/// Overwrites members of `options` by the texts given; `named` converts an option's name to the
+/// path of its problems.
 template <class Named>
 void read_given(const Given& given, Named named, Options& options, std::vector<Problem>& problems) {
     std::vector<Problem> found;
@@ -49,7 +50,7 @@ constexpr std::string_view variable_prefix = "SPOREPRINT_";
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_lower(char c) { return c >= 'a' && c <= 'z'; }
 
-/// A port from 1 to 65535 in decimal digits without leading zeros.
+/// Returns true for a port, 1 to 65535 in decimal digits without leading zeros.
 bool is_port(std::string_view text) {
     std::uint16_t port = 0;
     const char* const end = text.data() + text.size();
@@ -57,7 +58,7 @@ bool is_port(std::string_view text) {
     return stop == end && error == std::errc() && text.front() != '0';
 }
 
-/// "tcp://10.0.0.1:8080" or "udp://[fd00::1]:53".
+/// Returns true for texts like "tcp://10.0.0.1:8080" or "udp://[fd00::1]:53".
 bool is_service_address(std::string_view text) {
     const std::size_t scheme = text.find("://");
     if (scheme == text.npos) return false;
@@ -75,7 +76,8 @@ bool is_service_address(std::string_view text) {
     return address && address->is_v4();
 }
 
-/// A host as a browser writes it into an origin: a name in lower case, or an address in its one form.
+/// Returns true for a host as browsers write it into an origin: a lower-case name, or an address in
+/// canonical form.
 bool is_origin_host(std::string_view host) {
     if (host.starts_with('[') && host.ends_with(']')) {
         const std::string_view inside = host.substr(1, host.size() - 2);
@@ -88,8 +90,8 @@ bool is_origin_host(std::string_view host) {
     return plain && !host.empty() && host.front() != '.' && host.find("..") == host.npos;
 }
 
-/// An origin as browsers serialize it, https://a.example:8443: their comparison is byte by byte, so
-/// capitals, a port that is the scheme's own, a path or a slash at the end would never match.
+/// Returns true for an origin as browsers serialize it, https://a.example:8443. Browsers compare
+/// origins byte by byte, so capitals, a default port, a path or a trailing slash would never match.
 ///
 /// source  RFC 6454 section 6.2
 bool is_serialized_origin(std::string_view text) {
@@ -110,7 +112,7 @@ bool is_serialized_origin(std::string_view text) {
     return is_port(number) && !own;
 }
 
-/// What keeps a text from being the path that stands before all others; empty for nothing.
+/// Returns the reason why a text is not a valid base path; empty if it is one.
 std::string error_in_base_path(std::string_view text) {
     if (text.empty()) return {};
     if (!text.starts_with('/')) return "does not begin with '/'";
@@ -145,10 +147,10 @@ std::string error_in_base_path(std::string_view text) {
 }  // namespace
 
 void Options::check(const std::string& path, std::vector<Problem>& problems) const {
-    const auto bad = [](std::string_view text, std::string_view damage_spots) {
+    const auto bad = [](std::string_view text, std::string_view forbidden) {
         return std::any_of(text.begin(), text.end(), [&](char c) {
             return static_cast<unsigned char>(c) < 0x20 || c == 0x7f ||
-                   damage_spots.find(c) != std::string_view::npos;
+                   forbidden.find(c) != std::string_view::npos;
         });
     };
     if (host.empty() || bad(host, " /"))
@@ -195,7 +197,7 @@ std::vector<OptionLine> option_lines() {
 Environment environment_from(const Given& variables) {
     constexpr const char* config = "SPOREPRINT_CONFIG";
     const std::vector<OptionLine> lines = option_lines();
-    // Compared without their common beginning, which would make any two of them look alike.
+    // Compared without their common prefix, which would make all of them similar.
     const std::size_t common = variable_prefix.size();
     std::vector<std::string> known = {std::string(config).substr(common)};
     for (const OptionLine& line : lines) known.push_back(line.variable.substr(common));
@@ -232,7 +234,8 @@ bool is_service_link(std::string_view name, std::string_view value) {
     };
     constexpr std::string_view service = "SPOREPRINT";
     if (!name.starts_with(variable_prefix)) return false;
-    std::string_view rest = name.substr(service.size());  // begins where a part of the name does
+    std::string_view rest =
+        name.substr(service.size());  // `at` is the start of the name or an underscore
     for (std::size_t at = 0; at != rest.npos; at = rest.find('_', at + 1)) {
         std::string_view ending = rest.substr(at);
         if (at > 0 && !is_name(rest.substr(1, at - 1))) return false;
@@ -275,7 +278,7 @@ Options options_from(const std::string& file_name, std::string_view file, const 
     if (problems.empty()) {
         found.clear();
         options.check("", found);
-        // A rule between options is told by the flag, wherever the values came from.
+        // Errors of check() name the flag, whatever the source of the value.
         for (Problem& problem : found)
             report(problems, flag_of(problem.path.substr(1)), std::move(problem.message));
     }

@@ -1,5 +1,5 @@
 // The options, each described once: flag, SPOREPRINT_* variable, key of the configuration file,
-// range, default and help all come from here.
+// range, default and help text are derived from this description.
 #pragma once
 
 #include <string>
@@ -30,6 +30,7 @@ constexpr const char* name(LogLevel level) {
     return nullptr;
 }
 
+/// All options of the server with their defaults.
 struct Options {
     Text<255> host = "127.0.0.1";
     int port = 8080;
@@ -156,42 +157,43 @@ struct Options {
                           "itself."});
     }
 
+    /// Checks the options whose rules are more than a range.
     void check(const std::string& path, std::vector<Problem>& problems) const;
     bool operator==(const Options&) const = default;
 };
 
 static_assert(well_described<Options>());
 
-/// Name and text of options that were given, in order.
+/// Names and texts of the options given, in order.
 using Given = std::vector<std::pair<std::string, std::string>>;
 
-/// One option as help shows it.
+/// One option as --help shows it.
 struct OptionLine {
     std::string name;      ///< "cache_mb", the key of the file
     std::string flag;      ///< "--cache-mb"
     std::string variable;  ///< "SPOREPRINT_CACHE_MB"
-    std::string help;      ///< with what is allowed and the default
+    std::string help;      ///< with the allowed values and the default
 };
 [[nodiscard]] std::vector<OptionLine> option_lines();
 
-/// What the SPOREPRINT_* variables come to.
+/// The SPOREPRINT_* variables, sorted by use.
 struct Environment {
-    Given options;       ///< those that are not empty, by option name
+    Given options;       ///< the non-empty ones, by option name
     std::string config;  ///< SPOREPRINT_CONFIG
-    /// Names of those that Kubernetes injects for a Service whose name begins with "sporeprint".
+    /// names of those that Kubernetes injects for a Service whose name begins with "sporeprint"
     std::vector<std::string> service_links;
-    /// All others, "SPOREPRINT_PROT; did you mean 'SPOREPRINT_PORT'?".
+    /// all others, "SPOREPRINT_PROT; did you mean 'SPOREPRINT_PORT'?"
     std::vector<std::string> unknown;
 };
 
-/// Sorts the variables of a process: options, what Kubernetes has injected, and the unknown.
+/// Sorts the variables of a process into options, those injected by Kubernetes, and unknown ones.
 ///
-/// variables  name and value of each, as in environ; only those that begin with SPOREPRINT_ count
+/// variables  name and value of each, as in environ; those without SPOREPRINT_ prefix are ignored
 [[nodiscard]] Environment environment_from(const Given& variables);
 
-/// Whether a variable is one of those that Kubernetes injects into every container for a Service
-/// of its namespace whose name begins with "sporeprint", unless the pod says
-/// `enableServiceLinks: false`. In the grammar of RFC 5234, where the value must agree:
+/// Returns true if a variable is one that Kubernetes injects into every container for a Service of
+/// its namespace whose name begins with "sporeprint", unless the pod has
+/// `enableServiceLinks: false`. In the grammar of RFC 5234, with the required values as comments:
 ///
 ///     service = "SPOREPRINT" *("_" 1*(ALPHA / DIGIT))
 ///     name    = service "_SERVICE_HOST"                    ; an IP address
@@ -201,18 +203,18 @@ struct Environment {
 ///                 ["_PROTO" / "_PORT" / "_ADDR"]           ; tcp, 8080 or 10.0.0.1
 [[nodiscard]] bool is_service_link(std::string_view name, std::string_view value);
 
-/// Puts together what was given; a flag wins over a variable, that over the file.
+/// Merges all sources of options: a flag overrides a variable, a variable overrides the file.
 ///
 /// file_name    for messages
 /// file         text of the configuration file, a JSON object; empty for none
 /// environment  by option name
 /// flags        by option name
-/// throws       InvalidInput with every problem: path is the flag, variable or file and key, the
-///              message has the value and what is allowed
+/// throws       InvalidInput with every problem: its path is the flag, variable, or file and key;
+///              its message has the value and the allowed values
 [[nodiscard]] Options options_from(const std::string& file_name, std::string_view file,
                                    const Given& environment, const Given& flags);
 
-/// The options as a configuration file.
+/// Formats the options as a configuration file.
 [[nodiscard]] std::string config_text(const Options& options);
 
 }  // namespace sporeprint::server

@@ -44,18 +44,18 @@ std::optional<std::string> bytes_of(std::string_view hex) {
     return bytes;
 }
 
-/// 43 characters for 32 bytes.
+/// Encodes 32 bytes as 43 characters.
 std::string base64url(const Digest& digest) {
     constexpr std::string_view letters =
         "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
     std::string out;
-    unsigned held = 0;
+    unsigned pending = 0;
     int bits = 0;
     for (const unsigned char byte : digest) {
-        held = held << 8 | byte;
-        for (bits += 8; bits >= 6; bits -= 6) out += letters[held >> (bits - 6) & 63];
+        pending = pending << 8 | byte;
+        for (bits += 8; bits >= 6; bits -= 6) out += letters[pending >> (bits - 6) & 63];
     }
-    if (bits > 0) out += letters[held << (6 - bits) & 63];
+    if (bits > 0) out += letters[pending << (6 - bits) & 63];
     return out;
 }
 
@@ -76,7 +76,7 @@ std::string signature(const SigningKey& key, std::string_view method, std::strin
     return base64url(digest);
 }
 
-/// Takes the last parameter off a target if it has this name.
+/// Removes the last parameter of a target if it has this name, and returns its value.
 std::optional<std::string_view> take_last(std::string_view& target, std::string_view name) {
     const std::size_t query = target.find('?');
     const std::size_t spot = target.find_last_of("?&");
@@ -88,7 +88,8 @@ std::optional<std::string_view> take_last(std::string_view& target, std::string_
     return last.substr(name.size() + 1);
 }
 
-/// What is wrong with some keys, by their index. No message shows a word of a key: who mixes up id and secret would find it in a log.
+/// Returns the errors of keys, by index. No message contains any part of a key, as a secret swapped
+/// with its id would then appear in a log.
 std::vector<std::pair<std::size_t, std::string>> errors_of(const std::vector<SigningKey>& keys) {
     std::vector<std::pair<std::size_t, std::string>> errors;
     for (std::size_t i = 0; i < keys.size(); ++i) {
@@ -119,7 +120,7 @@ Signatures::Signatures(std::vector<SigningKey> keys) : keys_(std::move(keys)) {
 
 Signatures Signatures::from_text(const std::string& name, std::string_view text) {
     std::vector<SigningKey> keys;
-    std::vector<std::size_t> lines;  // that they stand on
+    std::vector<std::size_t> lines;  // line number of each key
     std::vector<Problem> problems;
     const auto at = [&](std::size_t line) { return name + ':' + std::to_string(line); };
     for (auto [number, rest] : lines_of(text)) {
@@ -151,10 +152,10 @@ Signatures Signatures::from_file(const std::filesystem::path& file) {
     return from_text(file.string(), *text);
 }
 
-SignatureCheck Signatures::check(std::string_view method, std::string_view target, std::string_view body,
-                          std::int64_t now) const {
-    const auto refused = [&](std::string why) {
-        return SignatureCheck{false, std::nullopt, std::string(target), std::move(why)};
+SignatureCheck Signatures::check(std::string_view method, std::string_view target,
+                                 std::string_view body, std::int64_t now) const {
+    const auto refused = [&](std::string refusal) {
+        return SignatureCheck{false, std::nullopt, std::string(target), std::move(refusal)};
     };
     std::string_view rest = api::origin_form(target);
     const std::optional<std::string_view> given = take_last(rest, "sig");
@@ -172,7 +173,7 @@ SignatureCheck Signatures::check(std::string_view method, std::string_view targe
     if (given->size() != wanted.size() ||
         CRYPTO_memcmp(given->data(), wanted.data(), wanted.size()) != 0)
         return refused("the signature is not that of this address");
-    std::optional<std::int64_t> good_until;
+    std::optional<std::int64_t> valid_until;
     if (expires) {
         std::int64_t until = 0;
         const auto [end, error] =
@@ -181,9 +182,9 @@ SignatureCheck Signatures::check(std::string_view method, std::string_view targe
             return refused("expires is " + in_quotes(*expires) +
                            "; it has to be seconds since 1970");
         if (now >= until) return refused("the address was good until " + std::to_string(until));
-        good_until = until;
+        valid_until = until;
     }
-    return {true, good_until, std::string(rest), {}};
+    return {true, valid_until, std::string(rest), {}};
 }
 
 std::string Signatures::signed_target(std::string_view method, std::string_view target,

@@ -1,4 +1,4 @@
-// Signed addresses: who holds a key says which addresses may be asked for, and until when.
+// Signed URLs: a holder of a key decides which URLs are valid, and until when.
 #pragma once
 
 #include <cstdint>
@@ -10,53 +10,57 @@
 
 namespace sporeprint::server {
 
+/// A secret and its public identifier.
 struct SigningKey {
     std::string id;      ///< 1 to 32 of a-z, A-Z, 0-9, '-', '_'
     std::string secret;  ///< 16 to 64 bytes
 };
 
-/// A target whose signature was looked at. What the signature adds never reaches those who give the target its meaning.
+/// The result of checking a signed target.
 struct SignatureCheck {
     bool is_valid = false;
-    std::optional<std::int64_t> expires;  ///< seconds since 1970; nothing if it never does
-    std::string target;  ///< without key, expires and sig; as it came if it is not good
-    std::string refusal;     ///< a sentence for the client if it is not good
+    std::optional<std::int64_t> expires;  ///< seconds since 1970; nothing if it does not expire
+    std::string target;                   ///< without key, expires and sig; unchanged if invalid
+    std::string refusal;                  ///< if invalid: a message for the client
 };
 
-/// Checks and makes signatures. Immutable, so thread-safe.
+/// Checks and creates signatures. Immutable, hence thread-safe.
 ///
-/// A signed target ends with key=ID, perhaps expires=SECONDS (since 1970), and sig=SIGNATURE as its last three or two parameters.
-/// SIGNATURE is base64url, without padding, of the HMAC-SHA256 of
+/// The last two or three parameters of a signed target are key=ID, optionally expires=SECONDS
+/// (since 1970), and sig=SIGNATURE. SIGNATURE is base64url, without padding, of the HMAC-SHA256 of
 ///
 ///     v1 LF method LF target LF body LF
 ///
-/// where method is GET (of HEAD too) or POST, target the path and query as they are sent up to and without "&sig=", and body nothing for
-/// GET and the lower-case hexadecimal SHA-256 of the body for POST. What is signed is what is sent: a client needs to know no other form.
+/// where method is GET (for HEAD too) or POST, target is the path and query as sent, up to but
+/// without "&sig=", and body is empty for GET and the lower-case hexadecimal SHA-256 of the body
+/// for POST. The bytes sent are signed, without any normalization.
 ///
 /// source  [RFC2104], [RFC4648] §5
 class Signatures {
   public:
-    /// keys    the first signs; all are accepted, so that a new one can be brought in before an old one goes
-    /// throws  InvalidInput if there is none, one is malformed, or two have one id
+    /// keys    the first one signs; all are accepted, so that keys can be rotated
+    /// throws  InvalidInput if there is no key, a key is malformed, or two have the same id
     explicit Signatures(std::vector<SigningKey> keys);
 
-    /// Keys of a text, "ID HEX" a line; empty lines and those that begin with '#' are passed over.
+    /// Reads keys from a text with one "ID HEX" per line, in the format of lines_of().
     ///
-    /// name    of the text, for messages
-    /// throws  InvalidInput with every problem, none of which shows a secret
+    /// name    of the file, for messages
+    /// throws  InvalidInput with every problem; no message contains a secret
     [[nodiscard]] static Signatures from_text(const std::string& name, std::string_view text);
 
-    /// The same of a file.
+    /// Reads keys from a file.
     [[nodiscard]] static Signatures from_file(const std::filesystem::path& file);
 
+    /// Checks the signature and expiry of a target.
+    ///
     /// now  seconds since 1970
     [[nodiscard]] SignatureCheck check(std::string_view method, std::string_view target,
-                                std::string_view body, std::int64_t now) const;
+                                       std::string_view body, std::int64_t now) const;
 
-    /// The target with the signature of the first key.
+    /// Returns the target with the signature of the first key.
     ///
     /// target   path and query, without key, expires and sig
-    /// expires  seconds since 1970; none for ever
+    /// expires  seconds since 1970; nothing: it does not expire
     [[nodiscard]] std::string signed_target(std::string_view method, std::string_view target,
                                             std::string_view body,
                                             std::optional<std::int64_t> expires) const;

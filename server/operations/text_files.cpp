@@ -10,10 +10,10 @@ namespace sporeprint::server {
 namespace {
 
 std::string_view trimmed(std::string_view text) {
-    constexpr const char* blanks = " \t\r";
-    const std::size_t begin = text.find_first_not_of(blanks);
+    constexpr const char* white_space = " \t\r";
+    const std::size_t begin = text.find_first_not_of(white_space);
     if (begin == text.npos) return {};
-    return text.substr(begin, text.find_last_not_of(blanks) - begin + 1);
+    return text.substr(begin, text.find_last_not_of(white_space) - begin + 1);
 }
 
 }  // namespace
@@ -23,7 +23,7 @@ std::optional<std::string> read_text(const std::filesystem::path& file) {
     if (!in) return std::nullopt;
     try {
         return std::string(std::istreambuf_iterator<char>(in), {});
-    } catch (const std::ios_base::failure&) {  // a folder can be opened, but not read
+    } catch (const std::ios_base::failure&) {  // a folder can be opened but not read
         return std::nullopt;
     }
 }

@@ -1,4 +1,4 @@
-// Small files that people write for the server: options, keys, lists.
+// Small text files written by the operator: options, keys, lists.
 #pragma once
 
 #include <cstddef>
@@ -10,15 +10,18 @@
 
 namespace sporeprint::server {
 
-/// The bytes of a file; nothing when it cannot be read.
+/// Returns the content of a file; nothing if it cannot be read.
 [[nodiscard]] std::optional<std::string> read_text(const std::filesystem::path& file);
 
+/// One line of a text.
 struct TextLine {
     std::size_t number = 0;  ///< from 1
-    std::string_view text;   ///< without blanks around it
+    std::string_view text;   ///< without surrounding white space
 };
 
-/// The lines of a text that say something: empty ones and those that begin with '#' are passed over. They point into the text.
+/// Returns the lines of a text except empty ones and comments, which begin with '#'.
+///
+/// returns  views into the text
 [[nodiscard]] std::vector<TextLine> lines_of(std::string_view text);
 
 }  // namespace sporeprint::server

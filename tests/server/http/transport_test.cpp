@@ -934,13 +934,13 @@ TEST(Transport, ForgetsWhatItWouldGiveAgainAndWhatIsOnItsWay) {
     RawClient client(server.port());
     client.send(request);
     begun.acquire();
-    server.transport->forget();  // it has been made of what is no longer so
+    server.transport->invalidate();  // the state behind the response has changed
     gate.release();
     EXPECT_EQ(client.receive().body, "1");
     gate.release(10);
     EXPECT_EQ(client.ask(request).body, "2") << "not given again";
     EXPECT_EQ(client.ask(request).body, "2") << "but this is";
-    server.transport->forget();
+    server.transport->invalidate();
     EXPECT_EQ(client.ask(request).body, "3");
     EXPECT_EQ(client.ask(request).body, "3");
     EXPECT_EQ(server.transport->load().hot_entries, 1u);
