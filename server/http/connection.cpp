@@ -18,32 +18,32 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t head_at_once = 16u << 10;      ///< bytes received while a head is awaited
-constexpr std::size_t most_in_a_turn = 64u << 10;    ///< bytes received before others come first
-constexpr std::size_t discarded_at_once = 1u << 20;  ///< by one call, which copies nothing
-constexpr std::size_t most_discarded = 16u << 20;  ///< bytes of a refused request read and dropped
-constexpr milliseconds discarding{1000};           ///< at most so long
-constexpr milliseconds moment{500};                ///< for whoever has just come to say something
-constexpr milliseconds second_thoughts{100};       ///< a closed writing end counts after so long
+constexpr std::size_t head_chunk = 16u << 10;      ///< bytes per recv() of a head
+constexpr std::size_t most_per_turn = 64u << 10;   ///< bytes received before other connections
+constexpr std::size_t discard_chunk = 1u << 20;    ///< bytes per recv() that discards
+constexpr std::size_t most_discarded = 16u << 20;  ///< bytes of a refused request
+constexpr milliseconds discard_time{1000};         ///< limit for the same
+constexpr milliseconds first_request_grace{500};   ///< for a new connection
+constexpr milliseconds half_close_grace{100};  ///< before a half-closed connection counts as closed
 constexpr std::string_view too_many_of_client =
     "too many connections from this address; close some, or try again in a moment";
-constexpr std::size_t slowest = 16 * 1024;  ///< bytes a second that an answer must go out at
+constexpr std::size_t least_send_rate = 16 * 1024;  ///< bytes per second
 
-bool is_proper_id(std::string_view id) {
+bool is_valid_id(std::string_view id) {
     return !id.empty() && id.size() <= 64 && std::all_of(id.begin(), id.end(), [](char c) {
         return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
                c == '_' || c == '-';
     });
 }
 
-/// Spreads a counter over 64 bits, so that ids cannot be guessed from one another at a glance.
-std::uint64_t mixed(std::uint64_t x) {
+/// Returns a 64-bit hash of a counter, so that consecutive ids look unrelated.
+std::uint64_t hash_of(std::uint64_t x) {
     x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
     x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
     return x ^ (x >> 31);
 }
 
-/// Adds to a counter that only this thread writes.
+/// Adds to a counter that is written by this thread only.
 template <class Count>
 void add(std::atomic<Count>& counter, Count change) {
     counter.store(counter.load(std::memory_order_relaxed) + change, std::memory_order_relaxed);
@@ -62,13 +62,13 @@ ReactorState::ReactorState(const TransportOptions& the_options, SharedState& the
     id_prefix_ = (static_cast<std::uint64_t>(entropy()) << 32) | entropy();
 }
 
-void ReactorState::keep_up() {
-    const std::uint64_t now_it_is = shared.epoch;
-    if (std::exchange(epoch, now_it_is) != now_it_is) hot.clear();
+void ReactorState::clear_if_stale() {
+    const std::uint64_t current = shared.epoch;
+    if (std::exchange(epoch, current) != current) hot.clear();
 }
 
 std::string ReactorState::new_id() {
-    const std::uint64_t x = mixed(id_prefix_ + ++last_id_);
+    const std::uint64_t x = hash_of(id_prefix_ + ++last_id_);
     std::string text(16, '0');
     for (std::size_t i = 0; i < 16; ++i) text[15 - i] = "0123456789abcdef"[(x >> (4 * i)) & 15];
     return text;
@@ -81,47 +81,47 @@ Connection::Connection(ReactorState& reactor_state, int socket, const Address& p
       client_(peer),
       peer_text_(text_of(peer)),
       by_proxy_(reactor_state.options.proxies.trusted.contains(peer)),
-      began_(reactor_state.now) {
+      phase_start_(reactor_state.now) {
     add(state_.phases[static_cast<std::size_t>(phase_)], std::size_t{1});
-    const milliseconds patience =
+    const milliseconds timeout =
         state_.shared.draining ? 2 * state_.options.shutdown_grace : state_.options.idle;
-    put_off_until(state_.now + patience);
+    set_deadline(state_.now + timeout);
 }
 
 Connection::~Connection() {
     add(state_.phases[static_cast<std::size_t>(phase_)], std::size_t(-1));
     release_body();
-    unpin();
+    release_in_flight();
     ::close(socket_);
 }
 
-// --- What the reactor tells ---------------------------------------------------------------------
+// --- Events from the reactor --------------------------------------------------------------------
 
-bool Connection::happened(std::uint32_t events) {
+bool Connection::handle_events(std::uint32_t events) {
     if ((events & (EPOLLIN | EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) readable_ = true;
     if ((events & (EPOLLOUT | EPOLLHUP | EPOLLERR)) != 0) writable_ = true;
-    if ((events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) left_ = true;
-    if (phase_ == Phase::busy && left_) {
+    if ((events & (EPOLLRDHUP | EPOLLHUP | EPOLLERR)) != 0) peer_closed_ = true;
+    if (phase_ == Phase::busy && peer_closed_) {
         if ((events & (EPOLLHUP | EPOLLERR)) != 0)
-            client_has_left();
+            cancel_request();
         else
-            put_off_until(std::min(deadline(), state_.now + second_thoughts));
+            set_deadline(std::min(deadline(), state_.now + half_close_grace));
     }
-    // Bulk data waits for its share of the round, so that small requests are served before it.
+    // Uploads wait for their share of the iteration, so that small requests are served first.
     if (is_receiving()) return yield() != Step::end;
     return advance();
 }
 
-bool Connection::go_on() {
-    on_the_list_ = false;
+bool Connection::continue_transfer() {
+    is_queued_ = false;
     return advance();
 }
 
-bool Connection::is_late() {
+bool Connection::handle_deadline() {
     switch (phase_) {
         case Phase::idle:
             if (limited_) return refuse(429, too_many_of_client) != Step::end && advance();
-            return !in_.empty();  // what has come is answered when its turn comes
+            return !in_.empty();  // bytes already received are served in its turn
         case Phase::lingering:
             return false;
         case Phase::head: {
@@ -135,11 +135,11 @@ bool Connection::is_late() {
         case Phase::body:
             return refuse(408, "the body did not arrive in time") != Step::end && advance();
         case Phase::busy:
-            if (left_)
-                client_has_left();
+            if (peer_closed_)
+                cancel_request();
             else if (const auto worker_request = worker_request_.lock())
                 worker_request->cancel(PendingRequest::CancelReason::timed_out);
-            return true;  // the answer comes, and is not waited for any longer than that
+            return true;  // the worker sends a response at once
         case Phase::writing:
             report(false);
             return false;
@@ -147,8 +147,8 @@ bool Connection::is_late() {
     return false;
 }
 
-bool Connection::responded(Reply reply) {
-    release_body();  // nobody reads it any more
+bool Connection::handle_reply(Reply reply) {
+    release_body();  // the request has been processed
     label_ = std::move(reply.label);
     if (reply.hot && reply.epoch == state_.shared.epoch) state_.hot.insert(std::move(reply.hot));
     const auto sending = std::make_shared<const Sending>(std::move(reply.sending));
@@ -157,54 +157,54 @@ bool Connection::responded(Reply reply) {
 
 bool Connection::drain() {
     if (phase_ != Phase::idle) return true;
-    // Who has been answered may go; who has just come gets a moment to say what for.
-    put_off_until(std::min(
+    // A connection that has been served is closed; a new one has a short time for its request.
+    set_deadline(std::min(
         deadline(), served_ > 0 ? state_.now : state_.now + 2 * state_.options.shutdown_grace));
     return true;
 }
 
-bool Connection::turn_away() {
+bool Connection::refuse_connection() {
     id_ = state_.new_id();
     return refuse(503, "too many connections; try again in a moment") != Step::end && advance();
 }
 
-std::optional<double> Connection::pace() const {
-    if (phase_ != Phase::writing || !is_counted_in_flight_) return std::nullopt;
-    const std::chrono::duration<double> taken = state_.now - sending_since_;
+std::optional<double> Connection::rate() const {
+    if (phase_ != Phase::writing || !holds_in_flight_) return std::nullopt;
+    const std::chrono::duration<double> taken = state_.now - send_start_;
     return static_cast<double>(out_.sent()) / std::max(taken.count(), 1e-3);
 }
 
-bool Connection::give_up() {
+bool Connection::abort_response() {
     report(false);
     return false;
 }
 
 std::optional<Connection::Upload> Connection::upload() const {
-    if (phase_ != Phase::body || (body_bytes_ == 0 && !waits_for_room_)) return std::nullopt;
-    const std::chrono::duration<double> taken = state_.now - body_since_;
+    if (phase_ != Phase::body || (body_bytes_ == 0 && !waits_for_memory_)) return std::nullopt;
+    const std::chrono::duration<double> taken = state_.now - body_start_;
     return Upload{body_client_, body_bytes_,
                   static_cast<double>(body_bytes_) / std::max(taken.count(), 1e-3),
                   body_has_share_};
 }
 
-bool Connection::give_up_upload(std::string_view detail) {
+bool Connection::abort_upload(std::string_view detail) {
     return refuse(503, detail) != Step::end && advance();
 }
 
-void Connection::limit() {
+void Connection::mark_limited() {
     limited_ = true;
-    put_off_until(state_.now + moment);
+    set_deadline(state_.now + first_request_grace);
 }
 
-bool Connection::may_make_room() const {
+bool Connection::is_evictable() const {
     return phase_ == Phase::idle && in_.empty() && !readable_ &&
-           (served_ > 0 || state_.now - began_ >= moment);
+           (served_ > 0 || state_.now - phase_start_ >= first_request_grace);
 }
 
-// --- Its course ---------------------------------------------------------------------------------
+// --- State machine ------------------------------------------------------------------------------
 
 bool Connection::advance() {
-    taken_ = 0;
+    received_in_turn_ = 0;
     for (;;) {
         Step step = Step::wait;
         switch (phase_) {
@@ -229,21 +229,22 @@ bool Connection::advance() {
 }
 
 Connection::Step Connection::read_head() {
-    const bool worth_a_look =
+    const bool may_be_complete =
         in_.find('\n', scanned_) != std::string::npos || in_.size() > longest_uri;
     if (in_.size() > scanned_) {
         if (phase_ == Phase::idle) {
-            began_ = state_.now;
+            phase_start_ = state_.now;
             enter(Phase::head);
         }
         scanned_ = in_.size();
-        if (worth_a_look) {
+        if (may_be_complete) {
             Scan scan = scan_head(in_);
             if (scan.state != Scan::State::incomplete) return begin(std::move(scan));
         }
-        put_off_until(std::min(began_ + state_.options.head, state_.now + state_.options.silence));
+        set_deadline(
+            std::min(phase_start_ + state_.options.head, state_.now + state_.options.silence));
     }
-    return receive(&in_, head_at_once);
+    return receive(&in_, head_chunk);
 }
 
 Connection::Step Connection::begin(Scan scan) {
@@ -252,7 +253,7 @@ Connection::Step Connection::begin(Scan scan) {
     trace_id_ = trace.trace_id;
     parent_id_ = trace.parent_id;
     if (by_proxy_) client_ = state_.options.proxies.client_address(peer_, head.headers);
-    if (scan.state == Scan::State::complete && respond_at_once(head)) {
+    if (scan.state == Scan::State::complete && respond_from_hot_table(head)) {
         in_.erase(0, scan.used);
         scanned_ = 0;
         return Step::on;
@@ -263,8 +264,8 @@ Connection::Step Connection::begin(Scan scan) {
     request_.headers = std::move(head.headers);
     method_ = request_.method;
     target_ = request_.target;
-    const std::string_view asked_id = request_.header("X-Request-Id");
-    id_ = is_proper_id(asked_id) ? std::string(asked_id) : state_.new_id();
+    const std::string_view given_id = request_.header("X-Request-Id");
+    id_ = is_valid_id(given_id) ? std::string(given_id) : state_.new_id();
     request_.id = id_;
     if (scan.state == Scan::State::refused) return refuse(scan.status, scan.detail);
     if (limited_) return refuse(429, too_many_of_client);
@@ -281,7 +282,7 @@ Connection::Step Connection::begin(Scan scan) {
     std::size_t most = 0;
     try {
         most = state_.shared.handlers.most_body(method_, target_);
-    } catch (...) {  // then none
+    } catch (...) {  // no body is accepted
     }
     body_client_ = client_of(client_);
     body_has_share_ = !state_.options.proxies.trusted.contains(client_);
@@ -292,37 +293,39 @@ Connection::Step Connection::begin(Scan scan) {
                                std::to_string(most) + " are taken here");
     body_length_ = static_cast<std::size_t>(length);
     if (head.expects_continue && in_.size() < body_length_) {
-        // Left out when the client has not even read the answers before: it need not wait for it.
+        // Omitted if the socket buffer is full: the client need not wait for it.
         constexpr std::string_view go = "HTTP/1.1 100 Continue\r\n\r\n";
         const ssize_t sent = ::send(socket_, go.data(), go.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent >= 0 && static_cast<std::size_t>(sent) < go.size()) return Step::end;
     }
     enter(Phase::body);
-    body_since_ = state_.now;
+    body_start_ = state_.now;
     return Step::on;
 }
 
-/// Answers from the table, if it can. The head is to be forgotten then.
-bool Connection::respond_at_once(const Head& head) {
+/// Sends the response from the hot-response table if it has one.
+///
+/// returns  true if it does; the head is consumed
+bool Connection::respond_from_hot_table(const Head& head) {
     const HotLookup lookup = hot_lookup(head);
     if (!lookup.simple || (limited_ && !state_.hot.is_pinned(head.target))) return false;
-    state_.keep_up();
+    state_.clear_if_stale();
     const auto* const found = state_.hot.find(head.target, lookup.accept_encoding);
     if (!found) return false;
     const HotResponse& hot = **found;
     const std::string_view condition = lookup.if_none_match();
     const bool fresh = !hot.etag.empty() && !condition.empty() &&
                        (api::names_etag(condition, hot.etag) || api::names_any(condition));
-    // A client that has the identity is told so behind, with the tag of that.
+    // The service responds to a client that has the identity variant, with the ETag of that.
     if (!fresh && !condition.empty() && !hot.identity_etag.empty() &&
         api::names_etag(condition, hot.identity_etag))
         return false;
-    ready_ = Clock::now();
+    received_at_ = Clock::now();
     closing_ = !head.keep_alive || limited_ || served_ + 1 >= state_.options.most_requests ||
                state_.shared.draining.load(std::memory_order_relaxed);
     method_ = head.method;
     target_ = head.target;
-    id_ = is_proper_id(lookup.id) ? std::string(lookup.id) : state_.new_id();
+    id_ = is_valid_id(lookup.id) ? std::string(lookup.id) : state_.new_id();
     label_ = hot.label;
     status_ = fresh ? 304 : 200;
     cache_ = fresh ? hot.cache_not_modified : hot.cache;
@@ -353,36 +356,36 @@ Connection::Step Connection::read_body() {
     }
     count_body();
     if (body.size() >= body_length_) return dispatch();
-    // Nothing more is taken while there is no room: before the next round the reactor gives an
-    // upload up.
-    waits_for_room_ = !has_room_for_body();
-    if (waits_for_room_) {
-        state_.exceeding.push_back(body_client_);
+    // Nothing more is received while memory is exhausted; the reactor aborts an upload before the
+    // next iteration.
+    waits_for_memory_ = !has_body_memory();
+    if (waits_for_memory_) {
+        state_.over_limit.push_back(body_client_);
         return yield();
     }
-    put_off_until(std::min(body_deadline(), state_.now + state_.options.silence));
-    if (taken_ >= most_in_a_turn) return yield();
+    set_deadline(std::min(body_deadline(), state_.now + state_.options.silence));
+    if (received_in_turn_ >= most_per_turn) return yield();
     return receive(&body, body_length_ - body.size());
 }
 
-bool Connection::has_room_for_body() const {
+bool Connection::has_body_memory() const {
     return !state_.bodies.is_exceeded() &&
            !(body_has_share_ && state_.bodies.is_exceeded_by(body_client_));
 }
 
-/// When the client will have been too slow if nothing more comes: a body of n bytes has to come
-/// within T = body + n / body_rate, and after the first `body` as much of n must be there as of T
-/// has passed.
+/// Returns when the client is too slow if nothing more arrives: a body of n bytes has to arrive
+/// within T = body + n / body_rate, and after the first `body` the share of n received must not be
+/// less than the share of T elapsed.
 Clock::time_point Connection::body_deadline() const {
     using Seconds = std::chrono::duration<double>;
     const Seconds grace = state_.options.body;
     const auto length = static_cast<double>(body_length_);
     const Seconds all = grace + Seconds(length / static_cast<double>(state_.options.body_rate));
     const Seconds earned = all * (static_cast<double>(request_.body.size()) / length);
-    return body_since_ + std::chrono::duration_cast<Clock::duration>(std::max(grace, earned));
+    return body_start_ + std::chrono::duration_cast<Clock::duration>(std::max(grace, earned));
 }
 
-/// Counts what of the body has arrived since the last call.
+/// Counts the bytes of the body received since the last call.
 void Connection::count_body() {
     const std::size_t bytes = request_.body.size();
     state_.bodies.add(body_client_, bytes - body_bytes_);
@@ -394,21 +397,21 @@ void Connection::release_body() {
 }
 
 Connection::Step Connection::dispatch() {
-    ready_ = Clock::now();
+    received_at_ = Clock::now();
     const auto worker_request = std::make_shared<WorkerRequest>(
         state_.shared, *this, std::move(request_), client_, closing_);
-    bool taken = false;
+    bool is_queued = false;
     try {
-        taken = state_.shared.workers.offer([worker_request] { worker_request->start(); });
-    } catch (...) {  // no memory: refused below, if there is enough for that
+        is_queued = state_.shared.workers.offer([worker_request] { worker_request->start(); });
+    } catch (...) {  // out of memory: refused below
     }
-    if (!taken) {
+    if (!is_queued) {
         worker_request->drop();
         return refuse(503, "too many requests are waiting; try again in a moment");
     }
     worker_request_ = worker_request;
     enter(Phase::busy);
-    put_off_until(state_.now + (left_ ? second_thoughts : state_.options.response));
+    set_deadline(state_.now + (peer_closed_ ? half_close_grace : state_.options.response));
     return Step::wait;
 }
 
@@ -420,10 +423,10 @@ Connection::Step Connection::refuse(int status, std::string_view detail) {
     return refuse([&] { return state_.shared.refusal(request, status, detail); });
 }
 
-/// Answers a request of which no more is read; the connection ends then.
+/// Responds to a request of which no more is read; the connection is closed afterwards.
 Connection::Step Connection::refuse(const std::function<api::Response()>& make) {
     closing_ = unread_ = true;
-    ready_ = Clock::now();
+    received_at_ = Clock::now();
     request_ = api::Request();
     release_body();
     label_ = state_.shared.label(method_, target_);
@@ -451,9 +454,9 @@ Connection::Step Connection::send(const std::shared_ptr<const Sending>& sending)
 }
 
 void Connection::begin_to_send() {
-    sending_since_ = state_.now;
-    last_ = state_.now + 4 * state_.options.blocked_write +
-            std::chrono::seconds(out_.total() / slowest);
+    send_start_ = state_.now;
+    send_deadline_ = state_.now + 4 * state_.options.blocked_write +
+                     std::chrono::seconds(out_.total() / least_send_rate);
     enter(Phase::writing);
 }
 
@@ -466,13 +469,12 @@ Connection::Step Connection::write() {
             return Step::end;
         case Outgoing::Progress::blocked:
             writable_ = false;
-            if (!std::exchange(is_counted_in_flight_, true))
-                state_.in_flight_buffers.add(out_.held());
+            if (!std::exchange(holds_in_flight_, true)) state_.in_flight_buffers.add(out_.held());
             if (had == 0 || out_.sent() > had)
-                put_off_until(std::min(last_, state_.now + state_.options.blocked_write));
+                set_deadline(std::min(send_deadline_, state_.now + state_.options.blocked_write));
             return Step::wait;
         case Outgoing::Progress::more:
-            put_off_until(std::min(last_, state_.now + state_.options.blocked_write));
+            set_deadline(std::min(send_deadline_, state_.now + state_.options.blocked_write));
             return yield();
         case Outgoing::Progress::done:
             break;
@@ -480,47 +482,49 @@ Connection::Step Connection::write() {
     report(true);
     if (closing_) return linger();
     ++served_;
-    began_ = state_.now;
+    phase_start_ = state_.now;
     enter(Phase::idle);
-    put_off_until(state_.shared.draining ? state_.now : state_.now + state_.options.idle);
+    set_deadline(state_.shared.draining ? state_.now : state_.now + state_.options.idle);
     return in_.empty() ? Step::on : yield();
 }
 
-/// Ends the connection: at once, or when the client has stopped sending, as a reset in answer to
-/// what was not read would destroy its answer.
+/// Closes the connection: at once, or after reading what the client still sends (lingering close),
+/// as unread bytes would cause a reset, which discards the response.
 Connection::Step Connection::linger() {
     if (in_.empty() && !unread_ && !readable_) return Step::end;
     ::shutdown(socket_, SHUT_WR);
     enter(Phase::lingering);
     discarded_ = in_.size();
     in_ = std::string();
-    put_off_until(state_.now + discarding);
+    set_deadline(state_.now + discard_time);
     return Step::on;
 }
 
 Connection::Step Connection::discard() {
     if (discarded_ > most_discarded) return Step::end;
-    if (taken_ >= most_in_a_turn) return yield();
-    const std::size_t had = taken_;
-    const Step step = receive(nullptr, discarded_at_once);
-    discarded_ += taken_ - had;
+    if (received_in_turn_ >= most_per_turn) return yield();
+    const std::size_t had = received_in_turn_;
+    const Step step = receive(nullptr, discard_chunk);
+    discarded_ += received_in_turn_ - had;
     return step;
 }
 
 Connection::Step Connection::yield() {
-    if (!on_the_list_) state_.again.push_back(this);
-    on_the_list_ = true;
+    if (!is_queued_) state_.unfinished_transfers.push_back(this);
+    is_queued_ = true;
     return Step::wait;
 }
 
-// --- Its parts ----------------------------------------------------------------------------------
+// --- Helpers ------------------------------------------------------------------------------------
 
-/// One call: whether something came, nothing did yet, or nothing ever will.
+/// Calls recv() once.
+///
+/// returns  on: bytes arrived; wait: none yet; end: none will
 Connection::Step Connection::receive(std::string* to, std::size_t most) {
     if (!readable_) return Step::wait;
-    // With MSG_TRUNC the kernel drops what has arrived on a TCP socket instead of copying it.
-    if (to) most = std::min(most, state_.received.size());
-    const ssize_t got = to ? ::recv(socket_, state_.received.data(), most, MSG_DONTWAIT)
+    // With MSG_TRUNC the kernel discards bytes of a TCP socket instead of copying them.
+    if (to) most = std::min(most, state_.receive_buffer.size());
+    const ssize_t got = to ? ::recv(socket_, state_.receive_buffer.data(), most, MSG_DONTWAIT)
                            : ::recv(socket_, nullptr, most, MSG_DONTWAIT | MSG_TRUNC);
     if (got == 0) return Step::end;
     if (got < 0) {
@@ -530,10 +534,11 @@ Connection::Step Connection::receive(std::string* to, std::size_t most) {
         return Step::wait;
     }
     const auto bytes = static_cast<std::size_t>(got);
-    // All that was there: the next byte is told of, unless it is the end, which has been told of.
-    if (bytes < most && !left_) readable_ = false;
-    if (to) to->append(state_.received.data(), bytes);
-    taken_ += bytes;
+    // The buffer is empty: epoll reports the next byte, unless the peer has closed, which it has
+    // reported already.
+    if (bytes < most && !peer_closed_) readable_ = false;
+    if (to) to->append(state_.receive_buffer.data(), bytes);
+    received_in_turn_ += bytes;
     return Step::on;
 }
 
@@ -543,13 +548,13 @@ void Connection::enter(Phase phase) {
     phase_ = phase;
 }
 
-void Connection::client_has_left() {
+void Connection::cancel_request() {
     if (const auto worker_request = worker_request_.lock())
         worker_request->cancel(PendingRequest::CancelReason::disconnected);
 }
 
-void Connection::unpin() {
-    if (std::exchange(is_counted_in_flight_, false)) state_.in_flight_buffers.remove(out_.held());
+void Connection::release_in_flight() {
+    if (std::exchange(holds_in_flight_, false)) state_.in_flight_buffers.remove(out_.held());
 }
 
 void Connection::report(bool complete) {
@@ -564,14 +569,15 @@ void Connection::report(bool complete) {
     served.label = label_;
     served.status = status_;
     served.bytes = out_.sent();
-    served.milliseconds = std::chrono::duration<double, std::milli>(Clock::now() - ready_).count();
+    served.milliseconds =
+        std::chrono::duration<double, std::milli>(Clock::now() - received_at_).count();
     served.cache = cache_;
     served.complete = complete;
     try {
         state_.shared.handlers.served(served);
-    } catch (...) {  // a request that cannot be logged has still been answered
+    } catch (...) {  // a request that cannot be logged has still been served
     }
-    unpin();
+    release_in_flight();
     out_.end();
 }
 

@@ -1,5 +1,5 @@
-// One connection: from the bytes that have come to requests, from answers to the bytes that go out.
-// It never waits; the reactor tells it what has happened, on one thread.
+// One connection: parses the bytes received into requests and writes responses. It never blocks;
+// the reactor calls it on each event, always on the reactor thread.
 #pragma once
 
 #include <array>
@@ -24,67 +24,71 @@
 
 namespace sporeprint::server {
 
-/// What all connections of a reactor have in common. Used on its thread; `phases` may be read on
-/// any.
+/// The state shared by all connections of a reactor. Used on the reactor thread; other threads may
+/// read `phases`.
 struct ReactorState {
     ReactorState(const TransportOptions& the_options, SharedState& the_shared);
 
+    /// Returns a new request id.
     [[nodiscard]] std::string new_id();
 
-    /// Forgets what is not to be given again any more.
-    void keep_up();
+    /// Clears the hot-response table if it has been invalidated.
+    void clear_if_stale();
 
     const TransportOptions& options;
     SharedState& shared;
-    Clock::time_point now;  ///< of this round of the loop
+    Clock::time_point now;  ///< of this iteration of the event loop
     Deadlines deadlines;
     HotTable hot;
-    std::uint64_t epoch = 0;  ///< of what the table holds
+    std::uint64_t epoch = 0;  ///< of the entries of `hot`
     BodyMemory bodies;
-    std::vector<Address> exceeding;  ///< clients whose bodies wait for room
+    std::vector<Address> over_limit;  ///< clients whose uploads wait for memory
     InFlightBuffers in_flight_buffers;
-    std::vector<Connection*> again;  ///< have more to do, when the others have had their turn
+    std::vector<Connection*> unfinished_transfers;  ///< to be continued in the next iteration
     std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};
-    std::array<char, 64 * 1024> received;  ///< by the call at hand
-    Served served;                         ///< kept for its memory
+    std::array<char, 64 * 1024> receive_buffer;  ///< of the current recv()
+    Served served;                               ///< reused to avoid allocations
 
   private:
     std::uint64_t id_prefix_;
     std::uint64_t last_id_ = 0;
 };
 
-/// Each call that returns bool says whether the connection goes on; if not, destroy it.
+/// The state machine of one connection. The functions of the first group return false if the
+/// connection has to be destroyed.
 class Connection final : public Timed {
   public:
     using Phase = Transport::Phase;
 
-    /// socket  does not block; closed by the destructor
+    /// socket  non-blocking; closed by the destructor
     Connection(ReactorState& reactor_state, int socket, const Address& peer);
     ~Connection() override;
 
-    [[nodiscard]] bool happened(std::uint32_t events);  ///< of epoll, edge-triggered
-    [[nodiscard]] bool go_on();                         ///< it was on the list of those to go on
-    [[nodiscard]] bool is_late();                       ///< its deadline has come
-    [[nodiscard]] bool responded(Reply reply);
-    [[nodiscard]] bool drain();      ///< the server ends
-    [[nodiscard]] bool turn_away();  ///< there are too many: says so, and ends soon
+    /// events  of epoll, edge-triggered
+    [[nodiscard]] bool handle_events(std::uint32_t events);
+    [[nodiscard]] bool continue_transfer();  ///< its next turn
+    [[nodiscard]] bool handle_deadline();    ///< its deadline has passed
+    [[nodiscard]] bool handle_reply(Reply reply);
+    [[nodiscard]] bool drain();              ///< the server shuts down
+    [[nodiscard]] bool refuse_connection();  ///< responds with 503: too many connections
 
-    /// Its client has too many: of one request it gets the answer, if that is a standing one, else
-    /// 429, and all ends soon.
-    void limit();
+    /// Marks a connection beyond the limit of its client: it serves one request, by a pinned
+    /// response or else by 429, and is closed soon.
+    void mark_limited();
 
-    /// Bytes a second that its client has taken of an answer which waits for it; nothing when none does.
-    [[nodiscard]] std::optional<double> pace() const;
+    /// Returns the mean rate at which its client takes a response in flight, bytes per second;
+    /// nothing if there is none.
+    [[nodiscard]] std::optional<double> rate() const;
 
-    /// Waits for its client no longer.
-    [[nodiscard]] bool give_up();
+    /// Aborts the response in flight.
+    [[nodiscard]] bool abort_response();
 
     /// A body that is being received.
     struct Upload {
-        Address client;          ///< as bodies are counted
-        std::size_t bytes = 0;   ///< that have arrived
-        double pace = 0.0;       ///< of them in a second, in the mean
-        bool has_share = false;  ///< whether its client may only take its share
+        Address client;          ///< whose memory it counts for
+        std::size_t bytes = 0;   ///< received so far
+        double rate = 0.0;       ///< mean, bytes per second
+        bool has_share = false;  ///< the limit per client applies
     };
 
     /// Returns true while it receives the body of a request, or drops that of a refused one.
@@ -92,22 +96,24 @@ class Connection final : public Timed {
         return phase_ == Phase::body || phase_ == Phase::lingering;
     }
 
-    /// What it is receiving; nothing when nothing of a body has arrived, unless it waits for room.
+    /// Returns the body being received; nothing if no byte of it has arrived, unless it waits for
+    /// memory.
     [[nodiscard]] std::optional<Upload> upload() const;
 
-    /// Refuses the body that it is receiving (503) and gives its memory back.
-    [[nodiscard]] bool give_up_upload(std::string_view detail);
+    /// Refuses the body being received (503) and releases its memory.
+    [[nodiscard]] bool abort_upload(std::string_view detail);
 
-    /// Whether it may be closed to make room: it waits for a request, and has for a while.
-    [[nodiscard]] bool may_make_room() const;
+    /// Returns true if it may be closed in favour of a new connection: it has been idle for a
+    /// while.
+    [[nodiscard]] bool is_evictable() const;
 
-    /// While it is busy it must not be destroyed: its answer comes yet.
+    /// Returns its phase. A busy connection must not be destroyed before its reply has come.
     [[nodiscard]] Phase phase() const { return phase_; }
-    [[nodiscard]] bool is_on_the_list() const { return on_the_list_; }
+    [[nodiscard]] bool is_queued() const { return is_queued_; }
 
-    std::size_t place = 0;  ///< where the reactor keeps it
-    bool ended = false;     ///< to be destroyed at the end of this round
-    bool counts = false;    ///< among those of its client
+    std::size_t index = 0;    ///< in the vector of the reactor
+    bool ended = false;       ///< to be destroyed at the end of this iteration
+    bool is_counted = false;  ///< for the limit of its client
 
     [[nodiscard]] const Address& peer() const { return peer_; }
     [[nodiscard]] bool is_limited() const { return limited_; }
@@ -118,9 +124,9 @@ class Connection final : public Timed {
     bool advance();
     Step read_head();
     Step begin(Scan scan);
-    bool respond_at_once(const Head& head);
+    bool respond_from_hot_table(const Head& head);
     Step read_body();
-    [[nodiscard]] bool has_room_for_body() const;
+    [[nodiscard]] bool has_body_memory() const;
     [[nodiscard]] Clock::time_point body_deadline() const;
     void count_body();
     void release_body();
@@ -136,45 +142,44 @@ class Connection final : public Timed {
 
     Step receive(std::string* to, std::size_t most);
     void enter(Phase phase);
-    void put_off_until(Clock::time_point deadline) { state_.deadlines.set(*this, deadline); }
-    void await_request();
+    void set_deadline(Clock::time_point deadline) { state_.deadlines.set(*this, deadline); }
     void report(bool complete);
-    void unpin();
-    void client_has_left();
+    void release_in_flight();
+    void cancel_request();
 
     ReactorState& state_;
     int socket_;
-    Address peer_, client_;  ///< the other end, and for whom it asks
+    Address peer_, client_;  ///< the other end; the client, perhaps behind a proxy
     std::string peer_text_;
     bool by_proxy_, limited_ = false;
     Phase phase_ = Phase::idle;
     bool readable_ = false, writable_ = true;
-    bool left_ = false;  ///< the client has closed its writing end, or all
-    bool on_the_list_ = false;
-    bool closing_ = false;  ///< after this answer
-    bool unread_ = false;   ///< what still comes is of a refused request
+    bool peer_closed_ = false;  ///< the client has closed its sending direction or the connection
+    bool is_queued_ = false;
+    bool closing_ = false;  ///< after this response
+    bool unread_ = false;   ///< further bytes belong to a refused request
     std::size_t served_ = 0;
     std::string in_;
-    std::size_t scanned_ = 0;  ///< bytes of in_ that have been looked at
-    std::size_t taken_ = 0;    ///< bytes received in this turn
-    Clock::time_point began_;  ///< the phase, as far as deadlines count from there
+    std::size_t scanned_ = 0;           ///< bytes of in_ already scanned
+    std::size_t received_in_turn_ = 0;  ///< bytes
+    Clock::time_point phase_start_;     ///< start of the phase, for deadlines
 
-    // The request at hand.
+    // The current request.
     std::string method_, target_, id_, label_, trace_id_, parent_id_;
     api::Request request_;
     std::size_t body_length_ = 0;
-    std::size_t body_bytes_ = 0;    ///< of it, as counted in hall_.bodies
-    Address body_client_;           ///< for this client
-    bool body_has_share_ = false;   ///< whether that client may only take its share
-    bool waits_for_room_ = false;   ///< there was none for more of the body
-    Clock::time_point body_since_;  ///< when the body began to be awaited
-    Clock::time_point last_;        ///< when the answer must be through
-    Clock::time_point ready_;       ///< when its last byte had come
-    Clock::time_point sending_since_;
-    bool is_counted_in_flight_ = false;  ///< whether what is held by its answer counts
+    std::size_t body_bytes_ = 0;       ///< counted in state_.bodies
+    Address body_client_;              ///< client of that count
+    bool body_has_share_ = false;      ///< whether that client may only take its share
+    bool waits_for_memory_ = false;    ///< for the rest of the body
+    Clock::time_point body_start_;     ///< when its head was complete
+    Clock::time_point send_deadline_;  ///< when the response must be sent
+    Clock::time_point received_at_;    ///< when its last byte was received
+    Clock::time_point send_start_;
+    bool holds_in_flight_ = false;  ///< its response is counted in in_flight_buffers
     std::weak_ptr<WorkerRequest> worker_request_;
     Outgoing out_;
-    std::string text_;  ///< what the head of an answer says of this request alone
+    std::string text_;  ///< headers of a hot response that differ per request
     int status_ = 0;
     std::string cache_;
     std::size_t discarded_ = 0;

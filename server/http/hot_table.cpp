@@ -192,7 +192,7 @@ void HotTable::insert(std::shared_ptr<const HotResponse> response) {
     add(std::move(response), weight, false);
 }
 
-void HotTable::pin(std::shared_ptr<const HotResponse> response) {
+void HotTable::insert_pinned(std::shared_ptr<const HotResponse> response) {
     add(std::move(response), 0, true);
 }
 

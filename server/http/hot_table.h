@@ -95,7 +95,7 @@ class HotTable {
     void insert(std::shared_ptr<const HotResponse> response);
 
     /// Stores a response that is never evicted and does not count against the budget.
-    void pin(std::shared_ptr<const HotResponse> response);
+    void insert_pinned(std::shared_ptr<const HotResponse> response);
 
     /// Removes all responses that are not pinned.
     void clear();

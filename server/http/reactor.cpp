@@ -20,12 +20,12 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr std::size_t turned_away_at_once = 256;  ///< connections beyond a limit that are told so
-constexpr int accepted_in_a_turn = 64;
-constexpr milliseconds upload_share{1};  ///< of a round
-constexpr milliseconds pause{10};  ///< of accepting, when the system is out of memory or buffers
+constexpr std::size_t most_turned_away = 256;  ///< connections beyond a limit that get a response
+constexpr int most_accepted_per_turn = 64;
+constexpr milliseconds upload_share{1};  ///< of an iteration
+constexpr milliseconds pause{10};        ///< of accepting if the system is out of memory or buffers
 
-int spare_descriptor() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
+int open_spare_descriptor() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
 }  // namespace
 
@@ -44,18 +44,18 @@ Reactor::Reactor(const TransportOptions& options, const Handlers& handlers, Http
         if (epoll_ >= 0) ::close(epoll_);
         throw std::runtime_error(std::string("Cannot make an epoll: ") + std::strerror(why));
     }
-    spare_ = spare_descriptor();
+    spare_descriptor_ = open_spare_descriptor();
     for (const auto& [target, response] : handlers.pinned_responses) {
         const Sending sending = codec.send(
             "GET " + target + " HTTP/1.1", [&one = response] { return one; },
             [](int) { return api::Response(); }, [] { return false; });
         if (auto hot = hot_response(target, sending, shared_.label("GET", target)))
-            state_.hot.pin(std::move(hot));
+            state_.hot.insert_pinned(std::move(hot));
     }
 }
 
 Reactor::~Reactor() {
-    if (spare_ >= 0) ::close(spare_);
+    if (spare_descriptor_ >= 0) ::close(spare_descriptor_);
     ::close(epoll_);
 }
 
@@ -91,24 +91,25 @@ Transport::Load Reactor::load() const {
 }
 
 template <class Call>
-void Reactor::let(Connection& connection, Call&& call) {
+void Reactor::invoke(Connection& connection, Call&& call) {
     if (connection.ended) return;
-    bool goes_on = false;
+    bool is_alive = false;
     try {
-        goes_on = call(connection);
-    } catch (...) {  // out of memory: this connection ends, the server does not
-        goes_on = connection.phase() == Connection::Phase::busy;
+        is_alive = call(connection);
+    } catch (...) {  // out of memory: only this connection is closed
+        is_alive = connection.phase() == Connection::Phase::busy;
     }
-    if (goes_on) return;
+    if (is_alive) return;
     connection.ended = true;
     ended_.push_back(&connection);
 }
 
 void Reactor::run() {
     std::array<epoll_event, 256> events;
-    std::vector<Connection*> again;
+    std::vector<Connection*> unfinished_transfers;
     const std::function<void(Timed&)> late = [this](Timed& timed) {
-        let(static_cast<Connection&>(timed), [](Connection& one) { return one.is_late(); });
+        invoke(static_cast<Connection&>(timed),
+               [](Connection& one) { return one.handle_deadline(); });
     };
     sigset_t broken_pipe;
     sigemptyset(&broken_pipe);
@@ -127,56 +128,56 @@ void Reactor::run() {
             else if (event.data.ptr == &codec_)
                 accept_all();
             else
-                let(*static_cast<Connection*>(event.data.ptr),
-                    [&](Connection& one) { return one.happened(event.events); });
+                invoke(*static_cast<Connection*>(event.data.ptr),
+                       [&](Connection& one) { return one.handle_events(event.events); });
         }
         if (called) {
-            state_.keep_up();
+            state_.clear_if_stale();
             for (Reply& reply : mailbox_.take()) {
                 Connection& to = *reply.to;
-                let(to, [&](Connection& one) { return one.responded(std::move(reply)); });
+                invoke(to, [&](Connection& one) { return one.handle_reply(std::move(reply)); });
             }
             if (shared_.draining && !draining_) begin_to_drain();
         }
         state_.deadlines.expire(state_.now, late);
-        continue_transfers(again);
+        continue_transfers(unfinished_transfers);
         if (state_.now >= accepting_again_) watch_listener(true);
         if (state_.now >= shutdown_grace_end_) stop_listening();
-        spare_memory();
-        spare_body_memory();
+        limit_response_memory();
+        limit_body_memory();
         reap();
         body_bytes_.store(state_.bodies.bytes(), std::memory_order_relaxed);
     }
 }
 
-/// Lets connections with more to do take turns: each response once, then uploads until their share
-/// of the round is used up. The others come first in the next round, after the requests that have
-/// arrived meanwhile.
+/// Continues unfinished transfers in turn: each response once, then uploads until their share of
+/// the iteration is used up. The remaining ones come first in the next iteration, after the
+/// requests that have arrived meanwhile.
 void Reactor::continue_transfers(std::vector<Connection*>& turns) {
     turns.clear();
-    turns.swap(state_.again);
-    const auto go_on = [this](Connection& one) {
-        let(one, [](Connection& connection) { return connection.go_on(); });
+    turns.swap(state_.unfinished_transfers);
+    const auto continue_transfer = [this](Connection& one) {
+        invoke(one, [](Connection& connection) { return connection.continue_transfer(); });
     };
     const auto uploads = std::stable_partition(
         turns.begin(), turns.end(), [](const Connection* one) { return !one->is_receiving(); });
-    std::for_each(turns.begin(), uploads, [&](Connection* one) { go_on(*one); });
+    std::for_each(turns.begin(), uploads, [&](Connection* one) { continue_transfer(*one); });
     const Clock::time_point end = Clock::now() + upload_share;
     auto next = uploads;
     while (next != turns.end()) {
-        go_on(**next++);
+        continue_transfer(**next++);
         if (Clock::now() >= end) break;
     }
-    state_.again.insert(state_.again.begin(), next, turns.end());
+    state_.unfinished_transfers.insert(state_.unfinished_transfers.begin(), next, turns.end());
 }
 
 int Reactor::milliseconds_to_wait() const {
-    if (!state_.again.empty()) return 0;
+    if (!state_.unfinished_transfers.empty()) return 0;
     const Clock::time_point until =
         std::min({state_.deadlines.next(), shutdown_grace_end_, accepting_again_});
     if (until == Clock::time_point::max()) return -1;
-    const auto left = std::chrono::ceil<milliseconds>(until - Clock::now()).count();
-    return static_cast<int>(std::clamp<std::int64_t>(left, 0, 3'600'000));
+    const auto remaining = std::chrono::ceil<milliseconds>(until - Clock::now()).count();
+    return static_cast<int>(std::clamp<std::int64_t>(remaining, 0, 3'600'000));
 }
 
 // --- Accepting ----------------------------------------------------------------------------------
@@ -191,15 +192,15 @@ void Reactor::watch_listener(bool watch) {
 }
 
 void Reactor::accept_all() {
-    for (int i = 0; i < accepted_in_a_turn && codec_.socket() >= 0; ++i) {
+    for (int i = 0; i < most_accepted_per_turn && codec_.socket() >= 0; ++i) {
         sockaddr_storage address{};
         socklen_t size = sizeof address;
         const int socket = ::accept4(codec_.socket(), reinterpret_cast<sockaddr*>(&address), &size,
                                      SOCK_CLOEXEC | SOCK_NONBLOCK);
         if (socket >= 0) {
-            welcome(socket, address_of(address));
+            add_connection(socket, address_of(address));
         } else if (errno == EMFILE || errno == ENFILE) {
-            survive_exhaustion();
+            handle_descriptor_exhaustion();
         } else if (errno != EINTR && errno != ECONNABORTED) {
             if (errno != EAGAIN) watch_listener(false);
             return;
@@ -208,98 +209,101 @@ void Reactor::accept_all() {
 }
 
 bool Reactor::has_too_many(const Address& peer) const {
-    const auto found = of_client_.find(client_of(peer));
-    return found != of_client_.end() && found->second >= options_.most_of_client;
+    const auto found = connections_per_client_.find(client_of(peer));
+    return found != connections_per_client_.end() && found->second >= options_.most_of_client;
 }
 
-void Reactor::welcome(int socket, const Address& peer) {
-    const bool counts = options_.most_of_client > 0 && !options_.proxies.trusted.contains(peer);
-    const bool limited = counts && has_too_many(peer);
+void Reactor::add_connection(int socket, const Address& peer) {
+    const bool is_counted = options_.most_of_client > 0 && !options_.proxies.trusted.contains(peer);
+    const bool limited = is_counted && has_too_many(peer);
     const std::size_t open = connections_.size() - ended_.size();
-    const bool full = !limited && open >= options_.most_connections && !make_room();
+    const bool full = !limited && open >= options_.most_connections && !evict_idle();
     if (limited) ++limited_;
     if (full) ++refused_;
-    if ((full && open >= options_.most_connections + turned_away_at_once) ||
-        (limited && limited_now_ >= turned_away_at_once)) {
+    if ((full && open >= options_.most_connections + most_turned_away) ||
+        (limited && limited_now_ >= most_turned_away)) {
         ::close(socket);
         return;
     }
-    auto generated = std::make_unique<Connection>(state_, socket, peer);
-    Connection& connection = *generated;
-    connection.place = connections_.size();
-    connections_.push_back(std::move(generated));
+    auto accepted = std::make_unique<Connection>(state_, socket, peer);
+    Connection& connection = *accepted;
+    connection.index = connections_.size();
+    connections_.push_back(std::move(accepted));
     if (limited) {
-        connection.limit();
+        connection.mark_limited();
         ++limited_now_;
-    } else if (counts) {
-        connection.counts = true;
-        ++of_client_[client_of(peer)];
+    } else if (is_counted) {
+        connection.is_counted = true;
+        ++connections_per_client_[client_of(peer)];
     }
     epoll_event event{};
     event.events = EPOLLIN | EPOLLOUT | EPOLLRDHUP | EPOLLET;
     event.data.ptr = &connection;
-    let(connection, [&](Connection& one) {
+    invoke(connection, [&](Connection& one) {
         if (epoll_ctl(epoll_, EPOLL_CTL_ADD, socket, &event) != 0) return false;
-        return !full || one.turn_away();
+        return !full || one.refuse_connection();
     });
 }
 
-/// Ends the connection that has waited longest for a request.
-bool Reactor::make_room() {
+/// Closes the connection that has been idle longest.
+///
+/// returns  false if no connection may be closed
+bool Reactor::evict_idle() {
     Connection* longest = nullptr;
     for (const auto& one : connections_)
-        if (!one->ended && one->may_make_room() &&
+        if (!one->ended && one->is_evictable() &&
             (!longest || one->deadline() < longest->deadline()))
             longest = one.get();
     if (!longest) return false;
-    let(*longest, [](Connection&) { return false; });
+    invoke(*longest, [](Connection&) { return false; });
     return true;
 }
 
-/// Gives up the slowest clients while more is pinned than may be; one alone has all the room.
-void Reactor::spare_memory() {
+/// Aborts the responses to the slowest clients while the memory of responses in flight exceeds its
+/// limit. A single response is never aborted.
+void Reactor::limit_response_memory() {
     while (state_.in_flight_buffers.bytes() > options_.most_pinned) {
         Connection* slowest = nullptr;
         double least = 0.0;
-        std::size_t slow = 0;
+        std::size_t count = 0;
         for (const auto& one : connections_) {
-            const std::optional<double> pace = one->ended ? std::nullopt : one->pace();
-            if (!pace) continue;
-            ++slow;
-            if (slowest && *pace >= least) continue;
+            const std::optional<double> rate = one->ended ? std::nullopt : one->rate();
+            if (!rate) continue;
+            ++count;
+            if (slowest && *rate >= least) continue;
             slowest = one.get();
-            least = *pace;
+            least = *rate;
         }
-        if (slow < 2) break;
+        if (count < 2) break;
         ++given_up_;
-        let(*slowest, [](Connection& one) { return one.give_up(); });
+        invoke(*slowest, [](Connection& one) { return one.abort_response(); });
     }
     pinned_.store(state_.in_flight_buffers.bytes(), std::memory_order_relaxed);
 }
 
-/// Gives uploads up until those that wait for room have it, or are given up themselves.
-void Reactor::spare_body_memory() {
+/// Aborts uploads until the memory of request bodies is within its limits.
+void Reactor::limit_body_memory() {
     BodyMemory& bodies = state_.bodies;
-    std::vector<Address> exceeding;
-    exceeding.swap(state_.exceeding);
-    for (const Address& client : exceeding)
+    std::vector<Address> over_limit;
+    over_limit.swap(state_.over_limit);
+    for (const Address& client : over_limit)
         while (bodies.is_exceeded_by(client) &&
-               give_up_an_upload(&client,
-                                 "this client sends more at once than its share of the "
-                                 "memory for bodies; send one after another"))
+               abort_one_upload(&client,
+                                "this client sends more at once than its share of the "
+                                "memory for bodies; send one after another"))
             continue;
     while (bodies.is_exceeded() &&
-           give_up_an_upload(nullptr, "the memory for bodies is full; try again in a moment"))
+           abort_one_upload(nullptr, "the memory for bodies is full; try again in a moment"))
         continue;
 }
 
-/// Refuses one upload midway: of the clients that take at least as much as their mean, among the
-/// uploads that are at least as large as the mean of theirs, the slowest. So neither a small upload
-/// nor a quick one ends for the sake of a large slow one.
+/// Aborts one upload: among the clients that hold at least the mean of all clients, and among their
+/// uploads of at least mean size, the slowest. So neither a small nor a fast upload is aborted in
+/// favour of a large slow one.
 ///
-/// of_client  only its uploads come into question, as far as its share binds them; nullptr for all
-/// returns    whether there was one
-bool Reactor::give_up_an_upload(const Address* of_client, std::string_view why) {
+/// of_client  considers uploads of this client only, as far as its limit applies; nullptr: all
+/// returns    false if there was none
+bool Reactor::abort_one_upload(const Address* of_client, std::string_view detail) {
     struct Candidate {
         Connection* connection;
         Connection::Upload upload;
@@ -312,31 +316,32 @@ bool Reactor::give_up_an_upload(const Address* of_client, std::string_view why) 
         candidates.push_back({one.get(), *upload});
     }
     if (candidates.empty()) return false;
-    const auto keep = [&](const auto& much) {
-        if (std::any_of(candidates.begin(), candidates.end(), much))
-            std::erase_if(candidates, [&](const Candidate& one) { return !much(one); });
+    const auto restrict_to = [&](const auto& condition) {
+        if (std::any_of(candidates.begin(), candidates.end(), condition))
+            std::erase_if(candidates, [&](const Candidate& one) { return !condition(one); });
     };
-    keep([&](const Candidate& one) { return state_.bodies.takes_at_least_mean(one.upload.client); });
+    restrict_to(
+        [&](const Candidate& one) { return state_.bodies.takes_at_least_mean(one.upload.client); });
     std::size_t sum = 0;
     for (const Candidate& one : candidates) sum += one.upload.bytes;
-    keep([count = candidates.size(), sum](const Candidate& one) {
+    restrict_to([count = candidates.size(), sum](const Candidate& one) {
         return one.upload.bytes * count >= sum;
     });
     const auto slowest = std::min_element(
         candidates.begin(), candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.upload.pace < b.upload.pace; });
+        [](const Candidate& a, const Candidate& b) { return a.upload.rate < b.upload.rate; });
     ++uploads_given_up_;
-    let(*slowest->connection, [&](Connection& one) { return one.give_up_upload(why); });
+    invoke(*slowest->connection, [&](Connection& one) { return one.abort_upload(detail); });
     return true;
 }
 
-void Reactor::survive_exhaustion() {
-    if (spare_ >= 0) ::close(spare_);
+void Reactor::handle_descriptor_exhaustion() {
+    if (spare_descriptor_ >= 0) ::close(spare_descriptor_);
     const int surplus = ::accept4(codec_.socket(), nullptr, nullptr, SOCK_CLOEXEC);
     if (surplus >= 0) ::close(surplus);
     ++refused_;
-    spare_ = spare_descriptor();
-    if (spare_ < 0) watch_listener(false);
+    spare_descriptor_ = open_spare_descriptor();
+    if (spare_descriptor_ < 0) watch_listener(false);
 }
 
 // --- Ending -------------------------------------------------------------------------------------
@@ -345,7 +350,7 @@ void Reactor::begin_to_drain() {
     draining_ = true;
     shutdown_grace_end_ = state_.now + options_.shutdown_grace;
     for (const auto& one : connections_)
-        let(*one, [](Connection& connection) { return connection.drain(); });
+        invoke(*one, [](Connection& connection) { return connection.drain(); });
 }
 
 void Reactor::stop_listening() {
@@ -356,15 +361,15 @@ void Reactor::stop_listening() {
 
 void Reactor::reap() {
     for (Connection* one : ended_) {
-        if (one->is_on_the_list()) std::erase(state_.again, one);
+        if (one->is_queued()) std::erase(state_.unfinished_transfers, one);
         if (one->is_limited()) --limited_now_;
-        if (one->counts) {
-            const auto of_client = of_client_.find(client_of(one->peer()));
-            if (--of_client->second == 0) of_client_.erase(of_client);
+        if (one->is_counted) {
+            const auto of_client = connections_per_client_.find(client_of(one->peer()));
+            if (--of_client->second == 0) connections_per_client_.erase(of_client);
         }
-        const std::size_t place = one->place;
-        std::swap(connections_[place], connections_.back());
-        connections_[place]->place = place;
+        const std::size_t index = one->index;
+        std::swap(connections_[index], connections_.back());
+        connections_[index]->index = index;
         connections_.pop_back();
     }
     ended_.clear();

@@ -1,4 +1,4 @@
-// The reactor: one thread that owns every socket and waits for all of them at once.
+// The reactor: one thread with an epoll event loop that owns all sockets.
 #pragma once
 
 #include <atomic>
@@ -17,20 +17,21 @@
 
 namespace sporeprint::server {
 
+/// Accepts connections, dispatches their events and enforces the limits they share.
 class Reactor {
   public:
-    /// library  listens; outlives this, as options and handlers do
-    ///
-    /// throws  std::runtime_error when the system has no descriptor left
+    /// codec   has a listening socket
+    /// pre     options, handlers and codec outlive this object
+    /// throws  std::runtime_error if the system has no descriptor left
     Reactor(const TransportOptions& options, const Handlers& handlers, HttpHeadCodec& codec);
     ~Reactor();
     Reactor(const Reactor&) = delete;
     Reactor& operator=(const Reactor&) = delete;
 
-    /// Serves until drain() has been called and the last connection has ended.
+    /// Serves until drain() has been called and the last connection is closed.
     void run();
 
-    void drain();   ///< on any thread
+    void drain();       ///< on any thread
     void invalidate();  ///< on any thread; see Transport::invalidate()
 
     [[nodiscard]] Transport::Load load() const;  ///< on any thread
@@ -39,36 +40,38 @@ class Reactor {
     void continue_transfers(std::vector<Connection*>& turns);
     [[nodiscard]] int milliseconds_to_wait() const;
     void accept_all();
-    void welcome(int socket, const Address& peer);
+    void add_connection(int socket, const Address& peer);
     [[nodiscard]] bool has_too_many(const Address& peer) const;
-    bool make_room();
-    void spare_memory();
-    void spare_body_memory();
-    bool give_up_an_upload(const Address* of_client, std::string_view why);
-    void survive_exhaustion();
+    bool evict_idle();
+    void limit_response_memory();
+    void limit_body_memory();
+    bool abort_one_upload(const Address* of_client, std::string_view detail);
+    void handle_descriptor_exhaustion();
     void begin_to_drain();
     void stop_listening();
     void watch_listener(bool watch);
     void reap();
 
-    /// Calls one of a connection's functions; the connection ends when that says so.
+    /// Calls a function of a connection, which is destroyed after this iteration if it returns
+    /// false.
     template <class Call>
-    void let(Connection& connection, Call&& call);
+    void invoke(Connection& connection, Call&& call);
 
     const TransportOptions& options_;
     HttpHeadCodec& codec_;
     Mailbox mailbox_;
     SharedState shared_;
     ReactorState state_;
-    Workers workers_;  ///< ends before what it uses
+    Workers workers_;  ///< destroyed before the members it uses
     int epoll_ = -1;
-    int spare_ = -1;  ///< given up to accept and close what comes when descriptors run out
+    int spare_descriptor_ =
+        -1;  ///< reserve, closed to accept and refuse a connection if descriptors run out
     bool draining_ = false;
     Clock::time_point shutdown_grace_end_ = Clock::time_point::max();
-    Clock::time_point accepting_again_ = Clock::time_point::max();  ///< after a pause
+    Clock::time_point accepting_again_ = Clock::time_point::max();  ///< end of a pause of accepting
     std::vector<std::unique_ptr<Connection>> connections_;
     std::vector<Connection*> ended_;
-    std::map<Address, std::size_t> of_client_;  ///< connections that count, if there is a limit
+    std::map<Address, std::size_t> connections_per_client_;  ///< used if they are limited
     std::size_t limited_now_ = 0;
     std::atomic<std::uint64_t> refused_{0}, limited_{0}, given_up_{0}, uploads_given_up_{0};
     std::atomic<std::size_t> pinned_{0}, body_bytes_{0};

@@ -192,7 +192,7 @@ TEST(HotTable, HasOneAnswerForEachEncodingWhereTheyDiffer) {
 TEST(HotTable, KeepsWhatIsAskedForBesideAStreamOfOthers) {
     HotTable table(100'000);
     table.insert(hot_response("/popular", sending_of(5000), ""));
-    table.pin(hot_response("/livez", sending_of(5), ""));
+    table.insert_pinned(hot_response("/livez", sending_of(5), ""));
     std::size_t missing = 0;
     for (int i = 0; i < 2000; ++i) {
         if (!table.find("/popular")) ++missing;
