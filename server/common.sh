@@ -1,9 +1,9 @@
-# What server/run and tests/run share; both source it from the project's root, under `set -euo pipefail`.
+# Functions shared by server/run and tests/run, which source it from the project's root under `set -euo pipefail`.
 
-# Another checkout, and the same one elsewhere, finds what was compiled before.
+# Checkouts at different paths share the compiler cache.
 export CCACHE_BASEDIR=$PWD CCACHE_NOHASHDIR=1
 
-# Under `sudo`, goes on as the user who owns the checkout, so that no file in build/ belongs to root.
+# Under `sudo`, continues as the user who owns the checkout, so that no file in build/ belongs to root.
 # Call when the packages are installed: become_owner "$0" "$@".
 become_owner() {
     [ "$(id -u)" -eq 0 ] && [ "${SUDO_UID:-0}" -ne 0 ] || return 0
@@ -14,13 +14,13 @@ become_owner() {
         env HOME="$home" USER="$SUDO_USER" LOGNAME="$SUDO_USER" "$@"
 }
 
-# Builds targets of a configured preset; says nothing when there is nothing to do.
+# Builds targets of a configured preset; prints nothing if they are up to date.
 build() { # preset [target ...]
     cmake --build "build/$1" -j "${SPOREPRINT_JOBS:-$(nproc)}" ${2:+--target "${@:2}"} |
         { grep -vE '^ninja: no work to do|Re-checking globbed directories' || true; }
 }
 
-# Builds web_viewer/dist when a file of the page changed since the last time.
+# Builds web_viewer/dist if a file of the page has changed since the last build.
 build_page() {
     local lock now
     lock=$(sha256sum web_viewer/package-lock.json)
