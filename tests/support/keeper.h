@@ -17,14 +17,14 @@ namespace sporeprint {
 
 /// A workshop that keeps images by their key.
 struct Keeper {
-    std::map<std::string, std::shared_ptr<const ImageSet>> kept;
-    int asked = 0, made = 0;
+    std::map<std::string, std::shared_ptr<const ImageSet>> cached;
+    int lookups = 0, made = 0;
     ExecutionContext execution;
 
     Keeper() {
         execution.caches.images = [this](const std::string& key, const auto& make) {
-            ++asked;
-            auto& place = kept[key];
+            ++lookups;
+            auto& place = cached[key];
             if (!place) {
                 place = make();
                 ++made;

@@ -95,7 +95,7 @@ inline MushroomSpec painted(MushroomSpec order, int side = 128) {
 }
 
 /// Keeps every correspondence for the rest of the program.
-inline GetOrCompute<MorphSet> kept_morphs() {
+inline GetOrCompute<MorphSet> cached_morphs() {
     struct Shelf {
         std::mutex mutex;
         std::map<std::string, std::shared_ptr<const MorphSet>> sets;
@@ -110,9 +110,9 @@ inline GetOrCompute<MorphSet> kept_morphs() {
         };
 }
 
-/// The individual of an order, its correspondence from kept_morphs().
+/// The individual of an order, its correspondence from cached_morphs().
 inline Individual resolved(const MushroomSpec& order) {
-    return resolve(order, atlas(), kept_morphs());
+    return resolve(order, atlas(), cached_morphs());
 }
 
 inline Mesh mesh_of(const MushroomSpec& order) { return mushroom_mesh(order, resolved(order)); }

@@ -1,4 +1,4 @@
-// Recorded sizes of each species, kept here a second time with their sources, compared with
+// Recorded sizes of each species, listed here a second time with their sources, compared with
 // generated meshes.
 #include <gtest/gtest.h>
 

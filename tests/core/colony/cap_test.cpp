@@ -40,7 +40,8 @@ TEST_P(EveryCap, IsAClosedMeshAtEveryAgeAndLevel) {
             }
 }
 
-// The neck begins inside a stem of the radius that it is made for, and leaves it once and for all below the junction.
+// The neck starts inside a stem of the radius that it is made for, and crosses its surface once,
+// below the junction.
 TEST_P(EveryCap, IsClosedByADiscInsideItsStem) {
     for (const double neck : {1.0, 2.0}) {
         Individual individual = resolved(order_of(GetParam(), 0.6, 1, 1));
@@ -78,8 +79,9 @@ TEST_P(EveryCap, IsClosedByADiscInsideItsStem) {
     }
 }
 
-// Above the junction nothing is another mushroom: cap and hymenium have the vertices that they have on their own stem.
-TEST_P(EveryCap, IsThatOfTheWholeMushroom) {
+// Above the junction the mesh is that of the whole mushroom: cap and hymenium have the same
+// vertices as on their own stem.
+TEST_P(EveryCap, EqualsThatOfTheWholeMushroom) {
     Individual individual = resolved(order_of(GetParam(), 0.6, 4, 1));
     individual.axis = AxisCurve();
     individual.model.deformation = {};
@@ -92,7 +94,7 @@ TEST_P(EveryCap, IsThatOfTheWholeMushroom) {
     const Mesh whole = swept_mesh(individual, 1, {.textured = false});
     const Mesh cap = cap_mesh(individual, {1, 1.0, false});
     ASSERT_LT(cap.positions.size(), whole.positions.size());
-    // Rings of the stem come first; one by one from the apex on they are equal.
+    // Rings of the stem come first; counted from the apex, rings are equal.
     const std::size_t own_stem = 41U * static_cast<std::size_t>(detail_of(1).stem_rings);
     const std::size_t compared = whole.positions.size() - own_stem;
     for (std::size_t i = 1; i <= compared; ++i) {
@@ -105,7 +107,7 @@ TEST_P(EveryCap, IsThatOfTheWholeMushroom) {
     }
 }
 
-TEST(Cap, KeepsItsRingOnTheStemThatBearsIt) {
+TEST(Cap, KeepsItsRingOnTheStemOfTheColony) {
     const Individual individual = resolved(order_of("amanita_muscaria", 0.6, 1, 1));
     ASSERT_TRUE(individual.has_ring);
     Individual without = individual;

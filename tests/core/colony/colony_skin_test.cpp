@@ -21,7 +21,7 @@ double along_image(const glm::vec2& at) {
            (1.0 - 2.0 * chart.inset);
 }
 
-/// Individuals that stand as their places say.
+/// Returns members at their places, without adjustments.
 std::vector<ColonyMember> unmoved(const ColonySite& site) {
     std::vector<ColonyMember> members(site.places.size());
     for (std::size_t i = 0; i < members.size(); ++i) {
@@ -43,7 +43,7 @@ Skeleton pole(double length, int nodes, const glm::dvec3& along) {
     return segments;
 }
 
-TEST(ColonySkin, IsClosedAndWearsTheStemOfItsSpecies) {
+TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
     ColonyParams params;
     params.habit = Habit::rooted;
     ColonyTraits traits;
@@ -66,7 +66,7 @@ TEST(ColonySkin, IsClosedAndWearsTheStemOfItsSpecies) {
     }
 }
 
-TEST(ColonySkin, AStemWearsOneImageFromTheGroundToItsTop) {
+TEST(ColonySkin, AStemShowsOneImageFromTheGroundToItsTop) {
     for (const double way : {1.0, -1.0}) {
         const Mesh mesh = colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true});
         const double low = std::min(0.0, 0.2 * way);
@@ -78,8 +78,8 @@ TEST(ColonySkin, AStemWearsOneImageFromTheGroundToItsTop) {
     }
 }
 
-// Along a root the image goes to and fro at its own scale, and nowhere stands still.
-TEST(ColonySkin, ARootWearsImagesToAndFro) {
+// Along a root the image is repeated and mirrored at its own scale, and is constant nowhere.
+TEST(ColonySkin, ARootShowsImagesWithMirroredRepeat) {
     constexpr double painted = 0.085, length = 3.4 * painted;
     const Mesh mesh = colony_skin(pole(length, 12, {1.0, 0.0, 0.0}), {0, painted, true});
     std::map<int, double> by_ring;  // distance in tenths of millimetres -> place on the image
@@ -125,7 +125,7 @@ TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
             expect_valid(mesh);
             EXPECT_EQ(pieces(mesh).size(), members.size())
                 << name(habit) << " " << thick << ": no stem falls apart";
-            if (habit == Habit::tier) continue;  // unmoved they grow through each other there
+            if (habit == Habit::tier) continue;  // stems intersect there before adjustment
             for (const ColonyMember& member : members) {
                 const ColonyPlace& place = site.places[member.place];
                 const glm::dvec3 top = place.at(1.0), along = glm::normalize(place.along(1.0));

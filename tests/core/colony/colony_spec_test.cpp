@@ -33,7 +33,7 @@ TEST(ColonySpec, TheHabitIsTheOneRecordedFirst) {
     EXPECT_EQ(habit_of(unsaid), Habit::troop);
 }
 
-TEST(ColonySpec, StemsBearCapsAndTheRestStandsWhole) {
+TEST(ColonySpec, StemsCarryCapsAndOtherFormsAreWholeIndividuals) {
     for (const char* id : {"amanita_muscaria", "boletus_edulis", "cantharellus_cibarius",
                            "hydnum_repandum", "morchella_esculenta", "phallus_impudicus"})
         EXPECT_TRUE(colony_traits(colony_of(id), atlas()).capped) << id;
@@ -58,7 +58,7 @@ TEST(ColonySpec, RootsAreShownWhereThereAreSome) {
     EXPECT_EQ(colony_traits(spec, atlas()).roots, RootsShown::buried);
 }
 
-TEST(ColonySpec, WhatDoesNotGoTogetherIsRefusedByName) {
+TEST(ColonySpec, IncompatibleParametersAreRefusedByName) {
     const auto problems = [](const std::string& id, auto change) {
         ColonySpec spec = colony_of(id);
         change(spec.params);

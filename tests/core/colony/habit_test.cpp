@@ -52,11 +52,12 @@ TEST(ColonyHabit, OnRootsEveryStemIsThatOfTheSource) {
     }
 }
 
-// Of more stems than asked for each has the same chance: over many seeds the ones kept lie as far out as all do.
+// With more stems than requested each remains with the same probability: over many seeds the
+// remaining ones have the same mean position as all.
 TEST(ColonyHabit, ThinningPrefersNoPlace) {
     ColonyParams params;
     const ColonyTraits traits = nature_of(Habit::rooted);
-    double all = 0.0, kept = 0.0;
+    double all = 0.0, retained = 0.0;
     std::size_t stems = 0, places = 0;
     for (params.seed = 1; params.seed <= 300; ++params.seed) {
         params.count = 256;
@@ -68,17 +69,17 @@ TEST(ColonyHabit, ThinningPrefersNoPlace) {
         const ColonySite thinned = site_of(params, traits);
         EXPECT_LE(thinned.places.size(), 6U);
         for (const ColonyPlace& place : thinned.places) {
-            kept += place.share;
+            retained += place.share;
             ++places;
         }
     }
     ASSERT_GT(places, 1000U);
-    // Shares lie evenly in 0..1 or so: three deviations of their mean.
-    EXPECT_NEAR(kept / static_cast<double>(places), all / static_cast<double>(stems),
+    // Shares are about uniform in 0..1: three standard deviations of their mean.
+    EXPECT_NEAR(retained / static_cast<double>(places), all / static_cast<double>(stems),
                 3.0 * 0.3 / std::sqrt(static_cast<double>(places)));
 }
 
-TEST(ColonyHabit, EveryOtherHabitStandsAsManyAsAskedFor) {
+TEST(ColonyHabit, EveryOtherHabitPlacesTheRequestedCount) {
     for (const Habit habit : {Habit::tuft, Habit::troop, Habit::ring, Habit::tier})
         for (const bool capped : {true, false})
             for (const int count : {1, 2, 24, 256}) {
@@ -109,12 +110,12 @@ TEST(ColonyHabit, ATuftRisesFromOneBaseAndLeansOut) {
         if (place.share > 0.3) {
             EXPECT_GT(out, in);
         }
-        // It has turned up again where it bears its cap.
+        // It points upwards again at its cap.
         EXPECT_GT(glm::normalize(place.along(1.0)).y, glm::normalize(place.along(0.0)).y - 1e-9);
         EXPECT_GT(glm::normalize(place.along(1.0)).y, 0.75);
     }
     EXPECT_LT(foot, 0.4 * top);
-    // Fused: most feet lie on another.
+    // Fused: most stem bases overlap another.
     int fused = 0;
     for (const ColonyPlace& one : site.places) {
         double nearest = 1e9;
@@ -176,7 +177,7 @@ TEST(ColonyHabit, ATierStandsOnItsTrunk) {
     }
 }
 
-TEST(ColonyHabit, WhatIsAskedForStandsBeforeWhatSuitsTheSpecies) {
+TEST(ColonyHabit, RequestedValuesOverrideThoseOfTheSpecies) {
     ColonyParams params;
     const ColonyTraits traits = nature_of(Habit::rooted);
     const ColonyRoots own = colony_growth(params, traits, fit);
@@ -185,11 +186,11 @@ TEST(ColonyHabit, WhatIsAskedForStandsBeforeWhatSuitsTheSpecies) {
     params.growth.root_radius = 0.008;
     params.growth.stem_height = 0.2;
     params.growth.depth = 5;
-    const ColonyRoots asked = colony_growth(params, traits, fit);
-    EXPECT_EQ(asked.root_radius, 0.008);
-    EXPECT_EQ(asked.stem_height, 0.2);
-    EXPECT_EQ(asked.depth, 5);
-    EXPECT_EQ(asked.segment_length, 2.0 * own.segment_length) << "caps are twice as wide";
+    const ColonyRoots requested = colony_growth(params, traits, fit);
+    EXPECT_EQ(requested.root_radius, 0.008);
+    EXPECT_EQ(requested.stem_height, 0.2);
+    EXPECT_EQ(requested.depth, 5);
+    EXPECT_EQ(requested.segment_length, 2.0 * own.segment_length) << "caps are twice as wide";
 }
 
 }  // namespace

@@ -22,7 +22,7 @@ glm::dvec2 ground(const ColonySkeleton& colony, std::uint32_t node) {
     return {place.x, place.z};
 }
 
-// Turn from one direction to another, degrees, -180..180.
+// Returns the angle from one direction to another, degrees, -180..180.
 double turn_between(const glm::dvec2& a, const glm::dvec2& b) {
     return std::atan2(a.x * b.y - a.y * b.x, glm::dot(a, b)) * 180.0 / pi;
 }
@@ -36,7 +36,7 @@ TEST(ColonyRoots, ABranchKeepsItsAngleToTheField) {
         std::size_t seen = 0;
         for (const ColonySkeleton::Branch& branch : colony.branches)
             for (std::size_t i = 1; i < branch.nodes.size(); ++i) {
-                // After an inserted node the segment goes on as it began.
+                // After an inserted node the segment keeps its direction.
                 if (colony.inserted[branch.nodes[i - 1]] && i > 1) continue;
                 const glm::dvec2 from = ground(colony, branch.nodes[i - 1]);
                 const glm::dvec2 along = ground(colony, branch.nodes[i]) - from;
@@ -51,7 +51,8 @@ TEST(ColonyRoots, ABranchKeepsItsAngleToTheField) {
     }
 }
 
-// The source: in a radial field branches at 0 degrees are straight and leave the origin, those at 90 are about circles.
+// From the source: in a radial field branches at 0 degrees are straight and lead away from the
+// origin, those at 90 are about circles.
 TEST(ColonyRoots, InARadialFieldRootsAreRaysOrCircles) {
     ColonyRoots roots;
     roots.field = RootField::radial;
@@ -70,7 +71,8 @@ TEST(ColonyRoots, InARadialFieldRootsAreRaysOrCircles) {
     roots.depth = 60;
     const ColonySkeleton circle = colony_skeleton(roots, 3);
     const auto& nodes = circle.branches[0].nodes;
-    // A step square to the radius lengthens it: r' = sqrt(r^2 + l^2), after n steps l sqrt(n).
+    // A step perpendicular to the radius lengthens it: r' = sqrt(r^2 + l^2), after n steps l
+    // sqrt(n).
     EXPECT_NEAR(glm::length(ground(circle, nodes.back())), roots.segment_length * std::sqrt(60.0),
                 1e-6);
 }
@@ -96,7 +98,8 @@ TEST(ColonyRoots, SegmentsAndSectionsDecayWithTheDistanceFromTheBase) {
     }
 }
 
-// A Poisson event on length: numbers of branchings are Poisson, the lengths between them exponential.
+// Branchings are a Poisson process on length: their numbers are Poisson distributed, the lengths
+// between them exponentially.
 TEST(ColonyRoots, BranchingsAreAPoissonProcessOnLength) {
     ColonyRoots roots;
     roots.arms = 12;
@@ -106,8 +109,7 @@ TEST(ColonyRoots, BranchingsAreAPoissonProcessOnLength) {
     roots.branch_distance = 0.3;
     roots.depth = 16;
     double length = 0.0, splits = 0.0;
-    std::vector<double>
-        firsts;  // lengths to the first branching of the arms, whether it came or not
+    std::vector<double> firsts;  // lengths to the first branching, also of arms without one
     std::size_t arms = 0;
     const std::size_t seeds = effort(60, 20);
     for (std::uint32_t seed = 0; seed < seeds; ++seed) {
@@ -124,7 +126,8 @@ TEST(ColonyRoots, BranchingsAreAPoissonProcessOnLength) {
     }
     const double expected = length / roots.branch_distance;
     EXPECT_NEAR(splits, expected, 5.0 * std::sqrt(expected));
-    // Kolmogorov and Smirnov: the share with a first branching before x is 1 - e^(-x / mean); 1.95 / sqrt(n) is passed once in 1,000.
+    // Kolmogorov-Smirnov test: the share with a first branching before x is 1 - e^(-x / mean); 1.95
+    // / sqrt(n) is exceeded once in 1,000.
     std::sort(firsts.begin(), firsts.end());
     double worst = 0.0;
     for (std::size_t i = 0; i < firsts.size(); ++i) {
@@ -213,7 +216,7 @@ TEST(ColonyRoots, HaveAsManyNodesAsExpectedInTheMean) {
                 5.0 * std::sqrt((squares / seeds - mean * mean) / seeds));
 }
 
-TEST(ColonyRoots, AreSkinnedWithoutAHole) {
+TEST(ColonyRoots, HaveAWatertightSkin) {
     ColonyRoots roots;
     for (std::uint32_t seed = 0; seed < effort(12, 3); ++seed) {
         const ColonySkeleton colony = colony_skeleton(roots, seed);
@@ -223,7 +226,7 @@ TEST(ColonyRoots, AreSkinnedWithoutAHole) {
     }
 }
 
-TEST(ColonyRoots, AtTheEndsOfTheirRangesAreGrownOrRefused) {
+TEST(ColonyRoots, AtTheEndsOfTheirRangesAreValidOrRefused) {
     ColonyRoots roots;
     walk_corners(roots, Info{.name = ""}, "", [&](const std::string& path) {
         try {
@@ -242,12 +245,12 @@ TEST(ColonyRoots, AtTheEndsOfTheirRangesAreGrownOrRefused) {
     EXPECT_TRUE(names(refusal([&] { (void)colony_skeleton(roots, 1); }), "/arms", "outside 1..12"));
 }
 
-TEST(ColonyRoots, TheSameSeedIsTheSameColony) {
+TEST(ColonyRoots, TheSameSeedGivesTheSameColony) {
     const ColonySkeleton one = colony_skeleton({}, 4), again = colony_skeleton({}, 4);
     ASSERT_EQ(one.skeleton.nodes.size(), again.skeleton.nodes.size());
     for (std::size_t i = 0; i < one.skeleton.nodes.size(); ++i)
         EXPECT_EQ(one.skeleton.nodes[i].place, again.skeleton.nodes[i].place);
-    // More stems move no root.
+    // More stems do not move any root.
     ColonyRoots more;
     more.stem_probability = 0.9;
     const ColonySkeleton crowded = colony_skeleton(more, 4);

@@ -19,7 +19,7 @@ Mesh cap_of(const char* id, double age = 0.6) {
     return cap_mesh(resolved(order_of(id, age, 2, 1)), {1, 1.0, false});
 }
 
-TEST(OccupancyGrid, HoldsAllOfItsMeshAndLittleMore) {
+TEST(OccupancyGrid, ContainsItsMeshAndLittleMore) {
     for (const char* id : {"armillaria_mellea", "mycena_haematopus", "macrolepiota_procera"}) {
         const Mesh mesh = cap_of(id);
         const OccupancyGrid occupancy(mesh);
@@ -32,14 +32,14 @@ TEST(OccupancyGrid, HoldsAllOfItsMeshAndLittleMore) {
         for (const glm::dvec3& point : occupancy.border())
             EXPECT_LE(glm::length(point - occupancy.middle()), occupancy.reach());
     }
-    // What an umbrella covers is free.
+    // The space under an umbrella is free.
     const Mesh umbrella = cap_of("macrolepiota_procera");
     const OccupancyGrid occupancy(umbrella);
     const Bounds box = bounds(umbrella);
     EXPECT_FALSE(occupancy.contains({0.6 * box.max.x, box.min.y, 0.0}));
 }
 
-TEST(OccupancyGrid, TwoMeetExactlyWhereTheyTouchOrNearly) {
+TEST(OccupancyGrid, TwoOverlapExactlyWhereTheirMeshesNearlyTouch) {
     const Mesh mesh = cap_of("armillaria_mellea");
     const OccupancyGrid occupancy(mesh);
     const Bounds box = bounds(mesh);
@@ -56,11 +56,11 @@ TEST(OccupancyGrid, TwoMeetExactlyWhereTheyTouchOrNearly) {
     EXPECT_FALSE(collides({1.12 * wide, 0.0, 0.0}));
     EXPECT_FALSE(collides({0.0, 1.02 * high, 0.0}));
     EXPECT_TRUE(collides({0.0, 0.3 * high, 0.0}));
-    // One edgewise through the other.
+    // One crosses the other edgewise.
     EXPECT_TRUE(collides({0.3 * wide, 0.0, 0.0}, upright({1.0, 0.0, 0.0}, 0.3)));
 }
 
-TEST(OccupancyGrid, PosturesAreThereAndBack) {
+TEST(OccupancyGrid, PosesAreInvertible) {
     Random random(5, 7);
     for (int i = 0; i < 50; ++i) {
         const double x = random.symmetric(), z = random.symmetric(), turn = random.uniform(0, 6);
@@ -74,10 +74,11 @@ TEST(OccupancyGrid, PosturesAreThereAndBack) {
     }
 }
 
-// Two stems side by side, caps as wide as may be: the first stands, the second gives way as told.
+// Two stems side by side with caps of a given width: the first stays in place, the second is
+// adjusted.
 class TwoStems : public ::testing::Test {
   protected:
-    std::vector<ColonyMember> posed(double apart, const std::vector<ColonyModel>& models) {
+    std::vector<ColonyMember> placed(double apart, const std::vector<ColonyModel>& models) {
         site_.places.clear();
         for (const double x : {0.0, apart}) {
             ColonyPlace place;
@@ -98,8 +99,8 @@ class TwoStems : public ::testing::Test {
     double across_ = static_cast<double>(bounds(large_).max.x - bounds(large_).min.x);
 };
 
-TEST_F(TwoStems, WithRoomStandAsTheirPlacesSay) {
-    const auto members = posed(1.3 * across_, {wide_});
+TEST_F(TwoStems, WithEnoughSpaceStandAsPlaced) {
+    const auto members = placed(1.3 * across_, {wide_});
     ASSERT_EQ(members.size(), 2U);
     for (const ColonyMember& member : members) {
         EXPECT_EQ(member.steps, 0);
@@ -110,7 +111,7 @@ TEST_F(TwoStems, WithRoomStandAsTheirPlacesSay) {
 }
 
 TEST_F(TwoStems, LeanFirst) {
-    const auto members = posed(0.9 * across_, {wide_, narrow_});
+    const auto members = placed(0.9 * across_, {wide_, narrow_});
     ASSERT_EQ(members.size(), 2U);
     EXPECT_EQ(members[0].steps, 0);
     EXPECT_GT(members[1].swing.x, 0.0) << "away from the other";
@@ -118,8 +119,8 @@ TEST_F(TwoStems, LeanFirst) {
 }
 
 TEST_F(TwoStems, AreYoungerWhereNoLeanHelps) {
-    const auto alone = posed(0.2 * across_, {wide_});
-    const auto members = posed(0.2 * across_, {wide_, narrow_});
+    const auto alone = placed(0.2 * across_, {wide_});
+    const auto members = placed(0.2 * across_, {wide_, narrow_});
     ASSERT_EQ(members.size(), 2U);
     EXPECT_EQ(members[1].model, 1U);
     ASSERT_LE(alone.size(), 2U);
@@ -128,8 +129,8 @@ TEST_F(TwoStems, AreYoungerWhereNoLeanHelps) {
     }
 }
 
-TEST_F(TwoStems, OfTwoAtOnePlaceOneIsLeftOut) {
-    const auto members = posed(0.02 * across_, {wide_});
+TEST_F(TwoStems, TheSecondAtTheSamePlaceIsLeftOut) {
+    const auto members = placed(0.02 * across_, {wide_});
     ASSERT_EQ(members.size(), 1U);
     EXPECT_EQ(members[0].place, 0U);
 }

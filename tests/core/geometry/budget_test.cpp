@@ -14,18 +14,19 @@ Budget budget_at(const Mix& mix, double age, int lod) {
 }
 
 TEST(Budget, EverySetKeepsTheTriangleLimitOfItsLevel) {
-    const auto expect_kept = [](const Mix& mix) {
+    const auto expect_within_limit = [](const Mix& mix) {
         for (int lod = 0; lod < 4; ++lod)
             EXPECT_LE(budget_at(mix, 0.6, lod).count.triangles,
                       most_triangles[static_cast<std::size_t>(lod)])
                 << text_of(mix) << " lod " << lod;
     };
-    for (const auto& [a, b] : some_species_pairs(effort(120))) expect_kept({{a, 500}, {b, 500}});
+    for (const auto& [a, b] : some_species_pairs(effort(120)))
+        expect_within_limit({{a, 500}, {b, 500}});
     Random random(1, 0x62756467);
     for (std::uint32_t i = 0; i < effort(200); ++i) {
         const auto ids = random_species(random);
         const Mix mix = random_mix(ids, random);
-        if (refusal([&] { resolved(mix_of(mix)); }).empty()) expect_kept(mix);
+        if (refusal([&] { resolved(mix_of(mix)); }).empty()) expect_within_limit(mix);
     }
 }
 

@@ -262,8 +262,8 @@ TEST(Ornaments, ASacGrowsAndVanishesContinuouslyAndKeepsItsVertices) {
         EXPECT_EQ(pieces(mesh).size(), height > 0.0 ? 3u : 2u);
         MushroomSpec order = order_of("amanita_muscaria");
         EXPECT_EQ(estimate(order, individual).vertices, vertices);
-        const Mesh kept = swept_mesh(individual, 0, {.keep_absent = true});
-        EXPECT_EQ(kept.positions.size(), vertices);
+        const Mesh complete = swept_mesh(individual, 0, {.keep_absent = true});
+        EXPECT_EQ(complete.positions.size(), vertices);
     }
 }
 

@@ -498,28 +498,28 @@ std::set<std::array<std::uint32_t, 3>> triangles_of(const Mesh& mesh) {
     return triangles;
 }
 
-TEST(Sweep, KeptAbsentTrianglesAreTheSameAtEveryAgeAndHaveNoArea) {
+TEST(Sweep, EmittedAbsentTrianglesAreTheSameAtEveryAgeAndHaveNoArea) {
     for (const std::string& id : swept_ids())
         for (int lod = 0; lod < 4; ++lod) {
-            const auto kept_at = [&](double age) {
+            const auto complete_at = [&](double age) {
                 return swept_mesh(resolved(order_of(id, age, 4)), lod,
                                   {.textured = true, .keep_absent = true});
             };
-            const Mesh mature = kept_at(0.6);
+            const Mesh mature = complete_at(0.6);
             constexpr std::array<double, 6> ages = {0.0, 0.25, 0.8, 1.0, 0.1, 0.45};
             for (const double age : std::span(ages).first(effort(6, 1, 6))) {
-                const Mesh kept = kept_at(age);
-                EXPECT_EQ(kept.indices, mature.indices) << id << " at " << age;
-                expect_valid(kept);
+                const Mesh complete = complete_at(age);
+                EXPECT_EQ(complete.indices, mature.indices) << id << " at " << age;
+                expect_valid(complete);
                 const Mesh drawn = swept_mesh(resolved(order_of(id, age, 4)), lod);
-                EXPECT_TRUE(same_bits(drawn.positions, kept.positions));
-                EXPECT_TRUE(same_bits(drawn.normals, kept.normals));
-                const auto all = triangles_of(kept), shown = triangles_of(drawn);
+                EXPECT_TRUE(same_bits(drawn.positions, complete.positions));
+                EXPECT_TRUE(same_bits(drawn.normals, complete.normals));
+                const auto all = triangles_of(complete), shown = triangles_of(drawn);
                 EXPECT_TRUE(std::includes(all.begin(), all.end(), shown.begin(), shown.end()));
                 for (const auto& triangle : all) {
                     if (shown.contains(triangle)) continue;
                     const auto place = [&](std::size_t k) {
-                        return glm::dvec3(kept.positions[triangle[k]]);
+                        return glm::dvec3(complete.positions[triangle[k]]);
                     };
                     EXPECT_LT(glm::length(glm::cross(place(1) - place(0), place(2) - place(0))),
                               1e-9);

@@ -82,14 +82,14 @@ TEST(Glb, EmbeddedImagesDecodeToTheirSizeAndAreNeverCopied) {
                                 }),
                   1)
             << "the body holds the image's own bytes";
-    // Head, geometry, and for each image at most its padding.
+    // Head, geometry, and at most the padding of each image.
     EXPECT_LE(body.size(), 8u);
     std::size_t own = 0;
     for (const Slice& slice : body) own += slice.size;
     EXPECT_EQ(own, size_of(body));
 }
 
-/// The JSON of a file.
+/// Returns the JSON of a file.
 Value document_of(const Body& body) {
     const Bytes file = joined(body);
     std::uint32_t size = 0;
@@ -118,7 +118,7 @@ TEST(Glb, MaterialExtensionsAreNamedExactlyWhenTheyAreUsed) {
     EXPECT_EQ(dump(*coated.find("extensionsUsed")), R"(["KHR_materials_clearcoat"])");
     const std::string coat = "/materials/0/extensions/KHR_materials_clearcoat";
     EXPECT_EQ(coated.at_pointer(coat + "/clearcoatFactor")->as_number(), 0.5);
-    // Its roughness is the painted one: sharp on the slime alone.
+    // Its roughness is the painted one: glossy on slime only.
     EXPECT_EQ(coated.at_pointer(coat + "/clearcoatRoughnessFactor")->as_number(), 1.0);
     EXPECT_EQ(coated.at_pointer(coat + "/clearcoatRoughnessTexture/index")->as_number(), 2.0);
     EXPECT_EQ(written({.coat = 0.5}, false).at_pointer(coat + "/clearcoatRoughnessTexture"),
@@ -135,7 +135,7 @@ TEST(Glb, MaterialExtensionsAreNamedExactlyWhenTheyAreUsed) {
               "[0.25,0.25,0.25]");
 }
 
-TEST(Glb, AMushroomIsSlimyVelvetyOrGlowsAsItsModelSays) {
+TEST(Glb, TheModelDeterminesClearcoatSheenAndEmission) {
     MushroomSpec order = textured(order_of("x", 0.6, 2, 2));
     order.mix.clear();
     order.model = atlas().find("boletus_edulis")->species.stages[2].model;
@@ -180,7 +180,7 @@ TEST(Glb, LargeMeshesHaveWideIndices) {
     EXPECT_TRUE(same_bits(found.mesh.indices, mesh.indices));
 }
 
-TEST(Glb, NamesAreEscapedAndExtrasKept) {
+TEST(Glb, NamesAreEscapedAndExtrasUnchanged) {
     const Mesh mesh = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
     const std::string name = "a \"quoted\\ name\"\n\x01 é";
     GlbParts parts = parts_of(name);
@@ -190,7 +190,7 @@ TEST(Glb, NamesAreEscapedAndExtrasKept) {
     EXPECT_EQ(found.canonical, "/v1/x?y=1");
 }
 
-/// Two targets for a mesh: one lifts it, one turns its normals over.
+/// Returns two targets for a mesh: one lifts it, one flips its normals.
 std::vector<MorphTarget> lift_and_turn(const Mesh& mesh) {
     const std::size_t n = mesh.positions.size();
     std::vector<MorphTarget> targets(2);
@@ -274,7 +274,7 @@ TEST(Glb, TargetsAndClipsThatDoNotFitAreRefused) {
     refused({}, &good);
 }
 
-/// Two mushrooms of which one is textured, in three nodes, and what they are made of.
+/// Two mushrooms, one of them textured, in three nodes, and their materials.
 struct Group {
     Mesh bare = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));
     Mesh painted_mesh = mesh_of(textured(order_of("mycena_sanguinolenta", 0.6, 2, 3)));
@@ -336,7 +336,7 @@ TEST(Glb, PrimitivesOfManyMaterialsReadBackAsTheyWere) {
     EXPECT_EQ(json.at_pointer(rough)->as_number(), 5.0);
 }
 
-TEST(Glb, NodesShowMeshesWhereTheyAreAndLeaveOutTheIdentity) {
+TEST(Glb, NodesHaveTransformsAndOmitTheIdentity) {
     const Group group;
     const ReadScene found = expect_scene(joined(glb(group.scene)));
     ASSERT_EQ(found.nodes.size(), 3u);
@@ -387,7 +387,7 @@ TEST(Glb, ASceneOfOneMeshIsTheFileOfThatMesh) {
     EXPECT_EQ(joined(glb(scene)), joined(glb(group.painted_mesh, parts)));
 }
 
-TEST(Glb, ScenesThatCannotBeAreRefused) {
+TEST(Glb, InvalidScenesAreRefused) {
     const auto refused = [](const std::function<void(Group&)>& spoil) {
         Group group;
         spoil(group);

@@ -30,7 +30,7 @@ void put(Bytes& file, std::size_t at, std::uint32_t value) {
     std::memcpy(file.data() + at, &value, 4);
 }
 
-/// A GLB of a JSON chunk alone.
+/// Returns a GLB of a JSON chunk alone.
 Bytes glb_of(std::string json) {
     while (json.size() % 4) json += ' ';
     Bytes file(20 + json.size());
@@ -43,7 +43,7 @@ Bytes glb_of(std::string json) {
     return file;
 }
 
-/// Why a file is refused; empty when it is taken.
+/// Returns the message with which a file is refused; empty if it is accepted.
 std::string why(const Bytes& file) {
     const auto problems = refusal([&] { (void)inspect_glb(file); });
     if (problems.empty()) return "";
@@ -58,7 +58,7 @@ void expect_refused(const Bytes& file, const std::string& words) {
     EXPECT_LT(found.size(), 400u) << "an answer does not grow with its question";
 }
 
-TEST(Inspect, GivesTheRequestBackThatMadeTheFile) {
+TEST(Inspect, ReturnsTheRequestThatProducedTheFile) {
     const MushroomSpec order = painted(order_of("amanita_muscaria", 0.6, 7, 1));
     const Mushroom mushroom = grow_mushroom(order, atlas(), {address, {}});
     const Inspection found = inspect_glb(grown());
@@ -86,12 +86,13 @@ TEST(Inspect, CountsTheTargetsAndClipsOfAGrowingMushroom) {
     EXPECT_EQ(found.animations, 1u);
 }
 
-TEST(Inspect, TheParametersItGivesGrowTheSameShapeAgain) {
+TEST(Inspect, TheReturnedParametersGrowTheSameShape) {
     std::vector<Problem> problems;
     MushroomSpec order = order_of("amanita_muscaria");
     order.params = read_json<MushroomParams>(inspect_glb(grown()).effective_json, problems);
     const Bytes again = joined(grow_mushroom(order, atlas(), {address, {}}).glb);
-    // Only the shape: images are painted for the nearest 64th of age, what is asked for by name as it is asked.
+    // Only the shape is compared: images are painted for the nearest 64th of age, and for requested
+    // overrides as requested.
     EXPECT_TRUE(same_bits(expect_glb(again).mesh, expect_glb(grown()).mesh));
 }
 
@@ -121,8 +122,8 @@ TEST(Inspect, WrongLengthsAreRefused) {
     expect_refused(file, "JSON chunk");
 }
 
-// Tools that rewrite a file name themselves as its generator, or nobody.
-TEST(Inspect, WhoeverHasRewrittenAFileTheRequestInItIsRead) {
+// Tools that rewrite a file set their own name as its generator, or none.
+TEST(Inspect, TheRequestIsReadFromFilesThatOtherToolsHaveRewritten) {
     for (const std::string generator : {R"("generator":"glTF-Transform v4.1.0",)", R"()"}) {
         const Bytes file = glb_of(
             R"({"asset":{"version":"2.0",)" + generator +
@@ -152,7 +153,7 @@ TEST(Inspect, ForeignFilesAreRefused) {
     expect_refused(glb_of(R"({"asset":1,"asset":2})"), "JSON chunk cannot be read");
 }
 
-TEST(Inspect, BombsAreRefused) {
+TEST(Inspect, DecompressionBombsAreRefused) {
     expect_refused(glb_of(std::string(100000, '[')), "JSON chunk cannot be read");
     expect_refused(glb_of(std::string(100000, '[') + std::string(100000, ']')), "JSON chunk");
     std::string objects;
@@ -167,7 +168,7 @@ TEST(Inspect, BombsAreRefused) {
 const std::string head =
     R"("asset":{"version":"2.0","generator":"Sporeprint 1","extras":{"canonical":"x","effective":{}}})";
 
-TEST(Inspect, WildReferencesInsideAFileDoNoHarm) {
+TEST(Inspect, ExternalReferencesInAFileAreNotFollowed) {
     for (
         const std::string& rest :
         {std::string(R"("meshes":[{"primitives":[{"attributes":{"POSITION":99},"indices":-5}]}])"),
@@ -207,7 +208,7 @@ TEST(Inspect, MeshesWithTooManyValuesAreRefusedBeforeTinygltfReadsThem) {
                    "at most 40000 are read");
 }
 
-TEST(Inspect, WhatIsGivenBackIsBounded) {
+TEST(Inspect, ReturnedTextIsBounded) {
     const auto with = [](const std::string& generator, const std::string& effective) {
         return glb_of(R"({"asset":{"generator":")" + generator +
                       R"(","extras":{"canonical":"x","effective":)" + effective + "}}}");

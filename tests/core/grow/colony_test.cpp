@@ -24,9 +24,9 @@
 namespace sporeprint {
 namespace {
 
-ExecutionContext remembering() {
+ExecutionContext with_cached_morphs() {
     ExecutionContext execution;
-    execution.caches.morphs = kept_morphs();
+    execution.caches.morphs = cached_morphs();
     return execution;
 }
 
@@ -39,8 +39,10 @@ ColonySpec colony_of(const std::string& id, int count = 12, int distinct = 4) {
     return spec;
 }
 
-Colony parts_of(const ColonySpec& spec) { return colony_parts(spec, atlas(), remembering()); }
-Grown grown(const ColonySpec& spec) { return grow_colony(spec, atlas(), {}, remembering()); }
+Colony parts_of(const ColonySpec& spec) {
+    return colony_parts(spec, atlas(), with_cached_morphs());
+}
+Grown grown(const ColonySpec& spec) { return grow_colony(spec, atlas(), {}, with_cached_morphs()); }
 
 class EveryColony : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Species, EveryColony, ::testing::ValuesIn(species_ids()),
@@ -72,7 +74,8 @@ TEST_P(EveryColony, ReadsBackFromItsFileAtEveryLevel) {
     }
 }
 
-// Of few and of many, in every habit: each level is less than the one before, and covers the same ground.
+// For few and many members, in every habit: each level has fewer triangles than the one before and
+// covers the same area.
 TEST_P(EveryColony, HasFewerTrianglesAtEveryLevel) {
     const std::size_t habits = effort(6, 1);
     for (int habit = -1; habit < static_cast<int>(habits) - 1; ++habit)
@@ -94,8 +97,9 @@ TEST_P(EveryColony, HasFewerTrianglesAtEveryLevel) {
                                     own = measured(spec, colony).triangles;
                 const Bounds box = bounds(colony);
                 if (lod > 0) {
-                    // A cup that would touch itself with fewer rings keeps its own; of many stems the skin is nearly all that is
-                    // stored, and a stem of one segment is the least there is.
+                    // A cup whose outline would intersect itself with fewer rings keeps those of
+                    // the level before; with many stems nearly all stored triangles are the skin's, and a
+                    // stem has at least one segment.
                     const bool is_cup = GetParam() == "disciotis_venosa";
                     const double bar = lod < 3 ? 1.0 : is_cup ? 1.001 : 0.93;
                     EXPECT_LT(static_cast<double>(triangles), bar * static_cast<double>(drawn))
@@ -121,7 +125,7 @@ TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
             spec.params.lod = lod;
             if (rooted && colony_traits(spec, atlas()).lateral) continue;
             if (rooted) spec.params.habit = Habit::rooted;
-            const Estimate e = estimate(spec, atlas(), remembering().caches);
+            const Estimate e = estimate(spec, atlas(), with_cached_morphs().caches);
             const Grown colony = grown(spec);
             const auto bytes = static_cast<double>(size_of(colony.glb));
             EXPECT_GT(static_cast<double>(e.vertices), 0.8 * static_cast<double>(colony.vertices));
@@ -317,7 +321,7 @@ TEST(ColonyFile, InstancesHaveTheTransformsOfNodes) {
     }
 }
 
-TEST(ColonyFile, ItsPosturesAreThoseOfItsNodes) {
+TEST(ColonyFile, MembersHaveThePosesOfItsNodes) {
     const ColonySpec spec = colony_of("armillaria_mellea", 6, 2);
     const Colony colony = parts_of(spec);
     const ReadScene found = expect_scene(joined(grown(spec).glb));
@@ -394,7 +398,7 @@ TEST(ColonyBudget, IsCheckedBeforeAnyWork) {
     EXPECT_TRUE(
         names(refusal([&] { (void)estimate(spec, atlas()); }), "/branch_distance", "nodes"));
     EXPECT_TRUE(names(refusal([&] { (void)parts_of(spec); }), "/branch_distance", "nodes"));
-    ExecutionContext stopped = remembering();
+    ExecutionContext stopped = with_cached_morphs();
     std::stop_source source;
     source.request_stop();
     stopped.stop = source.get_token();

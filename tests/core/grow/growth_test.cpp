@@ -171,14 +171,14 @@ TEST(Clip, MixesGrowAsTheirStaticMeshesDo) {
 
 TEST(Clip, FindsTheCorrespondenceOfItsSpeciesOnce) {
     ExecutionContext execution;
-    int asked = 0;
+    int lookups = 0;
     execution.caches.morphs = [&](const std::string&, const auto& make) {
-        ++asked;
+        ++lookups;
         return make();
     };
     const MushroomSpec spec = growing(mix_of({{"amanita_muscaria", 400}, {"boletus_edulis", 600}}));
     (void)growth_clip(spec, atlas(), mesh_of(spec), execution);
-    EXPECT_EQ(asked, 1) << "all ages are weights of one set";
+    EXPECT_EQ(lookups, 1) << "all ages are weights of one set";
 }
 
 TEST(Clip, ImagesAreThoseOfTheAge) {

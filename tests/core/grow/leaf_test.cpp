@@ -120,9 +120,9 @@ TEST(GrownLeaf, AChangeOfShapeReusesTheImages) {
     spec.params.shape.petiole = 1.5;
     spec.params.size = 0.5;
     const Grown curled = grow_leaf(spec, {}, keeper.execution);
-    EXPECT_EQ(keeper.asked, 2);
+    EXPECT_EQ(keeper.lookups, 2);
     EXPECT_EQ(keeper.made, 1);
-    for (const Slice& file : keeper.kept.begin()->second->files) {
+    for (const Slice& file : keeper.cached.begin()->second->files) {
         EXPECT_TRUE(shares_bytes(flat.glb, file));
         EXPECT_TRUE(shares_bytes(curled.glb, file));
     }

@@ -20,7 +20,7 @@ std::shared_ptr<const MorphSet> set_of(const std::vector<std::string>& ids) {
     mix.front().weight = 1001 - static_cast<int>(ids.size());
     std::shared_ptr<const MorphSet> found;
     (void)resolve(mix_of(mix), atlas(), [&](const std::string& key, const auto& make) {
-        return found = kept_morphs()(key, make);
+        return found = cached_morphs()(key, make);
     });
     return found;
 }
@@ -40,7 +40,7 @@ std::vector<double> weights_of(const MorphSet& set, const std::vector<std::strin
 }
 
 /// Returns what is wrong with an outline at any level of detail; empty when nothing is.
-std::string fault_of(const MorphSet& set, const std::vector<double>& weights) {
+std::string error_of(const MorphSet& set, const std::vector<double>& weights) {
     const Outline outline(set.nodes(weights));
     for (int lod = 0; lod < 4; ++lod) {
         const Polyline line = polyline(outline, lod);
@@ -75,7 +75,7 @@ TEST_P(PairOutlines, AreRefusedForNoPairOfTheAtlas) {
                 MushroomSpec spec = mix_of({{pairs[i].first, 1000 - t}, {pairs[i].second, t}}, age,
                                            static_cast<std::uint32_t>(i));
                 spec.params.variation = 1.0;
-                EXPECT_NO_THROW((void)resolve(spec, atlas(), kept_morphs()))
+                EXPECT_NO_THROW((void)resolve(spec, atlas(), cached_morphs()))
                     << text_of(spec.mix) << ", age " << age;
             }
 }
@@ -97,7 +97,7 @@ TEST_P(PairOutlines, AreSimpleBetweenEveryPairOfAges) {
                 // The proof is checked against samples.
                 for (int look = 0; look <= looks; ++look) {
                     const double t = static_cast<double>(look) / looks;
-                    EXPECT_EQ(fault_of(*set, weights_of(*set, ids, {1.0 - t, t}, {a, b})), "")
+                    EXPECT_EQ(error_of(*set, weights_of(*set, ids, {1.0 - t, t}, {a, b})), "")
                         << "ages " << a << " and " << b << ", t " << t;
                 }
             }
@@ -137,7 +137,7 @@ TEST_P(RandomOutlines, OfAHundredThousandMixesAreSimple) {
                 what = text_of(mix) + (one_age ? " age " : " ages differ, first ") +
                        std::to_string(ages.front());
             }
-            ASSERT_EQ(fault_of(*set, weights), "") << "set " << i << ": " << what;
+            ASSERT_EQ(error_of(*set, weights), "") << "set " << i << ": " << what;
         }
     }
 }

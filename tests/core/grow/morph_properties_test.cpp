@@ -44,10 +44,10 @@ bool is_crowded(const MushroomSpec& spec) {
 /// Returns the same order without warts and scales, as far as its species can have any.
 MushroomSpec without_patches(MushroomSpec spec) {
     const auto& has = resolved(spec).effective.ornaments;
-    auto& asked = spec.params.ornaments;
+    auto& requested = spec.params.ornaments;
     for (const auto amount :
          {&OrnamentsOf<Maybe>::warts, &OrnamentsOf<Maybe>::scales, &OrnamentsOf<Maybe>::volva})
-        if (has.*amount) asked.*amount = 0.0;
+        if (has.*amount) requested.*amount = 0.0;
     return spec;
 }
 

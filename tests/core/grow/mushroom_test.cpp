@@ -214,10 +214,10 @@ TEST(Mushroom, AChangeOfShapeReusesTheImages) {
     spec.params.deformation.twist_deg = 10.0;
     spec.params.weathering.waves = 0.7;
     const Mushroom bent = grow_mushroom(spec, atlas(), {}, keeper.execution);
-    EXPECT_EQ(keeper.asked, 2);
+    EXPECT_EQ(keeper.lookups, 2);
     EXPECT_EQ(keeper.made, 1);
-    ASSERT_EQ(keeper.kept.size(), 1u);
-    for (const Slice& file : keeper.kept.begin()->second->files) {
+    ASSERT_EQ(keeper.cached.size(), 1u);
+    for (const Slice& file : keeper.cached.begin()->second->files) {
         EXPECT_TRUE(shares_bytes(straight.glb, file));
         EXPECT_TRUE(shares_bytes(bent.glb, file));
     }
@@ -251,7 +251,7 @@ TEST(Mushroom, NearbyAgesShareTheirImagesAndOtherSurfacesDoNot) {
 // high that it refuses cheap ones.
 TEST(Mushroom, IsEstimatedBeforeAnyWorkForAnyRequest) {
     ExecutionContext execution;
-    execution.caches.morphs = kept_morphs();
+    execution.caches.morphs = cached_morphs();
     for (std::uint32_t i = 0; i < effort(240, 24); ++i) {
         Random random(i, 0x65737469);
         MushroomSpec spec = mix_of(

@@ -27,13 +27,13 @@ namespace {
 struct Keeper {
     std::map<std::string, std::shared_ptr<const ImageSet>> images;
     std::map<std::string, std::shared_ptr<const RawImages>> paintings;
-    int dissolved = 0, painted = 0;
+    int blended = 0, painted = 0;
     ExecutionContext execution;
 
     Keeper() {
         execution.caches.images = [this](const std::string& key, const auto& make) {
             if (!images.contains(key)) {
-                ++dissolved;
+                ++blended;
                 images[key] = make();
             }
             return images[key];
@@ -71,16 +71,16 @@ RC_GTEST_PROP(SurfaceMix, IsTheNearestInSixtyFourthsAndStaysIt, ()) {
     int sum = 0;
     std::size_t k = 0;
     for (const MixPart& part : mix) {
-        const double asked = part.weight * 0.064;
+        const double exact_share = part.weight * 0.064;
         if (k < found.size() && found[k].id == part.id) {
             RC_ASSERT(found[k].weight > 0);
             const double got = found[k].weight * 0.064;
-            RC_ASSERT(std::abs(got - asked) < 1.1);
+            RC_ASSERT(std::abs(got - exact_share) < 1.1);
             RC_ASSERT(std::abs(got - std::floor(got + 0.5)) < 0.065);
             sum += found[k].weight;
             ++k;
         } else {
-            RC_ASSERT(asked < 1.0);
+            RC_ASSERT(exact_share < 1.0);
         }
     }
     RC_ASSERT(k == found.size());
@@ -158,7 +158,7 @@ TEST(Painting, AllWeightsOfAPairReuseItsPaintings) {
             (void)painted_images(paint_spec_of(spec), keeper.execution);
         }
         EXPECT_EQ(keeper.painted, 2) << a << ' ' << b;
-        EXPECT_EQ(keeper.dissolved, 63);
+        EXPECT_EQ(keeper.blended, 63);
     }
 }
 
@@ -202,7 +202,7 @@ TEST(Painting, TheOrderOfSpeciesDoesNotMatter) {
     EXPECT_EQ(image_key(there), image_key(back));
 }
 
-TEST(Painting, EightSpeciesHaveOneRecipe) {
+TEST(Painting, EightSpeciesHaveOnePaintSpec) {
     Mix mix;
     for (const std::string& id : swept_ids())
         if (mix.size() < 8) mix.push_back({id, 125});
@@ -215,7 +215,7 @@ TEST(Painting, EightSpeciesHaveOneRecipe) {
 }
 
 TEST(Painting, ATraceOfASpeciesIsNotPainted) {
-    // Nor are overrides kept that only it could have.
+    // Overrides that only this species could have are dropped too.
     MushroomSpec spec = mixed({{"amanita_muscaria", 997}, {"boletus_edulis", 3}});
     spec.params.hymenium.pores_per_mm = 2.0;
     spec.params.ornaments.warts = 0.5;
@@ -306,14 +306,14 @@ TEST(Painting, OverridesApplyToEverySpecies) {
     }
 }
 
-TEST(Painting, AMixedMushroomHasTheImagesOfItsRecipe) {
+TEST(Painting, AMixedMushroomHasTheImagesOfItsPaintSpec) {
     const MushroomSpec spec = mixed({{"amanita_muscaria", 400}, {"russula_vinosa", 600}});
     Keeper keeper;
     const Mushroom mushroom = grow_mushroom(spec, atlas(), {}, keeper.execution);
-    EXPECT_EQ(keeper.dissolved, 1);
+    EXPECT_EQ(keeper.blended, 1);
     EXPECT_EQ(keeper.painted, 2);
     const auto images = painted_images(paint_spec_of(spec), keeper.execution);
-    EXPECT_EQ(keeper.dissolved, 1);
+    EXPECT_EQ(keeper.blended, 1);
     for (const Slice& file : images->files)
         EXPECT_TRUE(std::any_of(mushroom.glb.begin(), mushroom.glb.end(),
                                 [&](const Slice& s) { return s.owner == file.owner; }));
@@ -328,13 +328,13 @@ TEST(Painting, AMixIsBlendedFromCachedPaintings) {
     Keeper keeper;
     const auto half = painted_images(pair(32), keeper.execution);
     EXPECT_EQ(keeper.painted, 2);
-    EXPECT_EQ(keeper.dissolved, 1);
+    EXPECT_EQ(keeper.blended, 1);
     EXPECT_EQ(painted_images(pair(32), keeper.execution), half);
     EXPECT_EQ(keeper.painted, 2);
-    EXPECT_EQ(keeper.dissolved, 1);
+    EXPECT_EQ(keeper.blended, 1);
     const auto other = painted_images(pair(31), keeper.execution);
     EXPECT_EQ(keeper.painted, 2) << "another weight paints nothing";
-    EXPECT_EQ(keeper.dissolved, 2);
+    EXPECT_EQ(keeper.blended, 2);
     EXPECT_FALSE(*other->files[0].owner == *half->files[0].owner);
     // Cached or painted now, with one thread or many: the same bytes.
     ExecutionContext threads;
@@ -343,7 +343,7 @@ TEST(Painting, AMixIsBlendedFromCachedPaintings) {
     for (std::size_t i = 0; i < 3; ++i) EXPECT_TRUE(*anew->files[i].owner == *half->files[i].owner);
 }
 
-TEST(Painting, KeysDistinguishRecipes) {
+TEST(Painting, KeysDistinguishPaintSpecs) {
     std::set<std::string> keys;
     for (const int first : {1, 31, 32, 63}) keys.insert(image_key(pair(first)));
     PaintSpec seeded = pair(32);

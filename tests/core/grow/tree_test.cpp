@@ -90,7 +90,8 @@ TEST_P(EveryTree, HasFewerTrianglesAtEveryLevelAndOneCrown) {
     }
 }
 
-// Leaves that stand for many are large, and those that reach farthest may be left out: the crown reaches as far as it does near by.
+// Leaves that represent many are large, and the leaves that reach farthest may be dropped, but the
+// crown has the same extent as at LOD 0.
 TEST_P(EveryTree, ReachesEquallyFarAtNeighbouringLevels) {
     for (std::uint32_t seed = 1; seed <= effort(6, 1); ++seed) {
         Bounds before;

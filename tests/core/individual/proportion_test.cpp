@@ -82,8 +82,8 @@ TEST(Proportion, VelocitiesAreTransformedByTheJacobian) {
                         return proportioned(std::move(all), by, open).of(curve)[i].position;
                     };
                     const glm::dvec2 found = (nudged(h) - nudged(-h)) / (2.0 * h);
-                    const glm::dvec2 told = moved.of(curve)[i].velocity;
-                    EXPECT_LT(glm::distance(found, told), 1e-4 * glm::length(told) + 1e-9)
+                    const glm::dvec2 reported = moved.of(curve)[i].velocity;
+                    EXPECT_LT(glm::distance(found, reported), 1e-4 * glm::length(reported) + 1e-9)
                         << id << ' ' << name(curve) << ' ' << i;
                 }
             }

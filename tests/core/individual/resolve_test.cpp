@@ -303,9 +303,9 @@ TEST(Resolve, ACustomModelIsNotVaried) {
 /// Calls `use` with each optional of the request, its path, and the value of the same place in
 /// `effective`.
 template <class T, class Use>
-void each_wish(const T& asked, const T& effective, const std::string& path, const Use& use) {
+void each_wish(const T& requested, const T& effective, const std::string& path, const Use& use) {
     T::fields([&](auto member, const Info& info) {
-        const auto &a = asked.*member, &e = effective.*member;
+        const auto &a = requested.*member, &e = effective.*member;
         using Member = std::remove_cvref_t<decltype(a)>;
         if constexpr (is_optional<Member>)
             use(a, e, path + '/' + info.name);
@@ -323,11 +323,12 @@ TEST(Resolve, GrantedOverridesAreExact) {
             const Individual individual = resolved(spec);
             ++granted;
             each_wish(spec.params, individual.effective, "",
-                      [](const auto& asked, const auto& effective, const std::string& path) {
+                      [](const auto& requested, const auto& effective, const std::string& path) {
                           // A zero override of something that the species lacks is the same as
                           // none.
-                          if (asked && effective && *asked != *effective) RC_FAIL(path);
-                          if (asked && !effective && *asked != 0) RC_FAIL(path + " is lost");
+                          if (requested && effective && *requested != *effective) RC_FAIL(path);
+                          if (requested && !effective && *requested != 0)
+                              RC_FAIL(path + " is lost");
                       });
             RC_ASSERT(individual.effective.age == spec.params.age);
             RC_ASSERT(individual.effective.seed == spec.params.seed);

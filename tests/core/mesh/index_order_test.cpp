@@ -31,13 +31,13 @@ Triangles triangles_of(const Mesh& mesh) {
 
 /// Returns the vertex transforms per triangle of a processor with a cache of sixteen.
 double misses(const Mesh& mesh) {
-    std::deque<std::uint32_t> kept;
+    std::deque<std::uint32_t> cache;
     std::size_t missed = 0;
     for (const std::uint32_t index : mesh.indices) {
-        if (std::find(kept.begin(), kept.end(), index) != kept.end()) continue;
+        if (std::find(cache.begin(), cache.end(), index) != cache.end()) continue;
         ++missed;
-        kept.push_back(index);
-        if (kept.size() > 16) kept.pop_front();
+        cache.push_back(index);
+        if (cache.size() > 16) cache.pop_front();
     }
     return static_cast<double>(missed) / static_cast<double>(mesh.triangles());
 }

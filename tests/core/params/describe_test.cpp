@@ -98,7 +98,7 @@ struct RangeBackwards {
     }
 };
 
-TEST(Describe, ProofFindsEveryFault) {
+TEST(Describe, ProofFindsEveryError) {
     static_assert(!well_described<Forgets>());
     static_assert(!well_described<Doubles>());
     static_assert(!well_described<DoublesBesideForms>());
@@ -119,7 +119,7 @@ TEST(Describe, ProofFindsEveryFault) {
 
 TEST(Describe, DefaultsHaveNoProblems) { EXPECT_TRUE(problems_in(Request{}).empty()); }
 
-TEST(Describe, CheckFindsEveryKindOfFaultWithItsPath) {
+TEST(Describe, CheckFindsEveryKindOfErrorWithItsPath) {
     Request request;
     request.age = 1.7;
     request.cap.gill_count = -1;
@@ -183,9 +183,9 @@ TEST(Describe, RequireValidThrowsAllProblems) {
     try {
         require_valid(request);
         FAIL() << "must throw";
-    } catch (const InvalidInput& fault) {
-        EXPECT_EQ(fault.problems().size(), 2u);
-        EXPECT_STREQ(fault.what(), "/age: 2 is outside 0..1; /cap/tilt_deg: -1 is outside 0..60");
+    } catch (const InvalidInput& error) {
+        EXPECT_EQ(error.problems().size(), 2u);
+        EXPECT_STREQ(error.what(), "/age: 2 is outside 0..1; /cap/tilt_deg: -1 is outside 0..60");
     }
 }
 

@@ -16,15 +16,15 @@ namespace {
 using sample::Request;
 using Pairs = std::vector<std::pair<std::string, std::string>>;
 
-std::vector<Problem> faults(const Pairs& pairs) {
+std::vector<Problem> problems_of(const Pairs& pairs) {
     Request request;
     std::vector<Problem> problems;
     read_query(pairs, request, problems);
     return problems;
 }
 
-void expect_fault(const Pairs& pairs, const std::string& path, const std::string& message) {
-    const std::vector<Problem> problems = faults(pairs);
+void expect_problem(const Pairs& pairs, const std::string& path, const std::string& message) {
+    const std::vector<Problem> problems = problems_of(pairs);
     ASSERT_EQ(problems.size(), 1u) << pairs[0].first << '=' << pairs[0].second;
     EXPECT_EQ(problems[0].path, path);
     EXPECT_EQ(problems[0].message, message);
@@ -94,44 +94,44 @@ TEST(Query, ReadsDottedNamesOfEveryLeaf) {
     EXPECT_EQ(std::get<sample::Branched>(request.roots).forks, 9u) << "in any order";
 }
 
-TEST(Query, ReportsEachFaultWithItsName) {
-    expect_fault({{"age", "1.7"}}, "age", "1.7 is outside 0..1");
-    expect_fault({{"sed", "1"}}, "sed", "unknown parameter; did you mean 'seed'?");
-    expect_fault({{"cap.radus", "1"}}, "cap.radus",
-                 "unknown parameter; did you mean 'cap.radius'?");
-    expect_fault({{"cap", "1"}}, "cap", "unknown parameter");
-    expect_fault({{"age", "0.5"}, {"age", "0.5"}}, "age", "given more than once");
-    expect_fault({{"zzz", "1"}, {"zzz", "2"}}, "zzz", "unknown parameter");
+TEST(Query, ReportsEachErrorWithItsName) {
+    expect_problem({{"age", "1.7"}}, "age", "1.7 is outside 0..1");
+    expect_problem({{"sed", "1"}}, "sed", "unknown parameter; did you mean 'seed'?");
+    expect_problem({{"cap.radus", "1"}}, "cap.radus",
+                   "unknown parameter; did you mean 'cap.radius'?");
+    expect_problem({{"cap", "1"}}, "cap", "unknown parameter");
+    expect_problem({{"age", "0.5"}, {"age", "0.5"}}, "age", "given more than once");
+    expect_problem({{"zzz", "1"}, {"zzz", "2"}}, "zzz", "unknown parameter");
     for (const char* bad : {"+1", ".5", "1.", "0x1", "inf", "nan", " 1", "1 ", "", "1e999", "one"})
-        expect_fault({{"age", bad}}, "age", "expected a number, got '" + std::string(bad) + "'");
-    expect_fault({{"seed", "x"}}, "seed", "expected a whole number, got 'x'");
-    expect_fault({{"seed", "2.5"}}, "seed", "expected a whole number, got 2.5");
-    expect_fault({{"seed", "4294967296"}}, "seed", "4294967296 is outside 0..4294967295");
+        expect_problem({{"age", bad}}, "age", "expected a number, got '" + std::string(bad) + "'");
+    expect_problem({{"seed", "x"}}, "seed", "expected a whole number, got 'x'");
+    expect_problem({{"seed", "2.5"}}, "seed", "expected a whole number, got 2.5");
+    expect_problem({{"seed", "4294967296"}}, "seed", "4294967296 is outside 0..4294967295");
     for (const char* bad : {"1", "True", "yes", ""})
-        expect_fault({{"has_ring", bad}}, "has_ring",
-                     "expected true or false, got '" + std::string(bad) + "'");
-    expect_fault({{"animation", "fast"}}, "animation", "'fast' is not one of none, growth");
-    expect_fault({{"texture_size", "300"}}, "texture_size",
-                 "300 is not one of 128, 256, 512, 1024");
-    expect_fault({{"model.form", "bare"}}, "model.form", "'bare' is not one of swept, branched");
-    expect_fault({{"model.forks", "5"}}, "model.forks",
-                 "unknown parameter; did you mean 'model.form'?");
-    expect_fault({{"deformation.taper", "2"}}, "deformation.taper", "2 is outside -1..1");
-    expect_fault({{"stem_radius", "0.1"}}, "stem_radius", "must be smaller than /cap/radius");
-    expect_fault({{"a\nb\xff", "1"}}, "a?b?", "unknown parameter");
+        expect_problem({{"has_ring", bad}}, "has_ring",
+                       "expected true or false, got '" + std::string(bad) + "'");
+    expect_problem({{"animation", "fast"}}, "animation", "'fast' is not one of none, growth");
+    expect_problem({{"texture_size", "300"}}, "texture_size",
+                   "300 is not one of 128, 256, 512, 1024");
+    expect_problem({{"model.form", "bare"}}, "model.form", "'bare' is not one of swept, branched");
+    expect_problem({{"model.forks", "5"}}, "model.forks",
+                   "unknown parameter; did you mean 'model.form'?");
+    expect_problem({{"deformation.taper", "2"}}, "deformation.taper", "2 is outside -1..1");
+    expect_problem({{"stem_radius", "0.1"}}, "stem_radius", "must be smaller than /cap/radius");
+    expect_problem({{"a\nb\xff", "1"}}, "a?b?", "unknown parameter");
 }
 
 TEST(Query, ListsRangesAndUploadsHaveNoNames) {
     for (const char* name :
          {"profile", "profile.0", "tags", "wind", "span", "season", "image", "model.outline"})
-        EXPECT_EQ(faults({{name, "1"}}).size(), 1u) << name;
+        EXPECT_EQ(problems_of({{name, "1"}}).size(), 1u) << name;
 }
 
-TEST(Query, ReportsAllFaultsAtOnceUpToALimit) {
-    EXPECT_EQ(faults({{"age", "2"}, {"sed", "1"}, {"has_ring", "x"}}).size(), 3u);
+TEST(Query, ReportsAllErrorsAtOnceUpToALimit) {
+    EXPECT_EQ(problems_of({{"age", "2"}, {"sed", "1"}, {"has_ring", "x"}}).size(), 3u);
     Pairs many;
     for (int i = 0; i < 1000; ++i) many.emplace_back("x" + std::to_string(i), "1");
-    EXPECT_EQ(faults(many).size(), most_problems);
+    EXPECT_EQ(problems_of(many).size(), most_problems);
 }
 
 TEST(Query, TextContainsOnlyDifferences) {

@@ -22,15 +22,15 @@ Request accepted(std::string_view text) {
     return request;
 }
 
-std::vector<Problem> faults(std::string_view text) {
+std::vector<Problem> problems_of(std::string_view text) {
     std::vector<Problem> problems;
     read_json<Request>(text, problems);
     return problems;
 }
 
 /// Expects that `text` has exactly this problem.
-void expect_fault(std::string_view text, const std::string& path, const std::string& message) {
-    const std::vector<Problem> problems = faults(text);
+void expect_problem(std::string_view text, const std::string& path, const std::string& message) {
+    const std::vector<Problem> problems = problems_of(text);
     ASSERT_EQ(problems.size(), 1u) << text;
     EXPECT_EQ(problems[0].path, path) << text;
     EXPECT_EQ(problems[0].message, message) << text;
@@ -83,65 +83,65 @@ TEST(Reader, ReadsOverExistingValues) {
     EXPECT_EQ(request.model.gloss, 0.75);
 }
 
-TEST(Reader, ReportsEachFaultWithItsPointer) {
-    expect_fault("[]", "", "expected an object, got a list");
-    expect_fault(R"({"age":1.7})", "/age", "1.7 is outside 0..1");
-    expect_fault(R"({"age":"old"})", "/age", "expected a number, got 'old'");
-    expect_fault(R"({"age":null})", "/age", "expected a number, got null");
-    expect_fault(R"({"age":true})", "/age", "expected a number, got true");
-    expect_fault(R"({"sed":1})", "/sed", "unknown parameter; did you mean 'seed'?");
-    expect_fault(R"({"ab/cd":1})", "/ab~1cd", "unknown parameter");
-    expect_fault(R"({"seed":2.5})", "/seed", "expected a whole number, got 2.5");
-    expect_fault(R"({"seed":-1})", "/seed", "-1 is outside 0..4294967295");
-    expect_fault(R"({"seed":1e300})", "/seed", "1e300 is outside 0..4294967295");
-    expect_fault(R"({"rough":1e300})", "/rough", "1e300 is outside 0.1..0.3");
-    expect_fault(R"({"rough":0.31})", "/rough", "0.31 is outside 0.1..0.3");
-    expect_fault(R"({"has_ring":1})", "/has_ring", "expected true or false, got 1");
-    expect_fault(R"({"animation":"fast"})", "/animation", "'fast' is not one of none, growth");
-    expect_fault(R"({"animation":1})", "/animation", "1 is not one of none, growth");
-    expect_fault(R"({"texture_size":300})", "/texture_size",
-                 "300 is not one of 128, 256, 512, 1024");
-    expect_fault(R"({"cap":7})", "/cap", "expected an object, got 7");
-    expect_fault(R"({"cap":{"gill":1}})", "/cap/gill", "unknown parameter");
-    expect_fault(R"({"cap":{"colour":"red"}})", "/cap/colour",
-                 "expected a colour like #D22B1F, got 'red'");
-    expect_fault(R"({"r":2})", "/r", "2 is outside 0..1");
-    expect_fault(R"({"tint":null})", "/tint",
-                 "null is not a value; leave the parameter out for the species' own");
-    expect_fault(R"({"deformation":{"low":{"bend_deg":100}}})", "/deformation/low/bend_deg",
-                 "100 is outside 0..90");
-    expect_fault(R"({"season":[10,9]})", "/season",
-                 "a range begins with its smaller end, got [10, 9]");
-    expect_fault(R"({"season":[0,9]})", "/season/0", "0 is outside 1..12");
-    expect_fault(R"({"span":[0.1]})", "/span", "expected a range [from, to], got a list");
-    expect_fault(R"({"wind":[0,1]})", "/wind", "expected a list of 3 numbers, got a list");
-    expect_fault(R"({"wind":[0,1,"x"]})", "/wind/2", "expected a number, got 'x'");
-    expect_fault(R"({"profile":[1,9]})", "/profile/1", "9 is outside 0.1..4");
-    expect_fault(R"({"profile":[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]})", "/profile",
-                 "a list of 17 items; at most 16 are allowed");
-    expect_fault(R"({"v":"0123456789abc"})", "/v", "'0123456789abc' is longer than 12 bytes");
-    expect_fault(R"({"v":"a\u0000"})", "/v", "'a?' holds control characters or is not UTF-8");
-    expect_fault(R"({"v":1})", "/v", "expected text, got 1");
-    expect_fault(R"({"image":"Zg="})", "/image",
-                 "this is not base64 (RFC 4648, padded, no white space)");
-    expect_fault(R"({"image":")" + base64_text(std::vector<std::uint8_t>(1001)) + "\"}", "/image",
-                 "1001 bytes; at most 1000 are allowed");
-    expect_fault(R"({"image":")" + std::string(4000, 'A') + "\"}", "/image",
-                 "more than 1000 bytes; at most 1000 are allowed");
-    expect_fault(R"({"model":{"form":"bare","anything":1}})", "/model/form",
-                 "'bare' is not one of swept, branched");
-    expect_fault(R"({"model":{"form":"branched","outline":[]}})", "/model/outline",
-                 "unknown parameter");
-    expect_fault(R"({"model":{"outline":[{},{"r":-1}]}})", "/model/outline/1/r",
-                 "-1 is outside 0..1");
-    expect_fault(R"({"ground":{"form":3}})", "/ground/form", "3 is not one of bare");
-    expect_fault(R"({"stem_radius":0.1})", "/stem_radius", "must be smaller than /cap/radius");
-    expect_fault(R"({"age":0.5,"age":0.5})", "/age", "given more than once");
+TEST(Reader, ReportsEachErrorWithItsPointer) {
+    expect_problem("[]", "", "expected an object, got a list");
+    expect_problem(R"({"age":1.7})", "/age", "1.7 is outside 0..1");
+    expect_problem(R"({"age":"old"})", "/age", "expected a number, got 'old'");
+    expect_problem(R"({"age":null})", "/age", "expected a number, got null");
+    expect_problem(R"({"age":true})", "/age", "expected a number, got true");
+    expect_problem(R"({"sed":1})", "/sed", "unknown parameter; did you mean 'seed'?");
+    expect_problem(R"({"ab/cd":1})", "/ab~1cd", "unknown parameter");
+    expect_problem(R"({"seed":2.5})", "/seed", "expected a whole number, got 2.5");
+    expect_problem(R"({"seed":-1})", "/seed", "-1 is outside 0..4294967295");
+    expect_problem(R"({"seed":1e300})", "/seed", "1e300 is outside 0..4294967295");
+    expect_problem(R"({"rough":1e300})", "/rough", "1e300 is outside 0.1..0.3");
+    expect_problem(R"({"rough":0.31})", "/rough", "0.31 is outside 0.1..0.3");
+    expect_problem(R"({"has_ring":1})", "/has_ring", "expected true or false, got 1");
+    expect_problem(R"({"animation":"fast"})", "/animation", "'fast' is not one of none, growth");
+    expect_problem(R"({"animation":1})", "/animation", "1 is not one of none, growth");
+    expect_problem(R"({"texture_size":300})", "/texture_size",
+                   "300 is not one of 128, 256, 512, 1024");
+    expect_problem(R"({"cap":7})", "/cap", "expected an object, got 7");
+    expect_problem(R"({"cap":{"gill":1}})", "/cap/gill", "unknown parameter");
+    expect_problem(R"({"cap":{"colour":"red"}})", "/cap/colour",
+                   "expected a colour like #D22B1F, got 'red'");
+    expect_problem(R"({"r":2})", "/r", "2 is outside 0..1");
+    expect_problem(R"({"tint":null})", "/tint",
+                   "null is not a value; leave the parameter out for the species' own");
+    expect_problem(R"({"deformation":{"low":{"bend_deg":100}}})", "/deformation/low/bend_deg",
+                   "100 is outside 0..90");
+    expect_problem(R"({"season":[10,9]})", "/season",
+                   "a range begins with its smaller end, got [10, 9]");
+    expect_problem(R"({"season":[0,9]})", "/season/0", "0 is outside 1..12");
+    expect_problem(R"({"span":[0.1]})", "/span", "expected a range [from, to], got a list");
+    expect_problem(R"({"wind":[0,1]})", "/wind", "expected a list of 3 numbers, got a list");
+    expect_problem(R"({"wind":[0,1,"x"]})", "/wind/2", "expected a number, got 'x'");
+    expect_problem(R"({"profile":[1,9]})", "/profile/1", "9 is outside 0.1..4");
+    expect_problem(R"({"profile":[1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1,1]})", "/profile",
+                   "a list of 17 items; at most 16 are allowed");
+    expect_problem(R"({"v":"0123456789abc"})", "/v", "'0123456789abc' is longer than 12 bytes");
+    expect_problem(R"({"v":"a\u0000"})", "/v", "'a?' holds control characters or is not UTF-8");
+    expect_problem(R"({"v":1})", "/v", "expected text, got 1");
+    expect_problem(R"({"image":"Zg="})", "/image",
+                   "this is not base64 (RFC 4648, padded, no white space)");
+    expect_problem(R"({"image":")" + base64_text(std::vector<std::uint8_t>(1001)) + "\"}", "/image",
+                   "1001 bytes; at most 1000 are allowed");
+    expect_problem(R"({"image":")" + std::string(4000, 'A') + "\"}", "/image",
+                   "more than 1000 bytes; at most 1000 are allowed");
+    expect_problem(R"({"model":{"form":"bare","anything":1}})", "/model/form",
+                   "'bare' is not one of swept, branched");
+    expect_problem(R"({"model":{"form":"branched","outline":[]}})", "/model/outline",
+                   "unknown parameter");
+    expect_problem(R"({"model":{"outline":[{},{"r":-1}]}})", "/model/outline/1/r",
+                   "-1 is outside 0..1");
+    expect_problem(R"({"ground":{"form":3}})", "/ground/form", "3 is not one of bare");
+    expect_problem(R"({"stem_radius":0.1})", "/stem_radius", "must be smaller than /cap/radius");
+    expect_problem(R"({"age":0.5,"age":0.5})", "/age", "given more than once");
 }
 
-TEST(Reader, ReportsAllFaultsAtOnce) {
+TEST(Reader, ReportsAllErrorsAtOnce) {
     const std::vector<Problem> problems =
-        faults(R"({"zz":1,"age":7,"cap":{"radius":"x","colour":1},"wind":{},"yy":2})");
+        problems_of(R"({"zz":1,"age":7,"cap":{"radius":"x","colour":1},"wind":{},"yy":2})");
     ASSERT_EQ(problems.size(), 6u);
     EXPECT_EQ(problems[0].path, "/age");
     EXPECT_EQ(problems[5].path, "/yy");
@@ -150,9 +150,9 @@ TEST(Reader, ReportsAllFaultsAtOnce) {
 TEST(Reader, HostileTextIsRefusedWithBoundedProblems) {
     std::string many = "{\"a\":0";
     for (int i = 0; i < 50'000; ++i) many += ",\"sed" + std::to_string(i) + "\":0";
-    EXPECT_EQ(faults(many + "}").size(), most_problems);
-    EXPECT_EQ(faults(std::string(100'000, '[')).size(), 1u);
-    const std::vector<Problem> long_key = faults("{\"" + std::string(100'000, 'k') + "\":1}");
+    EXPECT_EQ(problems_of(many + "}").size(), most_problems);
+    EXPECT_EQ(problems_of(std::string(100'000, '[')).size(), 1u);
+    const std::vector<Problem> long_key = problems_of("{\"" + std::string(100'000, 'k') + "\":1}");
     ASSERT_EQ(long_key.size(), 1u);
     EXPECT_LT(long_key[0].path.size() + long_key[0].message.size(), 300u);
 }

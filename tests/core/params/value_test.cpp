@@ -9,7 +9,7 @@
 namespace sporeprint {
 namespace {
 
-std::vector<Problem> faults(std::string_view text) {
+std::vector<Problem> problems_of(std::string_view text) {
     std::vector<Problem> problems;
     parse(text, problems);
     return problems;
@@ -44,25 +44,25 @@ TEST(Value, NumbersAreShortestAndWhole) {
 TEST(Value, RepeatedKeysAreRefusedWithTheirPointer) {
     const std::vector<Problem> expected = {{"/a/1/x~1y", "given more than once"},
                                            {"/b", "given more than once"}};
-    EXPECT_EQ(faults(R"({"a":[0,{"x/y":1,"x/y":1,"x/y":2}],"b":1,"b":2})"), expected);
-    EXPECT_EQ(faults(R"({"a":1,"\u0061":2})").size(), 1u) << "escapes hide nothing";
+    EXPECT_EQ(problems_of(R"({"a":[0,{"x/y":1,"x/y":1,"x/y":2}],"b":1,"b":2})"), expected);
+    EXPECT_EQ(problems_of(R"({"a":1,"\u0061":2})").size(), 1u) << "escapes hide nothing";
 }
 
 TEST(Value, AZeroByteDoesNotEndTheText) {
-    const auto problems = faults(std::string_view("{}\0{", 4));
+    const auto problems = problems_of(std::string_view("{}\0{", 4));
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_EQ(problems[0].message, "not JSON: a zero byte at position 2");
 }
 
 TEST(Value, DepthIsBounded) {
-    EXPECT_TRUE(faults(nested(deepest_json)).empty());
-    const std::vector<Problem> deep = faults(nested(deepest_json + 1));
+    EXPECT_TRUE(problems_of(nested(deepest_json)).empty());
+    const std::vector<Problem> deep = problems_of(nested(deepest_json + 1));
     ASSERT_EQ(deep.size(), 1u);
     EXPECT_EQ(deep[0].message, "nested deeper than 32 levels");
-    EXPECT_EQ(faults(std::string(100'000, '[')).size(), 1u);
+    EXPECT_EQ(problems_of(std::string(100'000, '[')).size(), 1u);
     std::string objects;
     for (int i = 0; i < 100'000; ++i) objects += "{\"a\":";
-    const std::vector<Problem> deep_objects = faults(objects);
+    const std::vector<Problem> deep_objects = problems_of(objects);
     ASSERT_EQ(deep_objects.size(), 1u);
     EXPECT_EQ(deep_objects[0].path.substr(0, 8), "/a/a/a/a");
 }
@@ -70,21 +70,21 @@ TEST(Value, DepthIsBounded) {
 TEST(Value, AmountIsBounded) {
     std::string text = "[0";
     for (std::size_t i = 0; i < most_json_values; ++i) text += ",0";
-    ASSERT_EQ(faults(text + "]").size(), 1u);
-    EXPECT_EQ(faults(text + "]")[0].message, "more than 200000 values");
+    ASSERT_EQ(problems_of(text + "]").size(), 1u);
+    EXPECT_EQ(problems_of(text + "]")[0].message, "more than 200000 values");
 }
 
 TEST(Value, NumbersThatAreNotFiniteAreRefusedWithTheirPointer) {
     const std::vector<Problem> expected = {{"/a/1", "'1e999' is too large for a number"}};
-    EXPECT_EQ(faults(R"({"a":[0,1e999]})"), expected);
-    EXPECT_EQ(faults("-1e999").size(), 1u);
+    EXPECT_EQ(problems_of(R"({"a":[0,1e999]})"), expected);
+    EXPECT_EQ(problems_of("-1e999").size(), 1u);
     EXPECT_EQ(parsed("1e-999").as_number(), 0.0);
-    EXPECT_EQ(faults("NaN").size(), 1u);
-    EXPECT_EQ(faults("Infinity").size(), 1u);
+    EXPECT_EQ(problems_of("NaN").size(), 1u);
+    EXPECT_EQ(problems_of("Infinity").size(), 1u);
 }
 
 TEST(Value, MalformedTextIsReportedWithItsPlace) {
-    const std::vector<Problem> problems = faults("{\"a\":1,\n  b}");
+    const std::vector<Problem> problems = problems_of("{\"a\":1,\n  b}");
     ASSERT_EQ(problems.size(), 1u);
     EXPECT_EQ(problems[0].path, "");
     EXPECT_EQ(problems[0].message, "malformed JSON at line 2, column 3: invalid literal");
@@ -111,8 +111,8 @@ TEST(Value, MalformedTextIsReportedWithItsPlace) {
                             "\xff",
                             "[\"\xc3\"]",
                             "{\"\xc3(\":1}"})
-        EXPECT_EQ(faults(bad).size(), 1u) << bad;
-    for (const Problem& problem : faults("[\"\xff\xfe\"]"))
+        EXPECT_EQ(problems_of(bad).size(), 1u) << bad;
+    for (const Problem& problem : problems_of("[\"\xff\xfe\"]"))
         EXPECT_EQ(dump(Value(problem.message)).find("ufffd"), std::string::npos)
             << "a message is always UTF-8";
 }

@@ -22,9 +22,9 @@ double difference(const RawImages& images, std::size_t x, std::size_t other) {
     return sum / (3.0 * side);
 }
 
-TEST(BarkImage, GoesRoundWithoutASeam) {
+TEST(BarkImage, WrapsWithoutASeam) {
     BarkStyle style;
-    style.ridges = 4;  // so that neighbouring texels are alike
+    style.ridges = 4;  // so that neighbouring texels are similar
     const RawImages images = bark_images(style, 3, side);
     double inside = 0.0;
     for (std::size_t x = 1; x < side; ++x) inside = std::max(inside, difference(images, x - 1, x));

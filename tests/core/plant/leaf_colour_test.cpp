@@ -16,7 +16,7 @@ glm::dvec3 linear(const Colour& colour) {
             srgb_to_linear(colour.b / 255.0)};
 }
 
-// Between veins: where a leaf shows its gradation alone.
+// A place between veins, which shows the gradation alone.
 LaminaPlace between(double affinity, double homothety) {
     LaminaPlace place;
     place.inside = true;
@@ -26,7 +26,7 @@ LaminaPlace between(double affinity, double homothety) {
     return place;
 }
 
-TEST(LeafColour, GradationsRunFromNothingToAllAndNeverBack) {
+TEST(LeafColour, GradationsRiseFromZeroToOneMonotonically) {
     for (int i = 0; name(static_cast<GradationLaw>(i)); ++i) {
         const auto law = static_cast<GradationLaw>(i);
         EXPECT_EQ(gradation(law, 0.0), 0.0);
@@ -62,7 +62,7 @@ TEST(LeafColour, AutumnBeginsAtTheBorder) {
     const glm::dvec3 outer = leaf_colour(palette, between(1.0, 1.0), 0.0, true);
     EXPECT_LT(glm::distance(inner, leaf_colour(palette, between(0.0, 0.0), 0.15, true)), 1e-12);
     EXPECT_GT(glm::distance(outer, leaf_colour(palette, between(1.0, 1.0), 0.15, true)), 0.01);
-    // In full colour and on the ground all of it has turned.
+    // In full autumn colour and on the ground the whole leaf has turned.
     for (const double share : {0.0, 0.5, 1.0}) {
         LeafPalette turned;
         turned.summer = turned.turning = turned.fallen = palette.turning;
@@ -76,7 +76,7 @@ TEST(LeafColour, AutumnBeginsAtTheBorder) {
     }
 }
 
-TEST(LeafColour, ColoursAreColours) {
+TEST(LeafColour, ColoursStayInRange) {
     for (const LeafPreset& preset : leaf_presets())
         for (double autumn = 0.0; autumn <= 1.0; autumn += 0.05)
             for (double at = 0.0; at <= 1.0; at += 0.1)
@@ -104,7 +104,7 @@ TEST(LeafColour, LeavesTurnEarlierAndLaterThanTheirTree) {
         low = std::min(low, own);
         high = std::max(high, own);
     }
-    // Evenly in 0.5 +- 0.3: the mean of 4,000 lies within five deviations of 0.0027.
+    // Uniform in 0.5 +- 0.3: the mean of 4,000 lies within five standard deviations of 0.0027.
     EXPECT_NEAR(sum / 4000.0, 0.5, 0.014);
     EXPECT_NEAR(low, 0.2, 0.01);
     EXPECT_NEAR(high, 0.8, 0.01);

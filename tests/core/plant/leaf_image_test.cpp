@@ -21,7 +21,7 @@ glm::dvec3 texel(const RawImages& images, std::size_t image, const glm::dvec2& a
     return glm::dvec3(rgb[0], rgb[1], rgb[2]) / 255.0;
 }
 
-TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
+TEST(LeafImage, ShowsThePaletteOnTheLamina) {
     for (const LeafPreset& preset : leaf_presets()) {
         SCOPED_TRACE(preset.id);
         const RawImages images = leaf_images(preset.shape, preset.palette, 0.0, 1, side);
@@ -30,11 +30,11 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
         const LeafChart chart = chart_of(lamina);
         const LaminaSampler reader(lamina);
         for (const bool upper : {true, false}) {
-            // The middle of a texel.
+            // The centre of a texel.
             glm::dvec2 at = chart.texture_point({0.0, 0.45}, upper);
             at = (glm::floor(at * double{side}) + 0.5) / double{side};
             const glm::dvec3 seen = texel(images, 0, at);
-            // It is the mean of sixteen points.
+            // The texel is the mean of sixteen points.
             glm::dvec3 wanted(0.0);
             for (int i = 0; i < 16; ++i) {
                 const glm::dvec2 offset(i % 4 - 1.5, i / 4 - 1.5);
@@ -43,14 +43,15 @@ TEST(LeafImage, ShowsThePaletteWhereTheLimbIs) {
                 EXPECT_EQ(face, upper);
                 wanted += leaf_colour(preset.palette, place, 0.0, upper) / 16.0;
             }
-            // Blotches and the net change brightness by a quarter at most, an eighth of the encoded one.
+            // Blotches and the net change brightness by a quarter at most, which is an eighth of
+            // the encoded value.
             for (int k = 0; k < 3; ++k)
                 EXPECT_NEAR(seen[k], linear_to_srgb(wanted[k]), 0.13) << upper;
         }
     }
 }
 
-TEST(LeafImage, IsFlatWhereNoLeafIsAndPaintedBesideIt) {
+TEST(LeafImage, IsConstantOutsideTheLeafAndPaintedOnItsMargin) {
     const LeafPreset& maple = *leaf_preset("maple");
     const RawImages images = leaf_images(maple.shape, maple.palette, 0.5, 1, side);
     const Lamina lamina = lamina_of(maple.shape.venation, leaf_steps(maple.shape.venation, 0));
@@ -60,12 +61,12 @@ TEST(LeafImage, IsFlatWhereNoLeafIsAndPaintedBesideIt) {
     beyond.from_main = 1e9;
     for (const bool upper : {true, false}) {
         const glm::dvec3 wanted = leaf_colour(maple.palette, beyond, 0.5, upper);
-        // Above the leaf.
+        // This is above the leaf.
         const glm::dvec2 away(upper ? 0.2 : 0.7, 0.05);
         for (int k = 0; k < 3; ++k)
             EXPECT_NEAR(texel(images, 0, away)[k], linear_to_srgb(wanted[k]), 0.004);
         EXPECT_EQ(texel(images, 1, away), glm::dvec3(128.0, 128.0, 255.0) / 255.0);
-        // What lies beside the border is as bright and dark as the leaf.
+        // Texels beside the border are as bright as the leaf.
         std::size_t flat = 0, beside = 0;
         for (const glm::dvec2& place : border_of(lamina)) {
             const glm::dvec2 at = chart.texture_point(1.01 * place, upper);
@@ -86,7 +87,7 @@ TEST(LeafImage, NormalsAreUnitVectorsThatLeanFromVeins) {
         ASSERT_NEAR(glm::length(normal), 1.0, 0.02);
         ASSERT_GT(normal.z, 0.2);
     }
-    // Right of the middle vein of the upper face, which lies deeper, the face leans to the left.
+    // Right of the middle vein of the upper face, which is a groove, the normal leans to the left.
     const LeafChart chart =
         chart_of(lamina_of(birch.shape.venation, leaf_steps(birch.shape.venation, 0)));
     EXPECT_LT(texel(images, 1, chart.texture_point({0.01, 0.35}, true)).x, 0.48);
@@ -94,19 +95,19 @@ TEST(LeafImage, NormalsAreUnitVectorsThatLeanFromVeins) {
     EXPECT_GT(texel(images, 1, chart.texture_point({0.01, 0.35}, false)).x, 0.52);
 }
 
-TEST(LeafImage, IsTheSameWhoeverPaintsItAndAnotherForAnotherSeed) {
+TEST(LeafImage, IsTheSameWithAnyThreadsAndDiffersBetweenSeeds) {
     const LeafPreset& maple = *leaf_preset("maple");
     const RawImages one = leaf_images(maple.shape, maple.palette, 0.4, 1, 64);
-    const Parallel hands = [](std::span<const std::function<void()>> pieces) {
+    const Parallel in_threads = [](std::span<const std::function<void()>> pieces) {
         std::vector<std::thread> threads;
         for (const auto& piece : pieces) threads.emplace_back(piece);
         for (std::thread& thread : threads) thread.join();
     };
-    EXPECT_EQ(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 1, 64, hands).rgb);
+    EXPECT_EQ(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 1, 64, in_threads).rgb);
     EXPECT_NE(one.rgb, leaf_images(maple.shape, maple.palette, 0.4, 2, 64).rgb);
 }
 
-TEST(LeafImage, OrdersThatCannotBeAreRefused) {
+TEST(LeafImage, InvalidRequestsAreRefused) {
     const LeafPreset& maple = *leaf_preset("maple");
     EXPECT_TRUE(names(refusal([&] { (void)leaf_images(maple.shape, maple.palette, 1.5, 1, 100); }),
                       "/side", "100"));

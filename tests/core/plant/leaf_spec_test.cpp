@@ -14,7 +14,7 @@
 namespace sporeprint {
 namespace {
 
-TEST(LeafSpec, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
+TEST(LeafSpec, APresetHasItsOwnParametersByDefault) {
     for (const LeafPreset& preset : leaf_presets()) {
         const LeafParams params = params_of(preset);
         EXPECT_EQ(params.shape, preset.shape) << preset.id;
@@ -38,7 +38,7 @@ TEST(LeafSpec, IsReadBackFromItsQuery) {
             const std::size_t end = std::min(text.find('&', at), text.size());
             const std::string pair = text.substr(at, end - at);
             std::string value = pair.substr(pair.find('=') + 1);
-            if (value.starts_with("%23")) value = '#' + value.substr(3);  // of a colour
+            if (value.starts_with("%23")) value = '#' + value.substr(3);  // a colour
             pairs.emplace_back(pair.substr(0, pair.find('=')), value);
             at = end + 1;
         }
@@ -50,7 +50,7 @@ TEST(LeafSpec, IsReadBackFromItsQuery) {
     }
 }
 
-TEST(LeafSpec, IndividualsOfAnyShapeAreShapes) {
+TEST(LeafSpec, IndividualsOfAnyShapeAreValid) {
     Random random(9, 1);
     for (std::size_t i = 0; i < effort(5000, 300); ++i) {
         const auto shape = drawn<LeafShape>(random);
@@ -69,7 +69,7 @@ TEST(LeafSpec, WithoutVariationEveryIndividualIsTheShapeItself) {
     EXPECT_NE(individual_leaf(shape, 7, 0.5), individual_leaf(shape, 8, 0.5));
 }
 
-TEST(LeafSpec, IndividualsDepartAsFarToEitherSideAsTheyVary) {
+TEST(LeafSpec, IndividualsVarySymmetricallyWithVariation) {
     const LeafShape shape = leaf_preset("birch")->shape;
     double mean = 0.0, squares = 0.0;
     constexpr int count = 2000;
@@ -82,7 +82,7 @@ TEST(LeafSpec, IndividualsDepartAsFarToEitherSideAsTheyVary) {
     EXPECT_NEAR(std::sqrt(squares), 12.0, 1.0);
 }
 
-TEST(LeafSpec, ImagesDependOnNothingThatOnlyShapes) {
+TEST(LeafSpec, ImagesDoNotDependOnParametersOfTheShape) {
     const LeafParams params = params_of(*leaf_preset("oak"));
     LeafParams other = params;
     other.size = 2.0;
@@ -99,7 +99,7 @@ TEST(LeafSpec, ImagesDependOnNothingThatOnlyShapes) {
     EXPECT_NE(paint_of(other), paint_of(params));
 }
 
-TEST(LeafSpec, IsNeverMoreThanWasEstimated) {
+TEST(LeafSpec, CountsNeverExceedTheEstimate) {
     const auto expect_enough = [](const LeafShape& shape, int lod) {
         const LeafCount most = most_of_leaf(shape.venation, lod);
         const Mesh mesh = leaf_mesh(shape, lod);

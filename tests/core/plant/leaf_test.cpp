@@ -17,13 +17,13 @@
 namespace sporeprint {
 namespace {
 
-// The same leaf, flat.
+// Returns the same leaf without fold, curl and waves.
 LeafShape pressed(LeafShape shape) {
     shape.curl_deg = shape.fold_deg = shape.wave = shape.relief = 0.0;
     return shape;
 }
 
-// Area of what is seen from above: half of that of both faces, looked at along y.
+// Returns the area seen from above: half of that of both faces, projected along y.
 double seen_area(const Mesh& mesh) {
     double twice = 0.0;
     for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
@@ -40,7 +40,7 @@ TEST(Leaf, PresetsAreClosedShellsAtEveryLevelOfDetail) {
     for (const LeafPreset& preset : leaf_presets()) {
         SCOPED_TRACE(preset.id);
         EXPECT_EQ(leaf_preset(preset.id), &preset);
-        std::size_t before = 2'600;  // about 2,000 triangles at the finest
+        std::size_t before = 2'600;  // about 2,000 triangles at LOD 0
         for (int lod = 0; lod < leaf_lods; ++lod) {
             const Mesh mesh = leaf_mesh(preset.shape, lod);
             expect_valid(mesh);
@@ -81,7 +81,7 @@ TEST(Leaf, LeavesAtTheEndsOfTheirRangesAreClosed) {
     }
 }
 
-TEST(Leaf, FoliageKeepsTheAreaOfTheLimb) {
+TEST(Leaf, FoliageKeepsTheAreaOfTheLamina) {
     for (const LeafPreset& preset : leaf_presets()) {
         const LeafShape flat = pressed(preset.shape);
         for (const std::size_t triangles : {8U, 12U, 16U}) {
@@ -92,10 +92,10 @@ TEST(Leaf, FoliageKeepsTheAreaOfTheLimb) {
     }
 }
 
-// Levels of detail cut teeth and curves, not lobes.
+// Levels of detail remove teeth and curves, but not lobes.
 TEST(Leaf, LevelsOfDetailHaveNearlyOneArea) {
     for (const LeafPreset& preset : leaf_presets()) {
-        if (std::string(preset.id) == "needle") continue;  // its petiole is as wide as it
+        if (std::string(preset.id) == "needle") continue;  // its petiole is as wide as its lamina
         const LeafShape flat = pressed(preset.shape);
         const double finest = seen_area(leaf_mesh(flat, 0));
         for (int lod = 1; lod < leaf_lods; ++lod)
@@ -103,7 +103,8 @@ TEST(Leaf, LevelsOfDetailHaveNearlyOneArea) {
     }
 }
 
-// A leaf that is shorter from afar is seen to jump. Both ends of its box along each axis count.
+// A leaf that is shorter at a coarse level would visibly jump. Both ends of its bounding box along
+// each axis are compared.
 TEST(Leaf, NeighbouringLevelsOfDetailReachEquallyFar) {
     for (const LeafPreset& preset : leaf_presets())
         for (const double variation : {0.0, 0.5, 1.0})
@@ -163,7 +164,7 @@ TEST(Leaf, FacesLieOnTheirHalvesOfTheImage) {
     }
 }
 
-TEST(Leaf, OrdersThatCannotBeAreRefused) {
+TEST(Leaf, InvalidRequestsAreRefused) {
     LeafShape shape;
     EXPECT_TRUE(names(refusal([&] { (void)leaf_mesh(shape, 4); }), "/lod", "outside 0..3"));
     EXPECT_TRUE(names(refusal([&] { (void)foliage_leaf(shape, 18); }), "/triangles", "18"));

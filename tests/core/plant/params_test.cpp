@@ -1,4 +1,5 @@
-// Leaves, trees and roots are described like everything else: read, written, told as schema and canonical text.
+// Leaves, trees and roots are described like all parameters: they are read, written, and have a
+// schema and canonical text.
 
 #include <gtest/gtest.h>
 
@@ -23,7 +24,7 @@ void expect_described(const T& value) {
     const Value schema = schema_document("plant", T{});
     const Value* properties = schema.find("properties");
     ASSERT_NE(properties, nullptr);
-    // What is written is what the schema names.
+    // The written names are those of the schema.
     const Value written = write(value);
     for (const auto& [key, content] : written.members())
         EXPECT_NE(properties->find(key), nullptr) << key;

@@ -50,7 +50,7 @@ TEST_F(Spots, ArePolygonsOfTheirAreaOnBothSides) {
         EXPECT_TRUE(defects(mesh).empty());
         EXPECT_EQ(mesh.triangles(), spots.size() * (corners == 3 ? 2U : 4U));
         EXPECT_NEAR(area(mesh) / (2.0 * whole), 1.0, 1e-4);
-        // Each triangle faces where its corners' normals do.
+        // The orientation of each triangle agrees with the normals of its corners.
         for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
             const glm::vec3 a = mesh.positions[mesh.indices[i]];
             const glm::vec3 across = glm::cross(mesh.positions[mesh.indices[i + 1]] - a,

@@ -13,7 +13,7 @@
 namespace sporeprint {
 namespace {
 
-TEST(TreeSpec, APresetIsWhatItIsWhereNothingElseIsAskedFor) {
+TEST(TreeSpec, APresetHasItsOwnParametersByDefault) {
     for (const TreePreset& preset : tree_presets()) {
         const TreeParams params = params_of(preset);
         EXPECT_EQ(params.look.shape, preset.shape) << preset.id;
@@ -35,7 +35,7 @@ TEST(TreeSpec, KindsOfLeavesAreThePresetsOfLeaves) {
     EXPECT_EQ(kinds, leaf_presets().size());
 }
 
-TEST(TreeSpec, ImagesDependOnNothingThatOnlyShapes) {
+TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
     const TreeParams params = params_of(*tree_preset("birch"));
     TreeParams other = params;
     other.seed = 9;
@@ -53,7 +53,7 @@ TEST(TreeSpec, ImagesDependOnNothingThatOnlyShapes) {
     EXPECT_NE(paint_of(other), paint_of(params));
 }
 
-TEST(TreeSpec, WearsTheImagesOfItsLeafAlone) {
+TEST(TreeSpec, UsesTheImagesOfItsLeafAlone) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.seed = 77;
     params.autumn = 0.4;
@@ -78,7 +78,7 @@ TEST(TreeSpec, LevelsOfDetailHaveFewerLeavesOfFewerTriangles) {
     EXPECT_EQ(leaf_triangles(0, most_leaves), 8u) << "a crown of many leaves has simple ones";
 }
 
-TEST(TreeSpec, RowsCountWhereAMatrixIsCalledOwn) {
+TEST(TreeSpec, RowsAreUsedIfAMatrixIsOwn) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.look.shape.topology.rows = {{0.5, 0.5}};
     EXPECT_EQ(problems_in(params), std::vector<Problem>{}) << "there, but not asked for";
@@ -104,7 +104,7 @@ TEST(TreeSpec, RowsCountWhereAMatrixIsCalledOwn) {
         << "half way from one's own to only forks";
 }
 
-TEST(TreeSpec, EveryFaultOfAMatrixIsNamedByItsRow) {
+TEST(TreeSpec, EveryErrorOfAMatrixIsNamedByItsRow) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     TreeTopology& topology = params.look.shape.topology;
     topology.matrix = MatrixKind::own;
@@ -135,7 +135,7 @@ TEST(TreeSpec, OrdersAreExpectedAsTheyGrow) {
             EXPECT_GT(order.radius, 0.0);
             all += order.edges;
         }
-        // What is dealt are whole branches: few of a high order may be a third less.
+        // Exact numbers are of whole branches: a few of a high order may be a third too low.
         EXPECT_NEAR(all / grown, 1.0, 0.35);
         EXPECT_NEAR(expected.front().edges / tips, 1.0, 0.35);
     }

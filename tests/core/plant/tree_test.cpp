@@ -18,7 +18,7 @@
 namespace sporeprint {
 namespace {
 
-// A tree that obeys its laws alone: nothing varies, nothing pulls.
+// Returns a tree without variation and tropisms.
 TreeShape plain(int order = 5) {
     TreeShape shape;
     shape.topology.matrix = MatrixKind::random_binary;
@@ -36,7 +36,7 @@ glm::dvec3 edge(const Tree& tree, std::uint32_t node) {
            tree.skeleton.nodes[tree.skeleton.segments[node].from].place;
 }
 
-// The whole tree, node by node: what each is told of its number and its own.
+// Calls `use` with the index of every inner node and the node.
 void each_inner(const Tree& tree, const auto& use) {
     for (std::uint32_t i = 0; i < tree.ramification.nodes.size(); ++i)
         if (!tree.ramification.leaf(i)) use(i, tree.ramification.nodes[i]);
@@ -57,14 +57,14 @@ TEST(Tree, MatricesAreTheNamedOnesTheirBlendsOrOnesOwn) {
               (std::vector<std::vector<double>>{{0.25, 0.75}, {0.5, 0.25, 0.25}}));
 }
 
-TEST(Tree, HasAsManyTipsAsWereExpected) {
+TEST(Tree, HasTheExpectedNumberOfTips) {
     for (const int order : {1, 3, 6}) {
         TreeShape shape = plain(order);
         const Tree tree = grown_tree(shape, 3);
         EXPECT_EQ(static_cast<double>(tree.ramification.leaves()), expected_tips(shape.topology));
         EXPECT_EQ(tree.skeleton.nodes.size(), tree.ramification.nodes.size() + 1);
     }
-    // Trees at the tips are drawn: the mean of many.
+    // Trees at the tips are sampled, so the mean of many is compared.
     TreeShape herb = plain(4);
     herb.topology.tip_order = 3;
     double sum = 0.0, squares = 0.0;
@@ -79,8 +79,8 @@ TEST(Tree, HasAsManyTipsAsWereExpected) {
                 5.0 * std::sqrt((squares / trees - mean * mean) / trees));
 }
 
-// [Viennot1989]: forks turn both branches by one angle; a node of biorder (k, i) its main branch by c i / (k - 1) and its side
-// branch by c' (k - i) / (k - 1).
+// [Viennot1989]: forks turn both branches by the same angle; a node of biorder (k, i) turns its
+// main branch by c i / (k - 1) and its side branch by c' (k - i) / (k - 1).
 TEST(Tree, BranchesTurnByTheirBiorderInOnePlane) {
     const TreeShape shape = plain();
     const Tree tree = grown_tree(shape, 4);
@@ -97,7 +97,7 @@ TEST(Tree, BranchesTurnByTheirBiorderInOnePlane) {
     });
 }
 
-TEST(Tree, EdgesAreAsLongAsTheirOrderSays) {
+TEST(Tree, LengthsOfEdgesFollowTheirOrder) {
     for (const OrderLaw law :
          {OrderLaw::constant, OrderLaw::linear, OrderLaw::logarithmic, OrderLaw::geometric}) {
         TreeShape shape = plain();
@@ -122,7 +122,8 @@ TEST(Tree, EdgesAreAsLongAsTheirOrderSays) {
     }
 }
 
-// Pipes: the powers of the radii of both branches make that of their bearer; with 2 these are sections.
+// Pipe model: the powers of the radii of both branches sum to that of their parent; for exponent 2
+// these are cross-sections.
 TEST(Tree, PipesAddUp) {
     for (const double exponent : {1.0, 2.0, 2.7}) {
         TreeShape shape = plain();
@@ -151,14 +152,14 @@ TEST(Tree, RadiiByOrderGoEvenlyFromOneOrderToTheNext) {
         const double own = shape.twig_radius * std::pow(2.0, node.order - 1.0);
         EXPECT_LE(radius, own);
         EXPECT_GE(radius, 0.5 * own * (1.0 - 1e-12));
-        // An axis ends where it forks, as thick as what comes after it.
+        // An axis ends at its fork with the radius of its children.
         if (tree.ramification.nodes[node.children[0]].order < node.order) {
             EXPECT_NEAR(radius, 0.5 * own, 1e-12);
         }
     });
 }
 
-TEST(Tree, BranchesGoRoundTheirBearerByTheirPhyllotaxis) {
+TEST(Tree, BranchesTurnAboutTheirParentByTheirPhyllotaxis) {
     for (const double azimuth : {137.5, 180.0, 90.0}) {
         TreeShape shape = plain();
         shape.topology.matrix = shape.topology.toward = MatrixKind::fishbone;
@@ -198,7 +199,7 @@ TEST(Tree, TropismsPullEachEdgeTowardsTheirVector) {
     shape.light_deg = 0.0;
     shape.light_azimuth_deg = 90.0;  // from +x
     EXPECT_GT(mean_heading(shape).x, none.x + 0.05);
-    // One edge: h' = normalize(h + e (T - (T.h) h)), here for the trunk under a level light.
+    // For one edge h' = normalize(h + e (T - (T.h) h)), here for the trunk under horizontal light.
     const Tree tree = grown_tree(shape, 4);
     EXPECT_NEAR(tree.headings[0].x, 0.1 / std::sqrt(1.01), 1e-9);
     EXPECT_NEAR(tree.headings[0].y, 1.0 / std::sqrt(1.01), 1e-9);
@@ -212,7 +213,7 @@ TEST(Tree, PlagiotropyLaysTwigsLevel) {
         double sum = 0.0, count = 0.0;
         each_inner(tree, [&](std::uint32_t i, const Ramification::Node& node) {
             if (node.order != 2) return;
-            // Of a level plane the way across has no height.
+            // In a horizontal plane the direction across has no height.
             sum += std::abs(tree.across[i].y);
             count += 1.0;
         });
@@ -227,7 +228,7 @@ TEST(Tree, ShorteningMakesACone) {
     shape.topology.rows = {{0.9, 0.1}, {0.0, 0.9, 0.1}};
     shape.shortening = 0.8;
     const Tree tree = grown_tree(shape, 2);
-    // First edges of side branches shorten evenly along the trunk.
+    // First edges of side branches shorten linearly along the trunk.
     std::vector<double> lengths;
     each_inner(tree, [&](std::uint32_t, const Ramification::Node& node) {
         const std::uint32_t side = node.children[1];
@@ -242,7 +243,7 @@ TEST(Tree, ShorteningMakesACone) {
     EXPECT_NEAR(lengths.back(), full * 0.2, 1e-9);
 }
 
-TEST(Tree, EvenAxesAreAsLongAsEachOther) {
+TEST(Tree, EvenAxesAreEquallyLong) {
     TreeShape shape = plain(3);
     shape.topology.matrix = MatrixKind::own;
     shape.topology.rows = {{0.8, 0.2}, {0.0, 0.9, 0.1}};
@@ -310,7 +311,7 @@ TEST(Tree, TreesAtTheEndsOfTheirRangesAreClosedOrRefused) {
     });
 }
 
-TEST(Tree, TheSameSeedIsTheSameTree) {
+TEST(Tree, TheSameSeedGivesTheSameTree) {
     const TreeShape& shape = tree_preset("broadleaf")->shape;
     const Tree one = grown_tree(shape, 7), again = grown_tree(shape, 7),
                other = grown_tree(shape, 8);
@@ -320,7 +321,7 @@ TEST(Tree, TheSameSeedIsTheSameTree) {
     EXPECT_EQ(bark_of(one, 2).positions, bark_of(again, 2).positions);
 }
 
-TEST(Foliage, LeavesAreAsManyAsAskedForAndHaveFewTriangles) {
+TEST(Foliage, LeavesHaveTheRequestedNumberAndFewTriangles) {
     const TreePreset& preset = *tree_preset("shrub");
     const Tree tree = grown_tree(preset.shape, 1);
     const std::vector<PlacedLeaf> leaves = placed_leaves(tree, preset.leaves, 1);

@@ -24,7 +24,7 @@ bool meet(const glm::dvec2& a, const glm::dvec2& b, const glm::dvec2& c, const g
     return first <= 0.0 && second <= 0.0;
 }
 
-// Pairs of edges of a closed polygon that share a place other than their common corner.
+// Returns the pairs of edges of a closed polygon that share a point other than their common corner.
 std::size_t meetings(const std::vector<glm::dvec2>& polygon) {
     struct Edge {
         double low, high;
@@ -55,7 +55,7 @@ double area(const std::vector<glm::dvec2>& polygon) {
     return 0.5 * twice;
 }
 
-TEST(Venation, LobesAndNodesAreAsManyAsAskedFor) {
+TEST(Venation, LobesAndNodesHaveTheRequestedNumber) {
     for (const int lobes : {1, 3, 5, 7}) {
         Venation venation;
         venation.lobes.value = lobes;
@@ -122,7 +122,8 @@ TEST(Venation, SideVeinsStandAtTheirAngleOnBothSides) {
     EXPECT_GT(sides, 20U);
 }
 
-// The border of a simple leaf without curves goes through the ends of veins, lifted by the factor; the tip by its last edge.
+// The border of a simple leaf without curves goes through the ends of veins, lifted by the factor;
+// its tip by its last edge.
 TEST(Venation, ThePolygonOfTheSourceGoesThroughTheLiftedEnds) {
     Venation venation;
     venation.nodes = 6;
@@ -158,8 +159,9 @@ TEST(Venation, VeinsThatWouldCrossAreDeleted) {
             EXPECT_EQ(half.side_veins.size(), lobe.nodes.size() - 1);
 }
 
-// Draws over the whole range: the border is a simple polygon, counter-clockwise, no vein crosses another, all veins lie inside.
-TEST(Venation, BordersAreSimpleAndVeinsApartWhateverIsAskedFor) {
+// Random parameters over the whole range: the border is a simple polygon, counter-clockwise, no
+// vein crosses another, all veins lie inside.
+TEST(Venation, BordersAreSimpleAndVeinsApartForAnyParameters) {
     Random random(7, 1);
     const std::size_t draws = effort(10'000, 200);
     for (std::size_t i = 0; i < draws; ++i) {
@@ -204,7 +206,7 @@ TEST(Venation, BordersOfPresetsAreSimpleAtEveryLevelOfDetail) {
         }
 }
 
-TEST(Venation, PlacesOfTheLimbAreReadBack) {
+TEST(Venation, PlacesOfTheLaminaAreReadBack) {
     Random random(8, 1);
     const std::size_t draws = effort(300, 30);
     for (std::size_t i = 0; i < draws; ++i) {
@@ -232,7 +234,7 @@ TEST(Venation, PlacesOfTheLimbAreReadBack) {
     }
 }
 
-TEST(Venation, PlacesAreTheSameByWhateverTrail) {
+TEST(Venation, PlacesDoNotDependOnTheHint) {
     Random random(9, 1);
     const std::size_t draws = effort(1000, 40);
     for (std::size_t i = 0; i < draws; ++i) {

@@ -179,11 +179,11 @@ TEST(Ramification, TooManyLeavesAreRefusedWithTheExpectedNumber) {
     const auto grown =
         refusal([] { (void)sampled_ramification(random_binary_matrix(9), 9, 1, 1000); });
     EXPECT_TRUE(names(grown, "/order", "about 43691 leaves; at most 1000"));
-    const auto dealt =
+    const auto too_many =
         refusal([] { (void)exact_ramification(random_binary_matrix(9), 9, 1, 1000); });
-    EXPECT_TRUE(names(dealt, "/order", "about 43691 leaves; at most 1000"));
+    EXPECT_TRUE(names(too_many, "/order", "about 43691 leaves; at most 1000"));
     // The least share of forks at the highest order: more leaves than an integer can count, still
-    // answered at once.
+    // refused at once.
     const auto endless = refusal([] {
         (void)exact_ramification(fishbone_matrix(most_order, least_fork), most_order, 1, 1000);
     });

@@ -81,7 +81,7 @@ TEST(Codecs, JpegIsTheSameEveryTime) {
     EXPECT_TRUE(jpeg(rgb, 64, 64, 88, Chroma::halved) == jpeg(rgb, 64, 64, 88, Chroma::halved));
 }
 
-TEST(Codecs, TransparencyIsDroppedAndItsColourKept) {
+TEST(Codecs, TransparencyIsDroppedAndItsColourUnchanged) {
     Bytes rgba;
     for (int i = 0; i < 16; ++i) {
         const std::uint8_t alpha = i % 2 == 0 ? 0 : 128;
@@ -106,8 +106,8 @@ TEST(Codecs, BrokenFilesAreRefused) {
     Bytes files[] = {png_of(rgb, 64, 64, PNG_FORMAT_RGB), jpeg(rgb, 64, 64, 90, Chroma::full),
                      webp_of(rgb, 64, 64)};
     for (Bytes& file : files) {
-        for (const std::size_t kept : {std::size_t{12}, file.size() / 2}) {
-            const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(kept));
+        for (const std::size_t length : {std::size_t{12}, file.size() / 2}) {
+            const Bytes cut(file.begin(), file.begin() + static_cast<std::ptrdiff_t>(length));
             EXPECT_NE(refusal(cut), "");
         }
     }

@@ -350,7 +350,7 @@ TEST(Paint, BleedsBeyondEveryRim) {
     }
 }
 
-// Returns a face of plain gills on a gill layout of `comb` blades.
+// Returns a face of plain gills on a gill layout of `gill_layout` blades.
 PaintParams with_layout(int blades, int tiers, int gill_layout,
                         HymeniumPattern pattern = HymeniumPattern::gills) {
     PaintParams params;

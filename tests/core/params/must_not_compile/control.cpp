@@ -1,5 +1,5 @@
 // The control of this folder: it compiles, and differs from the other files only in having no
-// fault.
+// error.
 #include "core/params/describe.h"
 
 namespace sporeprint {
