@@ -1,5 +1,6 @@
 // Bundles the page into dist/: index.html, docs.html, hashed scripts and styles, favicon.svg.
-// The server answers index.html at / and every other file at /assets/<name>. All links are relative, so that both may stand under a prefix.
+// The server serves index.html at / and every other file at /assets/<name>. All links are relative,
+// so that the page can be served below a path prefix.
 import { readFile, rm, mkdir, writeFile, copyFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import path from "node:path";

@@ -110,9 +110,9 @@ test("what a habit does not have is not offered, and what a species cannot have 
     await number(page, "depth").press("Enter");
     await ready(page);
     await page.locator('select[name="habit"]').selectOption("ring");
-    await page.locator("#control-depth-fault:not([hidden])").waitFor();
+    await page.locator("#control-depth-error:not([hidden])").waitFor();
     assert.match(
-        await page.locator("#control-depth-fault").textContent(),
+        await page.locator("#control-depth-error").textContent(),
         /only habit=rooted has it/,
     );
     assert.ok(

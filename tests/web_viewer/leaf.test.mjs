@@ -112,9 +112,11 @@ test("what is moved is asked for, stands in the address, and goes with the next 
 test("what cannot be is said beside its control, and the last leaf stays", async (t) => {
     const { page, heard } = await open(t, "?leaf=maple");
     await page.locator('select[name="venation.lobes"]').selectOption("13");
-    await page.locator('.control[data-name="venation.vein_deg"] .fault').waitFor();
+    await page.locator('.control[data-name="venation.vein_deg"] .validation-error').waitFor();
     assert.match(
-        await page.locator('.control[data-name="venation.vein_deg"] .fault').textContent(),
+        await page
+            .locator('.control[data-name="venation.vein_deg"] .validation-error')
+            .textContent(),
         /petiole/,
     );
     assert.ok(

@@ -166,7 +166,7 @@ test("an address opens as it was shared", async (t) => {
 test("what an address gets wrong is said in words beside the control", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}&age=1.7&sed=4`);
     assert.match(
-        await page.locator('.control[data-name="age"] .fault').textContent(),
+        await page.locator('.control[data-name="age"] .validation-error').textContent(),
         /'1.7' is above 1/,
     );
     assert.match(await page.locator("#problem").textContent(), /sed/);
@@ -215,7 +215,7 @@ test("every control is native, named by its query name, described and within its
     );
     for (const name of names)
         assert.ok((await page.locator(`[name="${name}"]`).count()) >= 1, `${name} has a control`);
-    const faults = await page.evaluate(() =>
+    const errors = await page.evaluate(() =>
         [...document.querySelectorAll("#form [name]")].flatMap((entry) => {
             const wrong = [];
             const about = entry.getAttribute("aria-describedby")?.split(" ")[0];
@@ -235,7 +235,7 @@ test("every control is native, named by its query name, described and within its
             return wrong.map((what) => `${entry.name}: ${what}`);
         }),
     );
-    assert.deepEqual(faults, []);
+    assert.deepEqual(errors, []);
 });
 
 test("a control of the species' own is sent once moved, and no more after its reset", async (t) => {
@@ -526,7 +526,7 @@ test("a refusal stands in words beside its control, and the old mushroom stays",
     await slider(page, "size").focus();
     await page.keyboard.press("End");
     await page
-        .locator('.control[data-name="size"] .fault', { hasText: "cannot be so large" })
+        .locator('.control[data-name="size"] .validation-error', { hasText: "cannot be so large" })
         .waitFor();
     assert.match(
         await page.locator("#problem").textContent(),

@@ -121,8 +121,11 @@ test("what cannot be is said under the table by its row, and the last tree stays
     const entry = page.locator('#matrix input[data-cell="1-2"]');
     await entry.fill("0");
     await entry.press("Enter");
-    await page.locator("#matrix .fault:not([hidden])").waitFor();
-    assert.match(await page.locator("#matrix .fault").textContent(), /Order 3: .*hardly ever end/);
+    await page.locator("#matrix .validation-error:not([hidden])").waitFor();
+    assert.match(
+        await page.locator("#matrix .validation-error").textContent(),
+        /Order 3: .*hardly ever end/,
+    );
     assert.ok(
         heard.failed.every((line) => line.endsWith(": 422")),
         heard.failed.join(),

@@ -91,7 +91,7 @@ const named = (name) => fields.find((field) => field.name === name);
 
 test("what stands at the top level is about what grows: an individual or a whole colony", () => {
     assert.equal(page.groupsOf(schema)[0].label, "Individual");
-    assert.equal(page.groupsOf(schema, page.colonies.whole)[0].label, "Colony");
+    assert.equal(page.groupsOf(schema, page.colonies.groupName)[0].label, "Colony");
 });
 
 test("every parameter of the schema becomes a field under its query name, except v", () => {
@@ -181,14 +181,14 @@ test("a leaf has its own routes, and its colours are controls of their own kind"
 test("a page's query and a canonical address say what grew", () => {
     assert.equal(page.productOf(new URLSearchParams("leaf")), page.leaves);
     assert.equal(page.productOf(new URLSearchParams("seed=7")), page.mushrooms);
-    assert.deepEqual(page.grownAt("/v1/leaves/oak.glb"), { product: page.leaves, id: "oak" });
-    assert.equal(page.grownAt("/v1/mushrooms/a:0.5,b:0.5.json").id, "a:0.5,b:0.5");
+    assert.deepEqual(page.modelAt("/v1/leaves/oak.glb"), { product: page.leaves, id: "oak" });
+    assert.equal(page.modelAt("/v1/mushrooms/a:0.5,b:0.5.json").id, "a:0.5,b:0.5");
     assert.equal(page.productOf(new URLSearchParams("colony=a:0.5,b:0.5")), page.colonies);
-    assert.deepEqual(page.grownAt("/v1/colonies/a:0.5,b:0.5.glb"), {
+    assert.deepEqual(page.modelAt("/v1/colonies/a:0.5,b:0.5.glb"), {
         product: page.colonies,
         id: "a:0.5,b:0.5",
     });
-    assert.equal(page.grownAt("/v1/morphs/a/b.glb"), undefined);
+    assert.equal(page.modelAt("/v1/morphs/a/b.glb"), undefined);
 });
 
 test("nothing that the page links or asks for leaves the path that it stands under", () => {
@@ -260,11 +260,11 @@ test("playing asks for the growth of the settings at most at LOD 1, and frames a
         page.groupsOf({ ...schema, properties }).flatMap((group) => group.fields),
         "a",
     );
-    assert.ok(settings.grows);
-    assert.ok(!new page.Settings(fields, "a").grows);
+    assert.ok(settings.hasGrowthClips);
+    assert.ok(!new page.Settings(fields, "a").hasGrowthClips);
     settings.set("frames", 5);
     assert.equal(settings.address(".glb"), "v1/mushrooms/a.glb");
-    assert.equal(settings.matters(settings.field("frames")), false);
+    assert.equal(settings.applies(settings.field("frames")), false);
     assert.equal(
         settings.address(".glb", settings.clipValues()),
         "v1/mushrooms/a.glb?lod=1&animation=growth&frames=5",
@@ -281,10 +281,10 @@ test("playing asks for the growth of the settings at most at LOD 1, and frames a
 });
 
 test("values outside the schema have their fault in words", () => {
-    assert.equal(page.fault(named("age"), 1.7), "is above 1");
-    assert.equal(page.fault(named("seed"), 1.5), "needs a whole number");
-    assert.equal(page.fault(named("age"), Number.NaN), "needs a number");
-    assert.equal(page.fault(named("age"), 0), undefined);
+    assert.equal(page.validationError(named("age"), 1.7), "is above 1");
+    assert.equal(page.validationError(named("seed"), 1.5), "needs a whole number");
+    assert.equal(page.validationError(named("age"), Number.NaN), "needs a number");
+    assert.equal(page.validationError(named("age"), 0), undefined);
 });
 
 test("Retry-After is read as seconds and as a date, within bounds", () => {
@@ -485,14 +485,14 @@ test("rows of one's own are posted with what else is set, and leave with the pre
     const settings = new page.Settings(parts, "birch", page.trees);
     settings.set("lod", 2);
     assert.deepEqual(settings.readMatrix(new URLSearchParams("rows=0.5,0.5")), []);
-    const { address, body } = settings.wanted();
+    const { address, body } = settings.request();
     assert.equal(address, "v1/trees.glb");
     assert.deepEqual(JSON.parse(body), { preset: "birch", lod: 2, order: 2, rows: [[0.5, 0.5]] });
     assert.equal(settings.pageQuery(new URLSearchParams()), "?tree=birch&rows=0.5,0.5&lod=2");
     assert.equal(settings.readMatrix(new URLSearchParams("rows=1")).length, 1);
     settings.rows = [[0.5, 0.5]];
     settings.choose("herb");
-    assert.equal(settings.wanted().address, "v1/trees/herb.glb?lod=2");
+    assert.equal(settings.request().address, "v1/trees/herb.glb?lod=2");
 });
 
 test("another share of one species leaves the others in proportion", () => {
@@ -537,7 +537,7 @@ test("own arcs are posted with what differs, a mix without them has its plain ad
     settings.readMorph(new URLSearchParams("morph=b:0.6,a:0.4&arcs=cap:0.25:0.4"), () => true);
     settings.set("age", 0.3);
     settings.set("deformation.bend_deg", 20);
-    const { address, body } = settings.wanted(settings.draftValues(true));
+    const { address, body } = settings.request(settings.draftValues(true));
     assert.equal(address, "v1/morphs/b/a.glb");
     assert.deepEqual(JSON.parse(body), {
         t: 0.4,
@@ -548,8 +548,8 @@ test("own arcs are posted with what differs, a mix without them has its plain ad
         deformation: { bend_deg: 20 },
     });
     settings.readMorph(new URLSearchParams("morph=b:1,a:0&arcs=cap:0.25:0.4"), () => true);
-    assert.equal(settings.wanted().address, "v1/mushrooms/b.glb?age=0.3&deformation.bend_deg=20");
-    assert.equal(settings.wanted().body, undefined);
+    assert.equal(settings.request().address, "v1/mushrooms/b.glb?age=0.3&deformation.bend_deg=20");
+    assert.equal(settings.request().body, undefined);
 });
 
 test("arcs of one sub-curve cross when their ends change places or meet", () => {
@@ -648,12 +648,12 @@ test("species are found by parts of their names, form, substrate and month, all 
         "beech september",
         "hoof fung",
     ]) {
-        assert.ok(page.answersTo(hoof, words), words);
+        assert.ok(page.matchesSearch(hoof, words), words);
     }
     for (const words of ["fly", "hoof may", "birch oak", "august"])
-        assert.ok(!page.answersTo(hoof, words), words);
+        assert.ok(!page.matchesSearch(hoof, words), words);
     assert.ok(
-        page.answersTo({ id: "x", scientific_name: "X y", common_name: "z" }, "x"),
+        page.matchesSearch({ id: "x", scientific_name: "X y", common_name: "z" }, "x"),
         "facts may be missing",
     );
 });

@@ -66,7 +66,7 @@ export class AddressBar {
     read(): AddressContents | undefined {
         this.cancelWrite();
         const { settings } = this;
-        const { kind, ofSpecies } = settings.product;
+        const { queryName: kind, ofSpecies } = settings.product;
         const query = new URLSearchParams(location.search);
         if (productOf(query) !== settings.product) {
             location.reload();

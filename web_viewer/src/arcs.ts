@@ -5,25 +5,25 @@ export type CurveName = (typeof curveNames)[number];
 
 export interface Arc {
     curve: CurveName;
-    /** Shares of arc length on either outline, 0..1. */
+    /** Fractions of the sub-curve's arc length on the two outlines, 0..1. */
     a: number;
     b: number;
 }
 
-/** Most arcs that a designer may set; an address with more would not be read. */
+/** The number of arcs a designer may set at most; readArcs() refuses longer lists. */
 export const mostArcs = 24;
 
-/** Three digits tell places on an outline apart that a hand cannot. */
+/** Rounds to three decimals: finer than a pointer can place an arc on an outline. */
 export function rounded(share: number): number {
     return Math.round(Math.min(Math.max(share, 0), 1) * 1000) / 1000;
 }
 
-/** "cap:0.25:0.4,stem:0.1:0.2" */
+/** Returns arcs as text of an address: "cap:0.25:0.4,stem:0.1:0.2". */
 export function arcsText(arcs: readonly Arc[]): string {
     return arcs.map(({ curve, a, b }) => `${curve}:${a}:${b}`).join(",");
 }
 
-/** Reads what arcsText wrote; undefined when it is anything else. */
+/** Parses the text of arcsText(); returns undefined for any other text. */
 export function readArcs(text: string): Arc[] | undefined {
     if (text === "") return [];
     const arcs = text.split(",").map((part) => {
@@ -35,17 +35,19 @@ export function readArcs(text: string): Arc[] | undefined {
     return arcs as Arc[];
 }
 
-/** Whether two arcs of one sub-curve cross or meet: a morph along both would fold the outline. */
+/** Returns true if two arcs of one sub-curve cross or meet: a morph along both would fold the
+ *  outline. */
 export function crosses(one: Arc, other: Arc): boolean {
     return one.curve === other.curve && (one.a - other.a) * (one.b - other.b) <= 0;
 }
 
-/** For each arc whether it crosses another one. */
+/** Returns for each arc whether it crosses another one. */
 export function crossing(arcs: readonly Arc[]): boolean[] {
     return arcs.map((arc, index) => arcs.some((other, at) => at !== index && crosses(arc, other)));
 }
 
-/** The place on the other outline that arcs give a place on this one, linear between them and the curve's ends. */
+/** Returns the position on the other outline that corresponds to a position on this one: linear
+ *  between the arcs and the ends of the sub-curve. */
 export function matched(
     arcs: readonly Arc[],
     curve: CurveName,
@@ -66,7 +68,7 @@ export function matched(
     return span > 0 ? low[to] + ((share - low[from]) / span) * (high[to] - low[to]) : low[to];
 }
 
-/** Where one more arc of a sub-curve does most: in the middle of the widest gap between those that are there. */
+/** Returns a further arc of a sub-curve, in the middle of the widest gap between its arcs. */
 export function widestGap(arcs: readonly Arc[], curve: CurveName): Arc {
     const own = arcs.filter((arc) => arc.curve === curve).sort((one, other) => one.a - other.a);
     const known = [{ curve, a: 0, b: 0 }, ...own, { curve, a: 1, b: 1 }];

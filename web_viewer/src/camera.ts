@@ -1,11 +1,12 @@
-// Where to stand to see a box whole, from a named side.
+// Camera positions from which a box is seen whole, and the scale of the picture.
 import { Vector3, type Box3, type PerspectiveCamera } from "three";
 
 export const viewNames = ["three-quarter", "front", "side", "top", "below"] as const;
-/** "roots": from above, without the caps that stand in the way. */
+/** "roots" is from above, without the caps that hide the roots. */
 export type ViewName = (typeof viewNames)[number] | "roots";
 
-/** Unit direction from the model to the eye, by azimuth from +Z to +X and elevation, degrees. */
+/** Returns the unit direction from the model to the camera; azimuth from +Z to +X and elevation,
+ *  degrees. */
 function towards(azimuth: number, elevation: number): Vector3 {
     const a = (azimuth * Math.PI) / 180;
     const e = (elevation * Math.PI) / 180;
@@ -14,7 +15,7 @@ function towards(azimuth: number, elevation: number): Vector3 {
 
 export type Directions = Readonly<Record<ViewName, Vector3>>;
 
-/** Of what stands upright. */
+/** Directions for an upright model. */
 export const standing: Directions = {
     "three-quarter": towards(32, 17),
     front: towards(0, 4),
@@ -24,7 +25,7 @@ export const standing: Directions = {
     below: towards(24, -38),
 };
 
-/** Of many that stand side by side: from higher up, so that those behind are seen over those before them. */
+/** Directions for a group: from higher up, so that the front does not hide the back. */
 export const spread: Directions = {
     ...standing,
     "three-quarter": towards(32, 27),
@@ -32,7 +33,7 @@ export const spread: Directions = {
     side: towards(90, 12),
 };
 
-/** Of what lies on the ground along +Z: its tip is up in the picture. */
+/** Directions for a model that lies on the ground along +Z: its tip is up in the picture. */
 export const lying: Directions = {
     "three-quarter": towards(200, 62),
     front: towards(0, 12),
@@ -42,13 +43,13 @@ export const lying: Directions = {
     below: towards(160, -60),
 };
 
-/** The frame left free around the model, as parts of the picture: the plate and the buttons stand there. */
+/** Margins around the model as fractions of the picture: name plate and buttons are there. */
 export interface Margin {
     x: number;
     y: number;
 }
 
-/** The distance from the centre of `box` at which all its corners are inside the picture. */
+/** Returns the distance from the centre of `box` at which all its corners are in the picture. */
 export function fittingDistance(
     box: Box3,
     direction: Vector3,
@@ -77,13 +78,13 @@ export function fittingDistance(
     return distance;
 }
 
-/** Pixels that a metre takes at the depth of the point looked at. */
+/** Returns the pixels per metre at the depth of the target; `height` of the picture in pixels. */
 export function pixelsPerMetre(camera: PerspectiveCamera, target: Vector3, height: number): number {
     const distance = camera.position.distanceTo(target);
     return height / (2 * distance * Math.tan((camera.fov * Math.PI) / 360));
 }
 
-/** A bar of a round length between `least` and some 2.5 times as many pixels; lengths in metres. */
+/** Returns a bar of a round length, metres, from `least` to about 2.5 times as many pixels. */
 export function scaleBar(perMetre: number, least: number): { metres: number; pixels: number } {
     const wanted = least / perMetre;
     const power = 10 ** Math.floor(Math.log10(wanted));
@@ -92,7 +93,7 @@ export function scaleBar(perMetre: number, least: number): { metres: number; pix
     return { metres, pixels: metres * perMetre };
 }
 
-/** "5 cm", "0.5 cm", "20 cm": a round number of metres as a person says it. */
+/** Returns a length in centimetres as text: "5 cm", "0.5 cm"; `digits` after the point if given. */
 export function centimetres(metres: number, digits?: number): string {
     const value = metres * 100;
     const text =
@@ -100,7 +101,7 @@ export function centimetres(metres: number, digits?: number): string {
     return `${text} cm`;
 }
 
-/** "4.2 cm", and from a metre on "6.52 m". */
+/** Returns a length as text: "4.2 cm", from one metre on "6.52 m". */
 export function length(metres: number): string {
     return metres < 1 ? centimetres(metres, 1) : `${metres.toFixed(2)} m`;
 }

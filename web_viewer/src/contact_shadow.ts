@@ -1,5 +1,5 @@
-// The soft darkness under a thing that stands on the ground: its height above the ground, seen from
-// below, blurred twice and laid on the ground. Drawn once per model, not once per frame.
+// A contact shadow: the model's height above the ground, seen from below, blurred twice and shown
+// on the ground. It is drawn once per model, not once per frame.
 import {
     DoubleSide,
     Group,
@@ -87,7 +87,7 @@ export class ContactShadow extends Group {
             opacity: 0.62,
             toneMapped: false,
         });
-        // The camera looks up, so its picture is a mirror image of the sheet seen from above.
+        // The camera looks up, so its picture is a mirror image of the ground seen from above.
         this.plane = new Mesh(new PlaneGeometry(2, 2).rotateX(-Math.PI / 2), material);
         this.plane.scale.z = -1;
         this.plane.renderOrder = -1;
@@ -97,7 +97,8 @@ export class ContactShadow extends Group {
         this.add(this.plane);
     }
 
-    /** Draws the shadow of `model`, which stands in `scene`; metres. */
+    /** Draws the shadow of `model`, a child of `scene`, on a square of half width `half`; `height`
+     *  of the model, metres. */
     update(
         renderer: WebGLRenderer,
         scene: Scene,

@@ -1,18 +1,18 @@
 // The controls, made from the fields of the schema: native inputs whose `name` is the query name.
 import { make } from "./dom";
-import { fault, valueAt, type Field, type Group, type Value } from "./schema";
+import { validationError, valueAt, type Field, type Group, type Value } from "./schema";
 import type { Settings } from "./settings";
 
 export interface ControlEvents {
-    /** A control is being moved: settings are new already. */
+    /** A control is being dragged; the settings have the new value already. */
     moving: (field: Field) => void;
-    /** A control was let go. */
+    /** A control was released. */
     moved: (field: Field) => void;
 }
 
 type Entry = HTMLInputElement | HTMLSelectElement;
 
-/** "species'", "preset's" */
+/** Returns the possessive form of a field's owner: "species'", "preset's". */
 function ownerOf({ owner }: Field): string {
     return owner.endsWith("s") ? `${owner}'` : `${owner}'s`;
 }
@@ -20,7 +20,7 @@ function ownerOf({ owner }: Field): string {
 class Control {
     readonly row: HTMLElement;
     private readonly entries: Entry[] = [];
-    private readonly message = make("p", { class: "fault", hidden: true });
+    private readonly message = make("p", { class: "validation-error", hidden: true });
     private readonly reset = make("button", { type: "button", class: "reset" }, "↺");
 
     constructor(
@@ -29,13 +29,13 @@ class Control {
         private readonly events: ControlEvents,
     ) {
         const id = `control-${field.name}`;
-        const describedBy = `${id}-about ${id}-fault`;
+        const describedBy = `${id}-about ${id}-error`;
         const shared = {
             name: field.name,
             title: field.description || undefined,
             "aria-describedby": describedBy,
         };
-        this.message.id = `${id}-fault`;
+        this.message.id = `${id}-error`;
         const label = make(
             "label",
             { for: id, title: field.description || undefined },
@@ -47,7 +47,7 @@ class Control {
         this.reset.setAttribute("aria-label", `${field.label}: ${reset.toLowerCase()}`);
         this.reset.addEventListener("click", () => {
             this.settings.set(field.name, undefined);
-            this.fail(undefined);
+            this.showError(undefined);
             this.events.moved(field);
             this.entries[0]?.focus();
         });
@@ -100,7 +100,7 @@ class Control {
         this.row.classList.toggle("integer", field.integer);
     }
 
-    /** Shows the setting, or what the species has of its own. */
+    /** Shows the value of the settings, or else the species' own. */
     show(effective: unknown): void {
         const set = this.settings.values.get(this.field.name);
         const own = this.field.owner ? valueAt(effective, this.field.name) : this.field.fallback;
@@ -108,9 +108,9 @@ class Control {
         this.row.classList.toggle("set", set !== undefined);
         this.row.classList.toggle("inherited", set === undefined && this.field.owner !== "");
         this.reset.hidden = set === undefined;
-        // What a species cannot have is not offered.
+        // Hides what the species cannot have.
         this.row.hidden =
-            !this.settings.matters(this.field) ||
+            !this.settings.applies(this.field) ||
             (this.field.owner !== "" &&
                 set === undefined &&
                 effective !== undefined &&
@@ -129,7 +129,7 @@ class Control {
         }
     }
 
-    fail(detail: string | undefined): void {
+    showError(detail: string | undefined): void {
         this.message.hidden = detail === undefined;
         this.message.textContent = detail ?? "";
         this.row.classList.toggle("failed", detail !== undefined);
@@ -152,7 +152,7 @@ class Control {
         return [field.description, facts && `(${facts})`].filter(Boolean).join(" ");
     }
 
-    /** What the species brings has more digits than a person wants to read. */
+    /** Rounds values of a species, which have more digits than are readable. */
     private text(value: Value, entry: Entry): string {
         if (
             typeof value !== "number" ||
@@ -188,8 +188,8 @@ class Control {
         else if (field.kind === "number")
             value = entry.value === "" ? Number.NaN : Number(entry.value);
         else value = entry.value;
-        const wrong = fault(field, value);
-        this.fail(wrong);
+        const wrong = validationError(field, value);
+        this.showError(wrong);
         if (wrong) return;
         this.settings.set(field.name, value);
         if (letGo) this.events.moved(field);
@@ -210,10 +210,10 @@ class Control {
         button.addEventListener("click", () => {
             const { min = 0, max = 0xffffffff } = this.field;
             const random = crypto.getRandomValues(new Uint32Array(1))[0] ?? 0;
-            // Short seeds are easier to tell to somebody else.
+            // Short seeds are easier to pass on.
             const span = Math.min(max - min, 99999);
             this.settings.set(this.field.name, min + (random % (span + 1)));
-            this.fail(undefined);
+            this.showError(undefined);
             this.events.moved(this.field);
         });
         return button;
@@ -251,7 +251,8 @@ export class Controls {
         });
     }
 
-    /** Brings every control to the settings; `effective` is what the server says is really used. */
+    /** Updates every control to the settings; `effective` are the values that the server reports as
+     *  used. */
     show(effective: unknown = this.effective): void {
         this.effective = effective;
         for (const control of this.controls) control.show(effective);
@@ -264,11 +265,12 @@ export class Controls {
         }
     }
 
-    /** Puts words next to the control they are about; returns false when there is no such control. */
-    fail(name: string, detail: string): boolean {
+    /** Shows a message next to the control it is about; returns false if there is no such
+     *  control. */
+    showError(name: string, detail: string): boolean {
         const found = this.controls.find((control) => control.field.name === name);
         if (!found) return false;
-        found.fail(detail);
+        found.showError(detail);
         const details = found.row.closest("details");
         if (details) {
             details.open = true;
@@ -277,7 +279,7 @@ export class Controls {
         return true;
     }
 
-    clearFaults(): void {
-        for (const control of this.controls) control.fail(undefined);
+    clearErrors(): void {
+        for (const control of this.controls) control.showError(undefined);
     }
 }

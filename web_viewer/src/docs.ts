@@ -1,4 +1,4 @@
-// The API's own page: reads /openapi.json and shows routes, parameters, ranges, units, examples.
+// The API page: reads openapi.json and shows routes, parameters, ranges, units and examples.
 import "./docs.css";
 import { make } from "./dom";
 import { getJson, RequestFailed } from "./http";
@@ -70,7 +70,7 @@ const deepest = 5;
 
 let root: Document_ = {};
 
-/** Follows "#/components/…". */
+/** Resolves a reference such as "#/components/…". */
 function follow<T extends { $ref?: string }>(node: T): T {
     let found = node;
     for (let hops = 0; found.$ref?.startsWith("#/") && hops < 16; ++hops) {
@@ -89,7 +89,7 @@ function shortText(value: unknown): string {
     return typeof value === "string" ? value : JSON.stringify(value);
 }
 
-/** "number, 0 to 1", "one of a, b". */
+/** Returns a type and its range as text: "number, 0 to 1", "one of a, b". */
 function typeText(schema: Node_): string {
     const types = (Array.isArray(schema.type) ? schema.type : [schema.type])
         .filter(Boolean)
@@ -243,7 +243,7 @@ function exampleOf(parameter: Parameter): unknown {
     );
 }
 
-/** A command that can be run as it stands where the description gives examples. */
+/** Returns a curl command, ready to run if the description has examples for all path parameters. */
 function curlOf(
     verb: string,
     path: string,
@@ -259,7 +259,8 @@ function curlOf(
         .filter((one) => one.in === "query" && (one.example !== undefined || one.examples))
         .map((one) => `${one.name}=${encodeURIComponent(String(exampleOf(one)))}`)
         .join("&");
-    const address = `${new URL(".", location.href).href.replace(/\/$/, "")}${filled}${query ? `?${query}` : ""}`;
+    const server = new URL(".", location.href).href.replace(/\/$/, "");
+    const address = `${server}${filled}${query ? `?${query}` : ""}`;
     const parts = ["curl"];
     if (/\.(glb|jpg|png)$/.test(path)) parts.push(`-o out${path.slice(path.lastIndexOf("."))}`);
     if (verb !== "get") parts.push(`-X ${verb.toUpperCase()}`);
@@ -328,17 +329,17 @@ function routeSection(
         if (rows.length > 0) section.append(table(rows));
     }
     section.append(make("h3", {}, "Example"), example(curlOf(verb, path, parameters, bodies[0])));
-    const answers = Object.entries(operation.responses ?? {}).map(([status, raw]) => {
-        const answer = follow(raw);
+    const responses = Object.entries(operation.responses ?? {}).map(([status, raw]) => {
+        const response = follow(raw);
         return make(
             "tr",
             {},
             make("td", {}, make("code", {}, status)),
-            make("td", {}, Object.keys(answer.content ?? {}).join(", ")),
-            make("td", {}, answer.description ?? ""),
+            make("td", {}, Object.keys(response.content ?? {}).join(", ")),
+            make("td", {}, response.description ?? ""),
         );
     });
-    if (answers.length > 0) {
+    if (responses.length > 0) {
         section.append(
             make(
                 "details",
@@ -346,7 +347,7 @@ function routeSection(
                 make(
                     "summary",
                     {},
-                    `Answers: ${Object.keys(operation.responses ?? {}).join(", ")}`,
+                    `Responses: ${Object.keys(operation.responses ?? {}).join(", ")}`,
                 ),
                 make(
                     "div",
@@ -365,7 +366,7 @@ function routeSection(
                                 ),
                             ),
                         ),
-                        make("tbody", {}, ...answers),
+                        make("tbody", {}, ...responses),
                     ),
                 ),
             ),
@@ -382,7 +383,7 @@ async function open(): Promise<void> {
     const { title = "API", version = "", description, summary } = root.info ?? {};
     const sections: HTMLElement[] = [];
     const groups = new Map<string, HTMLElement[]>();
-    // What the service is for comes first, what keeps it running last.
+    // Product routes come first, operations last.
     const isProduct = (path: string): boolean => path.startsWith("/v1/");
     const paths = Object.entries(root.paths ?? {}).sort(
         ([a], [b]) => Number(isProduct(b)) - Number(isProduct(a)),

@@ -1,8 +1,9 @@
-// Small helpers to make and find elements.
+// Helpers that create and find elements, and format numbers.
 
 type Attributes = Record<string, string | number | boolean | undefined>;
 
-/** Makes an element; true is an attribute without value, false and undefined are none. */
+/** Creates an element; an attribute with the value true has no text, false and undefined are
+ *  omitted. */
 export function make<K extends keyof HTMLElementTagNameMap>(
     tag: K,
     attributes: Attributes = {},
@@ -17,7 +18,7 @@ export function make<K extends keyof HTMLElementTagNameMap>(
     return element;
 }
 
-/** Makes an element of a drawing. */
+/** Creates an SVG element, with attributes as in make(). */
 export function draw<K extends keyof SVGElementTagNameMap>(
     tag: K,
     attributes: Attributes = {},
@@ -32,7 +33,7 @@ export function draw<K extends keyof SVGElementTagNameMap>(
     return element;
 }
 
-/** The element of index.html with this id. */
+/** Returns the element of index.html with this id; throws if there is none. */
 export function byId<T extends HTMLElement>(id: string): T {
     const element = document.getElementById(id);
     if (!element) throw new Error(`index.html has no #${id}`);
@@ -41,12 +42,12 @@ export function byId<T extends HTMLElement>(id: string): T {
 
 const thousands = "\u202f";
 
-/** 12480 -> "12 480", with narrow spaces. */
+/** Returns a whole number with narrow spaces between thousands: "12 480". */
 export function grouped(value: number): string {
     return String(Math.round(value)).replace(/\B(?=(\d{3})+$)/g, thousands);
 }
 
-/** Bytes as a person says them: "812 B", "340 kB", "1.24 MB". */
+/** Returns a number of bytes as text: "812 B", "340 kB", "1.24 MB". */
 export function kilobytes(bytes: number): string {
     if (bytes < 1000) return `${bytes} B`;
     if (bytes < 1e6) return `${grouped(bytes / 1000)} kB`;

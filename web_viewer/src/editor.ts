@@ -1,5 +1,6 @@
-// The morph editor: two to five species, a point or a slider between them, and for two of them the graph of
-// correspondence between their outlines. It changes `settings.morph`; page.ts requests the model.
+// The morph editor: two to five species, a point or a slider between them, and for two of them the
+// graph of correspondence between their outlines. It changes `settings.morph`; page.ts requests the
+// model.
 import { crossing, matched, mostArcs, rounded, widestGap, type Arc, type CurveName } from "./arcs";
 import { byId, make } from "./dom";
 import type { Species } from "./gallery";
@@ -7,25 +8,25 @@ import { Graph, type Correspondence } from "./graph";
 import { History } from "./history";
 import { getJson, type ProblemItem } from "./http";
 import { fewestMembers, mostMembers, reweighted, thousandths, type Share } from "./mix";
-import { letterOf, Pad } from "./pad";
+import { letterOf, WeightPad } from "./pad";
 import type { Settings } from "./settings";
 import { words } from "./schema";
 import { announce } from "./status_line";
 
 export interface MorphEditorEvents {
-    /** The morph is being changed: a rough model soon. */
+    /** The morph is being dragged: a draft is needed. */
     moving: () => void;
-    /** It was let go; `name` is what was changed. */
+    /** The morph was released; `name` is what was changed. */
     moved: (name: string) => void;
-    /** Another set of species. */
+    /** Another set of species was chosen. */
     chosen: () => void;
 }
 
-/** How long a key must rest before the whole model is asked for. */
-const keyRestMs = 350;
+/** Time without a key press after which the final model is requested, milliseconds. */
+const keyDelayMs = 350;
 
 export class MorphEditor {
-    private readonly pad: Pad;
+    private readonly pad: WeightPad;
     private readonly graph: Graph;
     private readonly slider = make("input", {
         type: "range",
@@ -39,9 +40,9 @@ export class MorphEditor {
     private readonly history = new History<readonly Arc[]>([]);
     private selected: number | undefined;
     private refused = new Map<number, string>();
-    private rest: ReturnType<typeof setTimeout> | undefined;
-    private known: { address: string; answer: Correspondence } | undefined;
-    private asking: { address: string; stop: AbortController } | undefined;
+    private timer: ReturnType<typeof setTimeout> | undefined;
+    private known: { address: string; correspondence: Correspondence } | undefined;
+    private pending: { address: string; stop: AbortController } | undefined;
     private readonly curve = make("select", {
         id: "arc-curve",
         "aria-label": "Sub-curve of a new arc",
@@ -56,15 +57,15 @@ export class MorphEditor {
         private readonly species: readonly Species[],
         private readonly events: MorphEditorEvents,
     ) {
-        this.pad = new Pad({
-            moving: (weights) => this.weigh(weights, false),
-            moved: (weights) => this.weigh(weights, true),
+        this.pad = new WeightPad({
+            moving: (weights) => this.setWeights(weights, false),
+            moved: (weights) => this.setWeights(weights, true),
         });
         this.slider.addEventListener("input", () => {
             const t = Number(this.slider.value);
-            this.weigh([1 - t, t], false);
+            this.setWeights([1 - t, t], false);
         });
-        this.slider.addEventListener("change", () => this.letGo("t"));
+        this.slider.addEventListener("change", () => this.release("t"));
         byId("weights").append(
             this.pad.element,
             make(
@@ -95,11 +96,16 @@ export class MorphEditor {
         this.buttons = {
             add: button("Add arc", "Or double-click an outline", () => this.addArc()),
             remove: button("Remove", "Takes the picked arc away (Delete)", () => this.removeArc()),
-            undo: button("↶", "Undo: Ctrl+Z", () => this.travel(this.history.undo()), "Undo"),
-            redo: button("↷", "Redo: Ctrl+Shift+Z", () => this.travel(this.history.redo()), "Redo"),
+            undo: button("↶", "Undo: Ctrl+Z", () => this.applyArcs(this.history.undo()), "Undo"),
+            redo: button(
+                "↷",
+                "Redo: Ctrl+Shift+Z",
+                () => this.applyArcs(this.history.redo()),
+                "Redo",
+            ),
             reset: button("Reset", "Takes all own arcs away", () => this.commit([])),
         };
-        // On a narrow page the graph follows the weights, so that the mushroom stays in sight.
+        // On a narrow page the graph follows the weights, so that the mushroom stays visible.
         const narrow = matchMedia("(max-width: 900px)");
         const place = (): void => {
             if (narrow.matches) byId("editor").after(byId("graph"));
@@ -112,35 +118,36 @@ export class MorphEditor {
         byId("graph").addEventListener("keydown", (event) => this.onGraphKey(event));
     }
 
-    /** Chooses a species or takes it off the pad; says why when neither can be. */
+    /** Adds a species or removes it; announces the reason if neither is possible. */
     toggle(id: string): void {
         const shares = this.settings.morph?.shares ?? [];
-        const kept = shares.filter((share) => share.id !== id);
-        if (kept.length === shares.length) {
+        const others = shares.filter((share) => share.id !== id);
+        if (others.length === shares.length) {
             if (shares[0] && this.familyOf(id) !== this.familyOf(shares[0].id)) {
-                return announce(
-                    `A morph needs one family: ${this.nameOf(id)} is ${this.familyOf(id)}, ${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`,
-                );
+                const added = `${this.nameOf(id)} is ${this.familyOf(id)}`;
+                const present = `${this.nameOf(shares[0].id)} ${this.familyOf(shares[0].id)}`;
+                return announce(`A morph needs one family: ${added}, ${present}`);
             }
             if (shares.length >= mostMembers)
                 return announce(`A morph has at most ${mostMembers} species: take one off first`);
             this.choose([...shares, { id, weight: 0 }]);
         } else {
-            if (kept.length < fewestMembers)
+            if (others.length < fewestMembers)
                 return announce(`A morph needs ${fewestMembers} species: choose another one first`);
-            this.choose(kept);
+            this.choose(others);
         }
     }
 
-    /** Opens with these shares; fewer than two are joined by what comes next in the gallery. */
+    /** Opens the editor with these shares; if they are fewer than two, the next species of the
+     *  gallery joins. */
     enter(shares: readonly Share[]): void {
         const chosen = shares.slice(0, mostMembers);
         const start = this.species.findIndex(({ id }) => id === chosen[0]?.id);
         for (let step = 1; chosen.length < fewestMembers && step <= this.species.length; ++step) {
             const next = this.species[(start + step + this.species.length) % this.species.length];
-            const kin =
+            const sameFamily =
                 next && (!chosen[0] || this.familyOf(next.id) === this.familyOf(chosen[0].id));
-            if (kin && !chosen.some(({ id }) => id === next.id))
+            if (sameFamily && !chosen.some(({ id }) => id === next.id))
                 chosen.push({ id: next.id, weight: 0 });
         }
         if (chosen.length < fewestMembers)
@@ -149,7 +156,7 @@ export class MorphEditor {
         this.choose(alone ? chosen.map(({ id }) => ({ id, weight: 0.5 })) : chosen);
     }
 
-    /** Brings everything to the settings. */
+    /** Updates everything to the settings. */
     show(): void {
         const morph = this.settings.morph;
         byId("editor").hidden = !morph;
@@ -161,7 +168,7 @@ export class MorphEditor {
         this.readGraph();
     }
 
-    /** Weights only: while something moves. */
+    /** Updates the weights only: while they are dragged. */
     showWeights(): void {
         const morph = this.settings.morph;
         if (!morph) return;
@@ -189,54 +196,55 @@ export class MorphEditor {
         this.showMembers(names, shares);
     }
 
-    /** The age or another setting changed: outlines may be others. */
+    /** Reads the outlines again if the age or another setting has changed them. */
     readGraph(): void {
         const address = this.graphAddress();
         if (!address) {
-            this.asking?.stop.abort();
-            this.asking = undefined;
+            this.pending?.stop.abort();
+            this.pending = undefined;
             return;
         }
-        if (this.known?.address === address || this.asking?.address === address)
+        if (this.known?.address === address || this.pending?.address === address)
             return this.showGraph();
-        this.asking?.stop.abort();
-        const asking = { address, stop: new AbortController() };
-        this.asking = asking;
+        this.pending?.stop.abort();
+        const request = { address, stop: new AbortController() };
+        this.pending = request;
         if (this.known && !this.known.address.startsWith(address.split("?")[0] ?? ""))
             this.known = undefined;
         this.showGraph();
         byId("graph").setAttribute("aria-busy", "true");
-        getJson<Correspondence>(address, asking.stop.signal)
+        getJson<Correspondence>(address, request.stop.signal)
             .then(
-                (answer) => {
-                    if (this.asking !== asking) return;
-                    this.known = { address, answer: this.turned(answer) };
-                    this.tell("");
+                (correspondence) => {
+                    if (this.pending !== request) return;
+                    this.known = { address, correspondence: this.oriented(correspondence) };
+                    this.showProblem("");
                 },
                 (error: unknown) => {
-                    if (this.asking !== asking) return;
+                    if (this.pending !== request) return;
                     this.known = undefined;
-                    this.tell(
+                    this.showProblem(
                         error instanceof Error ? error.message : "The outlines could not be read",
                     );
                 },
             )
             .finally(() => {
-                if (this.asking !== asking) return;
-                this.asking = undefined;
+                if (this.pending !== request) return;
+                this.pending = undefined;
                 byId("graph").removeAttribute("aria-busy");
                 this.showGraph();
             });
     }
 
-    /** Resolves once the graph shows the settings. */
+    /** Resolves when the graph shows the settings. */
     async settled(): Promise<void> {
-        while (this.asking || this.rest !== undefined)
+        while (this.pending || this.timer !== undefined)
             await new Promise((resolve) => setTimeout(resolve, 20));
     }
 
-    /** What stands against an arc, in the service's words; false when it is about something else. */
-    fail({ parameter, detail }: ProblemItem): boolean {
+    /** Shows why an arc is refused, in the service's words; returns false if the problem is about
+     *  something else. */
+    showError({ parameter, detail }: ProblemItem): boolean {
         const index = /^\/?arcs[/.](\d+)/.exec(parameter)?.[1];
         if (index === undefined || !this.settings.morph?.arcs[Number(index)]) return false;
         this.refused.set(Number(index), detail);
@@ -244,8 +252,8 @@ export class MorphEditor {
         return true;
     }
 
-    /** The model of these settings was grown: nothing is refused. */
-    accept(): void {
+    /** The model of these settings was made: no arc is refused. */
+    clearRefusals(): void {
         if (this.refused.size === 0) return;
         this.refused.clear();
         this.showGraph();
@@ -273,7 +281,7 @@ export class MorphEditor {
         this.events.chosen();
     }
 
-    private weigh(weights: readonly number[], letGo: boolean): void {
+    private setWeights(weights: readonly number[], released: boolean): void {
         const morph = this.settings.morph;
         if (!morph) return;
         const parts = thousandths(weights);
@@ -286,17 +294,17 @@ export class MorphEditor {
         });
         this.showWeights();
         this.events.moving();
-        if (letGo) this.letGo("weights");
+        if (released) this.release("weights");
     }
 
-    private letGo(name: string): void {
-        clearTimeout(this.rest);
-        this.rest = setTimeout(
+    private release(name: string): void {
+        clearTimeout(this.timer);
+        this.timer = setTimeout(
             () => {
-                this.rest = undefined;
+                this.timer = undefined;
                 this.events.moved(name);
             },
-            this.slider.matches(":active") || name === "pointer" ? 0 : keyRestMs,
+            this.slider.matches(":active") || name === "pointer" ? 0 : keyDelayMs,
         );
     }
 
@@ -338,7 +346,7 @@ export class MorphEditor {
                 announce(`A share is between 0 and 100 %`);
                 return this.showWeights();
             }
-            this.weigh(
+            this.setWeights(
                 reweighted(shares, index, percent / 100).map(({ weight }) => weight),
                 true,
             );
@@ -354,7 +362,7 @@ export class MorphEditor {
             letterOf(index),
         );
         alone.addEventListener("click", () =>
-            this.weigh(
+            this.setWeights(
                 (this.settings.morph?.shares ?? []).map((_, at) => (at === index ? 1 : 0)),
                 true,
             ),
@@ -383,7 +391,7 @@ export class MorphEditor {
 
     // The graph
 
-    /** Limbs that branch have no outlines to link. */
+    /** Returns true for two species with outlines; branched ones have none. */
     private hasGraph(): boolean {
         const shares = this.settings.morph?.shares;
         return shares?.length === 2 && shares.every(({ id }) => this.familyOf(id) !== "branched");
@@ -393,22 +401,23 @@ export class MorphEditor {
         const shares = this.settings.morph?.shares;
         if (!shares || !this.hasGraph()) return undefined;
         const age = this.settings.values.get("age");
-        return `v1/morphs/${shares[0]!.id}/${shares[1]!.id}${age === undefined ? "" : `?age=${age}`}`;
+        const query = age === undefined ? "" : `?age=${age}`;
+        return `v1/morphs/${shares[0]!.id}/${shares[1]!.id}${query}`;
     }
 
-    /** The service may answer for b and a: the graph has A on the left. */
-    private turned(answer: Correspondence): Correspondence {
-        if (answer.a === this.settings.morph?.shares[0]?.id) return answer;
+    /** Returns a correspondence with its first member as A, whatever the order of the response. */
+    private oriented(correspondence: Correspondence): Correspondence {
+        if (correspondence.a === this.settings.morph?.shares[0]?.id) return correspondence;
         return {
-            ...answer,
-            a: answer.b,
-            b: answer.a,
-            outlines: { a: answer.outlines.b, b: answer.outlines.a },
-            arcs: answer.arcs.map(({ curve, a, b }) => ({ curve, a: b, b: a })),
+            ...correspondence,
+            a: correspondence.b,
+            b: correspondence.a,
+            outlines: { a: correspondence.outlines.b, b: correspondence.outlines.a },
+            arcs: correspondence.arcs.map(({ curve, a, b }) => ({ curve, a: b, b: a })),
         };
     }
 
-    private tell(problem: string): void {
+    private showProblem(problem: string): void {
         const box = byId("graph-problem");
         box.textContent = problem;
         box.hidden = problem === "";
@@ -421,7 +430,7 @@ export class MorphEditor {
             this.nameOf(morph.shares[0]!.id),
             this.nameOf(morph.shares[1]!.id),
         ];
-        this.graph.show(this.known?.answer, names);
+        this.graph.show(this.known?.correspondence, names);
         this.graph.showArcs(morph.arcs, new Set(this.refused.keys()), this.selected);
         const shared = this.graph.shared;
         if ([...this.curve.options].map(({ value }) => value).join() !== shared.join()) {
@@ -436,11 +445,12 @@ export class MorphEditor {
         undo.disabled = !this.history.undoable;
         redo.disabled = !this.history.redoable;
         reset.disabled = morph.arcs.length === 0;
-        if (this.known || this.refused.size > 0) this.tell(this.refusal());
-        byId("graph-state").textContent = this.state(morph.arcs);
+        if (this.known || this.refused.size > 0) this.showProblem(this.refusal());
+        byId("graph-state").textContent = this.stateText(morph.arcs);
     }
 
-    /** The service's sentence about the arc in hand, or about the first refused; it counts from 0, people from 1. */
+    /** Returns the service's message about the selected arc, or about the first refused one; it
+     *  counts from 0, the page from 1. */
     private refusal(): string {
         if (this.refused.size === 0) return "";
         const picked =
@@ -454,12 +464,12 @@ export class MorphEditor {
         return `Arc ${picked + 1} is refused: ${detail}`;
     }
 
-    private state(arcs: readonly Arc[]): string {
-        const answer = this.known?.answer;
-        if (!answer) return this.asking ? "Reading the outlines…" : "";
-        const proof = answer.certificate?.simple ? ", proven not to fold" : "";
+    private stateText(arcs: readonly Arc[]): string {
+        const correspondence = this.known?.correspondence;
+        if (!correspondence) return this.pending ? "Reading the outlines…" : "";
+        const proof = correspondence.certificate?.simple ? ", proven not to fold" : "";
         const own = arcs.length ? `, ${arcs.length} of yours` : "";
-        return `${answer.arcs.length} arcs found${own}${arcs.length ? "" : proof}`;
+        return `${correspondence.arcs.length} arcs found${own}${arcs.length ? "" : proof}`;
     }
 
     private changeArcs(arcs: readonly Arc[], settled: boolean): void {
@@ -468,16 +478,16 @@ export class MorphEditor {
         const now = arcs.map((arc) => ({ ...arc }));
         if (settled) return this.commit(now);
         this.settings.setMorph({ ...morph, arcs: now });
-        // A crossing arc would be refused: that is asked once it is let go.
+        // A crossing arc would be refused: it is requested only when it is released.
         if (!crossing(now).includes(true)) this.events.moving();
     }
 
     private commit(arcs: readonly Arc[]): void {
         this.history.push(arcs);
-        this.travel(arcs);
+        this.applyArcs(arcs);
     }
 
-    private travel(arcs: readonly Arc[]): void {
+    private applyArcs(arcs: readonly Arc[]): void {
         const morph = this.settings.morph;
         if (!morph) return;
         this.settings.setMorph({ ...morph, arcs: arcs.map((arc) => ({ ...arc })) });
@@ -485,7 +495,7 @@ export class MorphEditor {
         if (this.selected !== undefined && !arcs[this.selected]) this.selected = undefined;
         this.showGraph();
         if (!crossing(arcs).includes(true)) this.events.moving();
-        this.letGo("arcs");
+        this.release("arcs");
     }
 
     private addArc(): void {
@@ -518,7 +528,7 @@ export class MorphEditor {
             const again = key === "y" || event.shiftKey;
             if (again ? !this.history.redoable : !this.history.undoable) return;
             event.preventDefault();
-            this.travel(again ? this.history.redo() : this.history.undo());
+            this.applyArcs(again ? this.history.redo() : this.history.undo());
         } else if (
             (event.key === "Delete" || event.key === "Backspace") &&
             (event.target as Element).closest("[data-side]")

@@ -1,6 +1,6 @@
 // The buttons that take the shown model away: download, copied URL, copied curl command.
 import { byId, make } from "./dom";
-import type { Grown } from "./grower";
+import type { LoadedModel } from "./model_loader";
 import { announce } from "./status_line";
 
 /** Time after which the memory of a saved file is freed: the download has begun by then. */
@@ -25,19 +25,19 @@ async function copy(text: string, label: string): Promise<void> {
 }
 
 /** Returns the absolute canonical URL of a model. */
-function canonicalUrl({ answer, wanted }: Grown): string {
-    const { headers } = answer.response;
-    return new URL(headers.get("content-location") ?? wanted.address, location.href).href;
+function canonicalUrl({ fetched, request }: LoadedModel): string {
+    const { headers } = fetched.response;
+    return new URL(headers.get("content-location") ?? request.address, location.href).href;
 }
 
 export class FileActions {
-    private shown: Grown | undefined;
+    private shown: LoadedModel | undefined;
 
     /** `noun` names files that the server gave no name. */
     constructor(private readonly noun: string) {
         byId("download").addEventListener("click", () => {
             if (!this.shown) return;
-            const blob = new Blob([this.shown.answer.bytes], { type: "model/gltf-binary" });
+            const blob = new Blob([this.shown.fetched.bytes], { type: "model/gltf-binary" });
             saveFile(blob, this.fileName(this.shown));
         });
         byId("copy-url").addEventListener("click", () => {
@@ -49,29 +49,29 @@ export class FileActions {
     }
 
     /** Lets the buttons act on this model; drafts cannot be taken away. */
-    show(grown: Grown): void {
-        this.shown = grown;
-        const { answer, draft, wanted } = grown;
+    show(loaded: LoadedModel): void {
+        this.shown = loaded;
+        const { fetched, draft, request } = loaded;
         for (const id of ["download", "copy-url", "copy-curl"]) {
             byId<HTMLButtonElement>(id).disabled = draft;
         }
-        if (wanted.body !== undefined) {
+        if (request.body !== undefined) {
             // Arcs and rows are sent in a body: a URL exists only if the server names one.
             byId<HTMLButtonElement>("copy-url").disabled =
-                !answer.response.headers.has("content-location");
+                !fetched.response.headers.has("content-location");
         }
     }
 
-    private curlCommand(grown: Grown): string {
-        const { answer, wanted } = grown;
+    private curlCommand(loaded: LoadedModel): string {
+        const { fetched, request } = loaded;
         const posted =
-            wanted.body !== undefined && !answer.response.headers.has("content-location");
-        const data = posted ? ` -H 'Content-Type: application/json' -d '${wanted.body}'` : "";
-        return `curl -o '${this.fileName(grown)}'${data} '${canonicalUrl(grown)}'`;
+            request.body !== undefined && !fetched.response.headers.has("content-location");
+        const data = posted ? ` -H 'Content-Type: application/json' -d '${request.body}'` : "";
+        return `curl -o '${this.fileName(loaded)}'${data} '${canonicalUrl(loaded)}'`;
     }
 
-    private fileName({ answer }: Grown): string {
-        const disposition = answer.response.headers.get("content-disposition") ?? "";
+    private fileName({ fetched }: LoadedModel): string {
+        const disposition = fetched.response.headers.get("content-disposition") ?? "";
         return /filename="([\w.-]+)"/.exec(disposition)?.[1] ?? `${this.noun}.glb`;
     }
 }

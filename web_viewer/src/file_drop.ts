@@ -2,7 +2,7 @@
 // that the service finds in them.
 import { byId } from "./dom";
 import { RequestFailed, send } from "./http";
-import { grownAt, type Product } from "./products";
+import { modelAt, type Product } from "./products";
 import { mixPattern } from "./settings";
 
 /** Calls `open` for each file that is dropped on the page or chosen with the button "Open". */
@@ -63,7 +63,7 @@ export async function inspectFile(file: File, noun: string): Promise<FileSetting
     });
     const { canonical } = (await response.json()) as { canonical?: string };
     const address = new URL(canonical ?? "", location.href);
-    const found = grownAt(decodeURIComponent(address.pathname));
+    const found = modelAt(decodeURIComponent(address.pathname));
     if (found && mixPattern.test(found.id)) return { ...found, query: address.search };
     const detail = canonical ? `It was made by ${canonical}` : "It names no settings.";
     throw new RequestFailed(`${file.name} is not a ${noun} of this page`, detail, 0);

@@ -1,4 +1,4 @@
-// The gallery: one button per species, with a picture that the page takes itself.
+// The gallery: one button per species, with a picture that the page renders itself.
 import { make } from "./dom";
 import { centimetres } from "./camera";
 
@@ -16,7 +16,8 @@ export interface Species {
 
 const months = ["Jan", "Feb", "Mar", "Apr", "May", "Jun", "Jul", "Aug", "Sep", "Oct", "Nov", "Dec"];
 
-/** "Jul–Oct" of [7, 8, 9, 10], "Apr–Jun, Sep" of [4, 5, 6, 9]; also over the turn of the year. */
+/** Returns months as ranges: "Jul–Oct" for [7, 8, 9, 10], "Apr–Jun, Sep" for [4, 5, 6, 9]; a range
+ *  may include the turn of the year. */
 export function seasonText(season: readonly number[] = []): string {
     if (season.length === 12) return "all year";
     const starts = season.filter((month) => !season.includes(month === 1 ? 12 : month - 1));
@@ -35,7 +36,7 @@ function span(range: [number, number] | null | undefined): string {
     return `${low}–${centimetres(Number(range[1].toPrecision(2)))}`;
 }
 
-/** One line about a species: "cap 8–20 cm · soil · Jul–Oct". */
+/** Returns one line about a species: "cap 8–20 cm · soil · Jul–Oct". */
 export function factLine(species: Species): string {
     const cap = span(species.cap_diameter_m);
     const tall = span(species.height_m);
@@ -48,8 +49,9 @@ export function factLine(species: Species): string {
         .join(" · ");
 }
 
-/** Whether a species answers to every word: parts of its names, form or substrate, or a month in which it fruits. */
-export function answersTo(species: Species, words: string): boolean {
+/** Returns true if a species matches every word: a part of its names, form or substrate, or a month
+ *  in which it fruits. */
+export function matchesSearch(species: Species, words: string): boolean {
     const text = [species.common_name, species.scientific_name, species.form, species.substrate]
         .join(" ")
         .toLowerCase();
@@ -103,12 +105,12 @@ export class Gallery {
         });
     }
 
-    /** Shows the species that answer to all words; tells how many. */
-    show(words: string): number {
+    /** Shows only the species that match all words; returns how many. */
+    filter(words: string): number {
         let shown = 0;
         for (const one of this.species) {
             const item = this.buttons.get(one.id)?.closest("li");
-            const fits = answersTo(one, words);
+            const fits = matchesSearch(one, words);
             if (item) item.hidden = !fits;
             shown += fits ? 1 : 0;
         }
@@ -120,19 +122,19 @@ export class Gallery {
     }
 
     /** Marks what is on the stage: a species, or each member of a mix. */
-    mark(mix: string): void {
+    markShown(mix: string): void {
         const members = mix.split(",").map((member) => member.split(":")[0]);
         for (const [id, button] of this.buttons) {
             const chosen = members.includes(id);
             if (chosen && button.getAttribute("aria-pressed") !== "true") {
-                this.intoView(button);
+                this.scrollIntoList(button);
             }
             button.setAttribute("aria-pressed", String(chosen));
         }
     }
 
-    /** Puts letters to the species of a morph, in their order; none when there is no morph. */
-    letter(ids: readonly string[]): void {
+    /** Labels the species of a morph with letters, in their order; all others have none. */
+    setLetters(ids: readonly string[]): void {
         for (const [id, button] of this.buttons) {
             const at = ids.indexOf(id);
             const picture = button.querySelector<HTMLElement>(".picture");
@@ -141,13 +143,13 @@ export class Gallery {
         }
     }
 
-    picture(id: string, address: string): void {
+    setPicture(id: string, address: string): void {
         const host = this.buttons.get(id)?.querySelector(".picture");
         host?.replaceChildren(make("img", { src: address, alt: "", width: 96, height: 96 }));
     }
 
-    /** Scrolls the list, never the page. */
-    private intoView(button: HTMLButtonElement): void {
+    /** Scrolls the list only, never the page. */
+    private scrollIntoList(button: HTMLButtonElement): void {
         const list = button.closest("ul");
         if (!list) return;
         const item = button.getBoundingClientRect();

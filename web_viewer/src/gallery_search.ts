@@ -6,7 +6,7 @@ import type { Gallery } from "./gallery";
 export function connectSearch(gallery: Gallery): void {
     const input = byId<HTMLInputElement>("find");
     const search = (): void => {
-        const shown = gallery.show(input.value);
+        const shown = gallery.filter(input.value);
         const total = gallery.species.length;
         byId("found").textContent = input.value.trim() ? `${shown} of ${total}` : "";
     };

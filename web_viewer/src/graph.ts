@@ -1,5 +1,6 @@
-// The graph of correspondence between two outlines, as in Figure 6 of the mushroom paper: arcs of the service and of
-// the designer, accepted ones green, refused ones red and crossed out. Ends are dragged or moved by the arrow keys.
+// The graph of correspondence between two outlines, as in Figure 6 of the mushroom paper: arcs of
+// the service and of the designer; accepted ones are green, refused ones red and crossed out. Ends
+// are moved with the pointer or the arrow keys.
 import { crosses, crossing, curveNames, matched, rounded, type Arc, type CurveName } from "./arcs";
 import { draw } from "./dom";
 
@@ -15,7 +16,7 @@ export interface Correspondence {
 }
 
 export interface GraphEvents {
-    /** An end is being moved; `settled` once it was let go. */
+    /** An end is being dragged; `settled` once it was released. */
     change: (arcs: Arc[], settled: boolean) => void;
     select: (index: number | undefined) => void;
 }
@@ -24,11 +25,11 @@ type Side = "a" | "b";
 
 interface Polyline {
     points: { x: number; y: number }[];
-    /** Share of the length at each point. */
+    /** Fraction of the length at each point. */
     shares: number[];
 }
 
-/** Where the ends of arcs stand in words. */
+/** Names of the ends of the sub-curves. */
 const ends: Record<CurveName, [string, string]> = {
     stem: ["base", "top"],
     hymenium: ["stem", "margin"],
@@ -59,7 +60,8 @@ function placeAt({ points, shares }: Polyline, share: number): { x: number; y: n
     return { x: from.x + t * (to.x - from.x), y: from.y + t * (to.y - from.y) };
 }
 
-/** The share of a polyline that is nearest to a place, and how far it is. */
+/** Returns the point of a polyline that is nearest to (x, y), as a fraction of its length, and its
+ *  distance. */
 function nearestOn(
     { points, shares }: Polyline,
     x: number,
@@ -91,12 +93,12 @@ export class Graph {
         role: "group",
         "aria-label": "Outlines and the arcs between them",
     });
-    private known: Correspondence | undefined;
+    private correspondence: Correspondence | undefined;
     private names: [string, string] = ["A", "B"];
     private arcs: Arc[] = [];
     private refused = new Set<number>();
     private selected: number | undefined;
-    private held: { pointer: number; index: number; side: Side } | undefined;
+    private dragged: { pointer: number; index: number; side: Side } | undefined;
     private curves: Record<Side, Map<CurveName, Polyline>> = { a: new Map(), b: new Map() };
     private readonly ground = draw("g", { class: "ground" });
     private readonly given = draw("g", { class: "given" });
@@ -104,12 +106,12 @@ export class Graph {
 
     constructor(private readonly events: GraphEvents) {
         this.element.append(this.ground, this.given, this.own);
-        this.element.addEventListener("pointerdown", (event) => this.take(event));
+        this.element.addEventListener("pointerdown", (event) => this.startDrag(event));
         this.element.addEventListener("pointermove", (event) => this.drag(event));
         for (const type of ["pointerup", "pointercancel"] as const) {
             this.element.addEventListener(type, (event) => {
-                if (this.held?.pointer !== event.pointerId) return;
-                this.held = undefined;
+                if (this.dragged?.pointer !== event.pointerId) return;
+                this.dragged = undefined;
                 this.events.change(this.arcs, true);
             });
         }
@@ -122,14 +124,14 @@ export class Graph {
     }
 
     show(known: Correspondence | undefined, names: [string, string]): void {
-        // What was clicked once must still be there for the second click.
-        if (known === this.known && names.join() === this.names.join()) return;
-        this.known = known;
+        // Elements stay the same, so that a second click makes a double click.
+        if (known === this.correspondence && names.join() === this.names.join()) return;
+        this.correspondence = known;
         this.names = names;
         this.layOut();
     }
 
-    /** Shows the designer's arcs, the refused among them, and which one is picked. */
+    /** Shows the designer's arcs, which of them are refused, and which one is selected. */
     showArcs(
         arcs: readonly Arc[],
         refused: ReadonlySet<number>,
@@ -141,7 +143,7 @@ export class Graph {
         this.drawArcs();
     }
 
-    /** Sub-curves that both outlines have. */
+    /** Returns the sub-curves that both outlines have. */
     get shared(): CurveName[] {
         return curveNames.filter((curve) => this.curves.a.has(curve) && this.curves.b.has(curve));
     }
@@ -157,7 +159,7 @@ export class Graph {
         this.element.setAttribute("viewBox", `0 0 ${width} ${height}`);
         this.curves = { a: new Map(), b: new Map() };
         const parts: SVGElement[] = [];
-        const outlines = this.known?.outlines;
+        const outlines = this.correspondence?.outlines;
         if (outlines) {
             const centre = { a: width * 0.25, b: width * 0.75 };
             for (const side of ["a", "b"] as const) {
@@ -223,7 +225,7 @@ export class Graph {
     }
 
     private drawArcs(): void {
-        const given = (this.known?.arcs ?? []).filter(
+        const given = (this.correspondence?.arcs ?? []).filter(
             (arc) => !this.arcs.some((own) => crosses(own, arc)),
         );
         this.given.replaceChildren(
@@ -232,8 +234,8 @@ export class Graph {
                 return line ? [draw("path", { class: `arc ${arc.curve}`, d: lineOf(line) })] : [];
             }),
         );
-        const crossed = this.doubtful();
-        // Handles stay the same elements, so that the focus and a pointer held down stay too.
+        const crossed = this.crossedArcs();
+        // Handles stay the same elements, so that focus and pointer capture stay, too.
         while (this.own.children.length > this.arcs.length) this.own.lastElementChild?.remove();
         while (this.own.children.length < this.arcs.length)
             this.own.append(this.makeArc(this.own.children.length));
@@ -243,10 +245,9 @@ export class Graph {
             group.style.display = line ? "" : "none";
             if (!line) return;
             const refused = this.refused.has(index) || crossed[index] === true;
-            group.setAttribute(
-                "class",
-                `arc ${refused ? "refused" : "accepted"}${this.selected === index ? " selected" : ""}`,
-            );
+            const state = refused ? "refused" : "accepted";
+            const selected = this.selected === index ? " selected" : "";
+            group.setAttribute("class", `arc ${state}${selected}`);
             group.querySelector(".hit")?.setAttribute("d", lineOf(line));
             group.querySelector(".line")?.setAttribute("d", lineOf(line));
             const middle = { x: (line.from.x + line.to.x) / 2, y: (line.from.y + line.to.y) / 2 };
@@ -274,8 +275,9 @@ export class Graph {
         });
     }
 
-    /** Arcs that will be refused, before the service says so: of two that cross the one in hand, else the later one. */
-    private doubtful(): boolean[] {
+    /** Returns which arcs will be refused, before the service reports it: of two that cross, the
+     *  selected one, or else the later one. */
+    private crossedArcs(): boolean[] {
         if (this.refused.size > 0) return [];
         const crossed = crossing(this.arcs);
         if (this.selected !== undefined && crossed[this.selected])
@@ -325,8 +327,8 @@ export class Graph {
         return { x: event.clientX - box.left, y: event.clientY - box.top };
     }
 
-    private take(event: PointerEvent): void {
-        if (event.button !== 0 || this.held) return;
+    private startDrag(event: PointerEvent): void {
+        if (event.button !== 0 || this.dragged) return;
         const target = event.target as Element;
         const group = target.closest<SVGElement>("[data-index]");
         if (!group) return this.events.select(undefined);
@@ -336,13 +338,13 @@ export class Graph {
         if (!side) return this.focusEnd(index);
         event.preventDefault();
         this.focusEnd(index, side);
-        this.held = { pointer: event.pointerId, index, side };
+        this.dragged = { pointer: event.pointerId, index, side };
         this.element.setPointerCapture(event.pointerId);
     }
 
     private drag(event: PointerEvent): void {
-        if (this.held?.pointer !== event.pointerId) return;
-        const { index, side } = this.held;
+        if (this.dragged?.pointer !== event.pointerId) return;
+        const { index, side } = this.dragged;
         const arc = this.arcs[index];
         const curve = arc && this.curves[side].get(arc.curve);
         if (!arc || !curve) return;
@@ -355,7 +357,8 @@ export class Graph {
         this.events.change(this.arcs, false);
     }
 
-    /** A new arc where an outline was double-clicked; its other end as the arcs there are say. */
+    /** Adds an arc where an outline was double-clicked; its other end follows from the present
+     *  arcs. */
     private onDoubleClick(event: MouseEvent): void {
         const { x, y } = this.placeOf(event);
         let best: { arc: Arc; distance: number } | undefined;
@@ -377,9 +380,10 @@ export class Graph {
         this.focusEnd(this.arcs.length - 1);
     }
 
-    /** The arcs that hold: the designer's, and those of the service that they leave room for. */
+    /** Returns the arcs in force: the designer's, and those of the service that do not cross
+     *  them. */
     get guides(): Arc[] {
-        const given = this.known?.arcs ?? [];
+        const given = this.correspondence?.arcs ?? [];
         return [
             ...this.arcs,
             ...given.filter((arc) => !this.arcs.some((own) => crosses(own, arc))),
@@ -406,7 +410,7 @@ function pathOf(points: readonly { x: number; y: number }[]): string {
         .join("");
 }
 
-/** A straight line, as the paper draws its arcs. */
+/** Returns the path of a straight line, as the paper draws its arcs. */
 function lineOf({
     from,
     to,

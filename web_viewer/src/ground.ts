@@ -1,5 +1,5 @@
-// The ground of the stage: a sheet of ruled paper that fades out, and the sun's shadow on it.
-// They face upwards only, so that a look from below meets the mushroom and nothing else.
+// The ground of the stage: a sheet with ruled lines that fades out, and the sun's shadow on it.
+// Both face upwards only, so that a view from below shows the mushroom alone.
 import {
     CircleGeometry,
     Color,
@@ -63,7 +63,7 @@ export class Ground extends Group {
         shadow.receiveShadow = true;
         this.ruled.renderOrder = -2;
         shadow.renderOrder = -1;
-        // What grows below the ground is hidden from above, and seen from below.
+        // Parts below the ground are hidden from above, and visible from below.
         const earth = new Mesh(
             disc,
             new MeshBasicMaterial({
@@ -78,7 +78,7 @@ export class Ground extends Group {
         this.add(earth, this.ruled, shadow);
     }
 
-    /** Fits the sheet to a model: `radius` in metres, a line every `spacing` metres. */
+    /** Fits the sheet to a model: `radius` in metres, lines every `spacing` metres. */
     fit(radius: number, spacing: number): void {
         this.scale.setScalar(radius * 9);
         this.ruling.uniforms["spacing"]!.value = spacing;
@@ -90,8 +90,8 @@ export class Ground extends Group {
         this.shade.color.set(shadow);
     }
 
-    /** Nothing to be seen but that what is buried is hidden. */
-    bare(): void {
+    /** Makes the ground invisible; it still hides what is below it. */
+    makeInvisible(): void {
         this.ruled.visible = false;
         this.shadowed.visible = false;
     }

@@ -1,14 +1,14 @@
-// Growth on the stage: plays the clip of a model from button to decay, or poses it at one age.
+// The growth clip of the model on the stage: plays it from button to decay, or poses it at one age.
 import { AnimationMixer, LoopOnce, type AnimationAction, type Object3D } from "three";
 
 export interface GrowthClipEvents {
-    /** The model has another shape now: draw it. */
+    /** The model has another shape: draw it. */
     posed: (age: number) => void;
-    /** It grew to its end. */
+    /** The clip was played to its end. */
     ended: () => void;
 }
 
-/** The clip that `animation=growth` puts into a file; its time runs evenly with age. */
+/** Name of the clip in files made with `animation=growth`; its time is proportional to age. */
 const clipName = "growth";
 
 export class GrowthClip {
@@ -16,28 +16,28 @@ export class GrowthClip {
     private action: AnimationAction | undefined;
     private seconds = 0;
     private age_: number | undefined;
-    private run = 0;
+    private frameRequest = 0;
 
     constructor(private readonly events: GrowthClipEvents) {}
 
-    /** Whether the model on the stage can grow. */
+    /** Returns true if the model on the stage has a clip. */
     get ready(): boolean {
         return this.action !== undefined;
     }
 
-    /** Whether it grows by itself now. */
+    /** Returns true while the clip is playing. */
     get playing(): boolean {
-        return this.run !== 0;
+        return this.frameRequest !== 0;
     }
 
-    /** The age that is shown; undefined while the model stands as it came. */
+    /** Returns the age that is shown, undefined while no age was posed. */
     get age(): number | undefined {
         return this.age_;
     }
 
-    /** Takes the clip of a model, if it has one, in place of the last one's. */
+    /** Uses the clip of a model, if it has one, in place of the last one. */
     take(model: Object3D): void {
-        this.leave();
+        this.release();
         const clip = model.animations.find(({ name }) => name === clipName);
         if (!clip) return;
         this.mixer = new AnimationMixer(model);
@@ -47,8 +47,8 @@ export class GrowthClip {
         this.action.clampWhenFinished = true;
     }
 
-    /** Lets go of the model as it stands. */
-    leave(): void {
+    /** Stops using the model; it stays as it is. */
+    release(): void {
         this.pause();
         this.mixer?.stopAllAction();
         this.mixer = undefined;
@@ -56,7 +56,7 @@ export class GrowthClip {
         this.age_ = undefined;
     }
 
-    /** Shows one age; false when there is no clip. */
+    /** Shows one age; returns false if there is no clip. */
     pose(age: number): boolean {
         if (!this.mixer || !this.action) return false;
         this.action.paused = false;
@@ -68,30 +68,30 @@ export class GrowthClip {
         return true;
     }
 
-    /** Grows from an age to the end, in the clip's own time. */
+    /** Plays from an age to the end, in the clip's own time. */
     play(from: number): void {
         this.pause();
         if (!this.pose(from)) return;
         let last = performance.now();
         const step = (now: number): void => {
-            // Timestamps of frames may lie a little before the call that asked for them.
+            // Timestamps of frames may be slightly earlier than the call that requested them.
             const passed = Math.max(now - last, 0) / 1000;
             last = now;
             const age = Math.min((this.age_ ?? 0) + passed / this.seconds, 1);
             this.pose(age);
             if (age < 1) {
-                this.run = requestAnimationFrame(step);
+                this.frameRequest = requestAnimationFrame(step);
                 return;
             }
-            this.run = 0;
+            this.frameRequest = 0;
             this.events.ended();
         };
-        this.run = requestAnimationFrame(step);
+        this.frameRequest = requestAnimationFrame(step);
     }
 
-    /** Stops where it is. */
+    /** Stops at the present age. */
     pause(): void {
-        cancelAnimationFrame(this.run);
-        this.run = 0;
+        cancelAnimationFrame(this.frameRequest);
+        this.frameRequest = 0;
     }
 }

@@ -6,7 +6,7 @@ import type { Settings } from "./settings";
 import { announce } from "./status_line";
 import type { Object3D } from "three";
 
-/** Time for which the age of a clip must stay the same before the model of that age is requested. */
+/** Time without a change of age after which the model of that age is requested, milliseconds. */
 export const restMs = 900;
 
 export interface GrowthPlayerEvents {
@@ -41,7 +41,7 @@ export class GrowthPlayer {
             },
         });
         const row = byId("form").querySelector('.control[data-name="age"]');
-        if (!row || !settings.grows) return;
+        if (!row || !settings.hasGrowthClips) return;
         row.classList.add("playable");
         row.querySelector(".entry")?.append(this.button);
         this.button.addEventListener("click", () => {
@@ -70,8 +70,8 @@ export class GrowthPlayer {
     }
 
     /** Stops using the clip; the model stays as it is. */
-    leave(): void {
-        this.clip.leave();
+    release(): void {
+        this.clip.release();
         this.showState();
     }
 

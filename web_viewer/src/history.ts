@@ -1,4 +1,4 @@
-// Undo and redo over whole values: each step is the value as it was.
+// Undo and redo of whole values.
 
 const most = 200;
 
@@ -20,7 +20,7 @@ export class History<T> {
         return this.future.length > 0;
     }
 
-    /** A step that can be taken back. */
+    /** Adds a step that can be undone. */
     push(value: T): void {
         this.past.push(this.present);
         if (this.past.length > most) this.past.shift();
@@ -42,7 +42,7 @@ export class History<T> {
         return (this.present = after);
     }
 
-    /** Another thing altogether: nothing of before can come back. */
+    /** Starts with another value; no earlier step can be undone. */
     begin(value: T): void {
         this.past = [];
         this.future = [];

@@ -1,12 +1,12 @@
-// Talks to the service: JSON and models, progress as it really is, waiting when asked to wait, and
-// every failure as one error that can be read out.
+// Requests to the service: JSON and models, with progress, retries after 429 and 503, and every
+// failure as one readable error.
 
 export interface ProblemItem {
     parameter: string;
     detail: string;
 }
 
-/** A failed request in words, from RFC 9457 where the service gave it. */
+/** A failed request, described by the service's problem details (RFC 9457) if it sent any. */
 export class RequestFailed extends Error {
     constructor(
         readonly title: string,
@@ -18,22 +18,28 @@ export class RequestFailed extends Error {
     }
 }
 
+/** Returns any other error as a failed request with this title. */
+export function asRequestFailed(error: unknown, title: string): RequestFailed {
+    if (error instanceof RequestFailed) return error;
+    return new RequestFailed(title, error instanceof Error ? error.message : "", 0);
+}
+
 export type Progress =
     | { stage: "growing" }
     | { stage: "downloading"; received: number; total: number | undefined }
     | { stage: "waiting"; seconds: number; attempt: number; attempts: number };
 
-export interface Answer {
+export interface FetchedModel {
     bytes: ArrayBuffer;
     response: Response;
-    /** Where the body came from: the server, this browser's cache, or that after the server said 304. */
+    /** Origin of the body: the server, the browser's cache, or the cache after a 304. */
     source: "server" | "browser" | "confirmed";
 }
 
 const attempts = 6;
 const longestWait = 20;
 
-/** Seconds to wait from a Retry-After header, a number or a date; one when there is none. */
+/** Returns the seconds to wait by a Retry-After header, a number or a date; 1 without one. */
 export function retryAfter(header: string | null, now: number): number {
     if (!header) return 1;
     const seconds = /^\d+$/.test(header.trim())
@@ -57,7 +63,7 @@ function pause(seconds: number, signal?: AbortSignal): Promise<void> {
     });
 }
 
-async function failure(response: Response): Promise<RequestFailed> {
+async function failureOf(response: Response): Promise<RequestFailed> {
     const type = response.headers.get("content-type") ?? "";
     if (type.includes("json")) {
         try {
@@ -70,23 +76,24 @@ async function failure(response: Response): Promise<RequestFailed> {
             const id =
                 response.status >= 500 && problem.instance ? ` (request ${problem.instance})` : "";
             return new RequestFailed(
-                problem.title ?? `The server answered ${response.status}`,
+                problem.title ?? `The server responded with ${response.status}`,
                 (problem.detail ?? "") + id,
                 response.status,
                 Array.isArray(problem.errors) ? problem.errors : [],
             );
         } catch {
-            // The body was no JSON after all: the status says what there is to say.
+            // The body is not JSON: the status has to suffice.
         }
     }
     return new RequestFailed(
-        `The server answered ${response.status}`,
+        `The server responded with ${response.status}`,
         response.statusText,
         response.status,
     );
 }
 
-/** Sends one request; 429 and 503 are tried again after the time the server names, a few times. */
+/** Sends one request; after 429 and 503 it is repeated a few times, after the time the server
+ *  names. */
 export async function send(
     address: string,
     init: RequestInit = {},
@@ -103,7 +110,7 @@ export async function send(
         }
         if (response.ok) return response;
         const busy = response.status === 429 || response.status === 503;
-        if (!busy || attempt >= attempts) throw await failure(response);
+        if (!busy || attempt >= attempts) throw await failureOf(response);
         await response.body?.cancel();
         const seconds = retryAfter(response.headers.get("retry-after"), Date.now());
         report({ stage: "waiting", seconds, attempt, attempts });
@@ -116,12 +123,12 @@ export async function getJson<T>(address: string, signal?: AbortSignal): Promise
     return (await response.json()) as T;
 }
 
-/** Fetches a model, reporting each piece that arrives; with a body it is posted. */
+/** Fetches a model and reports each piece that arrives; a request with a body is posted. */
 export async function getModel(
     { address, body }: { address: string; body?: string | undefined },
     signal: AbortSignal,
     report: (progress: Progress) => void = () => undefined,
-): Promise<Answer> {
+): Promise<FetchedModel> {
     const posted =
         body === undefined
             ? {}

@@ -2,7 +2,7 @@
 // together.
 import "./app.css";
 import { byId } from "./dom";
-import { getJson, RequestFailed } from "./http";
+import { asRequestFailed, getJson } from "./http";
 import { ModeLinks } from "./mode_links";
 import { Page } from "./page";
 import { ProblemBox } from "./problem_box";
@@ -21,7 +21,7 @@ function nameProduct(product: Product): void {
     byId("sheets").hidden = true;
     if (product.ofSpecies) return;
     byId<HTMLInputElement>("find").placeholder = "Name…";
-    byId("gallery").parentElement?.setAttribute("aria-label", words(product.kind));
+    byId("gallery").parentElement?.setAttribute("aria-label", words(product.queryName));
     byId("find").setAttribute("aria-label", `Find a ${product.noun}`);
 }
 
@@ -37,12 +37,12 @@ async function open(): Promise<void> {
         getJson<Schema>(`${product.path}/schema`),
         product.list(),
     ]);
-    const { directions, lies } = product;
+    const { directions, liesOnGround: lies } = product;
     const stage = new Stage(byId("stage"), byId<HTMLCanvasElement>("canvas"), {
-        calm: reducedMotion,
-        bare: shot,
+        reducedMotion: reducedMotion,
+        withoutMargins: shot,
         directions,
-        lies,
+        liesOnGround: lies,
     });
     const page = new Page(
         { stage, links, product, schema, species },
@@ -52,14 +52,7 @@ async function open(): Promise<void> {
 }
 
 open().catch((error: unknown) => {
-    const failed =
-        error instanceof RequestFailed
-            ? error
-            : new RequestFailed(
-                  "This page cannot start",
-                  error instanceof Error ? error.message : "",
-                  0,
-              );
+    const failed = asRequestFailed(error, "This page cannot start");
     new ProblemBox().show(failed, () => location.reload());
     announce(failed.message);
 });

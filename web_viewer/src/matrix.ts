@@ -1,17 +1,22 @@
-// The table of a tree's ramification matrix: shown for every tree, and from the first change on one's own.
+// The table of a tree's ramification matrix: shows the one in force; the first change makes it the
+// designer's own.
 import { byId, make } from "./dom";
 import { grownBy, mostOrder, withShare, type Rows } from "./rows";
 import type { Settings } from "./settings";
 
 export interface MatrixEvents {
-    /** A share was changed, or an order came or went. */
+    /** A share was changed, or an order was added or removed. */
     changed: () => void;
 }
 
 export class MatrixTable {
     private readonly host = byId("matrix");
     private readonly table = make("table");
-    private readonly message = make("p", { class: "fault", role: "alert", hidden: true });
+    private readonly message = make("p", {
+        class: "validation-error",
+        role: "alert",
+        hidden: true,
+    });
     private readonly more = make("button", { type: "button" }, "One order more");
     private readonly less = make("button", { type: "button" }, "One order less");
     private readonly back = make("button", { type: "button" }, "Back to the preset’s own");
@@ -30,26 +35,27 @@ export class MatrixTable {
                 make(
                     "p",
                     { class: "about" },
-                    "Row k: of the nodes of order k, how many bear a side branch of order 1, 2 …, and at last how many fork. Each row sums to one.",
+                    "Row k: of the nodes of order k, how many bear a side branch of order 1, " +
+                        "2 …, and at last how many fork. Each row sums to one.",
                 ),
                 make("div", { class: "matrix-paper" }, this.table),
                 this.message,
                 make("div", { class: "matrix-tools" }, this.more, this.less, this.back),
             ),
         );
-        this.more.addEventListener("click", () => this.put(grownBy(this.rows)));
-        this.less.addEventListener("click", () => this.put(this.rows.slice(0, -1)));
-        this.back.addEventListener("click", () => this.put(undefined));
+        this.more.addEventListener("click", () => this.setRows(grownBy(this.rows)));
+        this.less.addEventListener("click", () => this.setRows(this.rows.slice(0, -1)));
+        this.back.addEventListener("click", () => this.setRows(undefined));
     }
 
-    /** The matrix that the shown tree obeys, as the service tells it. */
-    serve(rows: Rows | undefined): void {
+    /** Shows the matrix of the shown tree, as the service reports it. */
+    showServed(rows: Rows | undefined): void {
         if (rows) this.served = rows;
         this.show();
     }
 
-    /** Puts words under the table; false for what is about something else. */
-    fail(parameter: string, detail: string): boolean {
+    /** Shows a message under the table; returns false if it is about something else. */
+    showError(parameter: string, detail: string): boolean {
         const place = /^\/?rows(?:[/.](\d+))?(?:[/.](\d+))?$/.exec(parameter);
         if (!place) return false;
         this.message.hidden = false;
@@ -59,19 +65,19 @@ export class MatrixTable {
         return true;
     }
 
-    clearFaults(): void {
+    clearErrors(): void {
         this.message.hidden = true;
         for (const row of this.host.querySelectorAll("tr.failed")) row.classList.remove("failed");
     }
 
     show(): void {
-        this.clearFaults();
+        this.clearErrors();
         const { rows } = this;
         this.back.hidden = !this.settings.rows;
         this.more.disabled = rows.length + 1 >= mostOrder;
         this.less.disabled = rows.length <= 1;
         this.host.classList.toggle("set", this.settings.rows !== undefined);
-        const kept = document.activeElement?.getAttribute("data-cell");
+        const focused = document.activeElement?.getAttribute("data-cell");
         const head = make(
             "tr",
             {},
@@ -97,7 +103,7 @@ export class MatrixTable {
                 ),
             ),
         );
-        if (kept) this.table.querySelector<HTMLElement>(`[data-cell="${kept}"]`)?.focus();
+        if (focused) this.table.querySelector<HTMLElement>(`[data-cell="${focused}"]`)?.focus();
     }
 
     private get rows(): Rows {
@@ -120,14 +126,14 @@ export class MatrixTable {
         entry.addEventListener("change", () => {
             const value = Number(entry.value);
             if (entry.value === "" || !Number.isFinite(value)) return this.show();
-            this.put(
+            this.setRows(
                 this.rows.map((old, index) => (index === row ? withShare(old, at, value) : old)),
             );
         });
         return entry;
     }
 
-    private put(rows: Rows | undefined): void {
+    private setRows(rows: Rows | undefined): void {
         this.settings.rows = rows;
         if (rows)
             for (const name of ["matrix", "blend", "order"]) this.settings.set(name, undefined);

@@ -1,4 +1,4 @@
-// Mixes of species: read from addresses, and written as the service's canonical rule spells them.
+// Mixes of species: read from addresses, and written in the service's canonical form.
 
 export interface Share {
     id: string;
@@ -6,11 +6,12 @@ export interface Share {
     weight: number;
 }
 
-/** A morph goes on between two and five species: more corners than that leave no room on the pad. */
+/** A morph has two to five species: the polygon has no space for more corners. */
 export const fewestMembers = 2;
 export const mostMembers = 5;
 
-/** Weights in whole thousandths of their sum, by largest remainder, ties to the first; all zero stay so. */
+/** Returns weights in whole thousandths of their sum, by largest remainder, ties to the first; all
+ *  zero if the sum is zero. */
 export function thousandths(weights: readonly number[]): number[] {
     const sum = weights.reduce((all, weight) => all + weight, 0);
     if (sum <= 0) return weights.map(() => 0);
@@ -23,24 +24,26 @@ export function thousandths(weights: readonly number[]): number[] {
     return whole;
 }
 
-/** "amanita_muscaria:0.7,boletus_edulis:0.3": sorted, in thousandths, without what rounds to nothing. */
+/** Returns a mix in canonical form, "amanita_muscaria:0.7,boletus_edulis:0.3": sorted, in
+ *  thousandths, without shares that round to zero. */
 export function canonicalMix(shares: readonly Share[]): string {
     const sorted = [...shares].sort((one, other) => (one.id < other.id ? -1 : 1));
     const parts = thousandths(sorted.map((share) => share.weight));
-    const kept = sorted.flatMap(({ id }, index) =>
+    const nonzero = sorted.flatMap(({ id }, index) =>
         parts[index] ? [{ id, part: parts[index] }] : [],
     );
-    if (kept.length === 1 && kept[0]) return kept[0].id;
-    return kept.map(({ id, part }) => `${id}:${part / 1000}`).join(",");
+    if (nonzero.length === 1 && nonzero[0]) return nonzero[0].id;
+    return nonzero.map(({ id, part }) => `${id}:${part / 1000}`).join(",");
 }
 
-/** All shares in their own order, also those of nothing: what the page's address says. */
+/** Returns all shares in their own order, zeros included, for the page's address. */
 export function sharesText(shares: readonly Share[]): string {
     const parts = thousandths(shares.map((share) => share.weight));
     return shares.map(({ id }, index) => `${id}:${(parts[index] ?? 0) / 1000}`).join(",");
 }
 
-/** Reads "a:0.5,b:0.5" or "a,b"; undefined unless these are shares of different species that sum to something. */
+/** Parses "a:0.5,b:0.5" or "a,b"; returns undefined unless these are shares of different species
+ *  with a positive sum. */
 export function readShares(text: string): Share[] | undefined {
     const shares: Share[] = [];
     for (const part of text.split(",")) {
@@ -53,7 +56,7 @@ export function readShares(text: string): Share[] | undefined {
     return shares.map(({ id, weight }) => ({ id, weight: weight / sum }));
 }
 
-/** Gives one member another weight and lets the others keep their proportions. */
+/** Gives one member another weight; the others keep their proportions. */
 export function reweighted(shares: readonly Share[], index: number, weight: number): Share[] {
     const others = shares.reduce((all, share, at) => (at === index ? all : all + share.weight), 0);
     const rest = 1 - weight;

@@ -21,8 +21,8 @@ export class ModeLinks {
     private readonly morphLink = make("a", { id: "mode-morph", href: "?" }, "Morph");
 
     constructor(private readonly product: Product) {
-        for (const { kind, label, canMorph } of products) {
-            const href = kind === mushrooms.kind ? "?" : `?${kind}`;
+        for (const { queryName: kind, label, canMorph } of products) {
+            const href = kind === mushrooms.queryName ? "?" : `?${kind}`;
             const link = make("a", { id: `mode-${kind}`, href }, label);
             this.links.set(kind, link);
             byId("modes").append(link);
@@ -52,7 +52,7 @@ export class ModeLinks {
      *  species of the gallery. */
     show({ mix, morph }: Settings, ids: readonly string[]): void {
         if (!this.product.ofSpecies) return;
-        for (const { ofSpecies, canMorph, kind } of products) {
+        for (const { ofSpecies, canMorph, queryName: kind } of products) {
             if (ofSpecies && !canMorph)
                 this.links.get(kind)?.setAttribute("href", `?${kind}=${mix}`);
         }
@@ -60,7 +60,7 @@ export class ModeLinks {
         this.mark(morph ? this.morphLink : this.link(mushrooms));
         const first = morph?.shares.find(({ weight }) => weight > 0)?.id ?? mix.split(/[:,]/)[0];
         const other = ids.find((id) => id !== first);
-        this.link(mushrooms).href = `?${mushrooms.kind}=${first}`;
+        this.link(mushrooms).href = `?${mushrooms.queryName}=${first}`;
         this.morphLink.href = morph ? location.search : `?morph=${first}:0.5,${other}:0.5`;
     }
 
@@ -68,12 +68,12 @@ export class ModeLinks {
     private linkBack(mix: string): void {
         const shares = readShares(mix) ?? [];
         const isMorph = shares.length >= fewestMembers && shares.length <= mostMembers;
-        this.link(mushrooms).href = `?${mushrooms.kind}=${mix}`;
+        this.link(mushrooms).href = `?${mushrooms.queryName}=${mix}`;
         if (isMorph) this.morphLink.href = `?morph=${sharesText(shares)}`;
         this.morphLink.hidden = !isMorph;
     }
 
-    private link({ kind }: Product): HTMLAnchorElement {
+    private link({ queryName: kind }: Product): HTMLAnchorElement {
         return this.links.get(kind)!;
     }
 

@@ -1,4 +1,4 @@
-// A parsed GLB on its way to the stage and off it again: reading, measuring, counting, freeing.
+// Parsed GLBs: reading, measuring, counting and disposing.
 import {
     Box3,
     InstancedMesh,
@@ -9,7 +9,7 @@ import {
     type Object3D,
 } from "three";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
-import type { Paint } from "./paint";
+import type { DraftTextures } from "./draft_textures";
 
 export interface Counts {
     triangles: number;
@@ -42,37 +42,38 @@ export function texturesOf(model: Object3D): Set<Texture> {
     return textures;
 }
 
-/** Morph targets turn normals, but the tangents of the file stay: where a face turns far, both would meet. The
- *  tangents that three derives from positions and texture coordinates turn with the face. */
+/** Removes the tangents of a mesh with morph targets. Morph targets change normals but not the
+ *  tangents of the file; three derives tangents from positions and texture coordinates instead. */
 function useDerivativeTangents(mesh: Mesh): void {
     if (!mesh.geometry.getAttribute("tangent")) return;
     mesh.geometry.deleteAttribute("tangent");
     for (const material of materialsOf(mesh)) {
-        // As the loader does for files without tangents.
+        // The loader does the same for files without tangents.
         if (material instanceof MeshStandardMaterial) material.normalScale.y *= -1;
     }
 }
 
-/** Addresses of the linked images that a model lent its paint still waits for, by what they are. */
-export function paintOf(model: Object3D): Map<string, string> {
+/** Returns the addresses of the linked images that a draft does not have yet, by role. */
+export function linkedImagesOf(model: Object3D): Map<string, string> {
     return (
-        (model.userData["paint"] as Map<string, string> | undefined) ?? new Map<string, string>()
+        (model.userData["linkedImages"] as Map<string, string> | undefined) ??
+        new Map<string, string>()
     );
 }
 
-/** Reads GLB bytes that came from an address, which links to images are resolved against; those are fetched now, or with `paint` lent
- *  now and fetched later. */
+/** Parses a GLB. Links to images are relative to the address `from`; they are fetched now, or later
+ *  if shared textures are given. */
 export async function parseModel(
     bytes: ArrayBuffer,
     from: string,
-    paint?: Paint,
+    sharedTextures?: DraftTextures,
 ): Promise<Object3D> {
     const loader = new GLTFLoader();
-    const late = new Map<string, string>();
-    if (paint) loader.register(paint.plugin(late, from));
+    const linkedImages = new Map<string, string>();
+    if (sharedTextures) loader.register(sharedTextures.plugin(linkedImages, from));
     const { scene, animations } = await loader.parseAsync(bytes, new URL(".", from).href);
     scene.animations = animations;
-    scene.userData["paint"] = late;
+    scene.userData["linkedImages"] = linkedImages;
     for (const mesh of meshesOf(scene)) {
         if (mesh.geometry.morphAttributes.position) useDerivativeTangents(mesh);
         mesh.castShadow = true;
@@ -95,12 +96,12 @@ export function countsOf(model: Object3D): Counts {
     return counts;
 }
 
-/** What the caps of a colony stand on, roots and stems; undefined where nothing is but individuals. */
+/** Returns the node of a colony's roots and stems, undefined if it has none. */
 export function stemsOf(model: Object3D): Object3D | undefined {
     return model.children.find(({ name }) => name === "stems");
 }
 
-/** Bounds of the vertices themselves, metres. */
+/** Returns the bounds of the transformed vertices, metres. */
 export function boundsOf(model: Object3D): Box3 {
     model.updateMatrixWorld(true);
     return new Box3().setFromObject(model, true);
@@ -114,14 +115,14 @@ export function setWireframe(model: Object3D, shown: boolean): void {
     }
 }
 
-/** Frees all that a model holds on the graphics card, and its decoded images. */
+/** Frees the model's memory on the graphics card, and its decoded images. */
 export function disposeModel(model: Object3D): void {
     for (const texture of texturesOf(model)) {
-        // Paint that drafts share stays; of a finished model's texture only the image goes on living.
-        if (texture.userData["shared"] && !texture.userData["lent"]) continue;
+        // Shared textures of drafts stay; of a final model's texture only the image stays in use.
+        if (texture.userData["shared"] && !texture.userData["imageShared"]) continue;
         const image: unknown = texture.image;
         texture.dispose();
-        if (texture.userData["lent"]) continue;
+        if (texture.userData["imageShared"]) continue;
         if (typeof ImageBitmap !== "undefined" && image instanceof ImageBitmap) image.close();
     }
     for (const mesh of meshesOf(model)) {

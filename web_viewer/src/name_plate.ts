@@ -40,7 +40,7 @@ export class NamePlate {
 
     /** Shows the size of the model and, of a colony, how many individuals were made. */
     showSize({ above, width, depth }: Size, count: ColonyCount | undefined): void {
-        const size = this.product.lies
+        const size = this.product.liesOnGround
             ? `${centimetres(depth, 1)} long, ${centimetres(width, 1)} wide`
             : `${length(above)} tall, ${length(Math.max(width, depth))} across`;
         const made = count ? ` · ${count.made} of ${count.requested} made` : "";

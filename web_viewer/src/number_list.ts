@@ -1,6 +1,6 @@
 // The list of numbers about the shown model: size, counts, and how the server served it.
 import { byId, grouped, kilobytes, make } from "./dom";
-import type { Grown } from "./grower";
+import type { LoadedModel } from "./model_loader";
 import { countsOf } from "./model";
 
 /** Returns the durations of a Server-Timing header: ["grow 12.3", ...], milliseconds. */
@@ -13,9 +13,9 @@ function timingsOf(header: string): string[] {
 }
 
 /** Shows the numbers of a model. */
-export function showNumbers(grown: Grown): void {
-    const { response, bytes, source } = grown.answer;
-    const counts = countsOf(grown.model);
+export function showNumbers(loaded: LoadedModel): void {
+    const { response, bytes, source } = loaded.fetched;
+    const counts = countsOf(loaded.model);
     const header = (name: string): string | undefined => response.headers.get(name) ?? undefined;
     const origin = {
         server: "",
@@ -36,5 +36,5 @@ export function showNumbers(grown: Grown): void {
         value === undefined ? [] : [make("dt", {}, name), make("dd", {}, value)],
     );
     byId("number-list").replaceChildren(...entries);
-    byId("numbers").classList.toggle("draft", grown.draft);
+    byId("numbers").classList.toggle("draft", loaded.draft);
 }

@@ -1,16 +1,17 @@
-// The polygon pad: a point between three to five species, moved by hand or by the arrow keys.
+// The weight polygon: a point between three to five species, moved with the pointer or the arrow
+// keys.
 import { draw } from "./dom";
 import { insidePolygon, pointOf, polygon, weightsAt, type Point } from "./weights";
 
-export interface PadEvents {
-    /** The point is being moved. */
+export interface WeightPadEvents {
+    /** The point is being dragged. */
     moving: (weights: number[]) => void;
-    /** It was let go. */
+    /** The point was released. */
     moved: (weights: number[]) => void;
 }
 
 const reach = 100;
-/** Part of the radius within which a corner catches the point. */
+/** Distance within which the point snaps to a corner, as a fraction of the radius. */
 const snap = 0.045;
 const keySteps: Record<string, Point> = {
     ArrowLeft: { x: -1, y: 0 },
@@ -19,7 +20,7 @@ const keySteps: Record<string, Point> = {
     ArrowDown: { x: 0, y: 1 },
 };
 
-export class Pad {
+export class WeightPad {
     readonly element = draw("svg", {
         class: "pad",
         viewBox: "-134 -128 268 256",
@@ -38,21 +39,21 @@ export class Pad {
         draw("circle", { class: "ring", r: 11 }),
         draw("circle", { class: "dot", r: 4 }),
     );
-    private held: number | undefined;
+    private pointer: number | undefined;
 
-    constructor(private readonly events: PadEvents) {
+    constructor(private readonly events: WeightPadEvents) {
         this.element.append(this.shape, this.rays, this.labels, this.handle);
         this.handle.setAttribute("aria-roledescription", "point between species");
         this.handle.setAttribute("aria-valuemin", "0");
         this.handle.setAttribute("aria-valuemax", "100");
-        this.element.addEventListener("pointerdown", (event) => this.take(event));
+        this.element.addEventListener("pointerdown", (event) => this.startDrag(event));
         this.element.addEventListener("pointermove", (event) => {
-            if (event.pointerId === this.held) this.move(this.placeOf(event), false);
+            if (event.pointerId === this.pointer) this.move(this.placeOf(event), false);
         });
         for (const type of ["pointerup", "pointercancel"] as const) {
             this.element.addEventListener(type, (event) => {
-                if (event.pointerId !== this.held) return;
-                this.held = undefined;
+                if (event.pointerId !== this.pointer) return;
+                this.pointer = undefined;
                 this.element.classList.remove("held");
                 this.events.moved(this.weights);
             });
@@ -60,7 +61,8 @@ export class Pad {
         this.handle.addEventListener("keydown", (event) => this.onKey(event));
     }
 
-    /** Shows named corners and weights. A point that stands for these weights already stays where it is. */
+    /** Shows named corners and weights. The point stays where it is if it has these weights
+     *  already. */
     show(names: readonly string[], weights: readonly number[]): void {
         if (names.length !== this.corners.length) this.corners = polygon(names.length);
         this.shape.setAttribute(
@@ -113,7 +115,8 @@ export class Pad {
             .join(", ");
         this.handle.setAttribute(
             "aria-label",
-            "Point between the species; arrow keys move it, digits go to a corner, Home to the middle",
+            "Point between the species; arrow keys move it, digits go to a corner, " +
+                "Home to the middle",
         );
         this.handle.setAttribute(
             "aria-valuenow",
@@ -135,14 +138,14 @@ export class Pad {
         return { x: x / reach, y: y / reach };
     }
 
-    private take(event: PointerEvent): void {
-        if (event.button !== 0 || this.held !== undefined) return;
+    private startDrag(event: PointerEvent): void {
+        if (event.button !== 0 || this.pointer !== undefined) return;
         const corner = (event.target as Element).closest<SVGElement>(".corner")?.dataset["corner"];
         const place = this.placeOf(event);
         const onField = Math.hypot(place.x, place.y) <= 1.15;
         if (!onField) return;
         event.preventDefault();
-        this.held = event.pointerId;
+        this.pointer = event.pointerId;
         this.element.classList.add("held");
         this.element.setPointerCapture(event.pointerId);
         this.handle.focus({ preventScroll: true });
@@ -166,13 +169,13 @@ export class Pad {
         }
         if (!to) return;
         event.preventDefault();
-        // A step away from a corner must not be caught by it again.
+        // A step away from a corner must not snap back to it.
         this.point = insidePolygon(to, this.corners, step ? 0.019 : 0);
         this.events.moved(this.weights);
     }
 }
 
-/** A, B, C… */
+/** Returns the letter of an index: A, B, C… */
 export function letterOf(index: number): string {
     return String.fromCharCode(65 + index);
 }

@@ -9,16 +9,16 @@ import { FileActions, saveFile } from "./file_actions";
 import { acceptFiles, inspectFile } from "./file_drop";
 import { Gallery, type Species } from "./gallery";
 import { connectSearch } from "./gallery_search";
-import { Grower, type Grown, type Resource } from "./grower";
+import { ModelLoader, type LoadedModel, type ModelReport } from "./model_loader";
 import { GrowthPlayer, restMs } from "./growth_player";
-import { RequestFailed, type ProblemItem } from "./http";
+import { asRequestFailed, type ProblemItem, type RequestFailed } from "./http";
 import { MatrixTable } from "./matrix";
 import { readShares } from "./mix";
 import type { ModeLinks } from "./mode_links";
-import { countsOf, paintOf, type Counts } from "./model";
+import { countsOf, linkedImagesOf, type Counts } from "./model";
 import { NamePlate, type ColonyCount } from "./name_plate";
 import { showNumbers } from "./number_list";
-import { Paint } from "./paint";
+import { DraftTextures } from "./draft_textures";
 import { ProblemBox } from "./problem_box";
 import type { Product } from "./products";
 import { showProgress } from "./progress_box";
@@ -64,21 +64,21 @@ export class Page {
     private readonly editor: MorphEditor;
     private readonly matrix: MatrixTable | undefined;
     private readonly sheet: Sheet;
-    private readonly grower: Grower;
-    private readonly paint = new Paint();
+    private readonly loader: ModelLoader;
+    private readonly textures = new DraftTextures();
     private readonly player: GrowthPlayer;
     private readonly toolbar: Toolbar;
     private readonly plate: NamePlate;
     private readonly actions: FileActions;
     private readonly problems = new ProblemBox((item) => this.showBeside(item));
     private readonly thumbnails = new AbortController();
-    private grown: Grown | undefined;
+    private loaded: LoadedModel | undefined;
 
     constructor({ stage, links, product, schema, species }: PageParts, options: PageOptions) {
         this.stage = stage;
         this.links = links;
         this.product = product;
-        const groups = groupsOf(schema, product.whole);
+        const groups = groupsOf(schema, product.groupName);
         const fields = groups.flatMap((group) => group.fields);
         const ids = species.map(({ id }) => id);
         this.settings = new Settings(fields, ids[0] ?? "", product);
@@ -90,14 +90,14 @@ export class Page {
         this.controls = new Controls(byId("form"), groups, this.settings, {
             moving: ({ name }) => {
                 this.controls.show();
-                if (name !== "age" || !this.player.pose()) this.grower.draft();
+                if (name !== "age" || !this.player.pose()) this.loader.loadDraft();
             },
             moved: ({ name }) => this.changed(name),
         });
         this.editor = new MorphEditor(this.settings, species, {
             moving: () => {
                 this.plate.showNames(this.settings.mix);
-                this.grower.draft(0);
+                this.loader.loadDraft(0);
             },
             moved: (name) => this.changed(name),
             chosen: () => {
@@ -107,25 +107,25 @@ export class Page {
                 this.begin(true);
             },
         });
-        this.matrix = product.ramifies
+        this.matrix = product.hasMatrix
             ? new MatrixTable(this.settings, { changed: () => this.changed("rows") })
             : undefined;
         this.sheet = new Sheet(this.settings, species, {
             changed: (kind) => this.address.writeSheet(kind),
             save: saveFile,
         });
-        this.grower = new Grower(this.settings, this.paint, {
+        this.loader = new ModelLoader(this.settings, this.textures, {
             progress: showProgress,
-            show: (grown, refit, current) => this.show(grown, refit, current),
+            show: (loaded, refit, current) => this.show(loaded, refit, current),
             effective: (resource) => this.showEffective(resource),
             failed: (error) => this.failed(error),
         });
-        this.paint.onChange = () => stage.draw();
+        this.textures.onChange = () => stage.draw();
         this.player = new GrowthPlayer(this.settings, options.reducedMotion, {
-            posed: () => stage.posed(),
-            clipNeeded: () => this.grower.clip(),
+            posed: () => stage.updateShadow(),
+            clipNeeded: () => this.loader.loadClip(),
             stopped: () => this.changed("age"),
-            ended: () => this.grower.final(false, restMs),
+            ended: () => this.loader.loadFinal(false, restMs),
         });
         this.toolbar = new Toolbar(this.settings, stage, {
             view: (name) => this.view(name, false),
@@ -145,7 +145,7 @@ export class Page {
     async settled(): Promise<void> {
         this.address.flush();
         await this.editor.settled();
-        await this.grower.settled();
+        await this.loader.settled();
         await this.sheet.settled();
     }
 
@@ -154,8 +154,8 @@ export class Page {
     }
 
     get counts(): Counts {
-        if (!this.grown) return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0 };
-        return countsOf(this.grown.model);
+        if (!this.loaded) return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0 };
+        return countsOf(this.loaded.model);
     }
 
     /** Looks from a named side. */
@@ -198,16 +198,16 @@ export class Page {
         this.toolbar.markLod();
         this.problems.showRejected([]);
         // With a clip the age is shown at once; its model is requested when the age stays the same.
-        if (name === "age" && this.player.pose()) return this.grower.final(false, restMs);
-        this.player.leave();
-        this.grower.final(false, changeDelayMs);
+        if (name === "age" && this.player.pose()) return this.loader.loadFinal(false, restMs);
+        this.player.release();
+        this.loader.loadFinal(false, changeDelayMs);
     }
 
     private readAddress(): void {
         const contents = this.address.read();
         if (!contents) return;
         const { otherMix, rejected, sheet } = contents;
-        this.begin(otherMix || !this.grown);
+        this.begin(otherMix || !this.loaded);
         this.problems.showRejected(rejected);
         if (sheet === "growth" || (sheet === "variety" && this.settings.morph)) {
             this.sheet.show(sheet);
@@ -219,16 +219,16 @@ export class Page {
     /** Shows new settings from scratch: another species, another address, a dropped file. */
     private begin(refit: boolean): void {
         const { morph, mix } = this.settings;
-        this.controls.clearFaults();
-        this.player.leave();
+        this.controls.clearErrors();
+        this.player.release();
         this.problems.showRejected([]);
-        this.gallery.mark(morph?.shares.map(({ id }) => id).join(",") ?? mix);
+        this.gallery.markShown(morph?.shares.map(({ id }) => id).join(",") ?? mix);
         this.showMode();
         this.editor.show();
         this.controls.show(undefined);
         this.toolbar.markLod();
         this.plate.showNames(mix);
-        this.grower.final(refit);
+        this.loader.loadFinal(refit);
     }
 
     private showMode(): void {
@@ -242,40 +242,44 @@ export class Page {
         byId("variety").hidden = !morph;
         // Sheets are the main purpose of the editor, and secondary for a single species.
         byId(morph ? "editor" : "form").after(byId("sheets"));
-        this.gallery.letter(morph?.shares.map(({ id }) => id) ?? []);
+        this.gallery.setLetters(morph?.shares.map(({ id }) => id) ?? []);
     }
 
-    private async show(grown: Grown, refit: boolean, current: () => boolean): Promise<boolean> {
-        if (!(await this.stage.show(grown.model, refit, current))) return false;
-        this.grown = grown;
-        if (grown.draft) this.paint.dress(paintOf(grown.model));
-        else this.paint.adopt(grown.model);
-        this.editor.accept();
+    private async show(
+        loaded: LoadedModel,
+        refit: boolean,
+        current: () => boolean,
+    ): Promise<boolean> {
+        if (!(await this.stage.show(loaded.model, refit, current))) return false;
+        this.loaded = loaded;
+        if (loaded.draft) this.textures.fetchImages(linkedImagesOf(loaded.model));
+        else this.textures.adoptFrom(loaded.model);
+        this.editor.clearRefusals();
         if (this.player.ready) this.controls.show();
-        this.player.take(grown.model);
-        if (!grown.draft) {
-            this.controls.clearFaults();
-            this.matrix?.clearFaults();
+        this.player.take(loaded.model);
+        if (!loaded.draft) {
+            this.controls.clearErrors();
+            this.matrix?.clearErrors();
         }
         this.problems.showRejectedAgain();
-        showNumbers(grown);
-        if (grown.draft) this.colonyCount = undefined;
+        showNumbers(loaded);
+        if (loaded.draft) this.colonyCount = undefined;
         this.plate.showSize(this.stage.size, this.colonyCount);
-        this.actions.show(grown);
-        if (!grown.draft) {
+        this.actions.show(loaded);
+        if (!loaded.draft) {
             const name = byId("common-name").textContent;
-            const triangles = grouped(countsOf(grown.model).triangles);
-            const size = kilobytes(grown.answer.bytes.byteLength);
+            const triangles = grouped(countsOf(loaded.model).triangles);
+            const size = kilobytes(loaded.fetched.bytes.byteLength);
             announce(`${name}: ${triangles} triangles, ${size}`);
         }
-        if (grown.clip) this.player.play();
+        if (loaded.clip) this.player.play();
         return true;
     }
 
     /** Shows what the service reports about the shown model. */
-    private showEffective({ effective, matrix, made }: Resource): void {
+    private showEffective({ effective, matrix, made }: ModelReport): void {
         this.controls.show(effective);
-        this.matrix?.serve(matrix);
+        this.matrix?.showServed(matrix);
         this.colonyCount =
             made === undefined
                 ? undefined
@@ -285,12 +289,12 @@ export class Page {
 
     private failed(error: RequestFailed): void {
         // A problem that is only about arcs is shown beside the arcs.
-        if (error.items.length > 0 && error.items.every((item) => this.editor.fail(item))) {
+        if (error.items.length > 0 && error.items.every((item) => this.editor.showError(item))) {
             return announce(error.items[0]?.detail ?? error.message);
         }
         this.problems.show(error, () => {
             this.problems.hide();
-            this.grower.final();
+            this.loader.loadFinal();
         });
         announce(error.message);
     }
@@ -299,9 +303,9 @@ export class Page {
         // Of a JSON body the service names the members by JSON pointers.
         const name = item.parameter.replace(/^\//, "").replaceAll("/", ".");
         return (
-            this.matrix?.fail(item.parameter, item.detail) ||
-            this.controls.fail(name, item.detail) ||
-            this.editor.fail(item)
+            this.matrix?.showError(item.parameter, item.detail) ||
+            this.controls.showError(name, item.detail) ||
+            this.editor.showError(item)
         );
     }
 
@@ -313,14 +317,7 @@ export class Page {
             if (product === this.product) this.restore(file, id, query);
             else this.openProduct(product, id, query);
         } catch (error) {
-            const failed =
-                error instanceof RequestFailed
-                    ? error
-                    : new RequestFailed(
-                          `${file.name} could not be read`,
-                          error instanceof Error ? error.message : "",
-                          0,
-                      );
+            const failed = asRequestFailed(error, `${file.name} could not be read`);
             this.problems.show(failed);
             announce(failed.message);
         }
@@ -339,7 +336,7 @@ export class Page {
 
     private openProduct(product: Product, id: string, query: string): void {
         this.thumbnails.abort();
-        location.assign(`?${product.kind}=${id}${query.replace("?", "&")}`);
+        location.assign(`?${product.queryName}=${id}${query.replace("?", "&")}`);
     }
 
     /** Makes the gallery's pictures, once the model is shown. */
@@ -347,8 +344,8 @@ export class Page {
         await this.settled().catch(() => undefined);
         await makeThumbnails(
             galleryModels(this.settings, this.gallery.species),
-            this.product.portraits,
-            (id, picture) => this.gallery.picture(id, picture),
+            this.product.thumbnailDirections,
+            (id, picture) => this.gallery.setPicture(id, picture),
             this.thumbnails.signal,
         );
         document.documentElement.dataset["gallery"] = "complete";

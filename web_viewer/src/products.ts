@@ -1,33 +1,34 @@
-// What the page grows: mushrooms and colonies of them, or what grows from a preset. Where each has its routes, its list and its words.
+// The products that the page shows, one table: mushrooms, colonies of them, and what is made from
+// presets. Routes, navigation, views and words of each are described here only.
 import { lying, spread, standing, type Directions, type ViewName, viewNames } from "./camera";
 import type { Species } from "./gallery";
 import { getJson } from "./http";
 
 export interface Product {
-    /** "mushroom": what one of them is called. */
+    /** The singular: "mushroom". */
     noun: string;
-    /** Its link in the navigation. */
+    /** Text of its link in the navigation. */
     label: string;
-    /** What its parameters are about. */
-    whole: string;
-    /** What names one of its list: "species", also in the page's query. */
-    kind: string;
-    /** Where the service grows it, relative to the page: it may stand under a prefix. */
+    /** Name of the group of top-level parameters. */
+    groupName: string;
+    /** Name in the page's query: "species". */
+    queryName: string;
+    /** Route of the service, relative to the page, which may have a path prefix. */
     path: string;
     /** Two of them can be mixed in the morph editor. */
     canMorph: boolean;
-    /** Whether it is of a species of the atlas or a mix of them. */
+    /** It is made of a species of the atlas or a mix of them, not of a preset. */
     ofSpecies: boolean;
-    /** The views that its buttons offer. */
+    /** Views with a button, in this order. */
     views: readonly ViewName[];
-    /** Where to stand, by the name of a view. */
+    /** Camera directions by name of a view. */
     directions: Directions;
-    /** The same for the pictures of its list. */
-    portraits: Directions;
-    /** What of it is never sunk into the ground. */
-    lies: boolean;
-    /** Whether it grows from a matrix, which may be one's own. */
-    ramifies: boolean;
+    /** Camera directions for the pictures of its gallery. */
+    thumbnailDirections: Directions;
+    /** It is lifted so that nothing of it is below the ground. */
+    liesOnGround: boolean;
+    /** It has a ramification matrix, which can be replaced by one's own. */
+    hasMatrix: boolean;
     list: () => Promise<Species[]>;
 }
 
@@ -39,65 +40,65 @@ interface Preset {
 export const mushrooms: Product = {
     noun: "mushroom",
     label: "Species",
-    whole: "individual",
-    kind: "species",
+    groupName: "individual",
+    queryName: "species",
     path: "v1/mushrooms",
     canMorph: true,
     ofSpecies: true,
     views: viewNames,
     directions: standing,
-    portraits: standing,
-    lies: false,
-    ramifies: false,
+    thumbnailDirections: standing,
+    liesOnGround: false,
+    hasMatrix: false,
     list: listSpecies,
 };
 
-/** Many of a species or mix; the list shows one of each. */
+/** Many individuals of a species or mix; the gallery shows single mushrooms. */
 export const colonies: Product = {
     noun: "colony",
     label: "Colonies",
-    whole: "colony",
-    kind: "colony",
+    groupName: "colony",
+    queryName: "colony",
     path: "v1/colonies",
     canMorph: false,
     ofSpecies: true,
     views: [...viewNames, "roots"],
     directions: spread,
-    portraits: standing,
-    lies: false,
-    ramifies: false,
+    thumbnailDirections: standing,
+    liesOnGround: false,
+    hasMatrix: false,
     list: listSpecies,
 };
 
 export const leaves: Product = {
     noun: "leaf",
     label: "Leaves",
-    whole: "individual",
-    kind: "leaf",
+    groupName: "individual",
+    queryName: "leaf",
     path: "v1/leaves",
     canMorph: false,
     ofSpecies: false,
     views: viewNames,
     directions: lying,
-    portraits: lying,
-    lies: true,
-    ramifies: false,
+    thumbnailDirections: lying,
+    liesOnGround: true,
+    hasMatrix: false,
     list: async () => listed((await getJson<{ leaves: Preset[] }>("v1/leaves")).leaves),
 };
 
 export const trees: Product = {
     noun: "tree",
     label: "Trees",
-    whole: "individual",
-    kind: "tree",
+    groupName: "individual",
+    queryName: "tree",
     path: "v1/trees",
     canMorph: false,
     ofSpecies: false,
     views: viewNames,
     directions: standing,
-    portraits: standing,
-    lies: false,
-    ramifies: true,
+    thumbnailDirections: standing,
+    liesOnGround: false,
+    hasMatrix: true,
     list: async () => listed((await getJson<{ trees: Preset[] }>("v1/trees")).trees),
 };
 
@@ -112,13 +113,13 @@ function listed(presets: readonly Preset[]): Species[] {
     return presets.map(({ id, name }) => ({ id, common_name: name, scientific_name: "" }));
 }
 
-/** What a page's query is about. */
+/** Returns the product that a page's query is about. */
 export function productOf(query: URLSearchParams): Product {
-    return products.find(({ kind }) => query.has(kind)) ?? mushrooms;
+    return products.find(({ queryName: kind }) => query.has(kind)) ?? mushrooms;
 }
 
-/** What grew at a canonical address, and which of its list. */
-export function grownAt(path: string): { product: Product; id: string } | undefined {
+/** Returns the product and the species or preset of a canonical path, undefined for other paths. */
+export function modelAt(path: string): { product: Product; id: string } | undefined {
     for (const product of products) {
         const id = new RegExp(`^/${product.path}/([^/]+)\\.(?:glb|json)$`).exec(path)?.[1];
         if (id) return { product, id };

@@ -1,5 +1,5 @@
-// Turns the served JSON Schema of the query parameters into one flat list of fields, which is all
-// that the rest of the page knows about parameters.
+// Turns the JSON Schema of the query parameters, which the service serves, into one flat list of
+// fields. The rest of the page knows parameters from this list only.
 
 export type Value = number | string | boolean;
 
@@ -28,19 +28,19 @@ export interface Schema {
 export type Kind = "number" | "select" | "checkbox" | "color" | "text";
 
 export interface Field {
-    /** The query name, dotted when nested: "weathering.cracks". */
+    /** Query name, with dots if nested: "weathering.cracks". */
     name: string;
     label: string;
     kind: Kind;
     integer: boolean;
     min: number | undefined;
     max: number | undefined;
-    /** Distance between two notches of the slider: 1, 2 or 5 times a power of ten. */
+    /** Step of the slider: 1, 2 or 5 times a power of ten. */
     step: number;
     options: Value[];
-    /** What the server takes when the parameter is absent; undefined when it is somebody's own. */
+    /** Default of the server; undefined if the default is that of a species or preset. */
     fallback: Value | undefined;
-    /** Whose own the value is unless it is set: "species", "preset"; "" when there is a fallback. */
+    /** "species" or "preset" if these have a value of their own; "" if there is a fallback. */
     owner: string;
     unit: string;
     description: string;
@@ -55,17 +55,17 @@ export interface Group {
     fields: Field[];
 }
 
-/** Query parameters that are the page's business, not the person's. */
+/** Query parameters without a control. */
 const hidden = new Set(["v"]);
 
-/** The largest of 1, 2, 5 times a power of ten that is not above `most`. */
+/** Returns the largest of 1, 2 and 5 times a power of ten that is not above `most`. */
 export function niceStep(most: number): number {
     const power = 10 ** Math.floor(Math.log10(most));
     const step = [5, 2, 1].map((digit) => digit * power).find((size) => size <= most * 1.0000001);
     return Number((step ?? power).toPrecision(1));
 }
 
-/** "bend_deg" -> "Bend", "texture_size" -> "Texture size". */
+/** Returns a name as a label: "bend_deg" -> "Bend", "texture_size" -> "Texture size". */
 export function words(name: string): string {
     const text = name
         .replace(/_(deg|m|mm|px)$/, "")
@@ -74,7 +74,7 @@ export function words(name: string): string {
     return text.charAt(0).toUpperCase() + text.slice(1);
 }
 
-/** The sign a person reads for a unit of the schema. */
+/** Returns the sign of a unit of the schema: "deg" -> "°". */
 export function unitSign(unit: string): string {
     return (
         { deg: "°", degree: "°", degrees: "°", pixel: "px", pixels: "px", texels: "px" }[unit] ??
@@ -149,8 +149,8 @@ function fieldOf(
     return field;
 }
 
-/** The properties of an object in order, those of its alternatives after its own. A `form` that
- *  each alternative names differently becomes one list of names. */
+/** Returns the properties of an object in order, followed by those of its alternatives. A constant
+ *  that differs between alternatives, such as `form`, becomes one list of names. */
 function propertiesOf(schema: Schema, root: Schema): Map<string, Schema> {
     const found = new Map<string, Schema>();
     const take = (part: Schema): void => {
@@ -182,8 +182,8 @@ function propertiesOf(schema: Schema, root: Schema): Map<string, Schema> {
     return found;
 }
 
-/** All parameters in schema order; nested objects become dotted names and groups of their own. `whole` names the group
- *  of those at the top level. */
+/** Returns all parameters in schema order; nested objects become dotted names and groups of their
+ *  own. `whole` names the group of those at the top level. */
 export function groupsOf(root: Schema, whole = "individual"): Group[] {
     const groups = new Map<string, Group>();
     const groupAt = (key: string, label: string, description = ""): Group => {
@@ -212,12 +212,12 @@ export function groupsOf(root: Schema, whole = "individual"): Group[] {
     return [...groups.values()].filter((group) => group.fields.length > 0);
 }
 
-/** Top-level parameters about the file rather than the individual stand in a group of their own. */
+/** Returns the group of a top-level parameter that is about the file, "" for all others. */
 function fileGroup(name: string): string {
     return /^(lod|textures?|texture_size|animation|frames|instancing)$/.test(name) ? "file" : "";
 }
 
-/** Reads "deformation.bend_deg" out of the nested `effective` of a resource. */
+/** Returns the value of a dotted name in nested `effective` values, undefined if there is none. */
 export function valueAt(effective: unknown, name: string): Value | undefined {
     let found: unknown = effective;
     for (const part of name.split(".")) {
@@ -229,8 +229,8 @@ export function valueAt(effective: unknown, name: string): Value | undefined {
         : undefined;
 }
 
-/** What is wrong with a value, in words; undefined when nothing is. */
-export function fault(field: Field, value: Value): string | undefined {
+/** Returns what is wrong with a value, in words; undefined if it is valid. */
+export function validationError(field: Field, value: Value): string | undefined {
     if (field.kind === "number") {
         if (typeof value !== "number" || !Number.isFinite(value)) return "needs a number";
         if (field.integer && !Number.isInteger(value)) return "needs a whole number";
@@ -243,7 +243,7 @@ export function fault(field: Field, value: Value): string | undefined {
     return undefined;
 }
 
-/** Text of a query to a typed value of the field; undefined when it cannot be one. */
+/** Parses the text of a query as a value of the field; returns undefined if it cannot be one. */
 export function parsed(field: Field, text: string): Value | undefined {
     if (field.kind === "number") {
         return /^-?\d+(\.\d+)?([eE][+-]?\d+)?$/.test(text) ? Number(text) : undefined;

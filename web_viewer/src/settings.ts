@@ -1,6 +1,7 @@
-// What the person asks for: a species (or a mix) and the parameters that differ from what the
-// server would take anyway. It is written to and read from the page's URL and the service's URLs.
+// The settings: a species, mix or preset, and the parameters that differ from the defaults. They
+// are written to and read from the page's URL and the service's URLs.
 import { arcsText, readArcs, type Arc } from "./arcs";
+import type { ProblemItem } from "./http";
 import {
     canonicalMix,
     fewestMembers,
@@ -11,34 +12,30 @@ import {
 } from "./mix";
 import { mushrooms, products, type Product } from "./products";
 import { readRows, rowsText } from "./rows";
-import { fault, parsed, type Field, type Value } from "./schema";
+import { validationError, parsed, type Field, type Value } from "./schema";
 
-export interface Fault {
-    parameter: string;
-    detail: string;
-}
-
-/** A mix as the service spells it: "boletus_edulis" or "a:0.7,b:0.3". */
+/** A mix in the service's syntax: "boletus_edulis" or "a:0.7,b:0.3". */
 export const mixPattern = /^[a-z0-9_]+(:[0-9.eE+-]+)?(,[a-z0-9_]+(:[0-9.eE+-]+)?){0,7}$/;
 
-/** What stands on the morph bench: every share, also those of nothing, and the designer's arcs between two. */
+/** State of the morph editor: all shares, zeros included, and the designer's arcs between two
+ *  species. */
 export interface Morph {
     shares: readonly Share[];
     arcs: readonly Arc[];
 }
 
-/** What is asked of the service. */
-export interface Wanted {
+/** A request of a model. */
+export interface ModelRequest {
     address: string;
-    /** JSON, where own arcs have to be told. */
+    /** JSON body, if the settings do not fit into a query: own arcs or rows. */
     body: string | undefined;
-    /** Tells one model from another. */
+    /** Equal for equal requests only. */
     key: string;
 }
 
-/** The page's own query names, which are no parameters of what grows. */
+/** Names in the page's query that are not parameters of the product. */
 const pageNames = new Set([
-    ...products.map(({ kind }) => kind),
+    ...products.map(({ queryName: kind }) => kind),
     "shot",
     "morph",
     "arcs",
@@ -48,9 +45,9 @@ const pageNames = new Set([
 
 export class Settings {
     mix: string;
-    /** While the bench is open; `mix` is then what its shares make. */
+    /** Defined while the morph editor is open; `mix` is then the mix of its shares. */
     morph: Morph | undefined;
-    /** A matrix of one's own, told in a body; undefined for the one of the settings. */
+    /** One's own ramification matrix, sent in a body; undefined for a named one. */
     rows: readonly (readonly number[])[] | undefined;
     readonly values = new Map<string, Value>();
 
@@ -66,7 +63,7 @@ export class Settings {
         return this.fields.find((field) => field.name === name);
     }
 
-    /** Takes a value over; one that equals the default is the same as none. */
+    /** Sets a value; undefined, or one that equals the default, removes it. */
     set(name: string, value: Value | undefined): void {
         const field = this.field(name);
         if (!field) return;
@@ -77,7 +74,7 @@ export class Settings {
         }
     }
 
-    /** Another species brings its own shape: what was set on top of the last one's is dropped. */
+    /** Chooses another species or preset and drops the values that replaced the last one's own. */
     choose(mix: string): void {
         this.mix = mix;
         this.rows = undefined;
@@ -86,8 +83,8 @@ export class Settings {
         }
     }
 
-    /** Whether a field says anything: the frames of a clip do not while there is none. */
-    matters(field: Field, replaced: ReadonlyMap<string, Value> = new Map()): boolean {
+    /** Returns false for the frames of a clip if there is no clip. */
+    applies(field: Field, replaced: ReadonlyMap<string, Value> = new Map()): boolean {
         if (field.name !== "frames") return true;
         const animation = this.field("animation");
         const chosen =
@@ -95,11 +92,11 @@ export class Settings {
         return !animation || chosen !== animation.fallback;
     }
 
-    /** Query in schema order; `replaced` stands in for single values. */
+    /** Returns the query in schema order; `replaced` overrides single values. */
     query(replaced: ReadonlyMap<string, Value> = new Map()): string {
         const parts: string[] = [];
         for (const field of this.fields) {
-            if (!this.matters(field, replaced)) continue;
+            if (!this.applies(field, replaced)) continue;
             const value = replaced.get(field.name) ?? this.values.get(field.name);
             if (value === undefined || (!field.owner && value === field.fallback)) continue;
             parts.push(`${encodeURIComponent(field.name)}=${encodeURIComponent(String(value))}`);
@@ -107,11 +104,11 @@ export class Settings {
         return parts.join("&");
     }
 
-    /** The values that differ, as the JSON body of a request: dotted names become objects. */
+    /** Returns the values that differ as a JSON body: dotted names become nested objects. */
     private nested(replaced: ReadonlyMap<string, Value>): Record<string, unknown> {
         const out: Record<string, unknown> = {};
         for (const field of this.fields) {
-            if (!this.matters(field, replaced)) continue;
+            if (!this.applies(field, replaced)) continue;
             const value = replaced.get(field.name) ?? this.values.get(field.name);
             if (value === undefined || (!field.owner && value === field.fallback)) continue;
             const path = field.name.split(".");
@@ -122,7 +119,7 @@ export class Settings {
         return out;
     }
 
-    /** Address of the model, ".glb" or ".json". */
+    /** Returns the address of the model (".glb") or of its description (".json"). */
     address(suffix: ".glb" | ".json", replaced?: ReadonlyMap<string, Value>): string {
         const query = this.query(replaced);
         return `${this.product.path}/${this.mix}${suffix}${query ? `?${query}` : ""}`;
@@ -133,11 +130,11 @@ export class Settings {
         if (morph) this.mix = canonicalMix(morph.shares);
     }
 
-    /** The model, with the designer's own arcs where there are any. */
-    wanted(replaced: ReadonlyMap<string, Value> = new Map()): Wanted {
+    /** Returns the request of the model, as a POST if there are own arcs or rows. */
+    request(replaced: ReadonlyMap<string, Value> = new Map()): ModelRequest {
         if (this.rows) {
             const address = `${this.product.path}.glb`;
-            // What the matrix is and how high it reaches is said by the rows.
+            // The rows replace the name of a matrix, and limit the order.
             const { matrix: _, blend: __, order, ...rest } = this.nested(replaced);
             const reached = Math.min(Number(order ?? this.rows.length + 1), this.rows.length + 1);
             const body = JSON.stringify({
@@ -163,7 +160,8 @@ export class Settings {
         return { address, body, key: address + body };
     }
 
-    /** What a drag asks for: linked textures and at most the second level of detail. */
+    /** Returns the values that a draft overrides: linked textures, and level of detail 1 or
+     *  coarser. */
     draftValues(linked: boolean): Map<string, Value> {
         const replaced = new Map<string, Value>();
         const lod = this.field("lod");
@@ -181,12 +179,13 @@ export class Settings {
         return replaced;
     }
 
-    /** Whether this server makes clips of growth. */
-    get grows(): boolean {
+    /** Returns true if this server makes growth clips. */
+    get hasGrowthClips(): boolean {
         return this.field("animation")?.options.includes("growth") ?? false;
     }
 
-    /** What playing asks for: the growth of these settings, at most at the second level of detail. */
+    /** Returns the values that a growth clip overrides: animation, and level of detail 1 or
+     *  coarser. */
     clipValues(): Map<string, Value> {
         const replaced = new Map<string, Value>([["animation", "growth"]]);
         const lod = this.field("lod");
@@ -196,39 +195,43 @@ export class Settings {
         return replaced;
     }
 
-    /** The page's own query: ?species=…&age=…, only what differs. */
-    pageQuery(kept: URLSearchParams): string {
+    /** Returns the page's own query, with what differs from the defaults: "?species=…&age=…". */
+    pageQuery(current: URLSearchParams): string {
         const query = this.query();
-        const shot = kept.get("shot");
+        const shot = current.get("shot");
         const arcs =
             this.morph?.shares.length === 2 && this.morph.arcs.length
                 ? `&arcs=${arcsText(this.morph.arcs)}`
                 : "";
         const what = this.morph
             ? `morph=${sharesText(this.morph.shares)}${arcs}`
-            : `${this.product.kind}=${this.mix}`;
+            : `${this.product.queryName}=${this.mix}`;
         const rows = this.rows ? `&rows=${rowsText(this.rows)}` : "";
-        return `?${what}${rows}${query ? `&${query}` : ""}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
+        const parameters = query ? `&${query}` : "";
+        return `?${what}${rows}${parameters}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
     }
 
-    /** Reads the matrix of one's own out of the page's query. */
-    readMatrix(query: URLSearchParams): Fault[] {
+    /** Reads one's own matrix from the page's query; returns what it could not use. */
+    readMatrix(query: URLSearchParams): ProblemItem[] {
         this.rows = undefined;
         const text = query.get("rows");
-        if (text === null || !this.product.ramifies) return [];
+        if (text === null || !this.product.hasMatrix) return [];
         this.rows = readRows(text);
         return this.rows
             ? []
             : [
                   {
                       parameter: "rows",
-                      detail: `'${text}' is no matrix: rows of 2, 3 and so on shares, as in 0.5,0.5;0.25,0.5,0.25`,
+                      detail:
+                          `'${text}' is no matrix: ` +
+                          "rows of 2, 3 and so on shares, as in 0.5,0.5;0.25,0.5,0.25",
                   },
               ];
     }
 
-    /** Reads the bench's part of the page's query; `known` says whether a species is there. */
-    readMorph(query: URLSearchParams, known: (id: string) => boolean): Fault[] {
+    /** Reads the morph from the page's query; `known` returns true for species of this server.
+     *  Returns what it could not use. */
+    readMorph(query: URLSearchParams, known: (id: string) => boolean): ProblemItem[] {
         this.morph = undefined;
         const text = query.get("morph");
         if (text === null) return [];
@@ -237,9 +240,8 @@ export class Settings {
             return [
                 { parameter: "morph", detail: `'${text}' is no list of species and their shares` },
             ];
-        const stranger = shares.find(({ id }) => !known(id));
-        if (stranger)
-            return [{ parameter: "morph", detail: `'${stranger.id}' is no species here` }];
+        const missing = shares.find(({ id }) => !known(id));
+        if (missing) return [{ parameter: "morph", detail: `'${missing.id}' is no species here` }];
         if (shares.length < fewestMembers || shares.length > mostMembers) {
             return [
                 {
@@ -256,28 +258,29 @@ export class Settings {
             : [{ parameter: "arcs", detail: `'${written}' are no arcs between two species` }];
     }
 
-    /** Reads a query of the page or of a canonical URL; returns what it could not use. */
-    read(query: URLSearchParams): Fault[] {
-        const faults: Fault[] = [];
+    /** Reads the parameters of a query of the page or of a canonical URL; returns what it could not
+     *  use. */
+    read(query: URLSearchParams): ProblemItem[] {
+        const rejected: ProblemItem[] = [];
         this.values.clear();
         for (const [name, text] of query) {
             if (pageNames.has(name) || name === "v") continue;
             const field = this.field(name);
             if (!field) {
-                faults.push({
+                rejected.push({
                     parameter: name,
                     detail: `'${name}' is no parameter of a ${this.product.noun}`,
                 });
                 continue;
             }
             const value = parsed(field, text);
-            const wrong = value === undefined ? "cannot be read" : fault(field, value);
+            const wrong = value === undefined ? "cannot be read" : validationError(field, value);
             if (value === undefined || wrong) {
-                faults.push({ parameter: name, detail: `'${text}' ${wrong}` });
+                rejected.push({ parameter: name, detail: `'${text}' ${wrong}` });
             } else {
                 this.set(name, value);
             }
         }
-        return faults;
+        return rejected;
     }
 }

@@ -1,5 +1,6 @@
-// Sheets: many mushrooms on one page of paper. A variety sheet has the morphs between control shapes (Figure 7 of the
-// mushroom paper), a growth sheet one mushroom over its life. The page draws them, and saves them as PNG or as one GLB.
+// Sheets: many mushrooms in one picture. A variety sheet shows the morphs between control shapes
+// (Figure 7 of the mushroom paper), a growth sheet one mushroom at several ages. They are rendered
+// by the page and saved as PNG or as one GLB.
 import { Box3, Group, Scene, Vector3 } from "three";
 import { GLTFExporter } from "three/addons/exporters/GLTFExporter.js";
 import { centimetres, type ViewName } from "./camera";
@@ -12,25 +13,25 @@ import { letterOf } from "./pad";
 import { words } from "./schema";
 import type { Settings } from "./settings";
 import { announce } from "./status_line";
-import { Studio } from "./studio";
+import { OffscreenRenderer } from "./offscreen_renderer";
 import { controlShape, varietyLayout } from "./weights";
 
 export type SheetKind = "variety" | "growth";
 
-interface Plan {
+interface PlannedCell {
     column: number;
     row: number;
     address: string;
-    /** Canonical mix, with its age where ages differ: names a mesh. */
+    /** Canonical mix, with its age if ages differ; the name of the mesh. */
     name: string;
     caption: string;
-    /** Name of the species that is shown alone. */
+    /** Name of the species if it is not a mix. */
     control: string | undefined;
 }
 
-interface Made extends Plan {
+interface DrawnCell extends PlannedCell {
     bytes: ArrayBuffer;
-    /** Where they came from. */
+    /** Address of the bytes. */
     from: string;
     box: Box3;
 }
@@ -46,12 +47,13 @@ const cells: Record<SheetKind, { width: number; height: number }> = {
     growth: { width: 176, height: 276 },
 };
 const captionHeight = 38;
-/** Round things leave the corners of their box free; above stands the arrow of a control shape. */
+/** Round models leave the corners of their box empty; the space above is for the arrow of a control
+ *  shape. */
 const margins = { variety: { x: -0.12, y: 0.2 }, growth: { x: -0.2, y: 0.08 } };
 const edge = 30;
 const head = 92;
 const growthAges = [0, 0.125, 0.25, 0.375, 0.5, 0.625, 0.75, 0.875, 1];
-/** Models on their way at once: the next is made while one is drawn. */
+/** Number of simultaneous requests: the next model is made while one is drawn. */
 const atOnce = 2;
 
 const ink = {
@@ -62,7 +64,8 @@ const ink = {
     arrow: "#e3a511",
 };
 const serif =
-    '"Iowan Old Style", "Palatino Linotype", Palatino, "URW Palladio L", P052, "Book Antiqua", Georgia, serif';
+    '"Iowan Old Style", "Palatino Linotype", Palatino, "URW Palladio L", P052, "Book Antiqua", ' +
+    "Georgia, serif";
 const sans = 'system-ui, -apple-system, "Segoe UI", "Noto Sans", "DejaVu Sans", sans-serif';
 
 export class Sheet {
@@ -71,14 +74,14 @@ export class Sheet {
     private readonly scale = byId<HTMLInputElement>("sheet-scale");
     private kind: SheetKind | undefined;
     private stop: AbortController | undefined;
-    private made: Made[] = [];
-    private plans: Plan[] = [];
-    private studio: Studio | undefined;
+    private drawn: DrawnCell[] = [];
+    private plans: PlannedCell[] = [];
+    private renderer: OffscreenRenderer | undefined;
     private cell = cells.variety;
     private grid = { columns: 1, rows: 1 };
     private title = "";
     private legend = "";
-    private work: Promise<void> = Promise.resolve();
+    private drawing: Promise<void> = Promise.resolve();
 
     constructor(
         private readonly settings: Settings,
@@ -97,7 +100,7 @@ export class Sheet {
         return this.kind;
     }
 
-    /** Opens and begins to draw. */
+    /** Opens the dialog and draws the sheet. */
     show(kind: SheetKind): void {
         if (this.kind === kind) return;
         this.stop?.abort();
@@ -105,42 +108,42 @@ export class Sheet {
         this.scale.checked = kind === "growth";
         if (!this.dialog.open) this.dialog.showModal();
         this.events.changed(kind);
-        this.work = this.draw(kind);
+        this.drawing = this.draw(kind);
     }
 
     close(): void {
         if (this.dialog.open) this.dialog.close();
     }
 
-    /** Resolves when all cells are drawn, or the sheet was given up. */
+    /** Resolves when all cells are drawn, or drawing was cancelled. */
     async settled(): Promise<void> {
         let work;
         do {
-            work = this.work;
+            work = this.drawing;
             await work;
-        } while (work !== this.work);
+        } while (work !== this.drawing);
     }
 
     private closed(): void {
         this.stop?.abort();
         this.stop = undefined;
         this.kind = undefined;
-        this.made = [];
-        this.studio?.dispose();
-        this.studio = undefined;
+        this.drawn = [];
+        this.renderer?.dispose();
+        this.renderer = undefined;
         this.events.changed(undefined);
     }
 
     private cancel(): void {
         this.stop?.abort();
-        this.progress(undefined, `Stopped after ${this.made.length} of ${this.plans.length}`);
+        this.progress(undefined, `Stopped after ${this.drawn.length} of ${this.plans.length}`);
     }
 
     private nameOf(id: string): string {
         return this.species.find((one) => one.id === id)?.common_name ?? words(id);
     }
 
-    private plan(kind: SheetKind): { columns: number; rows: number; plans: Plan[] } {
+    private plan(kind: SheetKind): { columns: number; rows: number; plans: PlannedCell[] } {
         const lod = this.settings.field("lod");
         const level = Math.max(
             Number(this.settings.values.get("lod") ?? 0),
@@ -176,7 +179,9 @@ export class Sheet {
         this.title = members
             .map(({ id }, index) => `${letterOf(index)} ${this.nameOf(id)}`)
             .join("   ");
-        this.legend = `${layout.cells.length} morphs between ${members.length} control shapes${ages ? ", young above and old below" : ""}`;
+        const order = ages ? ", young above and old below" : "";
+        const count = layout.cells.length;
+        this.legend = `${count} morphs between ${members.length} control shapes${order}`;
         const plans = layout.cells.map(({ column, row, weights, age }) => {
             const parts = thousandths(weights);
             const mix = canonicalMix(
@@ -215,7 +220,7 @@ export class Sheet {
     private async draw(kind: SheetKind): Promise<void> {
         const stop = new AbortController();
         this.stop = stop;
-        this.made = [];
+        this.drawn = [];
         const { columns, rows, plans } = this.plan(kind);
         this.plans = plans;
         byId("sheet-title").textContent = kind === "growth" ? "Growth" : "Variety";
@@ -230,73 +235,73 @@ export class Sheet {
                 const model = await parseModel(bytes, response.url);
                 stop.signal.throwIfAborted();
                 const made = { ...next, bytes, from: response.url, box: boundsOf(model) };
-                this.made.push(made);
+                this.drawn.push(made);
                 this.drawCell(made, model, undefined);
                 disposeModel(model);
                 this.progress(
-                    this.made.length / plans.length,
-                    `${this.made.length} of ${plans.length}`,
+                    this.drawn.length / plans.length,
+                    `${this.drawn.length} of ${plans.length}`,
                 );
             }
         };
         this.progress(0, `0 of ${plans.length}`);
         try {
             await Promise.all(Array.from({ length: atOnce }, one));
-            if (this.scale.checked) await this.drawAgain(stop.signal);
+            if (this.scale.checked) await this.redrawAll(stop.signal);
             this.finished();
         } catch (error) {
             if (stop.signal.aborted) return;
             stop.abort();
-            const words_ =
-                error instanceof RequestFailed ? (error.items[0]?.detail ?? error.message) : "";
-            this.progress(
-                undefined,
-                `Stopped after ${this.made.length} of ${plans.length}: ${words_ || "a model could not be shown"}`,
-            );
+            const detail = error instanceof RequestFailed ? error.items[0]?.detail : undefined;
+            const message = error instanceof RequestFailed ? error.message : "";
+            const reason = (detail ?? message) || "a model could not be shown";
+            const count = `${this.drawn.length} of ${plans.length}`;
+            this.progress(undefined, `Stopped after ${count}: ${reason}`);
         }
     }
 
     private finished(): void {
-        const bytes = this.made.reduce((sum, { bytes: part }) => sum + part.byteLength, 0);
-        this.progress(undefined, `${this.made.length} mushrooms, ${kilobytes(bytes)}`);
-        announce(`Sheet of ${this.made.length} mushrooms is drawn`);
+        const bytes = this.drawn.reduce((sum, { bytes: part }) => sum + part.byteLength, 0);
+        this.progress(undefined, `${this.drawn.length} mushrooms, ${kilobytes(bytes)}`);
+        announce(`Sheet of ${this.drawn.length} mushrooms is drawn`);
         this.buttons(true);
     }
 
     private async redraw(): Promise<void> {
         const stop = this.stop;
-        if (!stop || stop.signal.aborted || this.made.length !== this.plans.length) return;
+        if (!stop || stop.signal.aborted || this.drawn.length !== this.plans.length) return;
         this.buttons(false);
-        this.work = this.drawAgain(stop.signal).then(
+        this.drawing = this.redrawAll(stop.signal).then(
             () => this.finished(),
             () => undefined,
         );
-        await this.work;
+        await this.drawing;
     }
 
-    /** All cells anew, in one scale or each in its own. */
-    private async drawAgain(signal: AbortSignal): Promise<void> {
+    /** Draws all cells again, all at one scale or each at its own. */
+    private async redrawAll(signal: AbortSignal): Promise<void> {
         let frame: Box3 | undefined;
         if (this.scale.checked) {
             frame = new Box3();
-            for (const { box } of this.made) frame.union(box);
+            for (const { box } of this.drawn) frame.union(box);
             if (this.kind === "growth") this.trim(frame);
         }
         let done = 0;
-        for (const made of this.made) {
+        for (const made of this.drawn) {
             const model = await parseModel(made.bytes, made.from);
             signal.throwIfAborted();
             this.drawCell(made, model, frame);
             disposeModel(model);
-            this.progress(++done / this.made.length, `drawing ${done} of ${this.made.length}`);
+            this.progress(++done / this.drawn.length, `drawing ${done} of ${this.drawn.length}`);
         }
     }
 
-    /** A row of low things needs less paper than one of tall things. */
+    /** A row of low models needs less height than one of tall models. */
     private trim(frame: Box3): void {
         const size = frame.getSize(new Vector3());
         const { width, height } = cells.growth;
-        // Seen over a corner the box is 1.38 times as wide as a side; the ground takes a third of that.
+        // Seen over a corner the box is 1.38 times as wide as a side; the ground takes a third of
+        // that.
         const needed = (width * 1.2 * (0.33 + size.y / Math.max(size.x, size.z) / 1.38)) / 0.92;
         this.cell = { width, height: Math.round(Math.min(Math.max(needed, width * 0.6), height)) };
         if (this.cell.height < height) this.begin();
@@ -321,8 +326,8 @@ export class Sheet {
     private begin(): void {
         const { columns, rows } = this.grid;
         // Cells of another shape need another camera.
-        this.studio?.dispose();
-        this.studio = undefined;
+        this.renderer?.dispose();
+        this.renderer = undefined;
         const { canvas, cell } = this;
         canvas.width = 2 * edge + columns * cell.width;
         canvas.height = head + edge + rows * (cell.height + captionHeight);
@@ -349,8 +354,8 @@ export class Sheet {
     }
 
     private drawCell(
-        plan: Plan,
-        model: Parameters<Studio["photograph"]>[0],
+        plan: PlannedCell,
+        model: Parameters<OffscreenRenderer["render"]>[0],
         frame: Box3 | undefined,
     ): void {
         const { context, cell } = this;
@@ -360,12 +365,12 @@ export class Sheet {
         context.fillRect(x, y, cell.width, cell.height + captionHeight);
         if (this.kind === "variety") this.light(x, y);
         const margin = margins[this.kind ?? "variety"];
-        // Twice the pixels, halved by the canvas: edges without steps.
-        this.studio ??= new Studio(cell.width * 2, cell.height * 2);
+        // Twice the pixels, halved by the canvas, give smooth edges.
+        this.renderer ??= new OffscreenRenderer(cell.width * 2, cell.height * 2);
         const view: ViewName = "three-quarter";
-        const picture = this.studio.photograph(
+        const picture = this.renderer.render(
             model,
-            frame ? { view, frame, margin, grounded: true } : { view, margin, grounded: true },
+            frame ? { view, frame, margin, onGround: true } : { view, margin, onGround: true },
         );
         context.imageSmoothingQuality = "high";
         context.drawImage(picture, x, y, cell.width, cell.height);
@@ -381,7 +386,7 @@ export class Sheet {
         context.fillText(centimetres(above, 1), x + cell.width / 2, y + cell.height + 31);
     }
 
-    /** Each mushroom of a grid has its own spot of light. */
+    /** Draws the spot of light behind one mushroom of a grid. */
     private light(x: number, y: number): void {
         const { context, cell } = this;
         const light = context.createRadialGradient(
@@ -399,7 +404,7 @@ export class Sheet {
         context.fillRect(x, y, cell.width, cell.height);
     }
 
-    /** Points out a control shape, as Figure 7 does. */
+    /** Draws an arrow at a control shape, as in Figure 7. */
     private arrow(x: number, y: number): void {
         const context = this.context;
         context.fillStyle = ink.arrow;
@@ -423,7 +428,8 @@ export class Sheet {
             this.kind === "growth"
                 ? this.settings.mix
                 : (this.settings.morph?.shares ?? []).map(({ id }) => id).join("-");
-        return `${this.kind ?? "sheet"}-${what.replace(/[^a-z0-9_-]+/g, "-").slice(0, 80)}.${suffix}`;
+        const name = what.replace(/[^a-z0-9_-]+/g, "-").slice(0, 80);
+        return `${this.kind ?? "sheet"}-${name}.${suffix}`;
     }
 
     private async savePicture(): Promise<void> {
@@ -433,7 +439,8 @@ export class Sheet {
         if (blob) this.events.save(blob, this.fileName("png"));
     }
 
-    /** One scene: a node per mushroom, named after its canonical mix, standing as on the sheet. */
+    /** Returns one scene with a node per mushroom, named after its canonical mix, arranged as on
+     *  the sheet. */
     private async saveModel(): Promise<void> {
         const signal = this.stop?.signal;
         this.buttons(false);
@@ -441,11 +448,11 @@ export class Sheet {
         scene.name = this.fileName("glb").replace(/\.glb$/, "");
         const size = new Vector3();
         const widest = Math.max(
-            ...this.made.map(({ box }) => Math.max(box.getSize(size).x, size.z)),
+            ...this.drawn.map(({ box }) => Math.max(box.getSize(size).x, size.z)),
         );
         const middle = Math.max(...this.plans.map(({ column }) => column)) / 2;
         try {
-            for (const made of this.made) {
+            for (const made of this.drawn) {
                 const model = await parseModel(made.bytes, made.from);
                 signal?.throwIfAborted();
                 const group = new Group();
@@ -463,11 +470,11 @@ export class Sheet {
                 }
                 scene.add(group);
                 this.progress(
-                    scene.children.length / this.made.length,
-                    `putting together ${scene.children.length} of ${this.made.length}`,
+                    scene.children.length / this.drawn.length,
+                    `putting together ${scene.children.length} of ${this.drawn.length}`,
                 );
             }
-            // A node whose only child carries the mesh is one node too many.
+            // A node whose only child carries the mesh is redundant.
             for (const group of [...scene.children]) {
                 const only = group.children.length === 1 ? group.children[0] : undefined;
                 if (!only) continue;
@@ -486,7 +493,7 @@ export class Sheet {
             );
             this.progress(
                 undefined,
-                `${this.made.length} mushrooms in one GLB of ${kilobytes(bytes.byteLength)}`,
+                `${this.drawn.length} mushrooms in one GLB of ${kilobytes(bytes.byteLength)}`,
             );
         } catch (error) {
             if (!signal?.aborted)
@@ -501,7 +508,7 @@ export class Sheet {
     }
 }
 
-/** The dialog's own parts, kept out of the way until a sheet is asked for. */
+/** Returns the buttons that open the sheets. */
 export function sheetButtons(show: (kind: SheetKind) => void): HTMLElement {
     const variety = make("button", { type: "button", id: "variety" }, "Variety sheet");
     variety.addEventListener("click", () => show("variety"));

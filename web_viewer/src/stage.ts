@@ -1,4 +1,4 @@
-// The stage: one model in daylight on a sheet of paper, drawn only when something changed.
+// The stage: one model in daylight on a sheet of paper, drawn only when something has changed.
 import {
     Box3,
     DirectionalLight,
@@ -26,7 +26,7 @@ import { niceStep } from "./schema";
 const sunDirection = new Vector3(-0.55, 1.3, 0.66).normalize();
 
 export interface Size {
-    /** Metres above the ground, where there is something. */
+    /** Height above the ground, metres; the whole height if all of it is below. */
     above: number;
     width: number;
     height: number;
@@ -34,17 +34,17 @@ export interface Size {
 }
 
 export interface StageStyle {
-    /** No movement of its own. */
-    calm: boolean;
-    /** Nothing but the model: it may fill the picture. */
-    bare: boolean;
-    /** Where to stand, by the name of a view. */
+    /** Nothing moves by itself. */
+    reducedMotion: boolean;
+    /** The model may fill the picture, because nothing else is shown. */
+    withoutMargins: boolean;
+    /** Camera directions by name of a view. */
     directions: Directions;
-    /** What is shown lies on the ground: nothing of it is below. */
-    lies: boolean;
+    /** The model is lifted so that nothing of it is below the ground. */
+    liesOnGround: boolean;
 }
 
-/** A renderer and a lit scene, the same for the stage and for thumbnails. */
+/** Returns a renderer and a lit scene, the same for the stage and for thumbnails. */
 export function litScene(
     canvas: HTMLCanvasElement,
     antialias: boolean,
@@ -59,23 +59,23 @@ export function litScene(
     renderer.shadowMap.enabled = true;
     renderer.shadowMap.type = PCFShadowMap;
     const scene = new Scene();
-    const room = new RoomEnvironment();
+    const environment = new RoomEnvironment();
     const generator = new PMREMGenerator(renderer);
-    scene.environment = generator.fromScene(room, 0.04).texture;
+    scene.environment = generator.fromScene(environment, 0.04).texture;
     scene.environmentIntensity = 0.5;
     generator.dispose();
-    room.dispose();
+    environment.dispose();
     const sun = new DirectionalLight(0xfff2dd, 2.1);
     sun.castShadow = true;
     sun.shadow.mapSize.set(1024, 1024);
     sun.shadow.radius = 5;
-    // Light that the paper throws back: gills and pores are seen by it.
+    // Light reflected by the paper makes gills and pores visible from below.
     const bounce = new HemisphereLight(0x000000, 0xf1e4cb, 1.5);
     scene.add(sun, sun.target, bounce);
     return { renderer, scene, sun };
 }
 
-/** Turns the sun's shadow camera to a model of this size. */
+/** Fits the sun's shadow camera to a model of this size. */
 export function aimSun(sun: DirectionalLight, ball: Sphere): void {
     const reach = ball.radius * 1.7;
     sun.target.position.copy(ball.center);
@@ -106,13 +106,13 @@ export class Stage {
     private readonly contact = new ContactShadow();
     private model: Object3D | undefined;
     private bounds = new Box3();
-    /** What is to be in the picture: the bounds, or those of roots and stems. */
+    /** What has to be in the picture: the bounds, or those of roots and stems. */
     private framed = new Box3();
-    private bared = false;
-    private requested = false;
-    private flight = 0;
+    private rootsOnly = false;
+    private frameRequested = false;
+    private movement = 0;
     private wireframe_ = false;
-    private waiting: (() => void)[] = [];
+    private waiters: (() => void)[] = [];
 
     constructor(
         private readonly host: HTMLElement,
@@ -127,18 +127,18 @@ export class Stage {
         this.ground.visible = false;
         this.contact.visible = false;
         this.controls = new OrbitControls(this.camera, canvas);
-        this.controls.enableDamping = !style.calm;
+        this.controls.enableDamping = !style.reducedMotion;
         this.controls.dampingFactor = 0.12;
         this.controls.zoomToCursor = true;
         this.controls.addEventListener("change", () => this.draw());
-        this.controls.addEventListener("start", () => (this.flight += 1));
+        this.controls.addEventListener("start", () => (this.movement += 1));
         canvas.addEventListener("keydown", (event) => this.onKey(event));
         canvas.addEventListener("webglcontextrestored", () => this.draw());
         new ResizeObserver(() => this.resize()).observe(host);
         this.resize();
     }
 
-    /** Size of what is shown, metres. */
+    /** Returns the size of the shown model, metres. */
     get size(): Size {
         const size = this.bounds.getSize(new Vector3());
         const above =
@@ -150,13 +150,13 @@ export class Stage {
         return pixelsPerMetre(this.camera, this.controls.target, this.host.clientHeight);
     }
 
-    /** Metres between two lines on the ground. */
+    /** Returns the metres between two lines on the ground. */
     get ruling(): number {
         const size = this.bounds.getSize(new Vector3());
         return niceStep(Math.max(size.x, size.y, size.z) / 5) || 0.01;
     }
 
-    colours(ink: string, shadow: string): void {
+    setColours(ink: string, shadow: string): void {
         this.ground.colours(ink, shadow);
         this.draw();
     }
@@ -172,7 +172,8 @@ export class Stage {
         this.draw();
     }
 
-    /** Puts a model on the stage in place of the last one, once the graphics card has it. */
+    /** Replaces the shown model, once the graphics card has the new one; returns false, and
+     *  disposes of it, if it is no longer current. */
     async show(model: Object3D, refit: boolean, current: () => boolean): Promise<boolean> {
         setWireframe(model, this.wireframe_);
         for (const texture of texturesOf(model)) this.renderer.initTexture(texture);
@@ -185,37 +186,37 @@ export class Stage {
         }
         const old = this.model;
         this.model = model;
-        if (this.style.lies) model.position.y = -boundsOf(model).min.y;
+        if (this.style.liesOnGround) model.position.y = -boundsOf(model).min.y;
         this.bounds = boundsOf(model);
-        this.bareRoots();
+        this.applyRootsOnly();
         this.scene.add(model);
         if (old) {
             this.scene.remove(old);
             disposeModel(old);
         }
-        this.settle();
+        this.fitGround();
         if (refit || !old || this.outOfPicture()) this.fit(old ? undefined : "three-quarter", !old);
         this.draw();
         return true;
     }
 
-    /** The model moved by itself: its shadow on the ground follows. */
-    posed(): void {
+    /** Updates the shadow on the ground: the model has another shape. */
+    updateShadow(): void {
         this.castContact();
         this.draw();
     }
 
-    /** Looks from a named side, at once. */
+    /** Looks from a named side. */
     view(name: ViewName, atOnce = true): void {
-        if (this.bared !== (name === "roots")) {
-            this.bared = !this.bared;
-            this.bareRoots();
+        if (this.rootsOnly !== (name === "roots")) {
+            this.rootsOnly = !this.rootsOnly;
+            this.applyRootsOnly();
             this.castContact();
         }
         this.fit(name, atOnce);
     }
 
-    /** Moves so that the whole model is in the picture. */
+    /** Moves the camera so that the whole model is in the picture. */
     fit(name?: ViewName, atOnce = false): void {
         if (this.bounds.isEmpty()) return;
         const direction = name
@@ -223,7 +224,7 @@ export class Stage {
             : this.camera.position.clone().sub(this.controls.target).normalize();
         if (direction.lengthSq() === 0) direction.copy(this.style.directions["three-quarter"]);
         const centre = this.framed.getCenter(new Vector3());
-        const margin = this.style.bare
+        const margin = this.style.withoutMargins
             ? { x: 0.06, y: 0.06 }
             : this.host.clientWidth < 520
               ? { x: 0.12, y: 0.3 }
@@ -232,40 +233,40 @@ export class Stage {
         this.moveTo(
             centre,
             direction.multiplyScalar(distance).add(centre),
-            atOnce || this.style.calm,
+            atOnce || this.style.reducedMotion,
         );
     }
 
-    /** Takes the individuals of a colony off their roots and stems, or puts them back. */
-    private bareRoots(): void {
+    /** Hides the individuals of a colony above their roots and stems, or shows them again. */
+    private applyRootsOnly(): void {
         const stems = this.model && stemsOf(this.model);
-        this.framed = this.bared && stems ? boundsOf(stems) : this.bounds;
+        this.framed = this.rootsOnly && stems ? boundsOf(stems) : this.bounds;
         for (const node of this.model?.children ?? [])
-            node.visible = !this.bared || !stems || node === stems;
+            node.visible = !this.rootsOnly || !stems || node === stems;
     }
 
-    /** Asks for one frame; many asks in one moment make one frame. */
+    /** Requests a frame; several requests at once make one frame. */
     draw(): void {
-        if (this.requested) return;
-        this.requested = true;
+        if (this.frameRequested) return;
+        this.frameRequested = true;
         requestAnimationFrame(() => this.frame());
     }
 
     /** Resolves after the next drawn frame. */
     drawn(): Promise<void> {
         return new Promise((resolve) => {
-            this.waiting.push(resolve);
+            this.waiters.push(resolve);
             this.draw();
         });
     }
 
     private frame(): void {
-        this.requested = false;
+        this.frameRequested = false;
         this.controls.update();
         this.renderer.render(this.scene, this.camera);
         this.onFrame();
-        const done = this.waiting;
-        this.waiting = [];
+        const done = this.waiters;
+        this.waiters = [];
         for (const resolve of done) resolve();
     }
 
@@ -277,11 +278,11 @@ export class Stage {
         this.camera.aspect = width / height;
         this.camera.updateProjectionMatrix();
         if (this.model && this.outOfPicture()) this.fit(undefined, true);
-        // Drawn at once: a canvas of a new size is empty until the next frame.
+        // Drawn at once: a resized canvas is empty until the next frame.
         if (this.model) this.frame();
     }
 
-    private settle(): void {
+    private fitGround(): void {
         const ball = this.bounds.getBoundingSphere(new Sphere());
         aimSun(this.sun, ball);
         this.ground.visible = true;
@@ -310,7 +311,7 @@ export class Stage {
     }
 
     private moveTo(target: Vector3, position: Vector3, atOnce: boolean): void {
-        const flight = ++this.flight;
+        const movement = ++this.movement;
         const clip = (): void => {
             const distance = this.camera.position.distanceTo(this.controls.target);
             this.camera.near = distance / 60;
@@ -323,7 +324,7 @@ export class Stage {
             this.camera.position.copy(position);
             clip();
             this.controls.update();
-            this.controls.enableDamping = !this.style.calm;
+            this.controls.enableDamping = !this.style.reducedMotion;
             this.draw();
             return;
         }
@@ -334,7 +335,7 @@ export class Stage {
         turn -= Math.round(turn / (2 * Math.PI)) * 2 * Math.PI;
         const start = performance.now();
         const step = (now: number): void => {
-            if (flight !== this.flight) return;
+            if (movement !== this.movement) return;
             const t = Math.min(Math.max((now - start) / 380, 0), 1);
             const s = t * t * (3 - 2 * t);
             const at = new Spherical(
@@ -368,7 +369,7 @@ export class Stage {
             return this.fit("three-quarter");
         } else return;
         event.preventDefault();
-        this.flight += 1;
+        this.movement += 1;
         turn.phi = Math.min(Math.max(turn.phi, 0.01), Math.PI - 0.01);
         turn.radius = Math.min(
             Math.max(turn.radius, this.controls.minDistance),

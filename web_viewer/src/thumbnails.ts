@@ -1,17 +1,18 @@
-// Takes the gallery's pictures: small models, one after the other, on one renderer off the page.
-// They are kept in Cache Storage under the model's ETag, so that a second visit draws nothing.
+// The gallery's pictures: small models rendered one after the other, offscreen. They are stored in
+// Cache Storage under the model's ETag, so that a second visit renders nothing.
 import type { Directions } from "./camera";
 import type { Species } from "./gallery";
-import { getModel, send, type Answer } from "./http";
+import { getModel, send, type FetchedModel } from "./http";
 import { disposeModel, parseModel } from "./model";
 import { mushrooms } from "./products";
 import type { Settings } from "./settings";
-import { Studio } from "./studio";
+import { OffscreenRenderer } from "./offscreen_renderer";
 
 const cacheName = "sporeprint-thumbnails-1";
 const pixels = 192;
 
-/** Cache Storage is there on https and on this machine only; without it pictures are just drawn again. */
+/** Opens Cache Storage, which exists on https and on localhost only; without it pictures are
+ *  rendered at each visit. */
 async function openCache(): Promise<Cache | undefined> {
     if (!("caches" in window)) return undefined;
     try {
@@ -21,7 +22,7 @@ async function openCache(): Promise<Cache | undefined> {
     }
 }
 
-/** What tells one version of a model from another: its ETag, or else its canonical URL with `v`. */
+/** Returns what identifies the version of a model: its ETag, or else its canonical URL with `v`. */
 function versionOf(response: Response): string | undefined {
     return response.headers.get("etag") ?? response.headers.get("content-location") ?? undefined;
 }
@@ -30,7 +31,12 @@ function keyOf(id: string, version: string): string {
     return `thumbnails/${id}?version=${encodeURIComponent(version)}`;
 }
 
-async function keep(cache: Cache, id: string, version: string, picture: Blob): Promise<void> {
+async function storePicture(
+    cache: Cache,
+    id: string,
+    version: string,
+    picture: Blob,
+): Promise<void> {
     const { pathname } = new URL(keyOf(id, version), location.href);
     for (const old of await cache.keys()) {
         if (new URL(old.url).pathname === pathname) await cache.delete(old);
@@ -41,13 +47,13 @@ async function keep(cache: Cache, id: string, version: string, picture: Blob): P
     );
 }
 
-async function photograph(
-    studio: Studio,
-    { bytes, response }: Answer,
+async function drawPicture(
+    renderer: OffscreenRenderer,
+    { bytes, response }: FetchedModel,
     directions: Directions,
 ): Promise<Blob> {
     const model = await parseModel(bytes, response.url);
-    const canvas = studio.photograph(model, {
+    const canvas = renderer.render(model, {
         view: "three-quarter",
         directions,
         margin: { x: 0.08, y: 0.08 },
@@ -63,7 +69,7 @@ async function photograph(
     return picture;
 }
 
-/** Returns the small models whose pictures the gallery shows. */
+/** Returns the small models of the gallery's pictures. */
 export function galleryModels(
     settings: Settings,
     species: readonly Species[],
@@ -74,7 +80,7 @@ export function galleryModels(
         ...(lod ? [`lod=${Math.min(2, lod.max ?? 0)}`] : []),
         ...(size !== undefined ? [`texture_size=${size}`] : []),
     ].join("&");
-    // A product made of species shows one mushroom of each.
+    // A product made of species shows a single mushroom of each.
     const path = settings.product.ofSpecies ? mushrooms.path : settings.product.path;
     return species.map(({ id }) => ({
         id,
@@ -82,7 +88,8 @@ export function galleryModels(
     }));
 }
 
-/** Makes or finds the picture of each model in turn; `done` gets an address for an <img>. */
+/** Renders the picture of each model, or takes it from the cache; `done` receives an address for an
+ *  <img>. */
 export async function makeThumbnails(
     models: readonly { id: string; address: string }[],
     directions: Directions,
@@ -90,7 +97,7 @@ export async function makeThumbnails(
     signal: AbortSignal,
 ): Promise<void> {
     const cache = await openCache();
-    let studio: Studio | undefined;
+    let renderer: OffscreenRenderer | undefined;
     try {
         for (const { id, address } of models) {
             if (signal.aborted) return;
@@ -99,22 +106,23 @@ export async function makeThumbnails(
                     cache &&
                     (await send(address, { method: "HEAD", signal }).catch(() => undefined));
                 const known = head && versionOf(head);
-                const kept = known ? await cache?.match(keyOf(id, known)) : undefined;
-                if (kept) {
-                    done(id, URL.createObjectURL(await kept.blob()));
+                const stored = known ? await cache?.match(keyOf(id, known)) : undefined;
+                if (stored) {
+                    done(id, URL.createObjectURL(await stored.blob()));
                     continue;
                 }
-                const answer = await getModel({ address }, signal);
-                studio ??= new Studio(pixels);
-                const picture = await photograph(studio, answer, directions);
+                const fetched = await getModel({ address }, signal);
+                renderer ??= new OffscreenRenderer(pixels);
+                const picture = await drawPicture(renderer, fetched, directions);
                 done(id, URL.createObjectURL(picture));
-                const version = versionOf(answer.response);
-                if (cache && version) await keep(cache, id, version, picture);
+                const version = versionOf(fetched.response);
+                if (cache && version) await storePicture(cache, id, version, picture);
             } catch {
-                // A picture that could not be made leaves its place empty; the species still opens.
+                // A picture that cannot be made leaves its place empty; the species can still be
+                // opened.
             }
         }
     } finally {
-        studio?.dispose();
+        renderer?.dispose();
     }
 }

@@ -36,7 +36,7 @@ function makeToggle(id: string, act: (on: boolean) => void): void {
 function setDusk(stage: Stage, dusk: boolean): void {
     document.documentElement.classList.toggle("dusk", dusk);
     const style = getComputedStyle(document.documentElement);
-    stage.colours(
+    stage.setColours(
         style.getPropertyValue("--rule").trim(),
         style.getPropertyValue("--shade").trim(),
     );

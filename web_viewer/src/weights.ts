@@ -1,11 +1,12 @@
-// Where a point in a polygon lies between its corners, and the grids of a variety sheet.
+// Weights of a point in a polygon between its corners, and the grids of a variety sheet.
 
 export interface Point {
     x: number;
     y: number;
 }
 
-/** Corners of a regular polygon on the unit circle, clockwise on a screen (y down), the first at the top or top left. */
+/** Returns the corners of a regular polygon on the unit circle, clockwise on a screen (y down); the
+ *  first is at the top or top left. */
 export function polygon(corners: number): Point[] {
     const first = corners % 2 ? -Math.PI / 2 : -Math.PI / 2 - Math.PI / corners;
     return Array.from({ length: corners }, (_, index) => {
@@ -14,13 +15,14 @@ export function polygon(corners: number): Point[] {
     });
 }
 
-/** Twice the signed area of a triangle. */
+/** Returns twice the signed area of a triangle. */
 function area(a: Point, b: Point, c: Point): number {
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/** Wachspress coordinates of a point in a convex polygon: >= 0, sum 1, smooth, linear along the edges and exactly one at
- *  a corner. As products, not quotients, of areas they hold on the edges too. They give back the point: sum w_i v_i = p. */
+/** Returns the Wachspress coordinates of a point in a convex polygon: >= 0, sum 1, smooth, linear
+ *  along the edges, exactly 1 at a corner. Computed as products of areas, not quotients, they are
+ *  valid on the edges, too. Their weighted mean of the corners is the point: sum w_i v_i = p. */
 export function weightsAt(point: Point, corners: readonly Point[]): number[] {
     const n = corners.length;
     const at = (index: number): Point => corners[(index + n) % n]!;
@@ -36,7 +38,7 @@ export function weightsAt(point: Point, corners: readonly Point[]): number[] {
     return raw.map((weight) => weight / sum);
 }
 
-/** The point that weights stand for. */
+/** Returns the weighted mean of the corners. */
 export function pointOf(weights: readonly number[], corners: readonly Point[]): Point {
     return corners.reduce(
         (sum, corner, index) => ({
@@ -47,7 +49,8 @@ export function pointOf(weights: readonly number[], corners: readonly Point[]): 
     );
 }
 
-/** The nearest point of a convex polygon that runs clockwise on the screen; a corner close by is taken exactly. */
+/** Returns the nearest point in a convex polygon that runs clockwise on the screen, or a corner
+ *  within the distance `snap`. */
 export function insidePolygon(point: Point, corners: readonly Point[], snap = 0): Point {
     const near = corners.find(
         (corner) => Math.hypot(corner.x - point.x, corner.y - point.y) <= snap,
@@ -75,11 +78,11 @@ export function insidePolygon(point: Point, corners: readonly Point[], snap = 0)
 }
 
 export interface Cell {
-    /** In cells from the upper left; a triangle's rows are shifted by halves. */
+    /** Column and row of the cell from the upper left; rows of a triangle are shifted by halves. */
     column: number;
     row: number;
     weights: number[];
-    /** 0..1, where the rows are ages. */
+    /** Age, 0..1, if the rows are ages. */
     age?: number;
 }
 
@@ -105,8 +108,9 @@ function bilinear(x: number, y: number): number[] {
     return [(1 - x) * (1 - y), x * (1 - y), x * y, (1 - x) * y];
 }
 
-/** The morphs of a variety sheet, control shapes at the corners (a fifth in the middle):
- *  two: 5 steps across, 5 ages down; three: a triangle of 21; four: 25, bilinear; five: 25, from the middle outwards. */
+/** Returns the morphs of a variety sheet, with control shapes at the corners (a fifth in the
+ *  middle): for two species 5 steps across and 5 ages down; for three a triangle of 21; for four
+ *  25, bilinear; for five 25, linear from the middle outwards. */
 export function varietyLayout(members: number): Layout {
     if (members === 2) {
         const layout = square((x) => [1 - x, x]);
@@ -136,7 +140,7 @@ export function varietyLayout(members: number): Layout {
     });
 }
 
-/** The member that a cell shows alone, or -1. */
+/** Returns the index of the only member of a cell, or -1. */
 export function controlShape(weights: readonly number[]): number {
     return weights.findIndex((weight) => weight > 1 - 1e-9);
 }

@@ -1,5 +1,6 @@
-// Paint of drafts: a shape that is being dragged is shown at once in the paint of the one before, and its own linked
-// images are put on when they arrive. One set of textures is worn by all drafts, so that a new shape uploads nothing.
+// Textures of drafts: a draft is shown at once with the textures of the model before it, and with
+// its own linked images when they have arrived. All drafts share one set of textures, so that a new
+// shape uploads geometry only.
 import {
     LinearFilter,
     LinearMipmapLinearFilter,
@@ -35,17 +36,19 @@ interface LinkedJson {
 
 const wrappings: Record<number, Wrapping> = { 33071: 1001, 33648: 1002, 10497: 1000 };
 
-/** "base_color" of "../surfaces/mushrooms/amanita_muscaria/base_color.jpg?…". */
+/** Returns the role of an image by its file name: "base_color" for
+ *  "../surfaces/mushrooms/amanita_muscaria/base_color.jpg?…". */
 function roleOf(uri: string): string {
     return /([^/?]+)\.\w+(?:\?|$)/.exec(uri)?.[1] ?? uri;
 }
 
-/** "base_color" of the first material, "base_color 1" of the one after it. */
+/** Returns the key of a role in a material: "base_color" for the first, "base_color 1" for the
+ *  second. */
 function ofMaterial(role: string, material: number): string {
     return material > 0 ? `${role} ${material}` : role;
 }
 
-/** The material that a texture belongs to. */
+/** Returns the index of the material that uses a texture. */
 function materialOf(json: LinkedJson, texture: number): number {
     const found = (json.materials ?? []).findIndex(
         ({ normalTexture, occlusionTexture, pbrMetallicRoughness }) =>
@@ -56,21 +59,22 @@ function materialOf(json: LinkedJson, texture: number): number {
     return Math.max(found, 0);
 }
 
-export class Paint {
-    private readonly worn = new Map<string, Texture>();
-    private wanted = new Map<string, string>();
-    private shown = "";
+export class DraftTextures {
+    private readonly textures = new Map<string, Texture>();
+    private addresses = new Map<string, string>();
+    private shownKey = "";
     private busy = false;
 
-    /** Called when paint was put on. */
+    /** Called when the textures have new images. */
     onChange: () => void = () => undefined;
 
-    /** Lends the worn textures to a model that is being read from an address, and notes what it is to be painted with. */
+    /** Returns a loader plugin that gives a model the shared textures, and collects the addresses
+     *  of its own images, relative to `from`, by role. */
     plugin(addresses: Map<string, string>, from: string): (parser: GLTFParser) => GLTFLoaderPlugin {
         return (parser) => {
             const json = parser.json as LinkedJson;
             return {
-                name: "sporeprint_late_paint",
+                name: "sporeprint_shared_textures",
                 loadTexture: (index) => {
                     const definition = json.textures?.[index];
                     const uri = json.images?.[definition?.source ?? -1]?.uri;
@@ -85,14 +89,15 @@ export class Paint {
         };
     }
 
-    /** A draft stands on the stage: fetches its images, the newest wish first and never two sets at a time. */
-    dress(addresses: Map<string, string>): void {
-        this.wanted = addresses;
+    /** Fetches the linked images of the draft on the stage: one set at a time, and only the newest
+     *  of the waiting sets. */
+    fetchImages(addresses: Map<string, string>): void {
+        this.addresses = addresses;
         if (!this.busy) void this.fetch();
     }
 
-    /** A finished model stands on the stage: drafts after it start in its paint. */
-    adopt(model: Object3D): void {
+    /** Copies the images of a final model on the stage: later drafts start with them. */
+    adoptFrom(model: Object3D): void {
         const materials = [...new Set(meshesOf(model).map(({ material }) => material))];
         for (const [number, material] of materials.entries()) {
             if (!(material instanceof MeshStandardMaterial)) continue;
@@ -104,16 +109,16 @@ export class Paint {
             ] as const) {
                 if (!from || from.userData["shared"]) continue;
                 from.userData["shared"] = true;
-                from.userData["lent"] = true;
+                from.userData["imageShared"] = true;
                 this.put(ofMaterial(role, number), from.image as ImageBitmap, from);
             }
         }
-        this.wanted = new Map();
-        this.shown = "";
+        this.addresses = new Map();
+        this.shownKey = "";
     }
 
     private texture(role: string, sampler: Sampler = {}): Texture {
-        const known = this.worn.get(role);
+        const known = this.textures.get(role);
         if (known) return known;
         const made = new Texture(blank(role));
         made.flipY = false;
@@ -126,7 +131,7 @@ export class Paint {
         made.wrapT = wrappings[sampler.wrapT ?? 10497] ?? made.wrapT;
         made.userData["shared"] = true;
         made.needsUpdate = true;
-        this.worn.set(role, made);
+        this.textures.set(role, made);
         return made;
     }
 
@@ -138,7 +143,7 @@ export class Paint {
             texture.wrapT = like.wrapT;
         }
         const old = texture.image as unknown;
-        // The card's storage has a fixed size.
+        // The storage on the graphics card has a fixed size.
         texture.dispose();
         texture.image = image;
         texture.needsUpdate = true;
@@ -150,11 +155,11 @@ export class Paint {
         this.busy = true;
         try {
             for (;;) {
-                const wanted = this.wanted;
-                const key = [...wanted.values()].join(" ");
-                if (wanted.size === 0 || key === this.shown) return;
+                const requested = this.addresses;
+                const key = [...requested.values()].join(" ");
+                if (requested.size === 0 || key === this.shownKey) return;
                 const images = await Promise.all(
-                    [...wanted].map(async ([role, address]) => {
+                    [...requested].map(async ([role, address]) => {
                         const response = await fetch(address);
                         if (!response.ok) throw new Error(`${response.status}`);
                         const options = {
@@ -167,24 +172,24 @@ export class Paint {
                         };
                     }),
                 );
-                // A finished model may have come meanwhile, with paint of its own.
-                if (this.wanted.size === 0) {
+                // A final model may have arrived in the meantime, with images of its own.
+                if (this.addresses.size === 0) {
                     for (const { image } of images) image.close();
                     return;
                 }
                 for (const { role, image } of images) this.put(role, image);
-                this.shown = key;
+                this.shownKey = key;
                 this.onChange();
             }
         } catch {
-            // The draft keeps the paint it has; the finished model brings its own.
+            // The draft keeps the textures it has; the final model has its own.
         } finally {
             this.busy = false;
         }
     }
 }
 
-/** What stands in for an image that never came: white, a flat normal, rough and open. */
+/** Returns a placeholder for an image that did not arrive: neutral colour, flat normal, rough. */
 function blank(role: string): HTMLCanvasElement {
     const canvas = document.createElement("canvas");
     canvas.width = canvas.height = 4;

@@ -1,4 +1,4 @@
-// A renderer off the page that takes pictures of models, one after the other: thumbnails and sheets.
+// An offscreen renderer that draws models one after the other: thumbnails and sheets.
 import {
     Box3,
     PerspectiveCamera,
@@ -15,18 +15,18 @@ import { Ground } from "./ground";
 import { boundsOf } from "./model";
 import { aimSun, litScene } from "./stage";
 
-export interface Pose {
+export interface RenderOptions {
     view: ViewName;
-    /** Where that view stands; of what stands upright when absent. */
+    /** Camera directions by name of a view; those of an upright model by default. */
     directions?: Directions;
-    /** What has to fit into the picture, metres; the model's own bounds when absent. */
+    /** What has to be in the picture, metres; the model's own bounds by default. */
     frame?: Box3;
     margin: Margin;
-    /** On a ground: what is buried is hidden, what stands throws a soft shadow. */
-    grounded?: boolean;
+    /** With a ground that hides what is below it and receives a contact shadow. */
+    onGround?: boolean;
 }
 
-export class Studio {
+export class OffscreenRenderer {
     readonly canvas = document.createElement("canvas");
     private readonly renderer: WebGLRenderer;
     private readonly scene: Scene;
@@ -35,7 +35,7 @@ export class Studio {
     private readonly ground = new Ground();
     private readonly contact = new ContactShadow();
 
-    /** Pictures are `width` times `height` pixels. */
+    /** Pictures have `width` times `height` pixels. */
     constructor(width: number, height = width) {
         const { renderer, scene, sun } = litScene(this.canvas, true);
         this.renderer = renderer;
@@ -44,14 +44,15 @@ export class Studio {
         renderer.setSize(width, height, false);
         sun.shadow.mapSize.set(512, 512);
         this.camera = new PerspectiveCamera(24, width / height, 0.001, 100);
-        this.ground.bare();
+        this.ground.makeInvisible();
         this.scene.add(this.ground, this.contact);
     }
 
-    /** Draws a model on the canvas, on nothing; the picture has to be taken off before the next task. */
-    photograph(
+    /** Draws a model on the transparent canvas. Copy the picture before the next task: browsers may
+     *  clear it. */
+    render(
         model: Object3D,
-        { view, directions = standing, frame, margin, grounded = false }: Pose,
+        { view, directions = standing, frame, margin, onGround = false }: RenderOptions,
     ): HTMLCanvasElement {
         const bounds = boundsOf(model);
         const framed = frame ?? bounds;
@@ -66,8 +67,8 @@ export class Studio {
         this.camera.updateProjectionMatrix();
         aimSun(this.sun, ball);
         this.scene.add(model);
-        this.ground.visible = this.contact.visible = grounded;
-        if (grounded) {
+        this.ground.visible = this.contact.visible = onGround;
+        if (onGround) {
             this.ground.fit(ball.radius, 1);
             const { min, max } = bounds;
             const half =
