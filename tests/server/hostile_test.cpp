@@ -1,4 +1,5 @@
-// The real program under attack: after each of these it lives, answers others, and has taken little memory.
+// The real program under attack: after each of these it lives, answers others, and has taken little
+// memory.
 
 #include <gtest/gtest.h>
 
@@ -167,7 +168,7 @@ TEST_F(Hostile, HalfClosedClientsGetWhatIsThereAndNobodyWorksForThem) {
     client.finish();
     EXPECT_EQ(client.receive().status, 200);
     EXPECT_EQ(client.receive().status, 200);
-    EXPECT_TRUE(client.ends());
+    EXPECT_TRUE(client.is_closed());
 
     most_growth = 256 * megabyte;  // what has begun is made
     const long left = metric("sporeprint_queue_rejected_total");

@@ -1,4 +1,5 @@
-// One meaning has one key, whatever words, numbers, escapes, order, method or signature say it; another meaning has another.
+// One meaning has one key, whatever words, numbers, escapes, order, method or signature say it;
+// another meaning has another.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 

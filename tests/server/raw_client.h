@@ -1,4 +1,4 @@
-// A client that sends exactly the bytes it is told, and reads answers as a strict client would.
+// An HTTP test client that sends exactly the given bytes and reads responses strictly.
 #pragma once
 
 #include <arpa/inet.h>
@@ -16,9 +16,10 @@
 
 namespace sporeprint::server {
 
+/// One connection to a server on this machine.
 class RawClient {
   public:
-    /// from  address of its own end, 127.0.0.1 if it is nullptr
+    /// from  local address; nullptr: 127.0.0.1
     explicit RawClient(int port, int receive_buffer = 0, const char* from = nullptr)
         : socket_(::socket(AF_INET, SOCK_STREAM, 0)) {
         if (receive_buffer > 0)
@@ -53,10 +54,10 @@ class RawClient {
         close();
     }
 
-    /// Sends nothing more.
+    /// Closes the sending direction.
     void finish() { ::shutdown(socket_, SHUT_WR); }
 
-    /// Sends all; returns false when the server no longer takes it.
+    /// Sends all bytes; returns false if the server no longer accepts them.
     bool send(std::string_view text) {
         while (!text.empty()) {
             const ssize_t sent = ::send(socket_, text.data(), text.size(), MSG_NOSIGNAL);
@@ -67,7 +68,7 @@ class RawClient {
     }
 
     struct Response {
-        int status = 0;  ///< 0: the connection ended without an answer
+        int status = 0;  ///< 0: the connection was closed without a response
         std::vector<std::pair<std::string, std::string>> headers;
         std::string head, body;
 
@@ -83,7 +84,7 @@ class RawClient {
         }
     };
 
-    /// Reads one answer: as many bytes of body as its length says, none after HEAD, 204 and 304.
+    /// Reads one response: a body of Content-Length bytes, none after HEAD, 204 and 304.
     Response receive(bool to_head = false) {
         Response response;
         std::size_t end = 0;
@@ -111,21 +112,22 @@ class RawClient {
         return response;
     }
 
+    /// Sends a request and reads the response.
     Response ask(std::string_view request, bool to_head = false) {
         send(request);
         return receive(to_head);
     }
 
-    /// All that still comes, until the server ends the connection.
+    /// Reads until the server closes the connection.
     std::string receive_all() {
         while (more()) continue;
         return std::exchange(buffer_, {});
     }
 
-    /// Whether the server ends the connection without another byte within `patience`.
-    bool ends(std::chrono::milliseconds patience = std::chrono::seconds(10)) {
+    /// Returns true if the server closes the connection within `timeout` without another byte.
+    bool is_closed(std::chrono::milliseconds timeout = std::chrono::seconds(10)) {
         pollfd polled{socket_, POLLIN, 0};
-        if (!buffer_.empty() || ::poll(&polled, 1, static_cast<int>(patience.count())) <= 0)
+        if (!buffer_.empty() || ::poll(&polled, 1, static_cast<int>(timeout.count())) <= 0)
             return false;
         char byte = 0;
         return ::recv(socket_, &byte, 1, 0) <= 0;

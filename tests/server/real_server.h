@@ -1,4 +1,4 @@
-// The built program as a child process on a free port, for tests that attack it.
+// The built program as a child process on a free port, for tests with hostile clients.
 #pragma once
 
 #include <dirent.h>
@@ -20,11 +20,13 @@
 
 namespace sporeprint::server {
 
+/// A running server process; stopped by the destructor.
 class RealServer {
   public:
-    /// most_files  its limit of descriptors, hard; 0 for ours
+    /// most_files  its hard limit of descriptors; 0: that of the test
     /// options     further flags
-    /// log         file that its standard error goes to, all levels; empty for ours, warnings
+    /// log         file for its standard error, at all levels; empty: standard error of the test,
+    ///             at level warning
     explicit RealServer(unsigned most_files = 0, const std::vector<std::string>& options = {},
                         std::string log = {})
         : log_(std::move(log)) {
@@ -49,12 +51,13 @@ class RealServer {
             ::_exit(127);
         }
         ::close(out[1]);
-        std::string said;
+        std::string output;
         char byte = 0;
-        while (said.find('\n') == std::string::npos && ::read(out[0], &byte, 1) == 1) said += byte;
+        while (output.find('\n') == std::string::npos && ::read(out[0], &byte, 1) == 1)
+            output += byte;
         ::close(out[0]);
-        const std::size_t colon = said.rfind(':');
-        if (colon != std::string::npos) port_ = std::atoi(said.c_str() + colon + 1);
+        const std::size_t colon = output.rfind(':');
+        if (colon != std::string::npos) port_ = std::atoi(output.c_str() + colon + 1);
     }
     ~RealServer() { stop(); }
     RealServer(const RealServer&) = delete;
@@ -66,14 +69,14 @@ class RealServer {
         return pid_ > 0 && ::kill(pid_, 0) == 0 && ::waitpid(pid_, nullptr, WNOHANG) == 0;
     }
 
-    /// Asks it to end; returns its exit status, -1 when it did not exit by itself.
+    /// Sends SIGTERM; returns its exit status, -1 if it was killed by a signal.
     int stop() {
         if (pid_ <= 0) return -1;
         ::kill(pid_, SIGTERM);
         return wait();
     }
 
-    /// Waits for its end; returns its exit status, -1 when it did not exit by itself.
+    /// Waits for its end; returns its exit status, -1 if it was killed by a signal.
     int wait() {
         int status = 0;
         ::waitpid(pid_, &status, 0);
@@ -81,9 +84,10 @@ class RealServer {
         return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
     }
 
+    /// Sends SIGHUP.
     void hang_up() const { ::kill(pid_, SIGHUP); }
 
-    /// All that it has logged so far.
+    /// Returns its log so far.
     std::string log() const {
         std::ifstream in(log_);
         std::ostringstream text;
@@ -91,13 +95,13 @@ class RealServer {
         return text.str();
     }
 
-    /// Whether it logs this, perhaps in a moment.
+    /// Returns true if its log contains this text within 10 s.
     bool logs(std::string_view text) const {
         for (int i = 0; i < 1000 && log().find(text) == std::string::npos; ++i) ::usleep(10'000);
         return log().find(text) != std::string::npos;
     }
 
-    /// Bytes of resident memory.
+    /// Returns its resident memory in bytes.
     long resident() const {
         std::ifstream in("/proc/" + std::to_string(pid_) + "/statm");
         long total = 0, pages = 0;

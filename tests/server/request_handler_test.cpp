@@ -25,10 +25,10 @@ using namespace std::chrono_literals;
 const std::string small = "/v1/mushrooms/amanita_muscaria.glb?lod=3&texture_size=128&seed=";
 const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=1024&seed=";
 
-/// A visit without a transport: whoever makes it waits for its answer.
-class Guest final : public PendingRequest {
+/// A pending request without a transport; its creator waits for the response.
+class TestRequest final : public PendingRequest {
   public:
-    explicit Guest(api::Request request, const Address& client = {})
+    explicit TestRequest(api::Request request, const Address& client = {})
         : request_(std::move(request)), client_(client) {}
 
     const api::Request& request() const override { return request_; }
@@ -39,23 +39,25 @@ class Guest final : public PendingRequest {
         if (!response_) response_ = std::move(response);
         changed_.notify_all();
     }
-    void resume(std::function<void()> go_on) override { go_on(); }
-    void wait(std::function<void(CancelReason)> over) override {
+    void resume(std::function<void()> task) override { task(); }
+    void wait(std::function<void(CancelReason)> on_cancel) override {
         const std::lock_guard lock(mutex_);
-        over_ = std::move(over);
+        on_cancel_ = std::move(on_cancel);
     }
 
-    /// Sanitizers make everything slow: five minutes are for ever.
-    api::Response response(std::chrono::milliseconds patience = 5min, CancelReason then = CancelReason::timed_out) {
+    /// Waits for the response and cancels the request after the timeout. Sanitizers slow everything
+    /// down, so five minutes mean no timeout.
+    api::Response response(std::chrono::milliseconds timeout = 5min,
+                           CancelReason reason = CancelReason::timed_out) {
         std::unique_lock lock(mutex_);
-        if (!changed_.wait_for(lock, patience, [&] { return response_.has_value(); })) {
-            const auto over = std::exchange(over_, nullptr);
+        if (!changed_.wait_for(lock, timeout, [&] { return response_.has_value(); })) {
+            const auto on_cancel = std::exchange(on_cancel_, nullptr);
             lock.unlock();
-            over(then);
+            on_cancel(reason);
             lock.lock();
             changed_.wait(lock, [&] { return response_.has_value(); });
         }
-        over_ = nullptr;  // it may hold this
+        on_cancel_ = nullptr;  // it may own this request
         return *response_;
     }
 
@@ -65,25 +67,25 @@ class Guest final : public PendingRequest {
     std::mutex mutex_;
     std::condition_variable changed_;
     std::optional<api::Response> response_;
-    std::function<void(CancelReason)> over_;
+    std::function<void(CancelReason)> on_cancel_;
 };
 
-/// The real service behind a reception, asked without sockets.
-struct House {
-    explicit House(RequestHandlerOptions options = {},
-                   std::shared_ptr<const Signatures> signatures = nullptr)
+/// A request handler with the real service, called without sockets.
+struct Harness {
+    explicit Harness(RequestHandlerOptions options = {},
+                     std::shared_ptr<const Signatures> signatures = nullptr)
         : request_handler({service, std::move(signatures)}, metrics, log, options) {
         handlers = request_handler.handlers();
         request_handler.open();
     }
 
     api::Response ask(const std::string& target, const std::string& method = "GET",
-                      std::chrono::milliseconds patience = 5min,
-                      PendingRequest::CancelReason then = PendingRequest::CancelReason::timed_out,
+                      std::chrono::milliseconds timeout = 5min,
+                      PendingRequest::CancelReason reason = PendingRequest::CancelReason::timed_out,
                       std::vector<api::Header> headers = {}) {
         api::Request request = request_of(method, target);
         request.headers = std::move(headers);
-        return ask(std::move(request), patience, then);
+        return ask(std::move(request), timeout, reason);
     }
 
     api::Response post(const std::string& target, std::string body) {
@@ -101,11 +103,11 @@ struct House {
         return request;
     }
 
-    api::Response ask(api::Request request, std::chrono::milliseconds patience,
-                      PendingRequest::CancelReason then) {
-        const auto guest = std::make_shared<Guest>(std::move(request));
-        handlers.respond(guest);
-        return guest->response(patience, then);
+    api::Response ask(api::Request request, std::chrono::milliseconds timeout,
+                      PendingRequest::CancelReason reason) {
+        const auto pending = std::make_shared<TestRequest>(std::move(request));
+        handlers.respond(pending);
+        return pending->response(timeout, reason);
     }
 
     std::shared_ptr<api::Service> service =
@@ -123,17 +125,18 @@ std::string text_of(const api::Response& response) {
     return text;
 }
 
-/// So many who ask a house for as many heavy pieces; all of them wait when this returns, or half of them are served.
-std::vector<std::jthread> crowd_at(House& house, int count) {
-    std::vector<std::jthread> crowd;
+/// Starts threads that each request another expensive resource. When it returns, all of them wait,
+/// or half of them have been served.
+std::vector<std::jthread> start_waiting_requests(Harness& harness, int count) {
+    std::vector<std::jthread> clients;
     for (int i = 0; i < count; ++i)
-        crowd.emplace_back(
-            [&house, i] { EXPECT_EQ(house.ask(heavy + std::to_string(i)).status, 200); });
+        clients.emplace_back(
+            [&harness, i] { EXPECT_EQ(harness.ask(heavy + std::to_string(i)).status, 200); });
     const std::string all_wait = "sporeprint_waiters " + std::to_string(count) + '\n';
-    while (text_of(house.ask("/metrics")).find(all_wait) == std::string::npos &&
-           house.service->counters().generated < static_cast<std::uint64_t>(count) / 2)
+    while (text_of(harness.ask("/metrics")).find(all_wait) == std::string::npos &&
+           harness.service->counters().generated < static_cast<std::uint64_t>(count) / 2)
         std::this_thread::yield();
-    return crowd;
+    return clients;
 }
 
 std::string header(const api::Response& response, std::string_view name) {
@@ -142,73 +145,73 @@ std::string header(const api::Response& response, std::string_view name) {
     return {};
 }
 
-TEST(RequestHandler, MakesOnceWhatManyAskForAtTheSameTime) {
+TEST(RequestHandler, GeneratesOnceForConcurrentEqualRequests) {
     RequestHandlerOptions options;
     options.threads = 4;
-    House house(options);
+    Harness harness(options);
     std::atomic<int> collapsed{0}, good{0};
     {
         std::vector<std::jthread> threads;
         for (int i = 0; i < 64; ++i)
             threads.emplace_back([&] {
-                const api::Response response = house.ask(small + "9");
+                const api::Response response = harness.ask(small + "9");
                 if (response.status == 200 && size_of(response.body) > 1000) ++good;
                 if (header(response, "Cache-Status").ends_with("collapsed")) ++collapsed;
             });
     }
     EXPECT_EQ(good, 64);
-    EXPECT_EQ(house.service->counters().generated, 1u);
-    const api::Response again = house.ask(small + "9");
+    EXPECT_EQ(harness.service->counters().generated, 1u);
+    const api::Response again = harness.ask(small + "9");
     EXPECT_EQ(header(again, "Cache-Status"), "sporeprint; hit");
-    EXPECT_EQ(house.service->counters().generated, 1u);
+    EXPECT_EQ(harness.service->counters().generated, 1u);
 }
 
-TEST(RequestHandler, AnswersHealthAndWhatIsKeptWhileAllSlotsWork) {
-    House house;
-    ASSERT_EQ(house.ask(small + "1").status, 200);
+TEST(RequestHandler, RespondsToHealthChecksAndCachedTargetsWhileThePoolIsBusy) {
+    Harness harness;
+    ASSERT_EQ(harness.ask(small + "1").status, 200);
     std::atomic<int> running{0};
     std::vector<std::jthread> threads;
     for (int i = 0; i < 16; ++i)
         threads.emplace_back([&, i] {
             ++running;
-            EXPECT_EQ(house.ask(heavy + std::to_string(i)).status, 200);
+            EXPECT_EQ(harness.ask(heavy + std::to_string(i)).status, 200);
             --running;
         });
     while (running < 16) std::this_thread::yield();
-    EXPECT_EQ(text_of(house.ask("/livez")), "alive\n");
-    EXPECT_EQ(house.ask(small + "1").status, 200);
+    EXPECT_EQ(text_of(harness.ask("/livez")), "alive\n");
+    EXPECT_EQ(harness.ask(small + "1").status, 200);
     const int still_running = running;
-    EXPECT_GT(still_running, 0) << "the work has to outlast the question";
+    EXPECT_GT(still_running, 0) << "the jobs must outlast the requests above";
 }
 
-TEST(RequestHandler, SaysReadyOnlyWhenItIs) {
-    House house;
-    EXPECT_EQ(house.ask("/readyz").status, 200);
-    EXPECT_EQ(house.ask("/readyz", "HEAD").status, 200);
-    house.request_handler.close();
-    const api::Response response = house.ask("/readyz");
+TEST(RequestHandler, ReportsReadinessOnlyBetweenOpenAndClose) {
+    Harness harness;
+    EXPECT_EQ(harness.ask("/readyz").status, 200);
+    EXPECT_EQ(harness.ask("/readyz", "HEAD").status, 200);
+    harness.request_handler.close();
+    const api::Response response = harness.ask("/readyz");
     EXPECT_EQ(response.status, 503);
     EXPECT_EQ(header(response, "Content-Type"), "application/problem+json");
     EXPECT_EQ(header(response, "Retry-After"), "1");
-    EXPECT_EQ(house.ask("/livez").status, 200);
-    const api::Response posted = house.ask("/livez", "POST");
+    EXPECT_EQ(harness.ask("/livez").status, 200);
+    const api::Response posted = harness.ask("/livez", "POST");
     EXPECT_EQ(posted.status, 405);
     EXPECT_EQ(header(posted, "Allow"), "GET, HEAD");
 }
 
-TEST(RequestHandler, CountsForPrometheus) {
-    House house;
-    house.ask(small + "5");
+TEST(RequestHandler, ExportsPrometheusMetrics) {
+    Harness harness;
+    harness.ask(small + "5");
     Served served;
     served.method = "GET";
     served.status = 200;
     served.milliseconds = 3;
     for (const char* target :
          {"/v1/species/amanita_muscaria", "/nowhere", "/nowhere/else", "/livez"}) {
-        served.label = house.handlers.label("GET", target);
-        house.handlers.served(served);
+        served.label = harness.handlers.label("GET", target);
+        harness.handlers.served(served);
     }
-    const api::Response response = house.ask("/metrics");
+    const api::Response response = harness.ask("/metrics");
     EXPECT_TRUE(header(response, "Content-Type").starts_with("text/plain; version=0.0.4"));
     const std::string text = text_of(response);
     for (const char* line :
@@ -221,96 +224,100 @@ TEST(RequestHandler, CountsForPrometheus) {
         EXPECT_NE(text.find(line), std::string::npos) << line << "\n" << text;
 }
 
-TEST(RequestHandler, KeepsMetricsToTheirOwnPortWhenThereIsOne) {
+TEST(RequestHandler, ServesMetricsOnTheirOwnPortOnly) {
     RequestHandlerOptions options;
     options.metrics = false;
-    House house(options);
-    EXPECT_EQ(house.ask("/metrics").status, 404);
-    house.handlers = house.request_handler.metrics_handlers();
-    EXPECT_EQ(house.ask("/metrics").status, 200);
-    EXPECT_EQ(house.ask("/livez").status, 200);
-    EXPECT_EQ(house.ask("/v1/species").status, 404);
+    Harness harness(options);
+    EXPECT_EQ(harness.ask("/metrics").status, 404);
+    harness.handlers = harness.request_handler.metrics_handlers();
+    EXPECT_EQ(harness.ask("/metrics").status, 200);
+    EXPECT_EQ(harness.ask("/livez").status, 200);
+    EXPECT_EQ(harness.ask("/v1/species").status, 404);
 }
 
 TEST(RequestHandler, IsNotReadyWhileTooManyWaitForAWorker) {
-    House house;
+    Harness harness;
     std::counting_semaphore<> gate(0), begun(0);
-    Handlers slow = house.handlers;
+    Handlers slow = harness.handlers;
     slow.respond = [&](const std::shared_ptr<PendingRequest>& pending) {
         begun.release();
         gate.acquire();
-        house.handlers.respond(pending);
+        harness.handlers.respond(pending);
     };
     TransportOptions options;
     options.port = 0;
     options.workers = 1;
     options.longest_queue = 10;
     Transport transport(options, slow);
-    house.request_handler.watch(&transport);
+    harness.request_handler.watch(&transport);
     transport.start();
-    EXPECT_TRUE(house.request_handler.is_ready());
+    EXPECT_TRUE(harness.request_handler.is_ready());
     std::vector<std::unique_ptr<RawClient>> waiting;
     for (int i = 0; i < 10; ++i) {
         waiting.push_back(std::make_unique<RawClient>(transport.port()));
         waiting.back()->send("GET /v1 HTTP/1.1\r\n\r\n");
         if (i == 0) begun.acquire();
     }
-    for (int i = 0; i < 1000 && house.request_handler.is_ready(); ++i)
+    for (int i = 0; i < 1000 && harness.request_handler.is_ready(); ++i)
         std::this_thread::sleep_for(5ms);
     EXPECT_EQ(transport.load().queue, 9u);
-    EXPECT_EQ(house.ask("/readyz").status, 503);
-    EXPECT_EQ(house.ask("/livez").status, 200);
+    EXPECT_EQ(harness.ask("/readyz").status, 503);
+    EXPECT_EQ(harness.ask("/livez").status, 200);
     gate.release(10);
     for (auto& one : waiting) EXPECT_EQ(one->receive().status, 200);
-    EXPECT_EQ(house.ask("/readyz").status, 200);
+    EXPECT_EQ(harness.ask("/readyz").status, 200);
     transport.drain();
-    house.request_handler.watch(nullptr);
+    harness.request_handler.watch(nullptr);
 }
 
-TEST(RequestHandler, TurnsAwayWhatTheQueueCannotHold) {
+TEST(RequestHandler, RefusesJobsBeyondTheQueue) {
     RequestHandlerOptions options;
     options.longest_queue = 0;
-    House house(options);
-    std::atomic<int> good{0}, turned_away{0};
+    Harness harness(options);
+    std::atomic<int> good{0}, refused{0};
     {
         std::vector<std::jthread> threads;
         for (int i = 0; i < 12; ++i)
             threads.emplace_back([&, i] {
-                const api::Response response = house.ask(heavy + std::to_string(i));
+                const api::Response response = harness.ask(heavy + std::to_string(i));
                 if (response.status == 200) ++good;
-                if (response.status == 503 && header(response, "Retry-After") == "1") ++turned_away;
+                if (response.status == 503 && header(response, "Retry-After") == "1") ++refused;
             });
     }
-    EXPECT_EQ(good + turned_away, 12);
+    EXPECT_EQ(good + refused, 12);
     EXPECT_GE(good, 1);
-    EXPECT_GE(turned_away, 1);
-    api::Response again = house.ask(heavy + "99");
+    EXPECT_GE(refused, 1);
+    api::Response again = harness.ask(heavy + "99");
     for (int i = 0; i < 1000 && again.status == 503;
-         ++i) {  // its last job has to put its tools away
+         ++i) {  // the last thread may still be finishing
         std::this_thread::sleep_for(5ms);
-        again = house.ask(heavy + "99");
+        again = harness.ask(heavy + "99");
     }
-    EXPECT_EQ(again.status, 200) << "it recovers";
+    EXPECT_EQ(again.status, 200) << "the handler recovers";
 }
 
-TEST(RequestHandler, GivesUpAtTheDeadlineAndWhenTheClientLeaves) {
-    House late;
+TEST(RequestHandler, CancelsAtTheDeadlineAndWhenTheClientDisconnects) {
+    Harness late;
     const api::Response response = late.ask(heavy + "1", "GET", 1ms);
     EXPECT_EQ(response.status, 504);
     EXPECT_EQ(header(response, "Content-Type"), "application/problem+json");
 
-    House left;  // one slot: whoever comes last waits for all before
-    std::vector<std::jthread> crowd = crowd_at(left, 60);
-    EXPECT_EQ(left.ask(heavy + "1000", "GET", 0ms, PendingRequest::CancelReason::disconnected).status, client_left);
-    crowd.clear();
-    EXPECT_EQ(left.service->counters().generated, 60u) << "nobody made what nobody waits for";
-    EXPECT_NE(text_of(left.ask("/metrics")).find("{reason=\"left\"} 1\n"), std::string::npos);
+    Harness disconnected;  // one thread: the last request waits for all earlier ones
+    std::vector<std::jthread> clients = start_waiting_requests(disconnected, 60);
+    EXPECT_EQ(
+        disconnected.ask(heavy + "1000", "GET", 0ms, PendingRequest::CancelReason::disconnected)
+            .status,
+        client_left);
+    clients.clear();
+    EXPECT_EQ(disconnected.service->counters().generated, 60u) << "the cancelled job does not run";
+    EXPECT_NE(text_of(disconnected.ask("/metrics")).find("{reason=\"left\"} 1\n"),
+              std::string::npos);
 }
 
-TEST(RequestHandler, ChargesOnceForWhatIsMadeOnceAndNotForWhatCouldNotBegin) {
+TEST(RequestHandler, ChargesASharedJobOnceAndNoJobThatCouldNotBegin) {
     RequestHandlerOptions options;
-    options.budget = {.rate = 1, .burst = 1};  // full: one piece of any size, then none for long
-    House once(options);
+    options.budget = {.rate = 1, .burst = 1};  // full: one job of any size, then none for long
+    Harness once(options);
     std::atomic<int> good{0};
     {
         std::vector<std::jthread> threads;
@@ -321,44 +328,48 @@ TEST(RequestHandler, ChargesOnceForWhatIsMadeOnceAndNotForWhatCouldNotBegin) {
     }
     EXPECT_GE(good, 1);
     EXPECT_EQ(once.service->counters().generated, 1u);
-    EXPECT_EQ(once.ask(heavy + "1").status, 200) << "kept";
+    EXPECT_EQ(once.ask(heavy + "1").status, 200) << "cached";
     const api::Response refused = once.ask(heavy + "2");
     EXPECT_EQ(refused.status, 429);
-    EXPECT_GT(std::stoll(header(refused, "Retry-After")), 10'000) << "microseconds, one a second";
+    EXPECT_GT(std::stoll(header(refused, "Retry-After")), 10'000)
+        << "microseconds of work at one per second";
 
     options.most_waiters = 0;
-    House full(options);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(full.ask(heavy + "1").status, 503) << "given back";
+    Harness full(options);
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(full.ask(heavy + "1").status, 503) << "the charge is returned";
 }
 
 TEST(RequestHandler, ChargesForReadingABodyThatIsRefused) {
     RequestHandlerOptions options;
     options.budget = {.rate = 1, .burst = 3000};
-    House house(options);
+    Harness harness(options);
     std::string body = "{\"model\":[0";
     while (body.size() < 250'000) body += ",0";
     body += "]}";
-    EXPECT_EQ(house.post("/v1/mushrooms.glb", body).status, 400);
-    EXPECT_EQ(house.post("/v1/mushrooms.glb", body).status, 429) << "it owes, so none is read";
-    EXPECT_EQ(house.ask(small + "1").status, 429);
-    EXPECT_EQ(house.ask("/v1/species").status, 200);
+    EXPECT_EQ(harness.post("/v1/mushrooms.glb", body).status, 400);
+    EXPECT_EQ(harness.post("/v1/mushrooms.glb", body).status, 429)
+        << "the level is negative, so the body is not read";
+    EXPECT_EQ(harness.ask(small + "1").status, 429);
+    EXPECT_EQ(harness.ask("/v1/species").status, 200);
 
-    // Reading counts with what is made, or a piece larger than the bucket would never find it full.
+    // Reading and the job are charged together; otherwise a job larger than the bucket would never
+    // find it full.
     options.budget = {.rate = 1'000'000'000, .burst = 1};
-    House fast(options);
+    Harness fast(options);
     const std::string mix = "{\"mix\":{\"amanita_muscaria\":1},\"lod\":3,\"texture_size\":128}";
     EXPECT_EQ(fast.post("/v1/mushrooms.glb", mix).status, 200);
     options.budget = {.rate = 1, .burst = 1};
-    House once(options);
+    Harness once(options);
     EXPECT_EQ(once.post("/v1/mushrooms.glb", mix).status, 200) << "from a full bucket";
     EXPECT_EQ(once.ask(small + "2").status, 429);
 }
 
-TEST(RequestHandler, FindsCorrespondencesInSlotsAndChargesThem) {
+TEST(RequestHandler, ComputesCorrespondencesOnThePoolAndChargesThem) {
     const std::string mix = "/v1/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5.glb?lod=3";
     const std::string image =
         "/v1/surfaces/mushrooms/amanita_muscaria:0.5,russula_vinosa:0.5/normal.jpg?texture_size=64";
-    House alone, house;
+    Harness alone, harness;
     alone.ask(mix, "HEAD");
     alone.ask(image);
     {
@@ -366,47 +377,49 @@ TEST(RequestHandler, FindsCorrespondencesInSlotsAndChargesThem) {
         for (int i = 0; i < 32; ++i)
             threads.emplace_back([&, i] {
                 const bool body = i % 2 == 1;
-                const api::Response response = house.ask(body ? image : mix, body ? "GET" : "HEAD");
+                const api::Response response =
+                    harness.ask(body ? image : mix, body ? "GET" : "HEAD");
                 EXPECT_EQ(response.status, 200);
                 EXPECT_EQ(size_of(response.body) > 0, body);
             });
     }
-    EXPECT_EQ(house.service->counters().morph_misses, alone.service->counters().morph_misses)
-        << "each made once";
-    EXPECT_EQ(house.service->counters().painted, 1u);
-    EXPECT_EQ(house.ask(mix, "HEAD").status, 200);
-    EXPECT_EQ(house.ask(mix + "&v=old").status, 410);
+    EXPECT_EQ(harness.service->counters().morph_misses, alone.service->counters().morph_misses)
+        << "each computed once";
+    EXPECT_EQ(harness.service->counters().painted, 1u);
+    EXPECT_EQ(harness.ask(mix, "HEAD").status, 200);
+    EXPECT_EQ(harness.ask(mix + "&v=old").status, 410);
 
     RequestHandlerOptions options;
     options.budget = {.rate = 1, .burst = 1};
-    House charged(options);
-    EXPECT_EQ(charged.ask(mix, "HEAD").status, 200) << "the first piece may be of any size";
-    EXPECT_EQ(charged.ask(mix, "HEAD").status, 200) << "kept";
+    Harness charged(options);
+    EXPECT_EQ(charged.ask(mix, "HEAD").status, 200) << "the first job may be of any size";
+    EXPECT_EQ(charged.ask(mix, "HEAD").status, 200) << "cached";
     EXPECT_EQ(charged.ask(image).status, 429);
 
     options = {};
     options.longest_queue = 0;
     options.most_waiters = 0;
-    House full(options);
+    Harness full(options);
     EXPECT_EQ(full.ask(mix, "HEAD").status, 503);
-    House slow;
-    std::vector<std::jthread> crowd = crowd_at(slow, 30);
+    Harness slow;
+    std::vector<std::jthread> clients = start_waiting_requests(slow, 30);
     EXPECT_EQ(slow.ask(mix, "HEAD", 0ms).status, 504);
-    EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, PendingRequest::CancelReason::disconnected).status, client_left);
-    crowd.clear();
-    EXPECT_EQ(slow.service->counters().morph_misses, 1u) << "that of the crowd alone";
+    EXPECT_EQ(slow.ask(mix, "HEAD", 0ms, PendingRequest::CancelReason::disconnected).status,
+              client_left);
+    clients.clear();
+    EXPECT_EQ(slow.service->counters().morph_misses, 1u) << "only that of the waiting requests";
 }
 
-TEST(RequestHandler, LetsNoCacheKeepWhatOutlivesItsUrl) {
+TEST(RequestHandler, BoundsTheFreshnessOfSignedUrls) {
     const auto signatures =
         std::make_shared<const Signatures>(std::vector<SigningKey>{{"a", std::string(32, 's')}});
-    House house({}, signatures);
+    Harness harness({}, signatures);
     const auto max_age = [&](const std::string& target, std::int64_t seconds,
                              const std::string& method, std::vector<api::Header> headers = {}) {
         const std::string url =
             signatures->signed_target("GET", target, "", seconds_since_1970() + seconds);
         const api::Response response =
-            house.ask(url, method, 5min, PendingRequest::CancelReason::timed_out, headers);
+            harness.ask(url, method, 5min, PendingRequest::CancelReason::timed_out, headers);
         EXPECT_EQ(response.status, headers.empty() ? 200 : 304);
         EXPECT_FALSE(response.cacheable);
         const std::string given = header(response, "Cache-Control");
@@ -418,7 +431,7 @@ TEST(RequestHandler, LetsNoCacheKeepWhatOutlivesItsUrl) {
         "/v1/surfaces/mushrooms/amanita_muscaria/orm.jpg?texture_size=64&seed=";
     int seed = 0;
     for (const std::string& target : {small, image}) {
-        for (const char* method : {"HEAD", "GET", "GET", "HEAD"})  // made, and kept
+        for (const char* method : {"HEAD", "GET", "GET", "HEAD"})  // generated, then cached
             EXPECT_LE(max_age(target + std::to_string(seed), 100, method), 100);
         const auto left =
             max_age(target + std::to_string(seed), 100, "GET", {{"If-None-Match", "*"}});
@@ -427,24 +440,25 @@ TEST(RequestHandler, LetsNoCacheKeepWhatOutlivesItsUrl) {
         EXPECT_EQ(max_age(target + std::to_string(seed), 100'000, "GET"), 3600);
         ++seed;
     }
-    // With `v` it would be a year.
+    // With `v` the freshness would be a year.
     const std::string versioned = small + "1&v=" + [&] {
-        House open;
+        Harness open;
         const std::string where = header(open.ask(small + "1", "HEAD"), "Content-Location");
         return where.substr(where.find("v=") + 2);
     }();
     EXPECT_LE(max_age(versioned, 7200, "GET"), 7200);
     EXPECT_GT(max_age(versioned, 7200, "GET"), 3600);
-    EXPECT_EQ(header(house.ask(signatures->signed_target("GET", versioned, "", std::nullopt)),
+    EXPECT_EQ(header(harness.ask(signatures->signed_target("GET", versioned, "", std::nullopt)),
                      "Cache-Control"),
               "public, max-age=31536000, immutable")
         << "this URL does not expire";
 }
 
-TEST(RequestHandler, TellsAClientWhatIsLeftOfItsBudget) {
+TEST(RequestHandler, ReportsTheRemainingBudget) {
     RequestHandlerOptions options;
-    options.budget = {.rate = 1000, .burst = 4'000'000};  // four seconds, a millisecond a second
-    House house(options);
+    options.budget = {.rate = 1000,
+                      .burst = 4'000'000};  // four seconds, filled by a millisecond per second
+    Harness harness(options);
     const std::string policy = "\"work\";q=4000;w=4000";
     const auto left = [&](const api::Response& response) {
         EXPECT_EQ(header(response, "RateLimit-Policy"), policy);
@@ -459,36 +473,36 @@ TEST(RequestHandler, TellsAClientWhatIsLeftOfItsBudget) {
         EXPECT_LE(seconds, 4000 - remaining);
         return remaining;
     };
-    const std::int64_t first = left(house.ask(heavy + "1"));
+    const std::int64_t first = left(harness.ask(heavy + "1"));
     EXPECT_LT(first, 4000);
     EXPECT_GT(first, 3000);
-    EXPECT_LT(left(house.ask(heavy + "2")), first);
+    EXPECT_LT(left(harness.ask(heavy + "2")), first);
     for (const api::Response& uncharged :
-         {house.ask(heavy + "1"), house.ask("/v1/species"), house.ask(heavy + "1&age=7"),
-          house.ask(heavy + "1", "HEAD")}) {
+         {harness.ask(heavy + "1"), harness.ask("/v1/species"), harness.ask(heavy + "1&age=7"),
+          harness.ask(heavy + "1", "HEAD")}) {
         EXPECT_EQ(header(uncharged, "RateLimit"), "") << uncharged.status;
         EXPECT_EQ(header(uncharged, "RateLimit-Policy"), "");
     }
-    EXPECT_TRUE(house.ask(heavy + "1").cacheable);
+    EXPECT_TRUE(harness.ask(heavy + "1").cacheable);
 
     options.budget = {.rate = 1000, .burst = 1000};
-    House poor(options);
+    Harness poor(options);
     EXPECT_EQ(header(poor.ask(heavy + "1"), "RateLimit").substr(0, 12), "\"work\";r=0;t")
-        << "it owes";
+        << "the level is negative";
     const api::Response refused = poor.ask(heavy + "2");
     EXPECT_EQ(refused.status, 429);
     EXPECT_EQ(header(refused, "RateLimit-Policy"), "\"work\";q=1;w=1");
     EXPECT_TRUE(header(refused, "RateLimit").starts_with("\"work\";r=0;t="));
-    House unlimited;
+    Harness unlimited;
     EXPECT_EQ(header(unlimited.ask(heavy + "1"), "RateLimit"), "");
 }
 
-TEST(RequestHandler, RefusesWithProblems) {
-    House house;
+TEST(RequestHandler, RefusesWithProblemJson) {
+    Harness harness;
     api::Request request;
     request.id = "abc";
     for (const int status : {400, 408, 411, 413, 414, 415, 429, 431, 501, 503}) {
-        const api::Response response = house.handlers.refuse(request, status, "why");
+        const api::Response response = harness.handlers.refuse(request, status, "why");
         EXPECT_EQ(response.status, status);
         EXPECT_EQ(header(response, "Content-Type"), "application/problem+json");
         EXPECT_EQ(header(response, "Retry-After"), status == 429 || status == 503 ? "1" : "");

@@ -95,7 +95,8 @@ TEST_F(WarmStart, LinesOfTheLogBelongToTheTraceTheyCameWith) {
 }
 
 TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndEndsWhenAsked) {
-    // More than can be made in the time of this test: all must be left for the end that is asked for.
+    // More than can be made in the time of this test: all must be left for the end that is asked
+    // for.
     std::ofstream list(folder / "list");
     for (int i = 0; i < 100'000; ++i)
         list << "/v1/mushrooms/boletus_edulis.glb?texture_size=1024&seed=" << i << '\n';

@@ -11,8 +11,8 @@ namespace {
 const std::string xff = "X-Forwarded-For", fwd = "Forwarded";
 
 std::string client_address(const std::string& peer, const std::vector<api::Header>& headers,
-                   ProxyHeader header = ProxyHeader::x_forwarded_for,
-                   const std::string& trusted = "10.0.0.0/8, 2001:db8:f::/48") {
+                           ProxyHeader header = ProxyHeader::x_forwarded_for,
+                           const std::string& trusted = "10.0.0.0/8, 2001:db8:f::/48") {
     const Proxies proxies{Networks(trusted), header};
     return text_of(proxies.client_address(address_in(peer).value(), headers));
 }
@@ -42,7 +42,7 @@ TEST(Addresses, HaveOneFormEach) {
     EXPECT_FALSE(address_in(std::string_view("1.2.3.4\0x", 9)));
 }
 
-RC_GTEST_PROP(Addresses, AreReadBackAsTheyAreWritten, ()) {
+RC_GTEST_PROP(Addresses, RoundTripThroughText, ()) {
     const Address address = *any_address();
     RC_ASSERT(address_in(text_of(address)) == address);
     RC_ASSERT(client_of(client_of(address)) == client_of(address));
@@ -60,8 +60,8 @@ RC_GTEST_PROP(Addresses, OfOneSubnetAreOneClient, ()) {
     RC_ASSERT((client_of(a) == client_of(b)) == same);
 }
 
-/// Bit by bit, as the definition has it.
-RC_GTEST_PROP(Networks, HoldWhatBeginsAsTheyDo, ()) {
+/// Compares bit by bit with the definition.
+RC_GTEST_PROP(Networks, ContainAddressesWithTheirPrefix, ()) {
     const Address address = *any_address(), other = *any_address();
     const int most = address.is_v4() ? 32 : 128, first = 128 - most;
     const int length = *rc::gen::inRange(0, most + 1);
@@ -104,11 +104,12 @@ TEST(Networks, AreRefusedByName) {
     EXPECT_FALSE(Networks("0.0.0.0/0").contains(*address_in("2001:db8::1")));
 }
 
-TEST(Proxies, AreBelievedFromTheRightAsFarAsTheyAreTrusted) {
-    EXPECT_EQ(client_address("192.0.2.1", {{xff, "10.0.0.9"}}), "192.0.2.1") << "a stranger's word";
+TEST(Proxies, AreReadFromTheRightAsFarAsTheyAreTrusted) {
+    EXPECT_EQ(client_address("192.0.2.1", {{xff, "10.0.0.9"}}), "192.0.2.1") << "an untrusted peer";
     EXPECT_EQ(client_address("10.0.0.1", {}), "10.0.0.1");
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7"}}), "203.0.113.7");
-    EXPECT_EQ(client_address("10.0.0.1", {{xff, "127.0.0.1, 8.8.8.8, 203.0.113.7"}}), "203.0.113.7");
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "127.0.0.1, 8.8.8.8, 203.0.113.7"}}),
+              "203.0.113.7");
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "8.8.8.8, 203.0.113.7,10.2.3.4 ,\t10.9.9.9"}}),
               "203.0.113.7");
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "8.8.8.8"}, {"x-forwarded-FOR", "203.0.113.7"}}),
@@ -116,24 +117,28 @@ TEST(Proxies, AreBelievedFromTheRightAsFarAsTheyAreTrusted) {
         << "the last line was added last";
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7, 10.1.1.1"}, {xff, "10.2.2.2"}}),
               "203.0.113.7");
-    EXPECT_EQ(client_address("10.0.0.1", {{xff, "10.1.1.1, 10.2.2.2"}}), "10.1.1.1") << "all are proxies";
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "10.1.1.1, 10.2.2.2"}}), "10.1.1.1")
+        << "all are proxies";
     EXPECT_EQ(client_address("2001:db8:f::1", {{xff, "2001:db8::7"}}), "2001:db8::7");
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "[2001:db8::7]:4711"}}), "2001:db8::7");
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7:4711"}}), "203.0.113.7");
     EXPECT_EQ(client_address("10.0.0.1", {{xff, "::ffff:203.0.113.7"}}), "203.0.113.7");
-    EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7,, ,"}}), "203.0.113.7") << "empty elements";
-    EXPECT_EQ(client_address("10.0.0.1", {{fwd, "for=203.0.113.7"}}), "10.0.0.1") << "the other header";
+    EXPECT_EQ(client_address("10.0.0.1", {{xff, "203.0.113.7,, ,"}}), "203.0.113.7")
+        << "empty elements";
+    EXPECT_EQ(client_address("10.0.0.1", {{fwd, "for=203.0.113.7"}}), "10.0.0.1")
+        << "the other header";
     for (const char* nonsense :
          {"unknown", "_hidden", "1.2.3.4:99999999", "[1.2.3.4]", "[::1", "::1]",
           "1.2.3.4:", "1.2.3.4 5.6.7.8", "for=1.2.3.4", "\"1.2.3.4\"", "%31.2.3.4", "10.0.0.0/8"}) {
         EXPECT_EQ(client_address("10.0.0.1", {{xff, nonsense}}), "10.0.0.1") << nonsense;
-        EXPECT_EQ(client_address("10.0.0.1", {{xff, "9.9.9.9, " + std::string(nonsense) + ", 10.3.3.3"}}),
-                  "10.3.3.3")
-            << nonsense << ": the proxy that has handed it on";
+        EXPECT_EQ(
+            client_address("10.0.0.1", {{xff, "9.9.9.9, " + std::string(nonsense) + ", 10.3.3.3"}}),
+            "10.3.3.3")
+            << nonsense << ": the proxy that passed it on";
     }
 }
 
-TEST(Proxies, OfTheOtherKindAreReadByTheirOwnHeader) {
+TEST(Proxies, WithForwardedAreReadByThatHeaderOnly) {
     const auto of = [](const std::string& value) {
         return client_address("10.0.0.1", {{fwd, value}, {xff, "6.6.6.6"}}, ProxyHeader::forwarded);
     };
@@ -147,8 +152,8 @@ TEST(Proxies, OfTheOtherKindAreReadByTheirOwnHeader) {
         EXPECT_EQ(of(nonsense), "10.0.0.1") << nonsense;
 }
 
-/// Whatever a client sends: what trusted proxies append to it alone decides.
-RC_GTEST_PROP(Proxies, CannotBeTalkedInto, ()) {
+/// Whatever a client sends, only the parts appended by trusted proxies determine the result.
+RC_GTEST_PROP(Proxies, IgnoreForgedElements, ()) {
     const std::string alphabet = "0123456789.:[]\"\\,;= \tfor_abx";
     const auto invented = *rc::gen::container<std::string>(rc::gen::elementOf(alphabet));
     const Address client = *any_address();

@@ -13,7 +13,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-TEST(Deadlines, AreNeverEarlyAndAtMostATickLate) {
+TEST(Deadlines, ExpireNeverEarlyAndAtMostATickLate) {
     const Clock::time_point start = Clock::now();
     Deadlines deadlines(start);
     Timed one;
@@ -50,7 +50,7 @@ TEST(Deadlines, MayBeDestroyedAndSetWhileOthersExpire) {
     EXPECT_EQ(late, 2);
 }
 
-/// The wheel against a map, over hours of time that jumps and creeps.
+/// Compares the wheel with a sorted map over hours of time in large and small steps.
 TEST(Deadlines, AgreeWithASortedList) {
     std::mt19937 random(7);
     const auto below = [&](int limit) { return static_cast<int>(random() % limit); };
@@ -78,7 +78,7 @@ TEST(Deadlines, AgreeWithASortedList) {
             model.erase(&which);
         });
         for (const auto& [timed, deadline] : model)
-            EXPECT_GT(deadline + Deadlines::tick, now) << "overlooked in step " << step;
+            EXPECT_GT(deadline + Deadlines::tick, now) << "missed in step " << step;
     }
 }
 

@@ -18,7 +18,7 @@ int status_of(const std::string& bytes) {
     return scan.state == State::refused ? scan.status : scan.state == State::complete ? 200 : 0;
 }
 
-TEST(Head, IsReadAsItIs) {
+TEST(Head, IsReadWithoutDecoding) {
     const Scan scan = scan_head(
         "\r\nGET /x%20y?q=%0d HTTP/1.1\r\nHost: here\r\nX-Odd:\t a%0d%0ab \r\nEmpty:\r\n\r\nrest");
     ASSERT_EQ(scan.state, State::complete);
@@ -34,7 +34,7 @@ TEST(Head, IsReadAsItIs) {
     EXPECT_FALSE(scan.head.content_length);
 }
 
-TEST(Head, TellsWhetherTheConnectionGoesOn) {
+TEST(Head, DeterminesWhetherTheConnectionPersists) {
     const auto keeps = [](const std::string& version, const std::string& header) {
         return scan_head("GET / " + version + "\r\n" + header + "\r\n").head.keep_alive;
     };
@@ -45,7 +45,7 @@ TEST(Head, TellsWhetherTheConnectionGoesOn) {
     EXPECT_TRUE(keeps("HTTP/1.0", "Connection: Keep-Alive\r\n"));
 }
 
-TEST(Head, RefusesWhatCouldBeReadInTwoWays) {
+TEST(Head, RefusesAmbiguousFraming) {
     EXPECT_EQ(status_of(with("Content-Length: 5\r\n")), 200);
     EXPECT_EQ(status_of(with("Content-Length: 5\r\nContent-Length: 5\r\n")), 400);
     for (const char* length : {"", "-1", "+5", "5 5", "0x5", "5,5", "1e3", "5\t5"})
@@ -66,7 +66,7 @@ TEST(Head, RefusesWhatCouldBeReadInTwoWays) {
     EXPECT_EQ(status_of("\nGET / HTTP/1.1\r\n\r\n"), 400);
 }
 
-TEST(Head, RefusesRequestLinesThatAreNone) {
+TEST(Head, RefusesMalformedRequestLines) {
     for (const char* line :
          {"GET", "GET /", "GET  / HTTP/1.1", "GET / HTTP/1.1 x", " GET / HTTP/1.1",
           "G\tT / HTTP/1.1", "GET /\x01 HTTP/1.1", "GET /\xc3\xa9 HTTP/1.1", "GET / http/1.1",
@@ -80,23 +80,24 @@ TEST(Head, RefusesRequestLinesThatAreNone) {
     EXPECT_EQ(status_of("OPTIONS * HTTP/1.1\r\n\r\n"), 200);
 }
 
-TEST(Head, HasBounds) {
+TEST(Head, HasLimits) {
     EXPECT_EQ(status_of("GET /" + std::string(longest_uri - 1, 'a') + " HTTP/1.1\r\n\r\n"), 200);
     EXPECT_EQ(status_of("GET /" + std::string(longest_uri, 'a') + " HTTP/1.1\r\n\r\n"), 414);
-    EXPECT_EQ(status_of("GET /" + std::string(2 * longest_uri, 'a')), 414) << "before its end";
+    EXPECT_EQ(status_of("GET /" + std::string(2 * longest_uri, 'a')), 414)
+        << "before the line is complete";
     std::string headers;
     for (std::size_t i = 0; i < most_headers; ++i) headers += "A: b\r\n";
     EXPECT_EQ(status_of(with(headers)), 200);
     EXPECT_EQ(status_of(with(headers + "A: b\r\n")), 431);
     EXPECT_EQ(status_of(with("A: " + std::string(longest_head, 'b') + "\r\n")), 431);
     EXPECT_EQ(status_of("GET / HTTP/1.1\r\nA: " + std::string(longest_head, 'b')), 431);
-    EXPECT_EQ(status_of("GET / HTTP/1.1\r\nA: b\r\n"), 0) << "not there yet";
+    EXPECT_EQ(status_of("GET / HTTP/1.1\r\nA: b\r\n"), 0) << "incomplete";
     EXPECT_EQ(status_of(""), 0);
     EXPECT_EQ(status_of("\r\n"), 0);
 }
 
-// However a request is cut into pieces, what is said of it is the same; nothing crashes.
-TEST(Head, OfAnyBytesIsScannedAlikeInPieces) {
+// However a request is split, the result is the same; nothing crashes.
+TEST(Head, ScansArbitraryBytesTheSameInParts) {
     std::minstd_rand random(7);
     const std::string good =
         "POST /a?b HTTP/1.1\r\nHost: x\r\nContent-Length: 3\r\nConnection: close\r\n\r\nabc";

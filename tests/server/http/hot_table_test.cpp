@@ -35,7 +35,7 @@ Head head_of(std::string method, std::vector<api::Header> headers = {}) {
     return head;
 }
 
-TEST(HotResponse, LacksWhatChangesWithEachRequest) {
+TEST(HotResponse, LacksHeadersThatDifferPerRequest) {
     const auto hot = hot_response("/a?b", sending_of(10), "/a");
     ASSERT_TRUE(hot);
     EXPECT_EQ(hot->head,
@@ -52,11 +52,11 @@ TEST(HotResponse, LacksWhatChangesWithEachRequest) {
     EXPECT_EQ(hot->size, 10u);
     const auto large = hot_response("/a", sending_of(1 << 20), "/a");
     ASSERT_TRUE(large);
-    EXPECT_TRUE(large->file >= 0 && large->body.empty()) << "in a file of its own";
+    EXPECT_TRUE(large->file >= 0 && large->body.empty()) << "in an in-memory file";
     EXPECT_GT(large->weight(), 1u << 20);
 }
 
-TEST(HotResponse, IsNotMadeOfWhatMayDiffer) {
+TEST(HotResponse, IsNotMadeOfUncacheableResponses) {
     EXPECT_FALSE(hot_response("/a", sending_of(10, "Vary: Cookie\r\n"), ""));
     EXPECT_FALSE(hot_response("/a", sending_of(10, "Vary: Accept-Encoding, Origin\r\n"), ""));
     Sending sending = sending_of(10);
@@ -70,7 +70,7 @@ TEST(HotResponse, IsNotMadeOfWhatMayDiffer) {
     EXPECT_FALSE(hot_response("/a", sending, ""));
 }
 
-TEST(HotResponse, IsForThoseThatAcceptItsEncoding) {
+TEST(HotResponse, HasTheCodingOfItsResponse) {
     EXPECT_EQ(hot_response("/a", sending_of(10), "")->coding, Coding::any);
     const auto identity = hot_response("/a", sending_of(10, "Vary: Accept-Encoding\r\n"), "");
     ASSERT_TRUE(identity);
@@ -85,7 +85,7 @@ TEST(HotResponse, IsForThoseThatAcceptItsEncoding) {
     EXPECT_EQ(gzip->not_modified.find("Content-Encoding"), std::string::npos);
 }
 
-TEST(HotLookup, IsSimpleWhenNothingCouldChangeTheAnswer) {
+TEST(HotLookup, IsSimpleWithoutHeadersThatAffectTheResponse) {
     EXPECT_TRUE(hot_lookup(head_of("GET")).simple);
     EXPECT_TRUE(hot_lookup(head_of("HEAD", {{"Host", "x"},
                                             {"Accept-Encoding", "gzip"},
@@ -110,14 +110,14 @@ TEST(HotLookup, IsSimpleWhenNothingCouldChangeTheAnswer) {
     EXPECT_EQ(hot_lookup(accepting).accept_encoding, "gzip, br");
     EXPECT_FALSE(
         hot_lookup(head_of("GET", {{"Accept-Encoding", "br"}, {"accept-encoding", "gzip"}})).simple)
-        << "they are one list";
+        << "all lines form one list";
     EXPECT_FALSE(hot_lookup(head_of("POST")).simple);
     Head with_body = head_of("GET");
     with_body.content_length = 1;
     EXPECT_FALSE(hot_lookup(with_body).simple);
 }
 
-TEST(HotTable, KeepsWithinItsBudgetAndGivesOnlyWhatItWasGiven) {
+TEST(HotTable, StaysWithinItsBudgetAndReturnsWhatWasInserted) {
     constexpr std::size_t budget = 200'000;
     HotTable table(budget);
     std::mt19937 random(3);
@@ -125,7 +125,7 @@ TEST(HotTable, KeepsWithinItsBudgetAndGivesOnlyWhatItWasGiven) {
     std::size_t found = 0;
     for (int step = 0; step < 5000; ++step) {
         const std::string target = "/" + std::to_string(random() % 60);
-        // A fifth of the requests is for targets that vary by encoding.
+        // A fifth of the requests has targets that vary by encoding.
         const bool varies = random() % 5 == 0, gzip = random() % 2 == 0;
         const std::string key = varies ? target + (gzip ? "-gzip" : "-identity") : target;
         const std::string requested = varies ? target + "-varies" : target;
@@ -149,7 +149,7 @@ TEST(HotTable, KeepsWithinItsBudgetAndGivesOnlyWhatItWasGiven) {
     EXPECT_GE(table.stats().entries, 4u);
 }
 
-TEST(HotTable, HasOneAnswerForEachEncodingWhereTheyDiffer) {
+TEST(HotTable, HasOneResponsePerEncoding) {
     HotTable table(100'000);
     const auto any = hot_response("/any", sending_of(10), "");
     table.insert(any);
@@ -178,10 +178,11 @@ TEST(HotTable, HasOneAnswerForEachEncodingWhereTheyDiffer) {
     const auto again = gzip_of("/a", 20);
     table.insert(again);
     EXPECT_EQ(*table.find("/a", "gzip"), again);
-    EXPECT_TRUE(table.find("/a")) << "the other stays, though its key was the text of what went";
+    EXPECT_TRUE(table.find("/a"))
+        << "the other variant stays, although the key pointed into the removed one";
     EXPECT_EQ(table.stats().entries, 5u);
     table.insert(hot_response("/a", sending_of(30), ""));
-    EXPECT_EQ(*table.find("/a"), *table.find("/a", "gzip")) << "one for all in the place of both";
+    EXPECT_EQ(*table.find("/a"), *table.find("/a", "gzip")) << "one for all replaces both variants";
     EXPECT_EQ(table.stats().entries, 4u);
     table.clear();
     EXPECT_EQ(table.stats().entries, 0u);
@@ -189,7 +190,7 @@ TEST(HotTable, HasOneAnswerForEachEncodingWhereTheyDiffer) {
     EXPECT_FALSE(table.find("/a"));
 }
 
-TEST(HotTable, KeepsWhatIsAskedForBesideAStreamOfOthers) {
+TEST(HotTable, RetainsAHotEntryInAScan) {
     HotTable table(100'000);
     table.insert(hot_response("/popular", sending_of(5000), ""));
     table.insert_pinned(hot_response("/livez", sending_of(5), ""));
@@ -199,7 +200,7 @@ TEST(HotTable, KeepsWhatIsAskedForBesideAStreamOfOthers) {
         EXPECT_TRUE(table.find("/livez"));
         table.insert(hot_response("/once/" + std::to_string(i), sending_of(5000), ""));
     }
-    EXPECT_EQ(missing, 2000u / 256) << "only when the caches behind are to hear of it";
+    EXPECT_EQ(missing, 2000u / 256) << "only every 256th lookup, for the caches of the service";
     HotTable none(0);
     none.insert(hot_response("/a", sending_of(10), ""));
     EXPECT_FALSE(none.find("/a"));

@@ -1,4 +1,5 @@
-// What one client may have of the real program: connections and work, by its address or by that of whom a proxy speaks for.
+// Limits per client of the real program: connections and work, by client address or the address
+// reported by a trusted proxy.
 
 #include <gtest/gtest.h>
 
@@ -31,7 +32,7 @@ void expect_problem(const RawClient::Response& response, int status) {
     EXPECT_EQ(response.header("Retry-After").find_first_not_of("0123456789"), std::string::npos);
 }
 
-TEST(Limits, OneAddressHasSoManyConnectionsAndOthersTheirs) {
+TEST(Limits, ConnectionsAreCountedPerAddress) {
     const RealServer server(0, {"--client-connections", "4"});
     ASSERT_GT(server.port(), 0);
     std::vector<std::unique_ptr<RawClient>> held;
@@ -42,15 +43,16 @@ TEST(Limits, OneAddressHasSoManyConnectionsAndOthersTheirs) {
     for (int i = 0; i < 20; ++i) {
         RawClient fifth(server.port());
         expect_problem(fifth.ask(get(i % 2 == 0 ? "/v1" : "/readyz")), 429);
-        EXPECT_TRUE(fifth.ends());
+        EXPECT_TRUE(fifth.is_closed());
     }
     RawClient silent(server.port());
     expect_problem(silent.receive(), 429);
     RawClient probe(server.port());
-    EXPECT_EQ(probe.ask(get("/livez")).body, "alive\n") << "whoever asks whether it lives is told";
-    EXPECT_TRUE(probe.ends()) << "once";
+    EXPECT_EQ(probe.ask(get("/livez")).body, "alive\n")
+        << "health checks are served beyond the limit";
+    EXPECT_TRUE(probe.is_closed()) << "one request only";
     EXPECT_EQ(RawClient(server.port(), 0, "127.0.0.2").ask(get("/v1")).status, 200);
-    EXPECT_EQ(held[0]->ask(get("/v1")).status, 200) << "those that are open are as they were";
+    EXPECT_EQ(held[0]->ask(get("/v1")).status, 200) << "open connections are not affected";
 
     held.pop_back();
     int status = 0;
@@ -58,13 +60,13 @@ TEST(Limits, OneAddressHasSoManyConnectionsAndOthersTheirs) {
         status = RawClient(server.port()).ask(get("/v1")).status;
         if (status != 200) std::this_thread::sleep_for(10ms);
     }
-    EXPECT_EQ(status, 200) << "one has become free";
+    EXPECT_EQ(status, 200) << "a closed connection no longer counts";
     const std::string metrics = held[0]->ask(get("/metrics")).body;
     EXPECT_NE(metrics.find("\nsporeprint_connections_limited_total "), std::string::npos);
     EXPECT_EQ(metrics.find("\nsporeprint_connections_limited_total 0\n"), std::string::npos);
 }
 
-TEST(Limits, AFloodOfOneAddressLeavesOthersAlone) {
+TEST(Limits, AFloodOfOneAddressDoesNotAffectOthers) {
     const RealServer server(0, {"--client-connections", "8"});
     std::vector<std::unique_ptr<RawClient>> flood;
     for (int i = 0; i < 600; ++i) flood.push_back(std::make_unique<RawClient>(server.port()));
@@ -72,12 +74,12 @@ TEST(Limits, AFloodOfOneAddressLeavesOthersAlone) {
     RawClient other(server.port(), 0, "127.0.0.3");
     EXPECT_EQ(other.ask(get("/v1")).status, 200);
     EXPECT_LT(Clock::now() - begun, 5s) << "milliseconds on a quiet machine";
-    EXPECT_LT(server.open_files(), 8u + 256 + 100) << "few of the flood are kept";
+    EXPECT_LT(server.open_files(), 8u + 256 + 100) << "few connections of the flood stay open";
     EXPECT_EQ(other.ask(get("/livez")).status, 200);
 }
 
-TEST(Limits, WorkOfOneClientIsBoundedAndWhatIsKeptIsFree) {
-    // A piece as above is about half a millisecond of work; one of a second's worth fills slowly.
+TEST(Limits, WorkPerClientIsBoundedAndCachedResourcesAreFree) {
+    // A resource as above costs about half a millisecond of work; the bucket fills slowly.
     const RealServer server(0, {"--client-work", "1", "--client-burst", "20"});
     RawClient greedy(server.port()), other(server.port(), 0, "127.0.0.2");
     const auto begun = Clock::now();
@@ -92,17 +94,17 @@ TEST(Limits, WorkOfOneClientIsBoundedAndWhatIsKeptIsFree) {
     }
     expect_problem(refusal, 429);
     EXPECT_GE(granted, 5);
-    // Each took at least a tenth of a millisecond of the budget.
+    // Each cost at least a tenth of a millisecond.
     const double passed = std::chrono::duration<double, std::milli>(Clock::now() - begun).count();
     EXPECT_LE(granted * 0.1, 20 + passed / 1000 + 1);
     for (int i = 0; i < 50; ++i) {
-        EXPECT_EQ(greedy.ask(get(generated + "0")).status, 200) << "kept";
+        EXPECT_EQ(greedy.ask(get(generated + "0")).status, 200) << "cached";
         EXPECT_EQ(greedy.ask(get("/v1/species")).status, 200) << "a document";
         EXPECT_EQ(greedy.ask(get(generated + "0&age=2")).status, 400) << "a refusal";
     }
     const std::string etag = greedy.ask(get(generated + "1")).header("ETag");
     EXPECT_EQ(greedy.ask(get(generated + "1", "If-None-Match: " + etag + "\r\n")).status, 304);
-    EXPECT_EQ(other.ask(get(generated + "5000")).status, 200) << "to each his own";
+    EXPECT_EQ(other.ask(get(generated + "5000")).status, 200) << "budgets are independent";
     expect_problem(
         greedy.ask(get("/v1/mushrooms/boletus_edulis.glb", "X-Forwarded-For: 9.9.9.9\r\n")), 429);
     EXPECT_NE(
@@ -110,7 +112,7 @@ TEST(Limits, WorkOfOneClientIsBoundedAndWhatIsKeptIsFree) {
         std::string::npos);
 }
 
-TEST(Limits, ATrustedProxySpeaksForOthersAndAStrangerDoesNot) {
+TEST(Limits, OnlyATrustedProxyReportsClients) {
     const auto log =
         std::filesystem::temp_directory_path() / ("limits." + std::to_string(::getpid()));
     const RealServer server(0,
@@ -120,9 +122,9 @@ TEST(Limits, ATrustedProxySpeaksForOthersAndAStrangerDoesNot) {
     std::vector<std::unique_ptr<RawClient>> proxy;
     for (int i = 0; i < 6; ++i) {
         proxy.push_back(std::make_unique<RawClient>(server.port(), 0, "127.0.0.2"));
-        EXPECT_EQ(proxy.back()->ask(get("/v1")).status, 200) << "a proxy opens what it needs";
+        EXPECT_EQ(proxy.back()->ask(get("/v1")).status, 200) << "trusted proxies are exempt";
     }
-    // One piece is many seconds of the budget: no machine is so slow that it fills meanwhile.
+    // One resource costs many seconds of the budget, so that it does not fill during the test.
     const std::string owed = "/v1/trees/broadleaf.glb?textures=none&lod=1&seed=";
     int seed = 0;
     const auto until_refused = [&](RawClient& by, const std::string& for_whom) {
@@ -140,13 +142,13 @@ TEST(Limits, ATrustedProxySpeaksForOthersAndAStrangerDoesNot) {
     EXPECT_EQ(until_refused(*proxy[0], "203.0.113.7"), 429);
     EXPECT_EQ(first(*proxy[1], "203.0.113.8"), 200) << "another client of the same proxy";
     EXPECT_EQ(first(*proxy[1], "8.8.8.8, 203.0.113.7, 10.1.1.1"), 429)
-        << "the same client, whatever it makes up";
+        << "forged addresses to the left are ignored";
     EXPECT_EQ(until_refused(*proxy[2], "2001:db8::1"), 429);
     EXPECT_EQ(first(*proxy[2], "2001:db8::2:3"), 429) << "one /64 is one client";
     EXPECT_EQ(first(*proxy[2], "2001:db8:0:1::1"), 200);
     RawClient stranger(server.port());
     EXPECT_EQ(until_refused(stranger, "198.51.100.1"), 429);
-    EXPECT_EQ(first(stranger, "198.51.100.2"), 429) << "its word counts for nothing";
+    EXPECT_EQ(first(stranger, "198.51.100.2"), 429) << "the header of an untrusted peer is ignored";
     EXPECT_EQ(first(*proxy[3], "198.51.100.2"), 200);
 
     EXPECT_TRUE(server.logs("\"peer\":\"127.0.0.2\",\"client\":\"203.0.113.8\""));
@@ -154,7 +156,7 @@ TEST(Limits, ATrustedProxySpeaksForOthersAndAStrangerDoesNot) {
     std::filesystem::remove(log);
 }
 
-TEST(Limits, SlowLargeUploadsOfOneClientLeaveRoomForThoseOfOthers) {
+TEST(Limits, SlowLargeUploadsOfOneClientLeaveMemoryForOthers) {
     constexpr std::size_t megabyte = 1 << 20;
     const RealServer server;
     const auto upload = [](std::size_t length) {
@@ -176,13 +178,13 @@ TEST(Limits, SlowLargeUploadsOfOneClientLeaveRoomForThoseOfOthers) {
         RawClient other(server.port(), 0, "127.0.0.2");
         other.send(upload(megabyte) + std::string(megabyte, 'y'));
         const int status = other.receive().status;
-        return status == 400 || status == 422;  // read, and found to be no such file
+        return status == 400 || status == 422;  // read and rejected as malformed
     };
     for (int i = 0; i < 1000 && gauge("sporeprint_body_bytes") < 400'000; ++i) continue;
     EXPECT_EQ(gauge("sporeprint_body_bytes"), 400'000);
     EXPECT_TRUE(others_upload());
 
-    // Each more until they have outgrown the share of one client.
+    // Each sends more until together they exceed the limit of one client.
     for (auto& one : slow) one->send(std::string(20 * megabyte, 'x'));
     for (int i = 0; i < 1000 && gauge("sporeprint_uploads_given_up_total") < 1; ++i)
         std::this_thread::sleep_for(10ms);
@@ -196,7 +198,7 @@ TEST(Limits, SlowLargeUploadsOfOneClientLeaveRoomForThoseOfOthers) {
     EXPECT_EQ(gauge("sporeprint_body_bytes"), 0);
 }
 
-TEST(Limits, OffMeansOff) {
+TEST(Limits, AreOffByDefault) {
     const RealServer server;
     std::vector<std::unique_ptr<RawClient>> many;
     for (int i = 0; i < 100; ++i) many.push_back(std::make_unique<RawClient>(server.port()));

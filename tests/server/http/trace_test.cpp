@@ -9,7 +9,7 @@ namespace {
 const std::string trace = "4bf92f3577b34da6a3ce929d0e0e4736", parent = "00f067aa0ba902b7";
 const std::string good = "00-" + trace + '-' + parent + "-01";
 
-TEST(Trace, IsReadFromWhatTheStandardShows) {
+TEST(Trace, IsReadFromTheExamplesOfTheStandard) {
     const auto found = trace_of(good);
     ASSERT_TRUE(found);
     EXPECT_EQ(found->trace_id, trace);
@@ -18,7 +18,7 @@ TEST(Trace, IsReadFromWhatTheStandardShows) {
     EXPECT_TRUE(trace_of("cc-" + good.substr(3) + "-what-the-future-will-be-like"));
 }
 
-TEST(Trace, IsLeftOutWhenItIsMalformed) {
+TEST(Trace, IsOmittedIfMalformed) {
     const std::vector<std::string> bad = {
         "",
         "00",
@@ -39,10 +39,10 @@ TEST(Trace, IsLeftOutWhenItIsMalformed) {
     EXPECT_FALSE(trace_in(std::vector<api::Header>{}));
     EXPECT_TRUE(trace_in(std::vector<api::Header>{{"TraceParent", good}}));
     EXPECT_FALSE(trace_in(std::vector<api::Header>{{"traceparent", good}, {"traceparent", good}}))
-        << "which of them?";
+        << "ambiguous";
 }
 
-RC_GTEST_PROP(Trace, HoldsNothingButDigits, ()) {
+RC_GTEST_PROP(Trace, ContainsOnlyDigits, ()) {
     std::string text = good;
     for (int i = *rc::gen::inRange(0, 4); i > 0; --i)
         text[*rc::gen::inRange<std::size_t>(0, text.size())] =

@@ -350,10 +350,10 @@ TEST(Transport, TellsWhoExpectsToGoOnThatItNeedNot) {
     EXPECT_EQ(response.status, 404);
     EXPECT_EQ(response.body, "no");
     EXPECT_EQ(response.header("Connection"), "close");
-    EXPECT_TRUE(bad.ends()) << "what comes may be the body or a request: nobody could tell";
+    EXPECT_TRUE(bad.is_closed()) << "what comes may be the body or a request: nobody could tell";
     RawClient head(transport.port());
     EXPECT_EQ(head.ask("HEAD /bad" + rest, true).status, 404);
-    EXPECT_TRUE(head.ends()) << "without the bytes of a body";
+    EXPECT_TRUE(head.is_closed()) << "without the bytes of a body";
     EXPECT_EQ(judged, 4);
     RawClient plain(transport.port());
     EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nContent-Length: 2\r\n\r\nab").body, "ab");
@@ -520,7 +520,7 @@ TEST(Transport, EndsConnectionsThatAreSilentOrDrip) {
     RawClient silent(server.port()), half(server.port()), bodiless(server.port());
     half.send("GET / HT");
     bodiless.send("POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
-    EXPECT_TRUE(silent.ends()) << "without a word: there was no request";
+    EXPECT_TRUE(silent.is_closed()) << "without a word: there was no request";
     EXPECT_EQ(half.receive().status, 408);
     EXPECT_EQ(bodiless.receive().status, 408);
     RawClient dripping(server.port());
@@ -619,14 +619,14 @@ TEST(Transport, ClosesAfterTheLastRequestOfAConnection) {
     RawClient client(server.port());
     EXPECT_EQ(client.ask("GET / HTTP/1.1\r\n\r\n").header("Connection"), "");
     EXPECT_EQ(client.ask("GET / HTTP/1.1\r\n\r\n").header("Connection"), "close");
-    EXPECT_TRUE(client.ends());
+    EXPECT_TRUE(client.is_closed());
     RawClient modest(server.port());
     EXPECT_EQ(modest.ask("GET / HTTP/1.1\r\nConnection: Close\r\n\r\n").header("Connection"),
               "close");
-    EXPECT_TRUE(modest.ends());
+    EXPECT_TRUE(modest.is_closed());
     RawClient old(server.port());
     EXPECT_EQ(old.ask("GET / HTTP/1.0\r\n\r\n").status, 200);
-    EXPECT_TRUE(old.ends());
+    EXPECT_TRUE(old.is_closed());
 }
 
 TEST(Transport, RefusesAPortThatIsTaken) {
@@ -657,7 +657,7 @@ TEST(Transport, MakesRoomWhenConnectionsIdle) {
     }
     RawClient late(server.port());
     EXPECT_EQ(late.ask("GET / HTTP/1.1\r\n\r\n").status, 200);
-    EXPECT_TRUE(cached[0]->ends()) << "the one that has waited longest gives its place up";
+    EXPECT_TRUE(cached[0]->is_closed()) << "the one that has waited longest gives its place up";
     EXPECT_EQ(cached[1]->ask("GET / HTTP/1.1\r\n\r\n").status, 200) << "the others do not";
     EXPECT_EQ(server.transport->load().refused, 0u);
 }
@@ -742,8 +742,8 @@ TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
             pending->wait([&, pending](PendingRequest::CancelReason why) {
                 ++(why == PendingRequest::CancelReason::timed_out ? late : left);
                 EXPECT_EQ(pending->is_gone(), why == PendingRequest::CancelReason::disconnected);
-                pending->reply(
-                    text_response("", why == PendingRequest::CancelReason::timed_out ? 504 : client_left));
+                pending->reply(text_response(
+                    "", why == PendingRequest::CancelReason::timed_out ? 504 : client_left));
                 pending->reply(text_response("the first answer counts"));
             });
         },
@@ -838,7 +838,7 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
         const auto last = client.ask("GET /again HTTP/1.1\r\nConnection: close\r\n\r\n");
         EXPECT_EQ(last.header("Connection"), "close");
         EXPECT_TRUE(last.body == text && last.count("Keep-Alive") == 0);
-        EXPECT_TRUE(client.ends());
+        EXPECT_TRUE(client.is_closed());
         EXPECT_EQ(requested, 9);
 
         const auto load = server.transport->load();
@@ -1019,7 +1019,7 @@ TEST(Transport, DrainsWhatHasBegun) {
         server.transport->drain();
         drained = true;
     });
-    EXPECT_TRUE(idle.ends());
+    EXPECT_TRUE(idle.is_closed());
     EXPECT_FALSE(drained);
     gate.release();
     const auto response = working.receive();
