@@ -1,5 +1,5 @@
-// The real program under attack: after each of these it lives, answers others, and has taken little
-// memory.
+// The real program with hostile clients: after each test it runs, serves other clients, and has
+// allocated little memory.
 
 #include <gtest/gtest.h>
 
@@ -25,7 +25,7 @@ using Clock = std::chrono::steady_clock;
 using Clients = std::vector<std::unique_ptr<RawClient>>;
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr long megabyte = 32 << 20;  // shadows, and memory that is not given back at once
+constexpr long megabyte = 32 << 20;  // shadow memory, and memory not released at once
 #else
 constexpr long megabyte = 1 << 20;
 #endif
@@ -54,13 +54,13 @@ class Hostile : public testing::Test {
     }
     void SetUp() override { before = server->resident(); }
 
-    /// The server lives, others are answered, what was taken is given back.
+    /// Checks that the server runs, serves other clients, and has released its resources.
     void TearDown() override {
         ASSERT_TRUE(server->runs());
         expect_others_are_served();
         for (int i = 0; i < 1000 && metric("sporeprint_connections") > 1; ++i)
             std::this_thread::sleep_for(10ms);
-        EXPECT_EQ(metric("sporeprint_connections"), 1) << "only the one that asks";
+        EXPECT_EQ(metric("sporeprint_connections"), 1) << "only the one of this request";
         EXPECT_LT(server->resident() - before, most_growth);
     }
 
@@ -75,7 +75,7 @@ class Hostile : public testing::Test {
         EXPECT_LT(Clock::now() - begun, 5s) << "milliseconds on a quiet machine";
     }
 
-    /// The sum of a metric over its labels.
+    /// Returns the sum of a metric over its labels.
     static long metric(const std::string& name) {
         const std::string text = RawClient(port()).ask(get("/metrics")).body;
         double sum = 0;
@@ -92,7 +92,7 @@ class Hostile : public testing::Test {
     long most_growth = 48 * megabyte;
 };
 
-TEST_F(Hostile, AThousandIdleAndFiveHundredDrippingConnectionsStopNobody) {
+TEST_F(Hostile, AThousandIdleAndFiveHundredDrippingConnectionsDoNotBlockOthers) {
     Clients idle, dripping;
     for (int i = 0; i < 1000; ++i) idle.push_back(std::make_unique<RawClient>(port()));
     for (int i = 0; i < 500; ++i) {
@@ -106,11 +106,11 @@ TEST_F(Hostile, AThousandIdleAndFiveHundredDrippingConnectionsStopNobody) {
         expect_others_are_served();
         std::this_thread::sleep_for(50ms);
     }
-    EXPECT_GE(metric("sporeprint_connections"), 1500) << "all are held";
+    EXPECT_GE(metric("sporeprint_connections"), 1500) << "all stay open";
     EXPECT_LT(server->resident() - before, 32 * megabyte);
 }
 
-TEST_F(Hostile, ClientsThatDoNotReadStopNobodyAndHoldNoCopies) {
+TEST_F(Hostile, ClientsThatDoNotReadDoNotBlockOthersOrCopyBodies) {
     Clients clients;
     for (int i = 0; i < 100; ++i) {
         clients.push_back(std::make_unique<RawClient>(port(), 4096));
@@ -120,7 +120,7 @@ TEST_F(Hostile, ClientsThatDoNotReadStopNobodyAndHoldNoCopies) {
     EXPECT_LT(server->resident() - before, 32 * megabyte);
 }
 
-TEST_F(Hostile, PipelinedRequestsAreAnsweredInOrderWhateverWayEachTakes) {
+TEST_F(Hostile, PipelinedResponsesKeepTheirOrder) {
     RawClient client(port());
     const std::vector<std::string> targets = {cached,        "/v1/nowhere", "/livez", cached,
                                               "/v1/species", large,         "/readyz"};
@@ -159,10 +159,10 @@ TEST_F(Hostile, ResetsAnywhereLeaveNothingBehind) {
         }
     expect_others_are_served();
     for (int i = 0; i < 500 && server->open_files() > files; ++i) std::this_thread::sleep_for(10ms);
-    EXPECT_LE(server->open_files(), files + 8) << "but for answers that are kept meanwhile";
+    EXPECT_LE(server->open_files(), files + 8) << "except for newly stored responses";
 }
 
-TEST_F(Hostile, HalfClosedClientsGetWhatIsThereAndNobodyWorksForThem) {
+TEST_F(Hostile, HalfClosedClientsGetCachedResponsesButNoWork) {
     RawClient client(port());
     client.send(get(cached) + get("/v1/species"));
     client.finish();
@@ -170,7 +170,7 @@ TEST_F(Hostile, HalfClosedClientsGetWhatIsThereAndNobodyWorksForThem) {
     EXPECT_EQ(client.receive().status, 200);
     EXPECT_TRUE(client.is_closed());
 
-    most_growth = 256 * megabyte;  // what has begun is made
+    most_growth = 256 * megabyte;  // begun jobs complete
     const long left = metric("sporeprint_queue_rejected_total");
     Clients is_gone;
     for (int i = 0; i < 16; ++i) {
@@ -230,7 +230,7 @@ TEST_F(Hostile, NoFramingSmugglesASecondRequest) {
         const std::string all = client.receive_all();
         EXPECT_TRUE(all.starts_with("HTTP/1.1 4")) << variant << all.substr(0, 200);
         for (const char* second : {"HTTP/1.1 2", "HTTP/1.1 3", "HTTP/1.1 4", "HTTP/1.1 5"})
-            EXPECT_EQ(all.find(second, 9), std::string::npos) << "one answer to: " << variant;
+            EXPECT_EQ(all.find(second, 9), std::string::npos) << "one response to: " << variant;
         EXPECT_EQ(all.find("smuggled"), std::string::npos) << variant;
     }
     RawClient client(port());
@@ -242,7 +242,7 @@ TEST_F(Hostile, NoFramingSmugglesASecondRequest) {
     EXPECT_EQ(client.ask(get("/livez")).body, "alive\n") << "the body of a GET is not a request";
 }
 
-TEST_F(Hostile, RangesBombsAndEndlessHeadsCostNothing) {
+TEST_F(Hostile, RangesBombsAndEndlessHeadsAreCheap) {
     RawClient whole(port());
     const std::string body = whole.ask(get(large)).body;
     std::string many = "bytes=0-";
@@ -263,7 +263,7 @@ TEST_F(Hostile, RangesBombsAndEndlessHeadsCostNothing) {
         client.send(beginning);
         int sent = 0;
         while (sent < 64 && client.send(block)) ++sent;
-        EXPECT_LT(sent, 64) << "somebody read all of it: " << beginning;
+        EXPECT_LT(sent, 64) << "all of it was read: " << beginning;
         EXPECT_LT(server->resident() - before, 32 * megabyte);
     }
     std::string headers;
@@ -272,7 +272,7 @@ TEST_F(Hostile, RangesBombsAndEndlessHeadsCostNothing) {
     EXPECT_EQ(client.ask(get("/livez", headers)).status, 431);
 }
 
-// What cpp-httplib would match against regular expressions that recurse once for each character.
+// cpp-httplib would match these against regular expressions that recurse once per character.
 TEST_F(Hostile, LongValuesReachNoRegularExpression) {
     RawClient client(port());
     const std::string body = client.ask(get(large)).body;
@@ -300,10 +300,10 @@ TEST_F(Hostile, LongValuesReachNoRegularExpression) {
     RawClient longer(port());
     longer.send(get("/" + std::string(100'000, 'a')));
     EXPECT_TRUE(longer.receive_all().starts_with("HTTP/1.1 414 "));
-    EXPECT_LT(Clock::now() - begun, 4s) << "it does not wait for the idle limit";
+    EXPECT_LT(Clock::now() - begun, 4s) << "it does not wait for the idle timeout";
 }
 
-TEST(HostileLog, ClientsWriteNoLinesOfTheirOwnAndTakeNobodysName) {
+TEST(HostileLog, ClientsForgeNeitherLinesNorAddresses) {
     const auto log =
         std::filesystem::temp_directory_path() / ("hostile." + std::to_string(::getpid()));
     RealServer server(0, {}, log);
@@ -338,7 +338,7 @@ TEST(HostileLog, ClientsWriteNoLinesOfTheirOwnAndTakeNobodysName) {
     std::filesystem::remove(log);
 }
 
-TEST(HostileLog, UnknownMethodsAreNoFaultOfTheServer) {
+TEST(HostileLog, UnknownMethodsAreNotServerErrors) {
     const auto log =
         std::filesystem::temp_directory_path() / ("methods." + std::to_string(::getpid()));
     RealServer server(0, {}, log);
@@ -365,7 +365,7 @@ TEST(HostileLog, UnknownMethodsAreNoFaultOfTheServer) {
     std::filesystem::remove(log);
 }
 
-TEST(HostileLog, ShowsNoSignature) {
+TEST(HostileLog, ContainsNoSignature) {
     const auto log =
         std::filesystem::temp_directory_path() / ("secrets." + std::to_string(::getpid()));
     std::ofstream(log.string() + ".list") << cached << "&key=k&sig=LISTED\n";
@@ -383,7 +383,7 @@ TEST(HostileLog, ShowsNoSignature) {
     std::filesystem::remove(log.string() + ".list");
 }
 
-TEST(HostileLog, SaysThatTheStoreCannotBeWrittenAndWhatIsNotItsOwn) {
+TEST(HostileLog, ReportsAnUnwritableStoreAndForeignFiles) {
     namespace fs = std::filesystem;
     const fs::path folder = fs::temp_directory_path() / ("store." + std::to_string(::getpid()));
     fs::create_directories(folder / "store" / "ab");
@@ -396,7 +396,7 @@ TEST(HostileLog, SaysThatTheStoreCannotBeWrittenAndWhatIsNotItsOwn) {
     EXPECT_NE(server.log().find(name), std::string::npos);
     RawClient client(server.port());
     EXPECT_EQ(client.ask(get(cached)).status, 200);
-    // A file in the place of the folder that files are written in stands for a disk without room.
+    // A file in place of the folder for new files simulates a full disk.
     fs::remove_all(folder / "store" / "aside");
     std::ofstream(folder / "store" / "aside") << "x";
     for (int i = 0; i < 5; ++i)
@@ -406,7 +406,7 @@ TEST(HostileLog, SaysThatTheStoreCannotBeWrittenAndWhatIsNotItsOwn) {
     EXPECT_NE(text.find("\"why\":\"Not a directory\",\"times\":1"), std::string::npos) << text;
     EXPECT_EQ(text.find("cannot be written to the store"),
               text.rfind("cannot be written to the store"))
-        << "once in a minute";
+        << "once per minute";
     EXPECT_NE(client.ask(get("/metrics"))
                   .body.find("sporeprint_store_faults_total{fault=\"unwritten\"} 5"),
               std::string::npos);
@@ -414,7 +414,7 @@ TEST(HostileLog, SaysThatTheStoreCannotBeWrittenAndWhatIsNotItsOwn) {
     fs::remove_all(folder);
 }
 
-TEST(HostileLimits, WhoExpectsToGoOnIsToldWhatTheHeadDecides) {
+TEST(HostileLimits, ExpectContinueGetsTheFinalStatusThatTheHeadDetermines) {
     const RealServer server;
     const auto requested = [&](const std::string& line, const std::string& type) {
         return RawClient(server.port())
@@ -434,7 +434,7 @@ TEST(HostileLimits, WhoExpectsToGoOnIsToldWhatTheHeadDecides) {
     EXPECT_EQ(requested("POST /v1/species", json), 405);
     EXPECT_EQ(requested("PUT /v1/trees.glb", json), 405);
     EXPECT_EQ(requested("POST /livez", json), 405);
-    EXPECT_EQ(requested("GET /v1/species", json), 100) << "a body that nobody reads";
+    EXPECT_EQ(requested("GET /v1/species", json), 100) << "a body that is not read";
     RawClient announced(server.port());
     EXPECT_EQ(announced
                   .ask("POST /v1/trees.glb HTTP/1.1\r\n" + json +

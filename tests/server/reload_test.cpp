@@ -24,10 +24,10 @@ std::string get(const std::string& target) {
     return "GET " + target + " HTTP/1.1\r\nHost: x\r\n\r\n";
 }
 
-/// Waits for what a signal brings about.
-bool comes_true(const std::function<bool()>& what) {
+/// Returns true if a condition becomes true within 10 s.
+bool becomes_true(const std::function<bool()>& condition) {
     for (int i = 0; i < 1000; ++i) {
-        if (what()) return true;
+        if (condition()) return true;
         std::this_thread::sleep_for(10ms);
     }
     return false;
@@ -63,39 +63,39 @@ class Reload : public testing::Test {
                       second = "/v1/mushrooms/boletus_edulis.glb?lod=3&textures=none";
 };
 
-TEST_F(Reload, PutsTemplatesInPlaceOfOthersAndKeepsWhatDidNotChange) {
+TEST_F(Reload, ReplacesTemplatesAndKeepsCachesOfUnchangedOnes) {
     write("atlas/a.json", template_of("amanita_muscaria"));
     const RealServer server(0, {"--atlas", folder / "atlas"}, folder / "log");
     const auto kinds = [&] {
         return count(ask(server, "/v1/species").body, "\"scientific_name\"");
     };
     EXPECT_EQ(kinds(), 1u);
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(kinds(), 1u) << "given again";
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(kinds(), 1u) << "from the hot-response table";
     const std::string tag = ask(server, first).header("ETag");
     const std::string versioned = ask(server, first).header("Content-Location");
     EXPECT_EQ(ask(server, second).status, 404);
 
     write("atlas/b.json", template_of("boletus_edulis"));
-    EXPECT_EQ(kinds(), 1u) << "nobody has said so yet";
+    EXPECT_EQ(kinds(), 1u) << "not before SIGHUP";
     server.hang_up();
-    EXPECT_TRUE(comes_true([&] { return kinds() == 2; }));
+    EXPECT_TRUE(becomes_true([&] { return kinds() == 2; }));
     EXPECT_EQ(ask(server, second).status, 200);
     const auto cached = ask(server, first);
     EXPECT_EQ(cached.header("ETag"), tag);
     EXPECT_NE(cached.header("Cache-Status").find("; hit"), std::string::npos)
-        << "made of templates that are as they were";
+        << "its templates have not changed";
 
     std::string changed = template_of("amanita_muscaria");
     changed.replace(changed.find("Fly agaric"), 10, "Fly Agaric");
     write("atlas/a.json", changed);
     server.hang_up();
-    EXPECT_TRUE(comes_true([&] { return ask(server, versioned).status == 410; }));
+    EXPECT_TRUE(becomes_true([&] { return ask(server, versioned).status == 410; }));
     EXPECT_NE(ask(server, first).header("ETag"), tag);
     EXPECT_EQ(ask(server, second).status, 200);
     EXPECT_EQ(ask(server, "/readyz").status, 200);
 }
 
-TEST_F(Reload, KeepsWhatThereWasWhenAFileIsNoGoodAndSaysWhich) {
+TEST_F(Reload, KeepsTheStateAndNamesTheFileIfOneIsInvalid) {
     write("atlas/a.json", template_of("amanita_muscaria"));
     write("keys", "k1 00112233445566778899aabbccddeeff\n");
     const RealServer server(0, {"--atlas", folder / "atlas", "--sign-keys", folder / "keys"},
@@ -103,35 +103,36 @@ TEST_F(Reload, KeepsWhatThereWasWhenAFileIsNoGoodAndSaysWhich) {
     write("atlas/worse.json", "{\"id\": ");
     write("keys", "k1 tooshort\n");
     server.hang_up();
-    EXPECT_TRUE(comes_true([&] { return count(server.log(), "reloading failed") >= 2; }));
+    EXPECT_TRUE(becomes_true([&] { return count(server.log(), "reloading failed") >= 2; }));
     const std::string log = server.log();
     EXPECT_NE(log.find("worse.json"), std::string::npos) << log;
     EXPECT_NE(log.find((folder / "keys").string()), std::string::npos);
-    EXPECT_EQ(log.find("tooshort"), std::string::npos) << "perhaps a secret";
+    EXPECT_EQ(log.find("tooshort"), std::string::npos) << "it may be a secret";
     EXPECT_EQ(ask(server, "/v1/species/amanita_muscaria").status, 200);
     const Signatures old = Signatures::from_text("", "k1 00112233445566778899aabbccddeeff");
     const std::string signed_first = old.signed_target("GET", first, {}, std::nullopt);
     EXPECT_EQ(ask(server, signed_first).status, 200);
-    EXPECT_EQ(ask(server, first).status, 403) << "never open because keys are no good";
+    EXPECT_EQ(ask(server, first).status, 403) << "invalid keys do not disable signatures";
 
-    // The keys become good again, the templates do not: each for itself.
+    // The keys become valid again, the templates do not: sources are independent.
     write("keys", "k2 ffeeddccbbaa99887766554433221100\n");
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(ask(server, signed_first).status, 200) << "given again";
+    for (int i = 0; i < 3; ++i)
+        EXPECT_EQ(ask(server, signed_first).status, 200) << "from the hot-response table";
     server.hang_up();
-    EXPECT_TRUE(comes_true([&] { return ask(server, signed_first).status == 403; }));
+    EXPECT_TRUE(becomes_true([&] { return ask(server, signed_first).status == 403; }));
     const Signatures current = Signatures::from_text("", "k2 ffeeddccbbaa99887766554433221100");
     EXPECT_EQ(ask(server, current.signed_target("GET", first, {}, std::nullopt)).status, 200);
 }
 
-TEST_F(Reload, GoesOnWhileManyAskAndNobodyNotices) {
+TEST_F(Reload, DoesNotDisturbConcurrentRequests) {
     write("atlas/a.json", template_of("amanita_muscaria"));
     RealServer server(0, {"--atlas", folder / "atlas"}, folder / "log");
     std::atomic<bool> over{false};
     std::atomic<int> requested{0}, wrong{0};
     {
-        std::vector<std::jthread> crowd;
+        std::vector<std::jthread> clients;
         for (int t = 0; t < 4; ++t)
-            crowd.emplace_back([&, t] {
+            clients.emplace_back([&, t] {
                 RawClient client(server.port());
                 for (int i = 0; !over && i < 900; ++i, ++requested) {
                     const std::string target =
@@ -144,7 +145,7 @@ TEST_F(Reload, GoesOnWhileManyAskAndNobodyNotices) {
             if (i % 2 == 0) changed.replace(changed.find("Fly agaric"), 10, "Fly Agaric");
             write("atlas/a.json", changed);
             server.hang_up();
-            EXPECT_TRUE(comes_true([&] {
+            EXPECT_TRUE(becomes_true([&] {
                 return count(server.log(), "\"message\":\"reloaded\"") >
                        static_cast<std::size_t>(i);
             }));

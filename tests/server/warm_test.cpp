@@ -35,14 +35,14 @@ class WarmStart : public testing::Test {
     fs::path folder;
 };
 
-TEST_F(WarmStart, MakesWhatIsListedBeforeItIsReadyAndNamesWhatCannotBe) {
+TEST_F(WarmStart, GeneratesListedTargetsBeforeReadinessAndNamesFailures) {
     std::ofstream(folder / "list") << "# for a test\n"
                                    << first << "\n"
                                    << second << "\n"
                                    << "/v1/mushrooms/amanita_muscara.glb\nnonsense\n"
                                    << first << "&age=7\n/v1/species\n";
     const RealServer server(0, {"--warm", folder / "list"}, folder / "log");
-    ASSERT_GT(server.port(), 0) << "none of it is fatal";
+    ASSERT_GT(server.port(), 0) << "no line is fatal";
     RawClient client(server.port());
     EXPECT_EQ(client.ask(get("/readyz")).status, 200);
     EXPECT_EQ(client.ask(get(first)).header("Cache-Status"), "sporeprint; hit");
@@ -57,7 +57,7 @@ TEST_F(WarmStart, MakesWhatIsListedBeforeItIsReadyAndNamesWhatCannotBe) {
     EXPECT_NE(log.find("7 is outside 0..1"), std::string::npos);
 }
 
-TEST_F(WarmStart, WithoutItsFileDoesNotStart) {
+TEST_F(WarmStart, FailsWithoutItsFile) {
     for (const fs::path& file : {folder / "nowhere", folder}) {
         RealServer server(0, {"--warm", file}, folder / "log");
         EXPECT_EQ(server.port(), 0);
@@ -68,11 +68,11 @@ TEST_F(WarmStart, WithoutItsFileDoesNotStart) {
     }
 }
 
-TEST_F(WarmStart, LinesOfTheLogBelongToTheTraceTheyCameWith) {
+TEST_F(WarmStart, LogLinesCarryTheTraceOfTheirRequest) {
     const RealServer server(0, {}, folder / "log");
     const std::string trace = "4bf92f3577b34da6a3ce929d0e0e4736", parent = "00f067aa0ba902b7";
     RawClient client(server.port());
-    for (int i = 0; i < 4; ++i)  // the last of them given again by the reactor
+    for (int i = 0; i < 4; ++i)  // the last one from the hot-response table
         client.ask(get(first, "X-Request-Id: with" + std::to_string(i) + "\r\ntraceparent: 00-" +
                                   trace + '-' + parent + "-01\r\n"));
     client.ask(get(first, "X-Request-Id: without\r\n"));
@@ -94,15 +94,14 @@ TEST_F(WarmStart, LinesOfTheLogBelongToTheTraceTheyCameWith) {
     }
 }
 
-TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndEndsWhenAsked) {
-    // More than can be made in the time of this test: all must be left for the end that is asked
-    // for.
+TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndStopsOnSigterm) {
+    // More than can be generated during this test: SIGTERM has to skip the rest.
     std::ofstream list(folder / "list");
     for (int i = 0; i < 100'000; ++i)
         list << "/v1/mushrooms/boletus_edulis.glb?texture_size=1024&seed=" << i << '\n';
     list.close();
-    int port =
-        0;  // of a socket that is free at this moment; the server says its own only when it is ready
+    // A currently free port, since the server prints its own only when it is ready.
+    int port = 0;
     {
         const int socket = ::socket(AF_INET, SOCK_STREAM, 0);
         sockaddr_in address{};
@@ -116,7 +115,7 @@ TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndEndsWhenAsked) {
     }
     const pid_t pid = ::fork();
     if (pid == 0) {
-        ::dup2(::open((folder / "said").c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
+        ::dup2(::open((folder / "output").c_str(), O_WRONLY | O_CREAT, 0600), STDOUT_FILENO);
         ::execl(SPOREPRINT_PROGRAM, "sporeprint", "--port", std::to_string(port).c_str(), "--warm",
                 (folder / "list").c_str(), "--log-level", "off", static_cast<char*>(nullptr));
         ::_exit(127);
@@ -133,8 +132,8 @@ TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndEndsWhenAsked) {
     int status = 0;
     ::waitpid(pid, &status, 0);
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 0);
-    std::ifstream said(folder / "said");
-    EXPECT_EQ(said.peek(), std::ifstream::traits_type::eof()) << "it never was ready";
+    std::ifstream output(folder / "output");
+    EXPECT_EQ(output.peek(), std::ifstream::traits_type::eof()) << "it never became ready";
 }
 
 }  // namespace

@@ -30,12 +30,12 @@ api::Response text_response(const std::string& text, int status = 200) {
     return response;
 }
 
-using Gone = std::function<bool()>;
+using IsGone = std::function<bool()>;
 
-/// A transport on a free port whose answers the test decides.
+/// A transport on a free port whose responses the test supplies.
 struct Fixture {
-    explicit Fixture(std::function<api::Response(const api::Request&, const Gone&)> response,
-                     TransportOptions options = patient())
+    explicit Fixture(std::function<api::Response(const api::Request&, const IsGone&)> response,
+                     TransportOptions options = without_timeouts())
         : Fixture(
               [response = std::move(response)](const std::shared_ptr<PendingRequest>& pending) {
                   pending->reply(response(pending->request(), [&] { return pending->is_gone(); }));
@@ -68,15 +68,15 @@ struct Fixture {
     }
     ~Fixture() { transport.reset(); }
 
-    /// For tests of everything but time: however busy the machine, nobody loses a turn for so long.
-    static TransportOptions patient() {
+    /// For tests without deadlines: long enough for any busy machine.
+    static TransportOptions without_timeouts() {
         TransportOptions options;
         options.idle = options.silence = options.head = options.body = options.blocked_write = 60s;
         return options;
     }
 
     /// For tests of deadlines.
-    static TransportOptions quick() {
+    static TransportOptions short_timeouts() {
         TransportOptions options;
         options.idle = 400ms;
         options.silence = 300ms;
@@ -100,13 +100,13 @@ struct Fixture {
     std::optional<Transport> transport;
 };
 
-api::Response echo(const api::Request& request, const Gone&) {
+api::Response echo(const api::Request& request, const IsGone&) {
     std::string text = request.method + ' ' + request.target + '\n';
     for (const auto& [name, value] : request.headers) text += name + '=' + value + '\n';
     return text_response(text + '[' + request.body + ']');
 }
 
-TEST(Transport, AnswersOneRequestAfterAnotherOnOneConnection) {
+TEST(Transport, ServesSeveralRequestsOnOneConnection) {
     Fixture server(echo);
     RawClient client(server.port());
     for (int i = 0; i < 3; ++i) {
@@ -129,7 +129,7 @@ TEST(Transport, AnswersOneRequestAfterAnotherOnOneConnection) {
     EXPECT_EQ(served.label, "some GET");
 }
 
-TEST(Transport, AnswersPipelinedRequestsInOrder) {
+TEST(Transport, ServesPipelinedRequestsInOrder) {
     Fixture server(echo);
     RawClient client(server.port());
     client.send(
@@ -140,11 +140,11 @@ TEST(Transport, AnswersPipelinedRequestsInOrder) {
     EXPECT_EQ(client.receive().body, "GET /3\n[]");
 }
 
-TEST(Transport, SendsSlicesOneAfterAnother) {
+TEST(Transport, SendsAllSlices) {
     std::string large(3 << 20, 'x');
     for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<char>(i * 31 >> 3);
     const Slice whole = slice_of(large);
-    Fixture server([&](const api::Request&, const Gone&) {
+    Fixture server([&](const api::Request&, const IsGone&) {
         api::Response response = text_response("head,");
         response.body.push_back(whole);
         response.body.push_back(Slice());
@@ -156,8 +156,8 @@ TEST(Transport, SendsSlicesOneAfterAnother) {
     for (int i = 0; i < 3; ++i) EXPECT_TRUE(client.ask("GET / HTTP/1.1\r\n\r\n").body == expected);
 }
 
-TEST(Transport, GivesHeadTheLengthButNoBody) {
-    Fixture server([](const api::Request& request, const Gone&) {
+TEST(Transport, SendsHeadWithLengthButWithoutBody) {
+    Fixture server([](const api::Request& request, const IsGone&) {
         api::Response response = text_response("12345");
         response.has_body = request.target == "/known";
         return response;
@@ -170,11 +170,12 @@ TEST(Transport, GivesHeadTheLengthButNoBody) {
     const auto unknown = client.ask("HEAD /unknown HTTP/1.1\r\n\r\n", true);
     EXPECT_EQ(unknown.status, 200);
     EXPECT_EQ(unknown.count("Content-Length"), 0u);
-    EXPECT_EQ(client.ask("GET /known HTTP/1.1\r\n\r\n").body, "12345") << "nothing left in between";
+    EXPECT_EQ(client.ask("GET /known HTTP/1.1\r\n\r\n").body, "12345")
+        << "no stray bytes in between";
 }
 
 TEST(Transport, SendsNotModifiedWithoutLengthOrBody) {
-    Fixture server([](const api::Request&, const Gone&) {
+    Fixture server([](const api::Request&, const IsGone&) {
         api::Response response;
         response.status = 304;
         response.headers = {{"ETag", "\"a\""}};
@@ -191,8 +192,8 @@ TEST(Transport, SendsNotModifiedWithoutLengthOrBody) {
     }
 }
 
-TEST(Transport, SendsNoHeaderTwiceAndNoneThatBreaksTheHead) {
-    Fixture server([](const api::Request&, const Gone&) {
+TEST(Transport, SendsNoDuplicateOrMalformedHeaders) {
+    Fixture server([](const api::Request&, const IsGone&) {
         api::Response response = text_response("x");
         response.headers.insert(response.headers.end(), {{"content-length", "99"},
                                                          {"Date", "never"},
@@ -216,7 +217,7 @@ TEST(Transport, SendsNoHeaderTwiceAndNoneThatBreaksTheHead) {
 }
 
 TEST(Transport, IgnoresRanges) {
-    Fixture server([](const api::Request&, const Gone&) { return text_response("0123456789"); });
+    Fixture server([](const api::Request&, const IsGone&) { return text_response("0123456789"); });
     RawClient client(server.port());
     std::string many = "0-0";
     for (int i = 0; i < 3000; ++i) many += ",0-";
@@ -231,14 +232,14 @@ TEST(Transport, IgnoresRanges) {
 
 TEST(Transport, NeverCompressesByItself) {
     const std::string text(100'000, 'a');
-    Fixture server([&](const api::Request&, const Gone&) { return text_response(text); });
+    Fixture server([&](const api::Request&, const IsGone&) { return text_response(text); });
     RawClient client(server.port());
     const auto response = client.ask("GET / HTTP/1.1\r\nAccept-Encoding: br, gzip\r\n\r\n");
     EXPECT_EQ(response.count("Content-Encoding"), 0u);
     EXPECT_EQ(response.body, text);
 }
 
-TEST(Transport, PassesHeadersOnUndecoded) {
+TEST(Transport, PassesHeadersUndecoded) {
     Fixture server(echo);
     RawClient client(server.port());
     EXPECT_EQ(client.ask("GET / HTTP/1.1\r\nX-A: %0d%0aB\r\nRemote_Addr: evil\r\n\r\n").body,
@@ -270,7 +271,7 @@ TEST(Transport, RefusesBeforeRoutingWithAProblem) {
     }
 }
 
-TEST(Transport, PassesAnyMethodOnAndGoesOnAfterIt) {
+TEST(Transport, PassesAnyMethodAndKeepsTheConnection) {
     Fixture server(echo);
     RawClient client(server.port());
     for (const char* method : {"PROPFIND", "BREW", "TRACE", "DELETE", "get", "M-SEARCH", "QUERY"}) {
@@ -282,7 +283,7 @@ TEST(Transport, PassesAnyMethodOnAndGoesOnAfterIt) {
               "PUT /a\nContent-Length=2\n[ok]");
 }
 
-TEST(Transport, LetsAClientReadWhyItsLargeBodyWasRefused) {
+TEST(Transport, DeliversTheRefusalOfALargeBody) {
     Fixture server(echo);
     RawClient client(server.port());
     const std::string body(5 << 20, 'x');
@@ -291,7 +292,7 @@ TEST(Transport, LetsAClientReadWhyItsLargeBodyWasRefused) {
     EXPECT_EQ(client.receive().status, 413);
 }
 
-TEST(Transport, TakesBodies) {
+TEST(Transport, ReceivesBodies) {
     Fixture server(echo);
     RawClient client(server.port());
     EXPECT_EQ(
@@ -315,8 +316,8 @@ TEST(Transport, TakesBodies) {
         << "no 100 before a refusal";
 }
 
-TEST(Transport, TellsWhoExpectsToGoOnThatItNeedNot) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, SendsTheFinalStatusInsteadOf100Continue) {
+    TransportOptions options = Fixture::without_timeouts();
     options.port = 0;
     std::atomic<int> judged{0};
     Handlers handlers;
@@ -350,15 +351,15 @@ TEST(Transport, TellsWhoExpectsToGoOnThatItNeedNot) {
     EXPECT_EQ(response.status, 404);
     EXPECT_EQ(response.body, "no");
     EXPECT_EQ(response.header("Connection"), "close");
-    EXPECT_TRUE(bad.is_closed()) << "what comes may be the body or a request: nobody could tell";
+    EXPECT_TRUE(bad.is_closed()) << "further bytes are ambiguous: body or next request";
     RawClient head(transport.port());
     EXPECT_EQ(head.ask("HEAD /bad" + rest, true).status, 404);
-    EXPECT_TRUE(head.is_closed()) << "without the bytes of a body";
+    EXPECT_TRUE(head.is_closed()) << "and no body was sent";
     EXPECT_EQ(judged, 4);
     RawClient plain(transport.port());
     EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nContent-Length: 2\r\n\r\nab").body, "ab");
     EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nExpect: 100-continue\r\n\r\n").body, "")
-        << "nothing to wait for";
+        << "there is no body to wait for";
     EXPECT_EQ(judged, 4);
 }
 
@@ -373,7 +374,7 @@ std::size_t in_phase(const Transport::Load& load, Transport::Phase phase) {
     return load.connections[static_cast<std::size_t>(phase)];
 }
 
-/// Waits until so many bytes of bodies have arrived, in all.
+/// Waits until this many bytes of request bodies have arrived in total.
 void expect_body_bytes(const Fixture& server, std::size_t bytes) {
     const auto load = [&] { return server.transport->load(); };
     for (int i = 0; i < 2000 && load().body_bytes != bytes; ++i) std::this_thread::sleep_for(5ms);
@@ -384,14 +385,14 @@ std::size_t length_of_body(const RawClient::Response& response) {
     return response.body.size() - response.body.find('[') - 2;
 }
 
-TEST(Transport, CountsWhatHasArrivedOfBodiesAndNotWhatIsAnnounced) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, CountsReceivedBytesOfBodiesNotAnnouncedOnes) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_body_memory = options.most_body_of_client = 4 * megabyte;
     Fixture server(echo, options);
     std::vector<std::unique_ptr<RawClient>> slow;
     for (int i = 0; i < 8; ++i) {
         slow.push_back(std::make_unique<RawClient>(server.port()));
-        // Whoever is told to go on has no memory yet either.
+        // 100 Continue reserves no memory either.
         EXPECT_EQ(slow.back()->ask(head_of_upload(4 * megabyte, "Expect: 100-continue\r\n")).status,
                   100);
         slow.back()->send(std::string(1000, 'x'));
@@ -411,8 +412,8 @@ TEST(Transport, CountsWhatHasArrivedOfBodiesAndNotWhatIsAnnounced) {
     EXPECT_EQ(server.transport->load().uploads_given_up, 0u);
 }
 
-TEST(Transport, GivesUpTheSlowestOfTheLargestUploadsWhenThereIsNoRoom) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, AbortsTheSlowestOfTheLargestUploadsWhenMemoryIsFull) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_body_memory = 4 * megabyte;
     options.most_body_of_client = 2 * megabyte;
     Fixture server(echo, options);
@@ -439,13 +440,14 @@ TEST(Transport, GivesUpTheSlowestOfTheLargestUploadsWhenThereIsNoRoom) {
     expect_body_bytes(server, 0);
 }
 
-TEST(Transport, LeavesEachClientItsShareOfTheMemoryForBodies) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, LimitsTheBodyMemoryOfEachClient) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_body_of_client = megabyte;
     options.proxies.trusted = Networks("127.0.0.9");
     Fixture server(echo, options);
     RawClient first(server.port()), second(server.port()), third(server.port());
-    EXPECT_EQ(third.ask(head_of_upload(megabyte + 1)).status, 413) << "it would never have room";
+    EXPECT_EQ(third.ask(head_of_upload(megabyte + 1)).status, 413)
+        << "larger than the limit per client";
     const std::size_t part = 700'000;
     first.send(head_of_upload(megabyte) + std::string(part, 'a'));
     expect_body_bytes(server, part);
@@ -457,7 +459,7 @@ TEST(Transport, LeavesEachClientItsShareOfTheMemoryForBodies) {
     EXPECT_EQ(length_of_body(second.receive()), megabyte);
     EXPECT_EQ(server.transport->load().uploads_given_up, 1u);
 
-    // A trusted proxy speaks for clients that each have a share, and has none itself.
+    // Clients behind a trusted proxy have a limit each; the proxy itself has none.
     const std::vector<std::string> behind = {"X-Forwarded-For: 192.0.2.1\r\n",
                                              "X-Forwarded-For: 192.0.2.2\r\n", "", ""};
     std::vector<std::unique_ptr<RawClient>> proxy;
@@ -468,7 +470,7 @@ TEST(Transport, LeavesEachClientItsShareOfTheMemoryForBodies) {
     expect_body_bytes(server, 4 * part);
     RawClient same(server.port(), 0, "127.0.0.9");
     same.send(head_of_upload(megabyte, behind[1]) + std::string(part, 'p'));
-    EXPECT_EQ(proxy[1]->receive().status, 503) << "one client, on whichever connection";
+    EXPECT_EQ(proxy[1]->receive().status, 503) << "the same client on another connection";
     expect_body_bytes(server, 4 * part);
     proxy[1] = nullptr;
     for (const auto& one : proxy)
@@ -482,8 +484,8 @@ TEST(Transport, LeavesEachClientItsShareOfTheMemoryForBodies) {
     expect_body_bytes(server, 0);
 }
 
-TEST(Transport, EndsUploadsThatAreTooSlowForTheirLengthLongBeforeTheirEnd) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, AbortsUploadsBelowTheMinimumRateEarly) {
+    TransportOptions options = Fixture::without_timeouts();
     options.body = 1s;
     options.body_rate = megabyte;
     Fixture server(echo, options);
@@ -505,38 +507,38 @@ TEST(Transport, EndsUploadsThatAreTooSlowForTheirLengthLongBeforeTheirEnd) {
         std::this_thread::sleep_for(10ms);
     EXPECT_EQ(dripping.receive().status, 408);
     EXPECT_LT(since(), 8s) << "a second on a quiet machine";
-    EXPECT_EQ(small.receive().status, 200) << "small ones have their time";
+    EXPECT_EQ(small.receive().status, 200) << "small bodies have the fixed time";
     EXPECT_EQ(half.receive().status, 408);
-    EXPECT_GT(since(), 2s) << "half of it earns half of its time";
+    EXPECT_GT(since(), 2s) << "half of the body is allowed half of the time";
     expect_body_bytes(server, 0);
-    RawClient quick(server.port());
-    quick.send(head_of_upload(length));
-    quick.send(std::string(length, 'q'));
-    EXPECT_EQ(length_of_body(quick.receive()), length);
+    RawClient short_timeouts(server.port());
+    short_timeouts.send(head_of_upload(length));
+    short_timeouts.send(std::string(length, 'q'));
+    EXPECT_EQ(length_of_body(short_timeouts.receive()), length);
 }
 
-TEST(Transport, EndsConnectionsThatAreSilentOrDrip) {
-    Fixture server(echo, Fixture::quick());
+TEST(Transport, ClosesSilentAndDrippingConnections) {
+    Fixture server(echo, Fixture::short_timeouts());
     RawClient silent(server.port()), half(server.port()), bodiless(server.port());
     half.send("GET / HT");
     bodiless.send("POST / HTTP/1.1\r\nContent-Length: 10\r\n\r\nabc");
-    EXPECT_TRUE(silent.is_closed()) << "without a word: there was no request";
+    EXPECT_TRUE(silent.is_closed()) << "without a response, as there was no request";
     EXPECT_EQ(half.receive().status, 408);
     EXPECT_EQ(bodiless.receive().status, 408);
     RawClient dripping(server.port());
     for (int i = 0; i < 60 && dripping.send("G"); ++i) std::this_thread::sleep_for(50ms);
-    EXPECT_EQ(dripping.receive().status, 408) << "each byte was in time, all together were not";
+    EXPECT_EQ(dripping.receive().status, 408) << "each byte was in time, but not the whole head";
 }
 
-TEST(Transport, EndsConnectionsWhoseClientDoesNotRead) {
+TEST(Transport, ClosesConnectionsWhoseClientDoesNotRead) {
     const Slice large = slice_of(std::string(64 << 20, 'z'));
     Fixture server(
-        [&](const api::Request&, const Gone&) {
+        [&](const api::Request&, const IsGone&) {
             api::Response response = text_response("");
             response.body = {large};
             return response;
         },
-        Fixture::quick());
+        Fixture::short_timeouts());
     RawClient client(server.port(), 4096);
     client.send("GET / HTTP/1.1\r\n\r\n");
     const Served served = server.wait_for_served();
@@ -545,7 +547,7 @@ TEST(Transport, EndsConnectionsWhoseClientDoesNotRead) {
 }
 
 TEST(Transport, SurvivesHandlersThatThrow) {
-    TransportOptions options = Fixture::patient();
+    TransportOptions options = Fixture::without_timeouts();
     options.port = 0;
     Handlers handlers;
     handlers.respond = [](const std::shared_ptr<PendingRequest>& pending) {
@@ -578,10 +580,10 @@ TEST(Transport, SurvivesHandlersThatThrow) {
     EXPECT_EQ(client.ask("POST / HTTP/1.1\r\nContent-Length: 1\r\n\r\nx").status, 413);
 }
 
-TEST(Transport, TellsHandlersWhenTheClientHasLeft) {
+TEST(Transport, ReportsToHandlersThatTheClientHasDisconnected) {
     std::binary_semaphore begun(0);
     std::atomic<bool> noticed{false};
-    Fixture server([&](const api::Request&, const Gone& is_gone) {
+    Fixture server([&](const api::Request&, const IsGone& is_gone) {
         EXPECT_FALSE(is_gone());
         begun.release();
         for (int i = 0; i < 2000 && !is_gone(); ++i) std::this_thread::sleep_for(5ms);
@@ -599,9 +601,9 @@ TEST(Transport, TellsHandlersWhenTheClientHasLeft) {
     EXPECT_EQ(served.bytes, 0u);
 }
 
-TEST(Transport, TakesRequestIdsThatAreSafe) {
+TEST(Transport, AcceptsValidRequestIds) {
     Fixture server(
-        [](const api::Request& request, const Gone&) { return text_response(request.id); });
+        [](const api::Request& request, const IsGone&) { return text_response(request.id); });
     RawClient client(server.port());
     EXPECT_EQ(client.ask("GET / HTTP/1.1\r\nx-request-id: Abc_1-2\r\n\r\n").body, "Abc_1-2");
     const std::string first = client.ask("GET / HTTP/1.1\r\nX-Request-Id: a b\r\n\r\n").body;
@@ -613,7 +615,7 @@ TEST(Transport, TakesRequestIdsThatAreSafe) {
 }
 
 TEST(Transport, ClosesAfterTheLastRequestOfAConnection) {
-    TransportOptions options = Fixture::patient();
+    TransportOptions options = Fixture::without_timeouts();
     options.most_requests = 2;
     Fixture server(echo, options);
     RawClient client(server.port());
@@ -645,24 +647,24 @@ TEST(Transport, RefusesAPortThatIsTaken) {
     EXPECT_THROW(Transport(options, {}), std::runtime_error);
 }
 
-TEST(Transport, MakesRoomWhenConnectionsIdle) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, ClosesTheLongestIdleConnectionForANewOne) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_connections = 4;
     Fixture server(echo, options);
-    std::vector<std::unique_ptr<RawClient>> cached;
+    std::vector<std::unique_ptr<RawClient>> clients;
     for (int i = 0; i < 4; ++i) {
-        cached.push_back(std::make_unique<RawClient>(server.port()));
-        EXPECT_EQ(cached.back()->ask("GET / HTTP/1.1\r\n\r\n").status, 200);
+        clients.push_back(std::make_unique<RawClient>(server.port()));
+        EXPECT_EQ(clients.back()->ask("GET / HTTP/1.1\r\n\r\n").status, 200);
         std::this_thread::sleep_for(2 * Deadlines::tick);
     }
     RawClient late(server.port());
     EXPECT_EQ(late.ask("GET / HTTP/1.1\r\n\r\n").status, 200);
-    EXPECT_TRUE(cached[0]->is_closed()) << "the one that has waited longest gives its place up";
-    EXPECT_EQ(cached[1]->ask("GET / HTTP/1.1\r\n\r\n").status, 200) << "the others do not";
+    EXPECT_TRUE(clients[0]->is_closed()) << "the one idle longest is closed";
+    EXPECT_EQ(clients[1]->ask("GET / HTTP/1.1\r\n\r\n").status, 200) << "the others stay open";
     EXPECT_EQ(server.transport->load().refused, 0u);
 }
 
-/// Handlers that keep who asks until the test answers them.
+/// A handler that holds requests until the test responds to them.
 struct Waiting {
     void operator()(const std::shared_ptr<PendingRequest>& pending) {
         const std::lock_guard lock(mutex);
@@ -683,8 +685,8 @@ struct Waiting {
     std::vector<std::shared_ptr<PendingRequest>> pending_requests;
 };
 
-TEST(Transport, TurnsAwayWhatItCannotHold) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, RefusesConnectionsBeyondTheLimit) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_connections = 4;
     options.workers = 1;
     Waiting waiting;
@@ -694,7 +696,7 @@ TEST(Transport, TurnsAwayWhatItCannotHold) {
         clients.push_back(std::make_unique<RawClient>(server.port()));
         clients.back()->send("GET / HTTP/1.1\r\nConnection: close\r\n\r\n");
     }
-    waiting.await(4);  // one worker, and all four wait: who waits holds no thread
+    waiting.await(4);  // one worker and four waiting requests: a waiting request occupies no thread
     const auto load = server.transport->load();
     EXPECT_EQ(load.open(), 4u);
     EXPECT_EQ(load.connections[static_cast<std::size_t>(Transport::Phase::busy)], 4u);
@@ -708,13 +710,13 @@ TEST(Transport, TurnsAwayWhatItCannotHold) {
     for (auto& client : clients) EXPECT_EQ(client->receive().body, "late");
 }
 
-TEST(Transport, RefusesWhenTooManyWaitForAWorker) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, RefusesRequestsBeyondTheWorkerQueue) {
+    TransportOptions options = Fixture::without_timeouts();
     options.workers = 1;
     options.longest_queue = 1;
     std::counting_semaphore<> gate(0), begun(0);
     Fixture server(
-        [&](const api::Request&, const Gone&) {
+        [&](const api::Request&, const IsGone&) {
             begun.release();
             gate.acquire();
             return text_response("late");
@@ -733,30 +735,30 @@ TEST(Transport, RefusesWhenTooManyWaitForAWorker) {
     EXPECT_EQ(second.receive().body, "late");
 }
 
-TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, CallsBackOnTimeoutAndOnDisconnection) {
+    TransportOptions options = Fixture::without_timeouts();
     options.response = 100ms;
-    std::atomic<int> late{0}, left{0};
+    std::atomic<int> late{0}, disconnected{0};
     Fixture server(
         [&](const std::shared_ptr<PendingRequest>& pending) {
-            pending->wait([&, pending](PendingRequest::CancelReason why) {
-                ++(why == PendingRequest::CancelReason::timed_out ? late : left);
-                EXPECT_EQ(pending->is_gone(), why == PendingRequest::CancelReason::disconnected);
+            pending->wait([&, pending](PendingRequest::CancelReason reason) {
+                ++(reason == PendingRequest::CancelReason::timed_out ? late : disconnected);
+                EXPECT_EQ(pending->is_gone(), reason == PendingRequest::CancelReason::disconnected);
                 pending->reply(text_response(
-                    "", why == PendingRequest::CancelReason::timed_out ? 504 : client_left));
-                pending->reply(text_response("the first answer counts"));
+                    "", reason == PendingRequest::CancelReason::timed_out ? 504 : client_left));
+                pending->reply(text_response("only the first response counts"));
             });
         },
         options);
     RawClient patient(server.port());
     EXPECT_EQ(patient.ask("GET /1 HTTP/1.1\r\n\r\n").status, 504);
-    EXPECT_EQ(patient.ask("GET /2 HTTP/1.1\r\n\r\n").status, 504) << "the connection goes on";
+    EXPECT_EQ(patient.ask("GET /2 HTTP/1.1\r\n\r\n").status, 504) << "the connection stays open";
     EXPECT_EQ(late, 2);
     options.response = 60s;
     Fixture slow(
         [&](const std::shared_ptr<PendingRequest>& pending) {
-            pending->wait([&, pending](PendingRequest::CancelReason why) {
-                ++(why == PendingRequest::CancelReason::timed_out ? late : left);
+            pending->wait([&, pending](PendingRequest::CancelReason reason) {
+                ++(reason == PendingRequest::CancelReason::timed_out ? late : disconnected);
                 pending->reply(text_response("", client_left));
             });
         },
@@ -764,11 +766,12 @@ TEST(Transport, TellsWhoWaitsThatItIsLateOrThatTheClientHasLeft) {
     { RawClient(slow.port()).send("GET / HTTP/1.1\r\n\r\n"); }
     EXPECT_EQ(slow.wait_for_served().status, client_left);
     EXPECT_EQ(late, 2);
-    EXPECT_EQ(left, 1);
+    EXPECT_EQ(disconnected, 1);
 }
 
-/// The head without what differs from one request to the next.
-std::vector<std::pair<std::string, std::string>> lasting(const RawClient::Response& response) {
+/// Returns the headers except those that differ per request.
+std::vector<std::pair<std::string, std::string>> stable_headers(
+    const RawClient::Response& response) {
     std::vector<std::pair<std::string, std::string>> headers = response.headers;
     std::erase_if(headers, [](const auto& header) {
         return header.first == "Date" || header.first == "X-Request-Id";
@@ -777,11 +780,11 @@ std::vector<std::pair<std::string, std::string>> lasting(const RawClient::Respon
     return headers;
 }
 
-TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
+TEST(Transport, ReusesCacheableResponses) {
     for (const std::size_t size : {std::size_t{0}, std::size_t{1000}, std::size_t{3} << 20}) {
         std::atomic<int> requested{0};
         const std::string text(size, 'x');
-        Fixture server([&](const api::Request& request, const Gone&) {
+        Fixture server([&](const api::Request& request, const IsGone&) {
             ++requested;
             api::Response response = text_response(text);
             response.headers.insert(
@@ -800,12 +803,12 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
         EXPECT_EQ(requested, 1);
         EXPECT_EQ(again.status, 200);
         EXPECT_TRUE(again.body == text);
-        EXPECT_EQ(lasting(again), lasting(first));
+        EXPECT_EQ(stable_headers(again), stable_headers(first));
         EXPECT_EQ(again.header("X-Request-Id"), "mine");
         EXPECT_EQ(again.header("Date").size(), 29u);
 
         const auto head = client.ask("HEAD /again HTTP/1.1\r\n\r\n", true);
-        EXPECT_EQ(lasting(head), lasting(first));
+        EXPECT_EQ(stable_headers(head), stable_headers(first));
         const auto fresh = client.ask("GET /again HTTP/1.1\r\nIf-None-Match: \"tag\"\r\n\r\n");
         EXPECT_EQ(fresh.status, 304);
         EXPECT_EQ(fresh.header("Cache-Status"), "here; hit; detail=not-modified");
@@ -816,7 +819,7 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
                            "If-None-Match: \"tag\"\r\n\r\n")
                       .status,
                   304)
-            << "lines are one list";
+            << "all lines form one list";
         EXPECT_TRUE(client.ask("GET /again HTTP/1.1\r\nIf-None-Match: \"other\"\r\n\r\n").body ==
                     text);
         EXPECT_EQ(requested, 1);
@@ -854,9 +857,9 @@ TEST(Transport, GivesAnAnswerAgainThatMayBeGivenAgain) {
     }
 }
 
-TEST(Transport, GivesEachEncodingAgainToThoseThatAcceptIt) {
+TEST(Transport, ReusesResponsesPerEncoding) {
     std::atomic<int> requested{0};
-    Fixture server([&](const api::Request& request, const Gone&) {
+    Fixture server([&](const api::Request& request, const IsGone&) {
         ++requested;
         const bool gzip = request.header("Accept-Encoding") == "gzip";
         api::Response response = text_response(gzip ? "zipped" : "plain");
@@ -876,18 +879,18 @@ TEST(Transport, GivesEachEncodingAgainToThoseThatAcceptIt) {
         EXPECT_EQ(ask(gzip).body, "zipped");
         EXPECT_EQ(ask("Accept-Encoding: br\r\n").header("Content-Encoding"), "");
     }
-    EXPECT_EQ(requested, 2) << "once for each";
+    EXPECT_EQ(requested, 2) << "one request for each";
     EXPECT_EQ(ask(gzip + "If-None-Match: \"tag-gz\"\r\n").status, 304);
     EXPECT_EQ(ask("If-None-Match: \"tag\"\r\n").status, 304);
     EXPECT_EQ(ask("If-None-Match: \"tag-gz\"\r\n").body, "plain");
     EXPECT_EQ(requested, 2);
     ask(gzip + "If-None-Match: \"tag\"\r\n");
-    EXPECT_EQ(requested, 3) << "what a client with the plain one is told is not known here";
+    EXPECT_EQ(requested, 3) << "a client with the identity variant is passed on";
     EXPECT_EQ(server.transport->load().hot_entries, 2u);
 }
 
-TEST(Transport, AnswersWhatStandsWhileAllWorkersAreBusy) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, SendsPinnedResponsesWhileAllWorkersAreBusy) {
+    TransportOptions options = Fixture::without_timeouts();
     options.workers = 1;
     options.longest_queue = 1;
     std::counting_semaphore<> gate(0), begun(0);
@@ -920,10 +923,10 @@ TEST(Transport, AnswersWhatStandsWhileAllWorkersAreBusy) {
     EXPECT_EQ(waiting.receive().body, "late");
 }
 
-TEST(Transport, ForgetsWhatItWouldGiveAgainAndWhatIsOnItsWay) {
+TEST(Transport, InvalidatesStoredAndPendingResponses) {
     std::atomic<int> requested{0};
     std::counting_semaphore<> gate(0), begun(0);
-    Fixture server([&](const api::Request&, const Gone&) {
+    Fixture server([&](const api::Request&, const IsGone&) {
         api::Response response = text_response(std::to_string(++requested));
         response.cacheable = true;
         begun.release();
@@ -938,20 +941,20 @@ TEST(Transport, ForgetsWhatItWouldGiveAgainAndWhatIsOnItsWay) {
     gate.release();
     EXPECT_EQ(client.receive().body, "1");
     gate.release(10);
-    EXPECT_EQ(client.ask(request).body, "2") << "not given again";
-    EXPECT_EQ(client.ask(request).body, "2") << "but this is";
+    EXPECT_EQ(client.ask(request).body, "2") << "not reused";
+    EXPECT_EQ(client.ask(request).body, "2") << "but this one is";
     server.transport->invalidate();
     EXPECT_EQ(client.ask(request).body, "3");
     EXPECT_EQ(client.ask(request).body, "3");
     EXPECT_EQ(server.transport->load().hot_entries, 1u);
 }
 
-TEST(Transport, BoundsWhatSlowClientsPinTogetherAndGivesTheSlowestUp) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, BoundsTheMemoryOfSlowClientsByAbortingTheSlowest) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_pinned = 20 * megabyte;
     const auto common = std::make_shared<const Bytes>(8 * megabyte, std::uint8_t{'c'});
     Fixture server(
-        [&](const api::Request& request, const Gone&) {
+        [&](const api::Request& request, const IsGone&) {
             api::Response response;
             response.body = {request.target == "/common" ? Slice(common)
                                                          : Slice(std::make_shared<const Bytes>(
@@ -971,18 +974,18 @@ TEST(Transport, BoundsWhatSlowClientsPinTogetherAndGivesTheSlowestUp) {
     for (int i = 0; i < 20; ++i) add_slow("/common");
     for (int i = 0; i < 2000 && (writing() < 20 || load().pinned == 0); ++i)
         std::this_thread::sleep_for(5ms);
-    EXPECT_EQ(load().pinned, 8 * megabyte) << "shared, so counted once";
+    EXPECT_EQ(load().pinned, 8 * megabyte) << "shared buffers count once";
     EXPECT_EQ(load().given_up, 0u);
 
     for (int i = 0; i < 12; ++i) add_slow("/own");
     for (int i = 0; i < 2000 && load().given_up < 9; ++i) std::this_thread::sleep_for(5ms);
-    EXPECT_GE(load().given_up, 9u) << "three of their own have room beside the common one";
+    EXPECT_GE(load().given_up, 9u) << "three buffers fit beside the shared one";
     EXPECT_LE(load().pinned, options.most_pinned);
     const std::uint64_t before = load().given_up;
-    RawClient quick(server.port());
+    RawClient short_timeouts(server.port());
     for (int i = 0; i < 10; ++i)
-        EXPECT_EQ(quick.ask("GET /own HTTP/1.1\r\n\r\n").body.size(), 4 * megabyte)
-            << "who reads is not given up";
+        EXPECT_EQ(short_timeouts.ask("GET /own HTTP/1.1\r\n\r\n").body.size(), 4 * megabyte)
+            << "a reading client is not aborted";
     EXPECT_LE(load().given_up, before + 10);
 
     slow.clear();
@@ -990,12 +993,12 @@ TEST(Transport, BoundsWhatSlowClientsPinTogetherAndGivesTheSlowestUp) {
     EXPECT_EQ(load().pinned, 0u);
 }
 
-TEST(Transport, OneSlowClientAloneHasAllTheRoom) {
-    TransportOptions options = Fixture::patient();
+TEST(Transport, NeverAbortsASingleSlowClient) {
+    TransportOptions options = Fixture::without_timeouts();
     options.most_pinned = 1000;
-    Fixture server(
-        [&](const api::Request&, const Gone&) { return text_response(std::string(4 << 20, 'a')); },
-        options);
+    Fixture server([&](const api::Request&,
+                       const IsGone&) { return text_response(std::string(4 << 20, 'a')); },
+                   options);
     RawClient slow(server.port(), 4096);
     slow.send("GET / HTTP/1.1\r\n\r\n");
     for (int i = 0; i < 2000 && server.transport->load().pinned == 0; ++i)
@@ -1004,9 +1007,9 @@ TEST(Transport, OneSlowClientAloneHasAllTheRoom) {
     EXPECT_EQ(server.transport->load().given_up, 0u);
 }
 
-TEST(Transport, DrainsWhatHasBegun) {
+TEST(Transport, CompletesBegunRequestsWhenDraining) {
     std::counting_semaphore<> gate(0), begun(0);
-    Fixture server([&](const api::Request&, const Gone&) {
+    Fixture server([&](const api::Request&, const IsGone&) {
         begun.release();
         gate.acquire();
         return text_response("done");
@@ -1029,7 +1032,7 @@ TEST(Transport, DrainsWhatHasBegun) {
     EXPECT_FALSE(RawClient(server.port()).connected());
 }
 
-TEST(Transport, ServesManyAtOnce) {
+TEST(Transport, ServesManyConcurrentClients) {
     Fixture server(echo);
     std::atomic<int> good{0};
     std::vector<std::jthread> threads;

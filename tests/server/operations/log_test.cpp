@@ -5,7 +5,7 @@
 namespace sporeprint::server {
 namespace {
 
-TEST(Log, WritesOneLineWhateverAClientSends) {
+TEST(Log, WritesOneLinePerRequestForAnyBytes) {
     Served served;
     served.method = "GET";
     served.target = "/a\r\n{\"level\":\"error\"}\x1b[31m\"\\{}%s\xff\xfe\x7f";
@@ -48,7 +48,7 @@ TEST(Log, WritesOneLineWhateverAClientSends) {
     EXPECT_TRUE(request.find("target")->as_string().starts_with("/a\r\n{"));
 }
 
-TEST(Log, RepeatsAWarningOnceInAPauseAndSaysHowOftenItCame) {
+TEST(Log, LimitsARepeatedWarningAndCountsIt) {
     using Clock = RepeatedWarning::Clock;
     const Clock::time_point start = Clock::now();
     testing::internal::CaptureStderr();
@@ -65,7 +65,7 @@ TEST(Log, RepeatsAWarningOnceInAPauseAndSaysHowOftenItCame) {
     EXPECT_EQ(std::count(text.begin(), text.end(), '\n'), 3) << text;
 }
 
-TEST(Log, ShowsNoSignatures) {
+TEST(Log, RedactsSignatures) {
     const std::vector<std::pair<std::string, std::string>> cases = {
         {"/a", "/a"},
         {"/sig=1", "/sig=1"},

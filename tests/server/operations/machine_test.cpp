@@ -25,7 +25,7 @@ TEST(Machine, GrantsAtLeastOneProcessor) {
     EXPECT_LE(granted_processors(), 4096u);
 }
 
-TEST(Machine, KnowsWhatThisProcessTakes) {
+TEST(Machine, ReportsTheUsageOfThisProcess) {
     const Usage used = usage();
     EXPECT_GT(used.resident_bytes, 1u << 20);
     EXPECT_GT(used.open_files, 2u);
@@ -33,7 +33,7 @@ TEST(Machine, KnowsWhatThisProcessTakes) {
     EXPECT_FALSE(program_folder().empty());
 }
 
-TEST(Machine, LowersThePriorityOfOneThreadAlone) {
+TEST(Machine, LowersThePriorityOfOneThreadOnly) {
     const auto niceness = [] { return getpriority(PRIO_PROCESS, static_cast<id_t>(gettid())); };
     const int own = niceness();
     int lowered = own;
@@ -45,7 +45,7 @@ TEST(Machine, LowersThePriorityOfOneThreadAlone) {
     EXPECT_EQ(niceness(), own);
 }
 
-TEST(Health, IsTheStatusOfTheAnswer) {
+TEST(Health, IsTheStatusOfTheResponse) {
     TransportOptions options;
     options.port = 0;
     Handlers handlers;

@@ -13,7 +13,7 @@ Options read(std::string_view file, const Given& environment = {}, const Given& 
     return options_from("my.json", file, environment, flags);
 }
 
-/// Every problem as "path: message".
+/// Returns every problem as "path: message".
 std::vector<std::string> problems_of(std::string_view file, const Given& environment = {},
                                      const Given& flags = {}) {
     std::vector<std::string> all;
@@ -36,7 +36,7 @@ TEST(Options, HaveDefaults) {
     EXPECT_EQ(options.morph_cache_mb, 16);
 }
 
-TEST(Options, AFlagWinsOverAVariableAndThatOverTheFile) {
+TEST(Options, AFlagOverridesAVariableWhichOverridesTheFile) {
     const std::string_view file = R"({"port": 1, "cache_mb": 11, "threads": 21})";
     const Given environment = {{"port", "2"}, {"cache_mb", "12"}};
     const Options options = read(file, environment, {{"port", "3"}, {"log_level", "error"}});
@@ -47,14 +47,14 @@ TEST(Options, AFlagWinsOverAVariableAndThatOverTheFile) {
     EXPECT_EQ(options.log_level, LogLevel::error);
 }
 
-TEST(Options, AreWrittenAsAFileThatReadsBack) {
+TEST(Options, RoundTripThroughAFile) {
     const Options options =
         read("", {}, {{"host", "::1"}, {"atlas", "/a b"}, {"allow_origin", "https://a.example"}});
     EXPECT_EQ(read(config_text(options)), options);
     EXPECT_EQ(read(config_text(Options{})), Options{});
 }
 
-TEST(Options, AProblemNamesTheOptionItsValueAndWhatIsAllowed) {
+TEST(Options, AProblemNamesTheOptionItsValueAndTheAllowedValues) {
     using Lines = std::vector<std::string>;
     EXPECT_EQ(problems_of("", {}, {{"port", "99999"}}), Lines{"--port: 99999 is outside 0..65535"});
     EXPECT_EQ(problems_of("", {{"cache_mb", "-1"}}),
@@ -70,7 +70,7 @@ TEST(Options, AProblemNamesTheOptionItsValueAndWhatIsAllowed) {
     EXPECT_EQ(problems_of(R"({"port": 1, "port": 2})").size(), 1u) << "repeated";
     EXPECT_EQ(problems_of("{").size(), 1u);
     EXPECT_EQ(problems_of(R"({"port": 70000})", {{"threads", "x"}}, {{"host", ""}}).size(), 2u)
-        << "all that is wrong is told at once";
+        << "all problems are reported at once";
     EXPECT_EQ(problems_of("", {}, {{"host", ""}}).size(), 1u);
     EXPECT_EQ(problems_of("", {}, {{"host", "a b"}}).size(), 1u);
     EXPECT_EQ(problems_of("", {}, {{"allow_origin", "*\r\nX-Evil: 1"}}).size(), 1u);
@@ -82,7 +82,7 @@ TEST(Options, AProblemNamesTheOptionItsValueAndWhatIsAllowed) {
     EXPECT_EQ(problems_of("", {}, {{"proxy_header", "x-real-ip"}}).size(), 1u);
 }
 
-TEST(Options, ABasePathIsOneThatStandsBeforeAllOthers) {
+TEST(Options, CheckTheBasePath) {
     for (const char* good : {"", "/a", "/sporeprint", "/a/b-c/d.e_f~g", "/%7Ejo/x%2F", "/a:b@c,d"})
         EXPECT_EQ(read("", {}, {{"base_path", good}}).base_path.string(), good);
     const std::vector<std::pair<const char*, const char*>> bad = {
@@ -108,7 +108,7 @@ TEST(Options, ABasePathIsOneThatStandsBeforeAllOthers) {
     }
 }
 
-TEST(Options, AllowOneOriginAsABrowserSendsIt) {
+TEST(Options, AllowOneSerializedOrigin) {
     const auto allowed = [](const std::string& origin) {
         return problems_of("", {}, {{"allow_origin", origin}}).empty();
     };
@@ -152,7 +152,7 @@ TEST(Options, AllowOneOriginAsABrowserSendsIt) {
               "--allow-origin: 'foo' is not an origin");
 }
 
-TEST(Options, ComeFromTheEnvironmentByTheirOwnNames) {
+TEST(Options, AreReadFromTheEnvironment) {
     const Environment environment = environment_from({{"SPOREPRINT_IMAGE_CACHE_MB", "7"},
                                                       {"SPOREPRINT_HOST", ""},
                                                       {"SPOREPRINT_CONFIG", "/a"},
@@ -163,7 +163,7 @@ TEST(Options, ComeFromTheEnvironmentByTheirOwnNames) {
     EXPECT_TRUE(environment.unknown.empty() && environment.service_links.empty());
 }
 
-TEST(Options, UnknownVariablesAreNamedWithWhatWasMeant) {
+TEST(Options, UnknownVariablesAreReportedWithSuggestions) {
     const Environment environment = environment_from(
         {{"SPOREPRINT_PROT", "9000"}, {"SPOREPRINT_", "x"}, {"SPOREPRINT_URL", ""}});
     EXPECT_TRUE(environment.options.empty());
@@ -172,8 +172,8 @@ TEST(Options, UnknownVariablesAreNamedWithWhatWasMeant) {
                                         "SPOREPRINT_", "SPOREPRINT_URL"}));
 }
 
-// As kubelet makes them: pkg/kubelet/envvars of Kubernetes.
-TEST(Options, VariablesOfAKubernetesServiceAreNoOptions) {
+// As kubelet generates them: pkg/kubelet/envvars of Kubernetes.
+TEST(Options, VariablesOfAKubernetesServiceAreIgnored) {
     const Given injected = {{"SPOREPRINT_SERVICE_HOST", "10.0.0.1"},
                             {"SPOREPRINT_SERVICE_PORT", "8080"},
                             {"SPOREPRINT_SERVICE_PORT_HTTP", "8080"},
@@ -196,7 +196,8 @@ TEST(Options, VariablesOfAKubernetesServiceAreNoOptions) {
     EXPECT_TRUE(environment.unknown.empty());
     EXPECT_EQ(read("", environment.options), Options{});
 
-    // What is a little different was set by a person: a wrong value, or an unknown name.
+    // Slightly different ones are treated as set by the operator: a wrong value, or an unknown
+    // name.
     for (const char* value : {"tcp://", "tcp://10.0.0.1", "tcp://10.0.0.1:", "tcp://10.0.0.1:0",
                               "tcp://10.0.0.1:x", "tcp://10.0.0.1:80/", "http://10.0.0.1:80",
                               "tcp://a.example:80", "tcp://fd00::1:80", "tcp://[10.0.0.1]:80",
@@ -220,7 +221,7 @@ TEST(Options, VariablesOfAKubernetesServiceAreNoOptions) {
     EXPECT_EQ(environment_from({{"SPOREPRINT_PORT", "9000"}}).options, (Given{{"port", "9000"}}));
 }
 
-TEST(Options, EachHasHelp) {
+TEST(Options, HaveHelpTexts) {
     std::set<std::string> flags;
     for (const OptionLine& line : option_lines()) {
         EXPECT_TRUE(flags.insert(line.flag).second);

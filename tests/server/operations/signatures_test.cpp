@@ -25,7 +25,7 @@ std::string why(const Signatures& signatures, std::string_view target,
     return signatures.check(method, target, body, now).refusal;
 }
 
-/// What InvalidInput says of a text of keys.
+/// Returns the messages of InvalidInput for a text of keys.
 std::string error_of(std::string_view text) {
     try {
         static_cast<void>(Signatures::from_text("keys.txt", text));
@@ -38,8 +38,8 @@ std::string error_of(std::string_view text) {
     }
 }
 
-// Worked out with another implementation of HMAC-SHA256.
-TEST(Signatures, AreThoseThatAnyClientWorksOut) {
+// Computed with another implementation of HMAC-SHA256.
+TEST(Signatures, MatchAnIndependentImplementation) {
     const Signatures signatures({old_key});
     EXPECT_EQ(signatures.signed_target("GET", agaric, "", 2'000'000'000),
               std::string(agaric) +
@@ -49,7 +49,7 @@ TEST(Signatures, AreThoseThatAnyClientWorksOut) {
               "/v1/mushrooms.glb?key=a&sig=cVR71aaTwitccMrPczm_Wz5cFczfpNPdZdHt6XYcjIc");
 }
 
-TEST(Signatures, OfGetAreThoseOfHeadAndOfAnAbsoluteTarget) {
+TEST(Signatures, OfGetAreValidForHeadAndAbsoluteTargets) {
     const Signatures signatures({old_key});
     const std::string target = signatures.signed_target("GET", agaric, "", std::nullopt);
     EXPECT_EQ(signatures.check("GET", target, "", now).target, agaric);
@@ -66,7 +66,7 @@ TEST(Signatures, CoverTheBodyOfAPost) {
     EXPECT_FALSE(signatures.check("GET", target, "", now).is_valid);
 }
 
-TEST(Signatures, EndWhenTheySay) {
+TEST(Signatures, Expire) {
     const Signatures signatures({old_key});
     EXPECT_EQ(signatures.check("GET", signatures.signed_target("GET", agaric, "", now + 1), "", now)
                   .target,
@@ -77,18 +77,19 @@ TEST(Signatures, EndWhenTheySay) {
               "the address was good until -1");
 }
 
-TEST(Signatures, OfEveryKeyAreGoodAndTheFirstKeySigns) {
+TEST(Signatures, OfAllKeysAreValidAndTheFirstKeySigns) {
     const Signatures both({new_key, old_key}), before({old_key}), after({new_key});
     const std::string of_old = before.signed_target("GET", agaric, "", std::nullopt);
     EXPECT_TRUE(both.check("GET", of_old, "", now).is_valid);
-    EXPECT_TRUE(after.check("GET", both.signed_target("GET", agaric, "", now + 9), "", now).is_valid);
+    EXPECT_TRUE(
+        after.check("GET", both.signed_target("GET", agaric, "", now + 9), "", now).is_valid);
     EXPECT_EQ(why(after, of_old), "there is no key 'a'");
-    // A key is not known by its name alone.
+    // A key with a known id and another secret is not accepted.
     EXPECT_EQ(why(Signatures({{"a", new_key.secret}}), of_old),
               "the signature is not that of this address");
 }
 
-TEST(Signatures, ThatAreMissingOrMisplacedAreNamed) {
+TEST(Signatures, ThatAreMissingOrMisplacedAreReported) {
     const Signatures signatures({old_key});
     const std::string good = signatures.signed_target("GET", agaric, "", std::nullopt);
     const std::string none = "the address is not signed; its last parameter has to be sig";
@@ -105,8 +106,8 @@ TEST(Signatures, ThatAreMissingOrMisplacedAreNamed) {
               "the signature is not that of this address");
 }
 
-// Whatever is changed in a signed target, it is no longer good, or it is the same request.
-RC_GTEST_PROP(SignaturesProperty, NoChangedTargetIsGood, ()) {
+// After any change a signed target is invalid, or it is the same request.
+RC_GTEST_PROP(SignaturesProperty, NoChangedTargetIsValid, ()) {
     const Signatures signatures({old_key, new_key});
     std::string target = signatures.signed_target("GET", agaric, "", now + 100);
     const std::string before = target;
@@ -126,7 +127,7 @@ RC_GTEST_PROP(SignaturesProperty, NoChangedTargetIsGood, ()) {
     RC_ASSERT(checked.is_valid == checked.refusal.empty());
 }
 
-RC_GTEST_PROP(SignaturesProperty, WhatIsSignedIsGoodAndComesBackWithoutItsSignature, ()) {
+RC_GTEST_PROP(SignaturesProperty, SignedTargetsAreValidAndReturnedWithoutSignature, ()) {
     const Signatures signatures({new_key, old_key});
     const auto word = rc::gen::container<std::string>(
         rc::gen::elementOf(std::string("abcdefghijklmnopqrstuvwxyz0123456789.,:=%_-/")));
@@ -143,7 +144,7 @@ RC_GTEST_PROP(SignaturesProperty, WhatIsSignedIsGoodAndComesBackWithoutItsSignat
     RC_ASSERT(checked.target == target);
 }
 
-TEST(Signatures, ReadTheirKeysFromAText) {
+TEST(Signatures, ReadKeysFromAText) {
     const Signatures signatures =
         Signatures::from_text("keys.txt", "# new first\r\n\n b \t" + std::string(32, 'a') +
                                               "\r\na " + std::string(64, 'F'));
@@ -157,7 +158,7 @@ TEST(Signatures, ReadTheirKeysFromAText) {
               std::string::npos);
 }
 
-TEST(Signatures, EveryFaultyLineIsNamedAndNoSecretTold) {
+TEST(Signatures, EveryInvalidLineIsReportedWithoutSecrets) {
     const std::string secret(40, 'e');
     EXPECT_EQ(error_of("a " + secret + "x\nb\nc " + secret + " d\n"),
               "keys.txt:1: a line is an id and a secret in hexadecimal digits\n"
@@ -170,7 +171,7 @@ TEST(Signatures, EveryFaultyLineIsNamedAndNoSecretTold) {
     const std::string twice = error_of("a " + secret + "\na " + secret);
     EXPECT_NE(twice.find("keys.txt:2: a key before it has the same id"), std::string::npos);
     EXPECT_EQ(twice.find(secret), std::string::npos);
-    // Secret and id mixed up.
+    // Secret and id swapped.
     EXPECT_EQ(error_of(secret + " abcd").find(secret), std::string::npos);
     EXPECT_EQ(error_of(secret + secret + " " + secret).find(secret), std::string::npos);
     EXPECT_THROW(static_cast<void>(Signatures::from_file("/no/such/keys")), InvalidInput);

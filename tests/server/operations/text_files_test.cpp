@@ -13,7 +13,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-TEST(TextFiles, AreReadByLinesThatSaySomething) {
+TEST(TextFiles, SkipEmptyLinesAndComments) {
     const auto lines = lines_of("# a\n\n  /a?b=c \t\r\n/d\n #e\n\r\n/f");
     ASSERT_EQ(lines.size(), 3u);
     EXPECT_EQ(lines[0].text, "/a?b=c");
@@ -25,7 +25,7 @@ TEST(TextFiles, AreReadByLinesThatSaySomething) {
     EXPECT_TRUE(lines_of("\n\n").empty());
 }
 
-TEST(TextFiles, HaveTheirBytesOrCannotBeRead) {
+TEST(TextFiles, AreReadWholeOrNotAtAll) {
     const fs::path folder =
         fs::temp_directory_path() / ("text_files." + std::to_string(::getpid()));
     fs::create_directories(folder);

@@ -1,5 +1,5 @@
-// One meaning has one key, whatever words, numbers, escapes, order, method or signature say it;
-// another meaning has another.
+// Canonical keys: requests that mean the same have the same key, whatever their spelling of
+// numbers, escapes, order, method or signature; other requests have other keys.
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -24,17 +24,17 @@ namespace {
 
 using api::Key;
 
-/// What a request means: every parameter that it may name, with what is in force where it does not.
-struct Meaning {
+/// The values of all parameters of a request, including those that it does not name.
+struct RequestValues {
     std::vector<std::pair<std::string, int>> mix;  ///< thousandths, by id
     std::map<std::string, double> values;
-    bool operator==(const Meaning&) const = default;
+    bool operator==(const RequestValues&) const = default;
 };
 
+/// A parameter and its range.
 struct Parameter {
     std::string_view name;
-    double
-        standard;  ///< what an address means that does not name it; `own` for what the species decides
+    double standard;  ///< value if not named; `own`: that of the species
     double from, to;
     bool whole;
 };
@@ -56,7 +56,7 @@ constexpr std::array<Parameter, 9> parameters = {{
 constexpr std::array<std::string_view, 4> species = {"amanita_muscaria", "boletus_edulis",
                                                      "lepista_nuda", "russula_vinosa"};
 
-/// Draws for one case.
+/// The random draws of one case.
 class Draws {
   public:
     explicit Draws(std::uint32_t seed) : random_(seed, 0x6d65616e) {}
@@ -67,15 +67,15 @@ class Draws {
     bool one_in(std::size_t count) { return below(count) == 0; }
 
     double value_of(const Parameter& parameter) {
-        // Few different values, so that two meanings often share one; the standard is one of them.
+        // Few different values, so that two requests often share one; the standard is one of them.
         if (one_in(3)) return parameter.standard;
         const double value =
             parameter.from + (parameter.to - parameter.from) * static_cast<double>(below(9)) / 8.0;
         return parameter.whole ? static_cast<double>(static_cast<std::uint32_t>(value)) : value;
     }
 
-    Meaning meaning() {
-        Meaning out;
+    RequestValues request_values() {
+        RequestValues out;
         int left = 1000;
         const std::size_t last = below(species.size());
         for (std::size_t i = 0; i < last; ++i) {
@@ -95,7 +95,7 @@ class Draws {
             std::swap(things[i], things[i + below(things.size() - i)]);
     }
 
-    /// One of the ways to write a number.
+    /// Writes a number in a random format.
     std::string number(double value) {
         std::array<char, 64> text{};
         const auto format = one_in(3) ? std::chars_format::scientific : std::chars_format::general;
@@ -126,22 +126,24 @@ class Draws {
     Random random_;
 };
 
-/// The weights as somebody may write them: in any unit, in any order.
-std::vector<std::pair<std::string, std::string>> spelt_mix(const Meaning& meaning, Draws& draws) {
+/// Writes the weights in a random unit and order.
+std::vector<std::pair<std::string, std::string>> spelled_mix(const RequestValues& request_values,
+                                                             Draws& draws) {
     constexpr std::array<double, 4> units = {1.0, 2.0, 0.125, 4096.0};  // exact in binary
     const double unit = units[draws.below(units.size())];
     std::vector<std::pair<std::string, std::string>> parts;
-    for (const auto& [id, weight] : meaning.mix)
+    for (const auto& [id, weight] : request_values.mix)
         parts.emplace_back(id, draws.number(weight * unit));
     draws.shuffle(parts);
     return parts;
 }
 
-/// What a spelling says: all that is not standard, and some of what is.
-std::vector<std::pair<std::string, double>> said(const Meaning& meaning, Draws& draws) {
+/// Returns the parameters that a spelling names: all that are not standard, and some that are.
+std::vector<std::pair<std::string, double>> named_parameters(const RequestValues& request_values,
+                                                             Draws& draws) {
     std::vector<std::pair<std::string, double>> out;
     for (const Parameter& parameter : parameters) {
-        const double value = meaning.values.at(std::string(parameter.name));
+        const double value = request_values.values.at(std::string(parameter.name));
         if (value == own || (value == parameter.standard && !draws.one_in(3))) continue;
         out.emplace_back(parameter.name, value);
     }
@@ -149,34 +151,34 @@ std::vector<std::pair<std::string, double>> said(const Meaning& meaning, Draws& 
     return out;
 }
 
-/// The meaning as the target of a GET.
-std::string target_of(const Meaning& meaning, Draws& draws) {
+/// Writes the request as the target of a GET.
+std::string target_of(const RequestValues& request_values, Draws& draws) {
     std::string target = "/v1/mushrooms/", mix;
-    for (const auto& [id, weight] : spelt_mix(meaning, draws)) {
+    for (const auto& [id, weight] : spelled_mix(request_values, draws)) {
         if (!mix.empty()) mix += ',';
         mix += id;
-        if (meaning.mix.size() > 1 || draws.one_in(2)) mix += ':' + weight;
+        if (request_values.mix.size() > 1 || draws.one_in(2)) mix += ':' + weight;
     }
     target += draws.escaped(mix + ".glb");
     char before = '?';
-    for (const auto& [name, value] : said(meaning, draws)) {
+    for (const auto& [name, value] : named_parameters(request_values, draws)) {
         target += before + draws.escaped(name) + '=' + draws.escaped(draws.number(value));
         before = '&';
     }
     return target;
 }
 
-/// The same as the body of a POST.
-std::string body_of(const Meaning& meaning, Draws& draws) {
+/// Writes the same request as the body of a POST.
+std::string body_of(const RequestValues& request_values, Draws& draws) {
     std::vector<std::string> members;
     std::string mix;
-    for (const auto& [id, weight] : spelt_mix(meaning, draws)) {
+    for (const auto& [id, weight] : spelled_mix(request_values, draws)) {
         if (!mix.empty()) mix += ", ";
         mix += '"' + id + "\": " + weight;
     }
     members.push_back("\"mix\": {" + mix + "}");
     std::map<std::string, std::string> groups;
-    for (const auto& [name, value] : said(meaning, draws)) {
+    for (const auto& [name, value] : named_parameters(request_values, draws)) {
         const auto dot = name.find('.');
         const std::string member = '"' + (dot == std::string::npos ? name : name.substr(dot + 1)) +
                                    "\":" + draws.number(value);
@@ -194,7 +196,7 @@ std::string body_of(const Meaning& meaning, Draws& draws) {
     return body + '}';
 }
 
-/// The key of what a request asks for; what the answer says where it is refused.
+/// Returns the key of a request; fails with the response if it is refused.
 Key key_of(const api::Request& request) {
     static api::Service service(built_in_atlas(), api::ServiceOptions{});
     const auto plan = service.plan(request);
@@ -209,20 +211,20 @@ Key key_of_get(const std::string& target) { return key_of(api::test::get(target)
 
 Key key_of_post(const std::string& body) { return key_of(api::test::post(body)); }
 
-RC_GTEST_PROP(MeaningProperty, HasOneKeyHoweverItIsSaid, ()) {
+RC_GTEST_PROP(CanonicalKeyProperty, IsTheSameForAllSpellings, ()) {
     Draws draws(*rc::gen::arbitrary<std::uint32_t>());
-    const Meaning meaning = draws.meaning();
-    const Key key = key_of_get(target_of(meaning, draws));
-    RC_ASSERT(key_of_get(target_of(meaning, draws)) == key);
-    RC_ASSERT(key_of_get("http://any.host:8080" + target_of(meaning, draws)) == key);
-    RC_ASSERT(key_of_post(body_of(meaning, draws)) == key);
+    const RequestValues request_values = draws.request_values();
+    const Key key = key_of_get(target_of(request_values, draws));
+    RC_ASSERT(key_of_get(target_of(request_values, draws)) == key);
+    RC_ASSERT(key_of_get("http://any.host:8080" + target_of(request_values, draws)) == key);
+    RC_ASSERT(key_of_post(body_of(request_values, draws)) == key);
 }
 
-RC_GTEST_PROP(MeaningProperty, OfAnotherKindHasAnotherKey, ()) {
+RC_GTEST_PROP(CanonicalKeyProperty, DiffersForDifferentRequests, ()) {
     Draws draws(*rc::gen::arbitrary<std::uint32_t>());
-    const Meaning one = draws.meaning();
-    Meaning other = one;
-    if (draws.one_in(4)) other.mix = draws.meaning().mix;
+    const RequestValues one = draws.request_values();
+    RequestValues other = one;
+    if (draws.one_in(4)) other.mix = draws.request_values().mix;
     for (const Parameter& parameter : parameters)
         if (draws.one_in(parameters.size()))
             other.values[std::string(parameter.name)] = draws.value_of(parameter);
@@ -231,13 +233,13 @@ RC_GTEST_PROP(MeaningProperty, OfAnotherKindHasAnotherKey, ()) {
               (one == other));
 }
 
-RC_GTEST_PROP(MeaningProperty, SignaturesAndTheirEndNeverEnterIt, ()) {
+RC_GTEST_PROP(CanonicalKeyProperty, IncludesNeitherSignatureNorExpiry, ()) {
     Draws draws(*rc::gen::arbitrary<std::uint32_t>());
     constexpr std::int64_t now = 1'900'000'000;
     const Signatures signatures({{"new", std::string(32, 'n')}, {"old", std::string(32, 'o')}});
     const Signatures before({{"old", std::string(32, 'o')}});
-    const Meaning meaning = draws.meaning();
-    const std::string target = target_of(meaning, draws);
+    const RequestValues request_values = draws.request_values();
+    const std::string target = target_of(request_values, draws);
     const Key key = key_of_get(target);
     for (const Signatures* by : {&signatures, &before})
         for (const std::int64_t left :
