@@ -98,8 +98,8 @@ TEST_P(EveryColony, HasFewerTrianglesAtEveryLevel) {
                 const Bounds box = bounds(colony);
                 if (lod > 0) {
                     // A cup whose outline would intersect itself with fewer rings keeps those of
-                    // the level before; with many stems nearly all stored triangles are the skin's, and a
-                    // stem has at least one segment.
+                    // the level before. With many stems most triangles are those of the skin,
+                    // and a stem has at least one segment.
                     const bool is_cup = GetParam() == "disciotis_venosa";
                     const double bar = lod < 3 ? 1.0 : is_cup ? 1.001 : 0.93;
                     EXPECT_LT(static_cast<double>(triangles), bar * static_cast<double>(drawn))
