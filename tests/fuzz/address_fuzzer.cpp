@@ -1,5 +1,5 @@
-// Addresses as strangers send them, through the whole of what plans an answer: each is answered or is work with a key; its canonical
-// address means the same, and is its own.
+// Fuzzes URLs through Service::plan(): each gets a response or a job with a key; its canonical URL
+// has the same key and is its own canonical form.
 
 #include <cstddef>
 #include <cstdint>
@@ -29,10 +29,10 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const api::Key key = std::get<api::Job>(plan).key;
     expect(!key.empty(), "work has a key");
 
-    // HEAD is answered without work, and says the canonical address.
+    // HEAD gets a response without a job, with the canonical URL.
     const auto head = ask("HEAD", target);
     const auto* response = std::get_if<api::Response>(&head);
-    if (response == nullptr) return 0;  // a document whose length is not known yet
+    if (response == nullptr) return 0;  // a document whose length is not yet known
     expect(response->status == 200, "HEAD of what GET would make");
     const std::string canonical(api::header_of(*response, "Content-Location"));
     if (canonical.empty()) return 0;

@@ -1,4 +1,4 @@
-// Bodies of POST as a stranger sends them: read as orders, and read again from our own text of what was understood.
+// Fuzzes bodies of POST: read as requests, written in canonical form, and read again.
 
 #include <cstddef>
 #include <cstdint>
@@ -28,7 +28,7 @@ void read_as_mushroom(std::string_view text, const Atlas& atlas) {
     if (!errors.empty()) return;
     Value own = write(spec.params);
     if (spec.model) {
-        // What is left out is looked at when the individual is decided.
+        // Omitted values are checked when the individual is resolved.
         std::vector<Problem> problems;
         check(*spec.model, Info{.name = ""}, "/model", problems);
         if (!problems.empty()) return;
@@ -66,7 +66,7 @@ void read_as_morph(std::string_view text, const Atlas& atlas) {
     expect(none.empty() && key(again, atlas) == key(spec, atlas),
            "a morph reads back from its own text");
 
-    // Seen from the other species it is the same.
+    // With the species swapped it is the same.
     Value mirrored = Value::array();
     for (Arc arc : spec.arcs) {
         std::swap(arc.a, arc.b);
@@ -105,13 +105,13 @@ void read_as(std::string_view text) {
         return api::key_of<Kind>(one, api::Product::glb, "v");
     };
     Value own = write(spec.params);
-    // Rows that are not there ask for no matrix.
+    // Without rows there is no matrix.
     if (const Value* rows = own.find("rows"); rows && rows->items().empty()) own.erase("rows");
     own.set("preset", spec.preset);
     api::ValidationErrors none;
     const Order again = api::read_preset<Kind>(dump(own), none).spec;
     expect(none.empty() && key(again) == key(spec), "it reads back from its own text");
-    // And from its address, where it has one.
+    // It also reads back from its URL, if it has one.
     const std::string address = api::canonical_address<Kind>(spec, api::Product::glb);
     if (address.empty()) return;
     std::vector<Problem> problems;

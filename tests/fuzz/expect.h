@@ -1,11 +1,11 @@
-// What a fuzz target does when a promise is broken: says which and stops, so that the input is kept.
+// The assertion of fuzz targets: prints a message and aborts, so that libFuzzer saves the input.
 #pragma once
 
 #include <cstdio>
 #include <cstdlib>
 
-inline void expect(bool cached, const char* promise) {
-    if (cached) return;
-    std::fprintf(stderr, "broken promise: %s\n", promise);
+inline void expect(bool holds, const char* condition) {
+    if (holds) return;
+    std::fprintf(stderr, "violated: %s\n", condition);
     std::abort();
 }

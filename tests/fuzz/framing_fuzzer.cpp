@@ -1,4 +1,5 @@
-// Bytes on a connection: where its heads begin and end, however they come in, and what the hot table makes of them.
+// Fuzzes the bytes of a connection: framing of request heads, however they are split, and lookups
+// in the hot-response table.
 
 #include <algorithm>
 #include <cstddef>
@@ -30,7 +31,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                "a head lies within what came");
         expect(rest.substr(0, scan.used).ends_with("\r\n\r\n"), "a head ends with an empty line");
 
-        // The same head, whatever follows it, and none before it is whole.
+        // The same head with any following bytes, and none while it is incomplete.
         const Scan alone = scan_head(rest.substr(0, scan.used));
         expect(alone.state == Scan::State::complete && alone.used == scan.used &&
                    alone.head.headers == scan.head.headers,

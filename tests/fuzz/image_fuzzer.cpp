@@ -1,4 +1,4 @@
-// An uploaded image: decoded to pixels of a bounded size, or refused.
+// Fuzzes uploaded images: decoded to a bounded size, or refused.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                                          static_cast<std::size_t>(picture.height),
                "three bytes a pixel");
     } catch (const InvalidInput&) {
-        // refused with a reason: a promise kept
+        // refused with a reason, as specified
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// A GLB of a stranger. Its bytes are tried as they are, and again as the JSON chunk of a well-formed GLB.
+// Fuzzes uploaded GLB files: the bytes as they are, and as the JSON chunk of a well-formed GLB.
 
 #include <cstddef>
 #include <cstdint>
@@ -15,7 +15,7 @@ void inspect(std::span<const std::uint8_t> file) {
     try {
         (void)inspect_glb(file);
     } catch (const InvalidInput&) {
-        // refused with a reason: a promise kept
+        // refused with a reason, as specified
     }
 }
 

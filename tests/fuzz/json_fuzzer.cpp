@@ -1,4 +1,4 @@
-// A JSON body as a stranger sends it: parsed, read as a Model, and read again from our own text.
+// Fuzzes JSON bodies: parsed, read as a Model, written, and read again.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Control shapes of strangers: whatever silhouettes pass their check, a set of them is refused with a reason, or none of its mixes
-// crosses itself at any level of detail, and what a certificate says of a path is so.
+// Fuzzes control points: a set of silhouettes that pass their check is refused with a reason, or
+// none of its mixes self-intersects at any level of detail, and the certificates of its paths hold.
 
 #include <algorithm>
 #include <array>
@@ -17,7 +17,7 @@ using namespace sporeprint;
 
 namespace {
 
-/// Takes numbers out of bytes; zeros when there are none left.
+/// Reads numbers from bytes; zeros after their end.
 class Numbers {
   public:
     Numbers(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
@@ -47,7 +47,7 @@ class Numbers {
     std::size_t left_;
 };
 
-/// Up to four species of up to four stages; empty when a silhouette is refused.
+/// Reads up to four species of up to four stages; empty if a silhouette is refused.
 std::vector<ControlShape> shapes_from(Numbers& in) {
     std::vector<ControlShape> shapes;
     const std::size_t species_count = 1 + in.byte() % 4;
@@ -91,7 +91,7 @@ std::vector<double> weights_from(Numbers& in, std::size_t count) {
     return weights;
 }
 
-/// Expects the outline that is served for these weights to be finite, on its side of the axis, and simple.
+/// Expects the outline for these weights to be finite, on its side of the axis, and simple.
 void expect_simple(const MorphSet& set, const std::vector<double>& weights, const char* promise) {
     const Outline outline(set.nodes(weights));
     for (int lod = 0; lod < 4; ++lod) {
@@ -136,7 +136,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 expect(arc.a >= 0.0 && arc.a <= 1.0 && arc.b >= 0.0 && arc.b <= 1.0,
                        "arcs are shares");
     } catch (const InvalidInput&) {
-        // refused with a reason: a promise kept
+        // refused with a reason, as specified
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// A request target as a stranger sends it: taken apart, its query read, and read again from our own text.
+// Fuzzes request targets: split, their query read, written in canonical form, and read again.
 
 #include <cstddef>
 #include <cstdint>

@@ -1,5 +1,5 @@
-// Files of keys and signed addresses as strangers send them: a secret is never told, nothing is good that was not signed, and what was
-// signed is good, once, for what it was signed for.
+// Fuzzes key files and signed URLs: no message contains a secret, no unsigned target is valid, and
+// a signature is valid for exactly what was signed.
 
 #include <cstddef>
 #include <cstdint>
@@ -19,7 +19,7 @@ namespace {
 constexpr std::int64_t now = 1'900'000'000;
 constexpr std::string_view secret_hex = "00112233445566778899aabbccddeeff";
 
-/// Keys as a file has them, `text` among them.
+/// Reads a key file that contains `text`.
 void read_keys(std::string_view text) {
     std::string file("good ");
     file += secret_hex;
@@ -27,8 +27,9 @@ void read_keys(std::string_view text) {
     file += text;
     try {
         const Signatures keys = Signatures::from_text("keys", file);
-        expect(keys.check("GET", keys.signed_target("GET", "/", "", std::nullopt), "", now).is_valid,
-               "keys that are taken sign");
+        expect(
+            keys.check("GET", keys.signed_target("GET", "/", "", std::nullopt), "", now).is_valid,
+            "keys that are taken sign");
     } catch (const InvalidInput& errors) {
         expect(!errors.problems().empty(), "keys are refused with a reason");
         for (const Problem& problem : errors.problems())
@@ -44,13 +45,14 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view text(reinterpret_cast<const char*>(data), size);
     read_keys(text);
 
-    // The input as an address, with a body that begins at the first line's end.
+    // The input is a URL, with a body that begins after the first line.
     const auto end = text.find('\n');
     const std::string_view target = text.substr(0, end);
     const std::string_view body = end == text.npos ? std::string_view{} : text.substr(end + 1);
     for (const std::string_view method : {"GET", "HEAD", "POST", "PUT"}) {
         const SignatureCheck checked = signatures.check(method, target, body, now);
-        expect(!checked.is_valid && !checked.refusal.empty(), "nothing is good that was not signed");
+        expect(!checked.is_valid && !checked.refusal.empty(),
+               "nothing is good that was not signed");
         expect(checked.target == target, "what is not good is passed on as it came");
     }
     if (target.empty() || target.front() != '/' || target.find('#') != target.npos) return 0;
@@ -64,8 +66,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             expect(good.target == target, "and is what was signed");
             expect(!expires || !signatures.check(method, generated, body, now + 1).is_valid,
                    "until it ends");
-            expect(!signatures.check(method == "GET" ? "POST" : "GET", generated, body, now).is_valid,
-                   "by its own method");
+            expect(
+                !signatures.check(method == "GET" ? "POST" : "GET", generated, body, now).is_valid,
+                "by its own method");
             std::string other = generated;
             other[size % other.size()] = static_cast<char>(other[size % other.size()] ^ 1);
             expect(!signatures.check(method, other, body, now).is_valid, "and no other address is");

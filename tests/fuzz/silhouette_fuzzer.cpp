@@ -1,4 +1,4 @@
-// A silhouette of a stranger: whatever the control points, it is refused or becomes finite, simple curves.
+// Fuzzes control points of a silhouette: it is refused or becomes finite, simple curves.
 
 #include <array>
 #include <cmath>
@@ -16,7 +16,7 @@ using namespace sporeprint;
 
 namespace {
 
-/// Reads control points out of bytes: two 16-bit numbers a point, over the allowed range.
+/// Reads control points from bytes: two 16-bit numbers per point, over the allowed range.
 class Points {
   public:
     Points(const std::uint8_t* data, std::size_t size) : data_(data), left_(size) {}
@@ -54,7 +54,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     silhouette.hymenium = points.take(shape >> 5);
     silhouette.cap = points.take(32);
     if (shape & 16 && !silhouette.cap.empty() && !silhouette.stem.empty()) {
-        silhouette.stem.front().r = 0;  // so that most inputs come past the first checks
+        silhouette.stem.front().r = 0;  // so that most inputs pass the first checks
         silhouette.cap.back().r = 0;
         if (!silhouette.hymenium.empty()) silhouette.hymenium.front() = silhouette.stem.back();
         silhouette.cap.front() =
@@ -81,7 +81,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
             }
         }
     } catch (const InvalidInput&) {
-        // refused with a reason: a promise kept
+        // refused with a reason, as specified
     }
     return 0;
 }

@@ -1,4 +1,4 @@
-// Draws a mesh as a viewer far away would see it: what each pixel shows, without light.
+// A software rasterizer with orthographic projection and without lighting.
 #pragma once
 
 #include <cstdint>
@@ -11,25 +11,25 @@
 
 namespace sporeprint {
 
-/// From where, in degrees: round the axis, and up from the ground.
+/// A direction of view, degrees: azimuth round the axis, elevation above the ground.
 struct View {
     double azimuth = 0.0, elevation = 0.0;
 };
 
-/// A square of the plane that faces the viewer, through `middle`: `side` metres over `pixels` pixels.
+/// A square of the image plane through `middle`: `side` metres over `pixels` pixels.
 struct Canvas {
     glm::vec3 middle{0.0F};
     double side = 1.0;
     int pixels = 256;
 };
 
-/// What a pixel shows. Texture coordinates are those of its middle.
+/// A covered pixel, with the texture coordinates of its centre.
 struct Pixel {
     float depth = 0.0F;
     glm::vec2 place{0.0F};
 };
 
-/// Row by row from the top; empty where nothing is seen.
+/// A raster image, row by row from the top; uncovered pixels are empty.
 struct Drawing {
     int pixels = 0;
     std::vector<std::optional<Pixel>> seen;
@@ -40,17 +40,17 @@ struct Drawing {
     }
 };
 
-/// The part whose rectangle of the image atlas holds a place of it.
+/// Returns the part whose rectangle of the image atlas contains a texture coordinate.
 [[nodiscard]] Part part_at(const glm::vec2& place);
 
-/// Draws the triangles whose parts are in `parts`, by bit, nearest first.
+/// Draws the triangles of the parts in the bit set `parts` with a depth buffer.
 [[nodiscard]] Drawing drawn(const Mesh& mesh, const View& view, const Canvas& canvas,
                             std::uint32_t parts = (1U << part_count) - 1U);
 
-/// Pixels that one drawing covers and the other does not.
+/// Returns the number of pixels covered by exactly one of two drawings.
 [[nodiscard]] int symmetric_difference(const Drawing& a, const Drawing& b);
 
-/// Length of the border between what is covered and what is not, in pixels: by marching squares.
+/// Returns the length of the border of the covered area in pixels, by marching squares.
 [[nodiscard]] double outline_length(const Drawing& drawing);
 
 /// A colour in CIE L*a*b*, white point D65.
@@ -58,10 +58,10 @@ struct Lab {
     double l = 0.0, a = 0.0, b = 0.0;
 };
 
-/// Sums light and gives its mean as a colour.
+/// The mean of colours in linear light.
 class MeanColour {
   public:
-    /// Adds the texel of `images` at a place.
+    /// Adds the texel of `images` at a texture coordinate.
     void add(const RawImages& images, const glm::vec2& place);
     [[nodiscard]] int count() const { return count_; }
     [[nodiscard]] Lab mean() const;
@@ -71,7 +71,7 @@ class MeanColour {
     int count_ = 0;
 };
 
-/// CIE76 difference.
+/// Returns the CIE76 colour difference.
 [[nodiscard]] double difference(const Lab& a, const Lab& b);
 
 }  // namespace sporeprint

@@ -1,4 +1,5 @@
-// Random parameters inside their ranges, drawn from core's own streams: the same on every machine.
+// Random parameters inside their ranges, from the random streams of core: the same on every
+// machine.
 #pragma once
 
 #include <cmath>
@@ -9,7 +10,8 @@
 
 namespace sporeprint {
 
-/// Sets every number, enum, choice and boolean of `value` to a draw from its range; all else stays.
+/// Sets every number, enum, choice and boolean of `value` to a draw from its range; other members
+/// stay unchanged.
 template <class T>
 void draw(T& value, const Info& info, Random& random) {
     if constexpr (Described<T>) {
@@ -29,7 +31,7 @@ void draw(T& value, const Info& info, Random& random) {
     }
 }
 
-/// A T that its check() has nothing against, drawn as often as needed.
+/// Draws values of T until one passes check(), and returns it.
 template <class T>
 T drawn(Random& random) {
     for (;;) {

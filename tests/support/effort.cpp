@@ -5,9 +5,9 @@
 namespace sporeprint {
 namespace {
 
-/// RapidCheck reads its counts from the environment, when the first property runs: a hundred draws each, ten under sanitizers. Who
-/// sets RC_PARAMS knows better.
-[[maybe_unused]] const int told = setenv(
+/// Sets the draws per property, a hundred or ten under sanitizers, unless RC_PARAMS is set.
+/// RapidCheck reads that variable when the first property runs.
+[[maybe_unused]] const int result = setenv(
     "RC_PARAMS", ("max_success=" + std::to_string(effort(100, 10))).c_str(), /*overwrite=*/0);
 
 }  // namespace

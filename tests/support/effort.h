@@ -1,4 +1,5 @@
-// How much of a property is looked at: the one switch that random draws, steps of films and samples of pairs take their counts from.
+// The test effort: the one setting from which random draws, animation steps and samples of pairs
+// derive their counts.
 #pragma once
 
 #include <algorithm>
@@ -20,9 +21,10 @@ constexpr bool sanitized = false;
 constexpr bool sanitized = false;
 #endif
 
-/// How many of `full` draws, steps or cases a test looks at, at least `least` and never more than `most_useful`.
-/// All in a plain build. A twentieth under sanitizers: they look for faults of memory, which a few draws show, and each
-/// takes five to twenty times as long. The environment's SPOREPRINT_EFFORT multiplies either: 10 for a night, 0.1 for a hurry.
+/// Returns how many of `full` draws, steps or cases a test runs: at least `least`, at most
+/// `most_useful`. It is `full` in a plain build and a twentieth of it under sanitizers, which need
+/// few draws to find memory errors, while each draw takes five to twenty times as long. The
+/// variable SPOREPRINT_EFFORT multiplies both: 10 for a nightly run, 0.1 for a quick one.
 inline std::size_t effort(std::size_t full, std::size_t least = 1,
                           std::size_t most_useful = static_cast<std::size_t>(-1)) {
     const char* wanted = std::getenv("SPOREPRINT_EFFORT");

@@ -20,7 +20,7 @@ std::uint32_t word(const Bytes& file, std::size_t at) {
     return value;
 }
 
-/// The content of an accessor as T, component by component.
+/// Returns the content of an accessor as T, component by component.
 template <class T>
 std::vector<T> values(const tinygltf::Model& model, int index) {
     const auto& accessor = model.accessors.at(static_cast<std::size_t>(index));
@@ -134,7 +134,7 @@ ReadPrimitive read_primitive(const tinygltf::Model& model, const tinygltf::Primi
 }
 
 bool has_foreign_extensions(const tinygltf::Model& model) {
-    // Of the material alone, and none that a loader must know.
+    // Only extensions of the material, and none required.
     const std::vector<std::string> optional = {
         "KHR_materials_clearcoat", "KHR_materials_emissive_strength", "KHR_materials_sheen"};
     return !model.extensionsRequired.empty() ||
@@ -221,7 +221,7 @@ ReadBack expect_glb(const Bytes& file) {
     expect_layout(file);
     ReadBack found = read_back(file);
     EXPECT_TRUE(found.read) << found.trouble;
-    const bool linked = !found.uris.empty();  // those images are not there, which is told
+    const bool linked = !found.uris.empty();  // tinygltf reports that linked images are missing
     EXPECT_TRUE(linked || found.trouble.empty()) << found.trouble;
     if (found.mesh.positions.empty()) {
         ADD_FAILURE() << "no vertices";

@@ -1,4 +1,4 @@
-// Reads a GLB as a stranger would: with tinygltf, images decoded.
+// Reads GLB files by an independent library, tinygltf, with decoded images.
 #pragma once
 
 #include <array>
@@ -12,7 +12,7 @@
 
 namespace sporeprint {
 
-/// One morph target: what its whole weight adds.
+/// One morph target: displacements at weight 1.
 struct ReadTarget {
     std::string name;
     std::vector<glm::vec3> positions, normals;
@@ -26,7 +26,7 @@ struct ReadClip {
     float first = 0.0f, last = 0.0f;    ///< min and max of the times' accessor
 };
 
-/// What tinygltf makes of a GLB.
+/// A GLB of one mesh as read by tinygltf.
 struct ReadBack {
     bool read = false;
     std::string trouble;                  ///< tinygltf's errors and warnings
@@ -44,7 +44,7 @@ struct ReadBack {
     std::vector<ReadClip> clips;
 };
 
-/// A piece of a mesh in one material.
+/// A part of a mesh with one material.
 struct ReadPrimitive {
     Mesh mesh;
     Bounds stated;                        ///< min and max of its POSITION accessor
@@ -59,7 +59,7 @@ struct ReadMaterial {
     int wrap_s = 0;
 };
 
-/// Where EXT_mesh_gpu_instancing stands a mesh.
+/// An instance of EXT_mesh_gpu_instancing.
 struct ReadInstance {
     glm::vec3 translation{0.0f};
     glm::vec4 rotation{0.0f};
@@ -69,36 +69,37 @@ struct ReadInstance {
 struct ReadNode {
     std::string name;
     int mesh = -1;
-    std::vector<double> translation, rotation, scale;  ///< empty where nothing is said
+    std::vector<double> translation, rotation, scale;  ///< empty if absent
     std::vector<ReadInstance> instances;
 };
 
-/// A file of any number of meshes, as tinygltf reads it.
+/// A GLB of any number of meshes as read by tinygltf.
 struct ReadScene {
     std::vector<std::vector<ReadPrimitive>> meshes;
     std::vector<ReadMaterial> materials;
     std::vector<ReadNode> nodes;             ///< those of the scene, in its order
     std::vector<std::array<int, 2>> images;  ///< width and height of each; -1 of linked ones
     std::vector<std::string> uris;
-    std::vector<std::string> required;  ///< extensions that readers must know
+    std::vector<std::string> required;  ///< extensionsRequired
 };
 
-/// Reads a file of many meshes and expects what expect_glb() expects of one: layout, bounds, valid closed meshes, indices of
-/// materials and meshes in range, no extension but those of materials, and that of instances where nodes have some.
+/// Reads a file of many meshes and expects what expect_glb() does: layout, bounds, valid closed
+/// meshes, indices of materials and meshes in range, and no extensions except those of materials,
+/// and that of instances if nodes have any.
 ReadScene expect_scene(const Bytes& file);
 
-/// Reads `file`. What went wrong stands in `trouble`.
+/// Reads `file`; errors are in `trouble`.
 [[nodiscard]] ReadBack read_back(const Bytes& file);
 
-/// Reads `file` and expects it to be a whole, valid GLB in the layout of the glTF specification: header and
-/// chunk lengths, padding, aligned buffer views, bounds that are those of the vertices, indices in range, targets and
-/// clips that fit the mesh.
+/// Reads `file` and expects a complete, valid GLB in the layout of the glTF specification: header
+/// and chunk lengths, padding, aligned buffer views, bounds equal to those of the vertices, indices
+/// in range, morph targets and animations that fit the mesh.
 ReadBack expect_glb(const Bytes& file);
 
-/// The JSON of a GLB; null, and a failure, when it is none.
+/// Returns the JSON of a GLB; null, and a test failure, if it is not one.
 [[nodiscard]] Value json_chunk(const Bytes& file);
 
-/// The mesh as a viewer shows it with these weights, one for each target; normals are made unit.
+/// Returns the mesh with these weights, one per target, and normalised normals.
 [[nodiscard]] Mesh posed(const ReadBack& file, const std::vector<float>& weights);
 
 }  // namespace sporeprint

@@ -1,4 +1,4 @@
-// Paintings by every instruction set of this processor.
+// Comparison of paintings between all instruction sets of this processor.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -12,8 +12,8 @@
 
 namespace sporeprint {
 
-/// Expects that `make` paints the same bytes with every instruction set as one texel at a time. Leaves the choice to the processor
-/// again.
+/// Expects that `make` paints the same bytes with every instruction set as in scalar code. Restores
+/// the automatic choice of the instruction set.
 ///
 /// returns  the images
 inline RawImages expect_equal_with_every_instruction_set(const std::function<RawImages()>& make,

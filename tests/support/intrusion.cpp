@@ -44,7 +44,7 @@ double Solid::depth(const glm::dvec3& point) const {
         return 0.0;
     const auto column = static_cast<std::size_t>(cell_of(point.z, low.z, cell_z_) * cells +
                                                  cell_of(point.x, low.x, cell_x_));
-    // Crossings of the ray upwards, by the side that they are met from.
+    // Counts crossings of an upward ray, signed by the side of the triangle.
     int winding = 0;
     const auto corner = [&](std::uint32_t t, std::size_t k) {
         return glm::dvec3(mesh_.positions[mesh_.indices[3 * t + k]]);

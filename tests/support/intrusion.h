@@ -1,4 +1,4 @@
-// How deep one closed mesh reaches into another.
+// Penetration depth of one closed mesh in another.
 #pragma once
 
 #include <vector>
@@ -7,13 +7,14 @@
 
 namespace sporeprint {
 
-/// A closed mesh of any number of pieces that can be asked what lies in it.
+/// A closed mesh of any number of components with point-in-solid queries.
 class Solid {
   public:
-    /// What is referred to must outlive this.
+    /// pre  mesh outlives this object
     explicit Solid(const Mesh& mesh);
 
-    /// How far inside a point lies, metres: its distance to the surface; 0 outside. In by the number of times the surface winds round it.
+    /// Returns the depth of a point inside, metres: its distance to the surface; 0 outside. Inside
+    /// is determined by the winding number.
     [[nodiscard]] double depth(const glm::dvec3& point) const;
 
     [[nodiscard]] const Bounds& box() const { return box_; }
@@ -22,10 +23,10 @@ class Solid {
     const Mesh& mesh_;
     Bounds box_;
     double cell_x_ = 1.0, cell_z_ = 1.0;
-    std::vector<std::vector<std::uint32_t>> columns_;  // triangles by the cells of a grid across y
+    std::vector<std::vector<std::uint32_t>> columns_;  ///< triangles by cells of a grid in x and z
 };
 
-/// Vertices of a mesh, and the middles of its triangles and edges: what is asked of a surface.
+/// Returns the vertices of a mesh and the midpoints of its triangles and edges.
 [[nodiscard]] std::vector<glm::dvec3> samples_of(const Mesh& mesh);
 
 }  // namespace sporeprint

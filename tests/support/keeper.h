@@ -1,4 +1,4 @@
-// Workshops for tests: one that keeps images by their key, one that does all pieces of work at once.
+// Execution contexts for tests: one with an image cache, one that runs all tasks in parallel.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace sporeprint {
 
-/// A workshop that keeps images by their key.
+/// An execution context that caches images by their key and counts lookups.
 struct Keeper {
     std::map<std::string, std::shared_ptr<const ImageSet>> cached;
     int lookups = 0, made = 0;
@@ -24,25 +24,26 @@ struct Keeper {
     Keeper() {
         execution.caches.images = [this](const std::string& key, const auto& make) {
             ++lookups;
-            auto& place = cached[key];
-            if (!place) {
-                place = make();
+            auto& images = cached[key];
+            if (!images) {
+                images = make();
                 ++made;
             }
-            return place;
+            return images;
         };
     }
 };
 
+/// Returns true if a slice of the body shares memory with `slice`.
 inline bool shares_bytes(const Body& body, const Slice& slice) {
     return std::any_of(body.begin(), body.end(),
                        [&](const Slice& s) { return s.owner == slice.owner; });
 }
 
-/// A thread for every piece of work.
-inline void in_threads(std::span<const std::function<void()>> pieces) {
-    std::vector<std::jthread> hands;
-    for (const auto& piece : pieces) hands.emplace_back(piece);
+/// Runs each task on a thread of its own.
+inline void in_threads(std::span<const std::function<void()>> tasks) {
+    std::vector<std::jthread> threads;
+    for (const auto& task : tasks) threads.emplace_back(task);
 }
 
 }  // namespace sporeprint

@@ -1,4 +1,4 @@
-// What every geometry test ends with, and how tests look at a mesh.
+// Checks and comparisons of meshes.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -16,7 +16,7 @@
 
 namespace sporeprint {
 
-/// Whether two arrays have the same bits: -0 and 0 differ.
+/// Returns true if two arrays have the same bits; -0 and 0 differ.
 template <class T>
 bool same_bits(const std::vector<T>& a, const std::vector<T>& b) {
     return a.size() == b.size() &&
@@ -35,14 +35,16 @@ bool same_bits(const T& a, const T& b) {
     return std::memcmp(&a, &b, sizeof(T)) == 0;
 }
 
-/// The mesh cut into its connected pieces, by shared vertices or shared places, in order of first use; each has its own vertices alone.
-/// cost O(n)
+/// Returns the connected components of a mesh, by shared vertices or equal positions, in order of
+/// first use; each has its own vertices only.
+///
+/// cost  O(n)
 inline std::vector<Mesh> pieces(const Mesh& mesh) {
     constexpr auto unused = static_cast<std::uint32_t>(-1);
     const auto same_place = [](const glm::vec3& a, const glm::vec3& b) { return a == b; };
     const auto hash = [](const glm::vec3& p) {
         std::size_t sum = 0;
-        for (const float x : {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}) {  // -0 lies where 0 does
+        for (const float x : {p.x + 0.0f, p.y + 0.0f, p.z + 0.0f}) {  // -0 equals 0
             std::uint32_t bits = 0;
             std::memcpy(&bits, &x, sizeof bits);
             sum = (sum ^ bits) * 0x9e3779b97f4a7c15u;
@@ -85,17 +87,17 @@ inline std::vector<Mesh> pieces(const Mesh& mesh) {
     return found;
 }
 
-/// The contract of every mesh: nothing in defects(), and each closed piece faces outwards.
+/// Expects a valid mesh: no defects(), and all closed components face outwards.
 inline void expect_valid(const Mesh& mesh) {
     for (const std::string& defect : defects(mesh)) ADD_FAILURE() << defect;
     double smallest = 1.0;
     for (const Mesh& piece : pieces(mesh)) smallest = std::min(smallest, volume(piece));
-    // A wart at the very end of its life is a few micrometres across: its volume rounds to nothing.
-    EXPECT_GT(smallest, -1e-13) << "a piece is inside out";
+    // A vanishing wart is a few micrometres wide, and its volume rounds to 0.
+    EXPECT_GT(smallest, -1e-13) << "a component is inside out";
     EXPECT_GT(volume(mesh), 0.0);
 }
 
-/// Largest distance between corresponding corners of two boxes.
+/// Returns the largest distance between corresponding corners of two boxes.
 inline double distance(const Bounds& a, const Bounds& b) {
     return std::max(glm::distance(a.min, b.min), glm::distance(a.max, b.max));
 }

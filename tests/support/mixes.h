@@ -1,4 +1,4 @@
-// Mixes of species that are turned round an axis, drawn at random or picked evenly.
+// Mixes of swept species, drawn at random or selected evenly.
 #pragma once
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 
 namespace sporeprint {
 
-/// The species of a mix that have a weight.
+/// Returns the species of a mix with a positive weight.
 inline Mix present(Mix mix) {
     std::erase_if(mix, [](const MixPart& part) { return part.weight == 0; });
     return mix;
@@ -21,7 +21,7 @@ inline Mix present(Mix mix) {
 
 using SpeciesPair = std::pair<std::string, std::string>;
 
-/// Every pair of swept species of the atlas, by id.
+/// Returns every pair of swept species of the atlas, by id.
 inline std::vector<SpeciesPair> species_pairs() {
     const auto ids = swept_ids();
     std::vector<SpeciesPair> pairs;
@@ -30,7 +30,7 @@ inline std::vector<SpeciesPair> species_pairs() {
     return pairs;
 }
 
-/// Every pair of corals and antlers.
+/// Returns every pair of branched species.
 inline std::vector<SpeciesPair> branched_pairs() {
     const auto ids = branched_ids();
     std::vector<SpeciesPair> pairs;
@@ -39,9 +39,9 @@ inline std::vector<SpeciesPair> branched_pairs() {
     return pairs;
 }
 
-/// At least `most` pairs in which every species comes equally often, or all there are; `most` evenly spread ones if there are more
-/// species than that. The ids stand in a ring, and each is paired with
-/// those some steps on: next to it are its kin by name, and half the ring away are strangers.
+/// Returns at least `most` pairs in which every species occurs equally often, or all pairs; `most`
+/// evenly spread ones if there are more species than that. The sorted ids form a ring, and each is
+/// paired with those some steps on: species of the same genus are next to each other.
 inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
     const auto ids = swept_ids();
     const std::size_t n = ids.size(), all = n / 2, rounds = std::min((most + n - 1) / n, all);
@@ -58,7 +58,7 @@ inline std::vector<SpeciesPair> some_species_pairs(std::size_t most) {
     return few;
 }
 
-/// Two to eight different species, by id.
+/// Returns two to eight different species, by id.
 inline std::vector<std::string> random_species(Random& random) {
     auto ids = swept_ids();
     const std::size_t count =
@@ -70,7 +70,8 @@ inline std::vector<std::string> random_species(Random& random) {
     return ids;
 }
 
-/// Random weights of these species that sum to 1000; every other draw stays near a corner or an edge.
+/// Returns random weights of these species that sum to 1000; every other draw is near a corner or
+/// an edge of the simplex.
 inline Mix random_mix(const std::vector<std::string>& ids, Random& random) {
     const std::size_t count = ids.size();
     const bool extreme = random.bits() % 2 == 0;
@@ -94,7 +95,7 @@ inline Mix random_mix(const std::vector<std::string>& ids, Random& random) {
     return mix;
 }
 
-/// Two to eight different species with random weights.
+/// Returns two to eight different species with random weights.
 inline Mix random_mix(Random& random) {
     const auto ids = random_species(random);
     return random_mix(ids, random);

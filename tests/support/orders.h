@@ -1,4 +1,4 @@
-// Orders that tests send to core, and the species they are made from.
+// Requests to core for tests, and the species that they use.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@
 
 namespace sporeprint {
 
-/// The built-in atlas, read once.
+/// Returns the built-in atlas, read once.
 inline const Atlas& atlas() {
     static const auto built_in = built_in_atlas();
     return *built_in;
@@ -36,7 +36,7 @@ inline std::vector<std::string> species_ids() {
     return std::holds_alternative<Branched>(species.stages.front().model.shape);
 }
 
-/// The species that are turned round an axis, as an atlas of their own.
+/// Returns an atlas of the swept species only.
 inline const Atlas& swept_atlas() {
     static const Atlas swept = [] {
         std::vector<std::string> texts;
@@ -54,7 +54,7 @@ inline std::vector<std::string> swept_ids() {
     return ids;
 }
 
-/// Corals and antlers.
+/// Returns the ids of the branched species.
 inline std::vector<std::string> branched_ids() {
     std::vector<std::string> ids;
     for (const AtlasEntry& entry : atlas().entries())
@@ -62,7 +62,7 @@ inline std::vector<std::string> branched_ids() {
     return ids;
 }
 
-/// An order for one species, without images.
+/// Returns a request for one species, without images.
 inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint32_t seed = 1,
                              int lod = 0) {
     MushroomSpec order;
@@ -74,43 +74,43 @@ inline MushroomSpec order_of(const std::string& id, double age = 0.6, std::uint3
     return order;
 }
 
-/// The same order with texture coordinates and tangents, still without painting.
+/// Returns the same request with texture coordinates and tangents, still without images.
 inline MushroomSpec textured(MushroomSpec order) {
     order.params.textures = Textures::linked;
     return order;
 }
 
-/// The same order with a clip of its growth.
+/// Returns the same request with an animation of its growth.
 inline MushroomSpec growing(MushroomSpec order, int frames = 9) {
     order.params.animation = Animation::growth;
     order.params.frames = frames;
     return order;
 }
 
-/// The same order, painted small.
+/// Returns the same request with small images.
 inline MushroomSpec painted(MushroomSpec order, int side = 128) {
     order.params.textures = Textures::embedded;
     order.params.texture_size.value = side;
     return order;
 }
 
-/// Keeps every correspondence for the rest of the program.
+/// Returns a cache of correspondences that lives as long as the program.
 inline GetOrCompute<MorphSet> cached_morphs() {
-    struct Shelf {
+    struct Cache {
         std::mutex mutex;
         std::map<std::string, std::shared_ptr<const MorphSet>> sets;
     };
-    static const auto shelf = std::make_shared<Shelf>();
+    static const auto cache = std::make_shared<Cache>();
     return
         [](const std::string& key, const std::function<std::shared_ptr<const MorphSet>()>& make) {
-            const std::lock_guard lock(shelf->mutex);
-            auto& set = shelf->sets[key];
+            const std::lock_guard lock(cache->mutex);
+            auto& set = cache->sets[key];
             if (!set) set = make();
             return set;
         };
 }
 
-/// The individual of an order, its correspondence from cached_morphs().
+/// Returns the individual of a request, with its correspondence from cached_morphs().
 inline Individual resolved(const MushroomSpec& order) {
     return resolve(order, atlas(), cached_morphs());
 }
@@ -121,7 +121,7 @@ inline const Silhouette& silhouette_of(const Model& model) {
     return std::get<Swept>(model.shape).silhouette;
 }
 
-/// The outline that a species' author drew for the age nearest to 0.6.
+/// Returns the outline in the template of a species for the age nearest to 0.6.
 inline const Silhouette& mature_silhouette(const std::string& id) {
     const std::vector<Stage>& stages = atlas().find(id)->species.stages;
     const auto nearest =
@@ -131,7 +131,7 @@ inline const Silhouette& mature_silhouette(const std::string& id) {
     return silhouette_of(nearest->model);
 }
 
-/// The individual of a model of one's own.
+/// Returns the individual of a custom model.
 inline Individual individual_of(const Model& model, std::uint32_t seed = 1, int lod = 0) {
     MushroomSpec order;
     order.model = model;
@@ -140,14 +140,14 @@ inline Individual individual_of(const Model& model, std::uint32_t seed = 1, int 
     return resolve(order, Atlas({}));
 }
 
-/// An order for a mix, weights in thousandths, without images.
+/// Returns a request for a mix, weights in thousandths, without images.
 inline MushroomSpec mix_of(const Mix& mix, double age = 0.6, std::uint32_t seed = 1, int lod = 0) {
     MushroomSpec order = order_of("", age, seed, lod);
     order.mix = mix;
     return order;
 }
 
-/// The bytes of a body, one after another.
+/// Returns the concatenated bytes of a body.
 inline Bytes joined(const Body& body) {
     Bytes bytes;
     bytes.reserve(size_of(body));
@@ -156,7 +156,7 @@ inline Bytes joined(const Body& body) {
     return bytes;
 }
 
-/// Random parameters inside their ranges, for RapidCheck. Cross-field rules are kept.
+/// Returns random parameters inside their ranges, for RapidCheck, that obey the cross-field rules.
 inline MushroomParams arbitrary_params() {
     MushroomParams params;
     arbitrary(params, Info{.name = ""});

@@ -1,4 +1,4 @@
-// Paintings that tests look at.
+// Paintings for tests.
 #pragma once
 
 #include <cstddef>
@@ -11,7 +11,7 @@
 
 namespace sporeprint {
 
-/// A mushroom that wears everything at once, coarse enough to show on a small atlas.
+/// Returns parameters with every surface effect, coarse enough to be visible on small images.
 inline PaintParams motley(HymeniumPattern pattern, int side = 256) {
     PaintParams params;
     params.seed = 7;
@@ -65,7 +65,7 @@ struct Texel {
     int r, g, b;
 };
 
-/// A texel of one image.
+/// Returns a texel of one image.
 inline Texel texel(const RawImages& images, ImageKind kind, int x, int y) {
     const Bytes& rgb = images.rgb[static_cast<std::size_t>(kind)];
     const std::size_t at =
@@ -74,10 +74,10 @@ inline Texel texel(const RawImages& images, ImageKind kind, int x, int y) {
     return {rgb[at], rgb[at + 1], rgb[at + 2]};
 }
 
-/// Each piece on a thread of its own, the last first.
-inline void all_at_once(std::span<const std::function<void()>> pieces) {
+/// Runs each task on a thread of its own, the last one first.
+inline void all_at_once(std::span<const std::function<void()>> tasks) {
     std::vector<std::jthread> threads;
-    for (std::size_t i = pieces.size(); i > 0; --i) threads.emplace_back(pieces[i - 1]);
+    for (std::size_t i = tasks.size(); i > 0; --i) threads.emplace_back(tasks[i - 1]);
 }
 
 }  // namespace sporeprint

@@ -1,4 +1,4 @@
-// What core refuses, and whether it says why.
+// Helpers for problems that core reports.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 namespace sporeprint {
 
-/// The problems that `work` is refused with; none when it goes through.
+/// Returns the problems with which `work` is refused; empty if it succeeds.
 template <class Work>
 std::vector<Problem> refusal(const Work& work) {
     try {
@@ -21,7 +21,7 @@ std::vector<Problem> refusal(const Work& work) {
     return {};
 }
 
-/// Whether `problems` has one with this path, and words of its message.
+/// Succeeds if `problems` has one with this path and these words in its message.
 inline ::testing::AssertionResult names(const std::vector<Problem>& problems,
                                         const std::string& path, const std::string& words = "") {
     auto result = ::testing::AssertionFailure() << "no problem \"" << path << ": " << words << "\"";

@@ -47,7 +47,7 @@ std::array<glm::dvec3, 3> corners_of(const Mesh& mesh, std::size_t triangle) {
     return corners;
 }
 
-/// The triangles of a mesh by the cells of a grid that their boxes touch.
+/// The triangles of a mesh, indexed by the cells of a grid that their boxes touch.
 class TriangleGrid {
   public:
     explicit TriangleGrid(const Mesh& mesh) : mesh_(mesh) {
@@ -79,8 +79,8 @@ class TriangleGrid {
         }
     }
 
-    /// Squared distance from a point to the nearest triangle, or to one that is near enough already: at most `enough`.
-    /// Neighbouring points ask one after another, so the last answer is tried first.
+    /// Returns the squared distance from a point to the nearest triangle, or to any triangle within
+    /// `enough`. Consecutive points are neighbours, so the last result is tried first.
     [[nodiscard]] double squared_distance(const glm::dvec3& p, double enough) {
         double best = infinite;
         const auto try_one = [&](std::size_t t) {
@@ -94,7 +94,7 @@ class TriangleGrid {
         const auto home = cell_of(p);
         const int farthest = std::max({count_[0], count_[1], count_[2]});
         for (int reach = 0; reach <= farthest && best > enough; ++reach) {
-            // Everything in the shells before this one has been seen; what is left lies beyond their wall.
+            // All cells of the inner shells have been searched; the others lie beyond them.
             const double wall = wall_distance(p, home, reach - 1);
             if (best <= wall * wall) break;
             shell(home, reach, [&](const std::vector<std::size_t>& triangles) {
@@ -122,7 +122,8 @@ class TriangleGrid {
         return cells_[static_cast<std::size_t>((z * count_[1] + y) * count_[0] + x)];
     }
 
-    /// How far p is from the nearest cell outside the block of `reach` cells round `home`; 0 or less when it may be in one.
+    /// Returns the distance of p from the nearest cell outside the block of `reach` cells round
+    /// `home`; 0 or less if p may be in one.
     [[nodiscard]] double wall_distance(const glm::dvec3& p, const Cell& home, int reach) const {
         if (reach < 0) return 0.0;
         double nearest = infinite;
@@ -164,7 +165,7 @@ class TriangleGrid {
     std::size_t last_ = 0;
 };
 
-/// Diagonal of the box of the vertices that triangles use.
+/// Returns the diagonal of the box of all vertices used by triangles.
 double extent(const Mesh& mesh) {
     glm::dvec3 low(infinite), high(-infinite);
     for (const std::uint32_t i : mesh.indices) {
@@ -178,10 +179,11 @@ double one_way(const Mesh& from, const Mesh& to) {
     TriangleGrid grid(to);
     double worst = 0.0;
     const auto look = [&](const glm::dvec3& p) {
-        worst = std::max(worst, grid.squared_distance(p, worst));  // nearer ones cannot raise it
+        worst = std::max(worst,
+                         grid.squared_distance(p, worst));  // nearer ones do not change the maximum
     };
     std::vector<bool> seen(from.positions.size());
-    // A piece in the last step of its vanishing is a point beside the surface: nobody sees it.
+    // A part that has almost vanished is a point beside the surface and not visible.
     const double whole = extent(from), speck = 1e-10 * whole * whole;
     for (std::size_t t = 0; t < from.triangles(); ++t) {
         const auto [a, b, c] = corners_of(from, t);
@@ -192,7 +194,7 @@ double one_way(const Mesh& from, const Mesh& to) {
             seen[vertex] = true;
         }
         look((a + b + c) / 3.0);
-        // Each inner edge belongs to two triangles; one look is enough.
+        // Each inner edge belongs to two triangles and is sampled once.
         if (from.indices[3 * t] < from.indices[3 * t + 1]) look(0.5 * (a + b));
         if (from.indices[3 * t + 1] < from.indices[3 * t + 2]) look(0.5 * (b + c));
         if (from.indices[3 * t + 2] < from.indices[3 * t]) look(0.5 * (c + a));

@@ -1,28 +1,33 @@
-// How far one surface lies from another: what continuity and convergence are measured with.
+// Distances between surfaces, for tests of continuity and convergence.
 #pragma once
 
 #include "core/mesh/mesh.h"
 
 namespace sporeprint {
 
-/// Distance from a point to a triangle, metres; degenerate triangles are segments or points.
+/// Returns the distance from a point to a triangle, metres; degenerate triangles count as segments
+/// or points.
+///
 /// source [Ericson2005] sec. 5.1.5: the closest point by Voronoi regions
 [[nodiscard]] double distance_to_triangle(const glm::dvec3& point, const glm::dvec3& a,
                                           const glm::dvec3& b, const glm::dvec3& c);
 
-/// Hausdorff distance of two surfaces, metres: how far the vertices, edge middles and triangle centres of each lie from
-/// the triangles of the other, exact for these samples, the larger of the two ways.
+/// Returns the Hausdorff distance of two surfaces, metres: the greatest distance of the vertices,
+/// edge midpoints and triangle centres of either from the triangles of the other; exact for these
+/// samples.
 ///
-/// cost  O(n) for meshes of like resolution: triangles are found through a grid
+/// cost  O(n) for meshes of similar resolution, by a grid of triangles
 [[nodiscard]] double hausdorff(const Mesh& a, const Mesh& b);
 
-/// What the eye would see jump between two frames of one film, metres: the largest move of a vertex that both show, or the mean
-/// width (area over length) of a piece that only one of them shows: a ring is born thin, not short.
-/// Frames with different numbers of vertices: hausdorff().
+/// Returns the visible jump between two frames of an animation, metres: the largest move of a
+/// vertex shown in both, or the mean width (area over length) of a part shown in one only, as a
+/// ring appears thin, not short. For frames with different numbers of vertices it is hausdorff().
 [[nodiscard]] double jump(const Mesh& a, const Mesh& b);
 
-/// The triangles of `mesh` that `other` lacks (by their three indices), as a mesh of their own with all vertices.
-/// pre: as many vertices in both
+/// Returns the triangles of `mesh` that `other` lacks (by their three indices), as a mesh with all
+/// vertices.
+///
+/// pre  both have the same number of vertices
 [[nodiscard]] Mesh only_in(const Mesh& mesh, const Mesh& other);
 
 }  // namespace sporeprint
