@@ -1,5 +1,5 @@
-// cpp-httplib without its event loop: it binds the listening socket, parses request lines that
-// scan_head() has accepted, and formats the heads of responses.
+// The codec of heads: cpp-httplib without its event loop. It binds the listening socket, parses
+// request lines that scan_head() has accepted, and formats the heads of responses.
 #pragma once
 
 #include <functional>
