@@ -7,9 +7,11 @@
 
 #include "api/http/query.h"
 #include "api/products/colonies.h"
+#include "api/products/leaves.h"
 #include "api/products/morphs.h"
 #include "api/products/mushrooms.h"
 #include "api/products/presets.h"
+#include "api/products/trees.h"
 #include "core/atlas/atlas.h"
 #include "core/params/reader.h"
 #include "tests/fuzz/expect.h"
@@ -118,7 +120,7 @@ void read_as(std::string_view text) {
     const api::Target target = api::split_target(address, problems);
     const Order there = api::read_preset<Kind>(spec.preset, target.query, none).spec;
     expect(problems.empty() && none.empty() && key(there) == key(spec),
-           "it reads back from its address");
+           "it reads back from its URL");
 }
 
 }  // namespace
