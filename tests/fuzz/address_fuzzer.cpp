@@ -22,28 +22,27 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string target = '/' + std::string(reinterpret_cast<const char*>(data), size);
     const auto plan = ask("GET", target);
     if (const auto* response = std::get_if<api::Response>(&plan)) {
-        expect(response->status >= 200 && response->status < 500,
-               "no address is the server's fault");
+        expect(response->status >= 200 && response->status < 500, "no URL causes a server error");
         return 0;
     }
     const api::Key key = std::get<api::Job>(plan).key;
-    expect(!key.empty(), "work has a key");
+    expect(!key.empty(), "a job has a key");
 
     // HEAD gets a response without a job, with the canonical URL.
     const auto head = ask("HEAD", target);
     const auto* response = std::get_if<api::Response>(&head);
     if (response == nullptr) return 0;  // a document whose length is not yet known
-    expect(response->status == 200, "HEAD of what GET would make");
+    expect(response->status == 200, "HEAD of a resource that GET would generate");
     const std::string canonical(api::header_of(*response, "Content-Location"));
     if (canonical.empty()) return 0;
     const auto again = ask("GET", canonical);
     const auto* job = std::get_if<api::Job>(&again);
-    expect(job != nullptr && job->key == key, "the canonical address means the same");
+    expect(job != nullptr && job->key == key, "the canonical URL has the same key");
     const auto own = ask("HEAD", canonical);
     expect(api::header_of(std::get<api::Response>(own), "Content-Location") == canonical,
-           "and is its own canonical address");
+           "it is its own canonical form");
     expect(
         api::header_of(std::get<api::Response>(own), "ETag") == api::header_of(*response, "ETag"),
-        "with the same tag");
+        "with the same ETag");
     return 0;
 }

@@ -99,26 +99,24 @@ void read_as_colony(std::string_view text, const Atlas& atlas) {
 
 template <class Kind>
 void read_as(std::string_view text) {
-    using Order = typename Kind::Order;
+    using Spec = typename Kind::Spec;
     api::ValidationErrors errors;
-    const Order spec = api::read_preset<Kind>(text, errors).spec;
+    const Spec spec = api::read_preset<Kind>(text, errors).spec;
     if (!errors.empty()) return;
-    const auto key = [](const Order& one) {
-        return api::key_of<Kind>(one, api::Product::glb, "v");
-    };
+    const auto key = [](const Spec& one) { return api::key_of<Kind>(one, api::Product::glb, "v"); };
     Value own = write(spec.params);
     // Without rows there is no matrix.
     if (const Value* rows = own.find("rows"); rows && rows->items().empty()) own.erase("rows");
     own.set("preset", spec.preset);
     api::ValidationErrors none;
-    const Order again = api::read_preset<Kind>(dump(own), none).spec;
+    const Spec again = api::read_preset<Kind>(dump(own), none).spec;
     expect(none.empty() && key(again) == key(spec), "it reads back from its own text");
     // It also reads back from its URL, if it has one.
     const std::string address = api::canonical_address<Kind>(spec, api::Product::glb);
     if (address.empty()) return;
     std::vector<Problem> problems;
     const api::Target target = api::split_target(address, problems);
-    const Order there = api::read_preset<Kind>(spec.preset, target.query, none).spec;
+    const Spec there = api::read_preset<Kind>(spec.preset, target.query, none).spec;
     expect(problems.empty() && none.empty() && key(there) == key(spec),
            "it reads back from its URL");
 }

@@ -17,7 +17,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     for (int requests = 0; requests < 8; ++requests) {
         const Scan scan = scan_head(rest);
         if (scan.state == Scan::State::incomplete) {
-            expect(rest.size() <= longest_head, "what is longer than a head may be is refused");
+            expect(rest.size() <= longest_head, "a head beyond the limit is refused");
             return 0;
         }
         if (scan.state == Scan::State::refused) {

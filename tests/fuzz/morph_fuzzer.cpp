@@ -126,9 +126,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 between[k] = first[k] + (second[k] - first[k]) * i / 8.0;
             expect_simple(set, between, "no mix along the path crosses itself");
         }
-        expect(path.indirect >= 0.0 && path.indirect <= 1.0, "a detour is a share");
+        expect(path.indirect >= 0.0 && path.indirect <= 1.0,
+               "the share of the indirect path is in 0..1");
         const Certificate whole = set.certificate();
-        expect(whole.indirect >= 0.0 && whole.indirect <= 1.0, "a detour is a share");
+        expect(whole.indirect >= 0.0 && whole.indirect <= 1.0,
+               "the share of the indirect path is in 0..1");
         const std::vector<double> grown = set.growth_weights(arcs_age);
         expect(grown.size() == set.size(), "every shape has its growth");
         if (shapes.back().species_index == 1)

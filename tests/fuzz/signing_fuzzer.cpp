@@ -51,9 +51,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     const std::string_view body = end == text.npos ? std::string_view{} : text.substr(end + 1);
     for (const std::string_view method : {"GET", "HEAD", "POST", "PUT"}) {
         const SignatureCheck checked = signatures.check(method, target, body, now);
-        expect(!checked.is_valid && !checked.refusal.empty(),
-               "nothing is good that was not signed");
-        expect(checked.target == target, "what is not good is passed on as it came");
+        expect(!checked.is_valid && !checked.refusal.empty(), "no unsigned target is valid");
+        expect(checked.target == target, "an invalid target is returned unchanged");
     }
     if (target.empty() || target.front() != '/' || target.find('#') != target.npos) return 0;
 
@@ -62,8 +61,9 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
              {std::optional<std::int64_t>{}, std::optional(now + 1)}) {
             const std::string generated = signatures.signed_target(method, target, body, expires);
             const SignatureCheck good = signatures.check(method, generated, body, now);
-            expect(good.is_valid && good.expires == expires.has_value(), "what was signed is good");
-            expect(good.target == target, "and is what was signed");
+            expect(good.is_valid && good.expires == expires.has_value(),
+                   "a signed target is valid");
+            expect(good.target == target, "it is returned without its signature");
             expect(!expires || !signatures.check(method, generated, body, now + 1).is_valid,
                    "until it ends");
             expect(
@@ -71,7 +71,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
                 "by its own method");
             std::string other = generated;
             other[size % other.size()] = static_cast<char>(other[size % other.size()] ^ 1);
-            expect(!signatures.check(method, other, body, now).is_valid, "and no other address is");
+            expect(!signatures.check(method, other, body, now).is_valid,
+                   "no other target is valid");
             if (method == "POST")
                 expect(!signatures.check(method, generated, std::string(body) + 'x', now).is_valid,
                        "nor another body");
