@@ -350,9 +350,9 @@ bool Connection::respond_from_hot_table(const Head& head) {
 Connection::Step Connection::read_body() {
     std::string& body = request_.body;
     if (!in_.empty()) {
-        const std::size_t there = std::min(body_length_ - body.size(), in_.size());
-        body.append(in_, 0, there);
-        in_.erase(0, there);
+        const std::size_t available = std::min(body_length_ - body.size(), in_.size());
+        body.append(in_, 0, available);
+        in_.erase(0, available);
     }
     count_body();
     if (body.size() >= body_length_) return dispatch();

@@ -29,7 +29,7 @@ void Deadlines::set(Timed& one, Clock::time_point deadline) {
     link(one);
 }
 
-void Deadlines::expire(Clock::time_point now, const std::function<void(Timed&)>& late) {
+void Deadlines::expire(Clock::time_point now, const std::function<void(Timed&)>& on_expired) {
     // Rounded down: a tick has passed when all its deadlines have.
     const std::int64_t reached = now <= start_ ? 0 : (now - start_) / tick;
     if (reached < next_) return;
@@ -55,7 +55,7 @@ void Deadlines::expire(Clock::time_point now, const std::function<void(Timed&)>&
     while (expired_.next_ != &expired_) {
         Timed& one = *expired_.next_;
         one.unlink();
-        late(one);
+        on_expired(one);
     }
 }
 

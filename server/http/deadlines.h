@@ -47,8 +47,8 @@ class Timed {
 /// The timing wheel. Used on one thread.
 class Deadlines {
   public:
-    static constexpr std::chrono::milliseconds tick{
-        16};  ///< resolution: a deadline expires at most this late
+    /// resolution: a deadline expires at most this late
+    static constexpr std::chrono::milliseconds tick{16};
 
     explicit Deadlines(Clock::time_point now);
     Deadlines(const Deadlines&) = delete;
@@ -59,16 +59,16 @@ class Deadlines {
     /// cost  O(1); a few instructions if the deadline is postponed
     void set(Timed& one, Clock::time_point deadline);
 
-    /// Calls `late` for each object whose deadline has passed, after removing it from the wheel.
-    /// `late` may set deadlines and destroy objects.
-    void expire(Clock::time_point now, const std::function<void(Timed&)>& late);
+    /// Calls `on_expired` for each object whose deadline has passed, after removing it from the
+    /// wheel. `on_expired` may set deadlines and destroy objects.
+    void expire(Clock::time_point now, const std::function<void(Timed&)>& on_expired);
 
     /// Returns the earliest time at which expire() may have work; max() if there are no deadlines.
     [[nodiscard]] Clock::time_point next() const;
 
   private:
-    static constexpr std::int64_t wheel_size =
-        1024;  ///< ticks; later deadlines are visited every 16 s
+    /// ticks; later deadlines are visited every 16 s
+    static constexpr std::int64_t wheel_size = 1024;
     static constexpr std::int64_t never = INT64_MAX;
 
     [[nodiscard]] std::int64_t tick_of(Clock::time_point time) const;

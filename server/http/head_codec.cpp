@@ -133,14 +133,14 @@ class HttpHeadCodec::Server final : public httplib::Server {
     void bind(const std::string& host, int port, int backlog) {
         errno = 0;
         const bool bound = port == 0 ? bind_to_any_port(host) > 0 : bind_to_port(host, port);
-        const int why = errno;
+        const int code = errno;
         if (!bound) {
             std::string text =
                 "Cannot listen on port " + std::to_string(port) + " of " + host + ": ";
-            text += why == EADDRINUSE
+            text += code == EADDRINUSE
                         ? "it is in use. Stop the server that runs there, or choose another --port"
-                    : why == EACCES || why == EADDRNOTAVAIL || why == EMFILE
-                        ? std::strerror(why)
+                    : code == EACCES || code == EADDRNOTAVAIL || code == EMFILE
+                        ? std::strerror(code)
                         : "this host name or address is not known here";
             throw std::runtime_error(text);
         }

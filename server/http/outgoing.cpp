@@ -9,8 +9,8 @@
 
 namespace sporeprint::server {
 
-void Outgoing::begin(std::shared_ptr<const void> keeper) {
-    keeper_ = std::move(keeper);
+void Outgoing::begin(std::shared_ptr<const void> owner) {
+    owner_ = std::move(owner);
     parts_.clear();
     held_.clear();
     first_ = 0;
@@ -33,7 +33,7 @@ void Outgoing::add(const Body& body) {
 
 void Outgoing::add_file(int descriptor, std::size_t size) {
     file_ = descriptor;
-    held_.push_back({keeper_.get(), size});
+    held_.push_back({owner_.get(), size});
     file_sent_ = 0;
     file_size_ = static_cast<off_t>(size);
     total_ += size;
@@ -76,7 +76,7 @@ Outgoing::Progress Outgoing::send(int socket) {
 }
 
 void Outgoing::end() {
-    keeper_.reset();
+    owner_.reset();
     file_ = -1;
     parts_.clear();
     held_.clear();

@@ -24,7 +24,7 @@ class Outgoing {
     enum class Progress { done, more, blocked, failed };
 
     /// Clears the queue. Memory and files added later must live as long as `keeper`.
-    void begin(std::shared_ptr<const void> keeper);
+    void begin(std::shared_ptr<const void> owner);
 
     void add(const void* data, std::size_t size);
     void add(const Body& body);
@@ -45,7 +45,7 @@ class Outgoing {
     [[nodiscard]] std::uint64_t total() const { return total_; }  ///< bytes added
 
   private:
-    std::shared_ptr<const void> keeper_;
+    std::shared_ptr<const void> owner_;
     std::vector<iovec> parts_;
     std::vector<HeldBuffer> held_;
     std::size_t first_ = 0;

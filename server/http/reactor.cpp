@@ -40,9 +40,9 @@ Reactor::Reactor(const TransportOptions& options, const Handlers& handlers, Http
     mail.events = EPOLLIN;
     mail.data.ptr = &mailbox_;
     if (epoll_ < 0 || epoll_ctl(epoll_, EPOLL_CTL_ADD, mailbox_.descriptor(), &mail) != 0) {
-        const int why = errno;
+        const int code = errno;
         if (epoll_ >= 0) ::close(epoll_);
-        throw std::runtime_error(std::string("Cannot make an epoll: ") + std::strerror(why));
+        throw std::runtime_error(std::string("Cannot make an epoll: ") + std::strerror(code));
     }
     spare_descriptor_ = open_spare_descriptor();
     for (const auto& [target, response] : handlers.pinned_responses) {
@@ -78,9 +78,9 @@ Transport::Load Reactor::load() const {
     load.refused = refused_;
     load.limited = limited_;
     load.pinned = pinned_;
-    load.given_up = given_up_;
+    load.aborted_responses = aborted_responses_;
     load.body_bytes = body_bytes_;
-    load.uploads_given_up = uploads_given_up_;
+    load.aborted_uploads = aborted_uploads_;
     const HotTable::Stats& hot = state_.hot.stats();
     load.hot_hits = hot.hits;
     load.hot_not_modified = hot.not_modified;
@@ -107,7 +107,7 @@ void Reactor::invoke(Connection& connection, Call&& call) {
 void Reactor::run() {
     std::array<epoll_event, 256> events;
     std::vector<Connection*> unfinished_transfers;
-    const std::function<void(Timed&)> late = [this](Timed& timed) {
+    const std::function<void(Timed&)> on_expired = [this](Timed& timed) {
         invoke(static_cast<Connection&>(timed),
                [](Connection& one) { return one.handle_deadline(); });
     };
@@ -139,7 +139,7 @@ void Reactor::run() {
             }
             if (shared_.draining && !draining_) begin_to_drain();
         }
-        state_.deadlines.expire(state_.now, late);
+        state_.deadlines.expire(state_.now, on_expired);
         continue_transfers(unfinished_transfers);
         if (state_.now >= accepting_again_) watch_listener(true);
         if (state_.now >= shutdown_grace_end_) stop_listening();
@@ -275,7 +275,7 @@ void Reactor::limit_response_memory() {
             least = *rate;
         }
         if (count < 2) break;
-        ++given_up_;
+        ++aborted_responses_;
         invoke(*slowest, [](Connection& one) { return one.abort_response(); });
     }
     pinned_.store(state_.in_flight_buffers.bytes(), std::memory_order_relaxed);
@@ -330,7 +330,7 @@ bool Reactor::abort_one_upload(const Address* of_client, std::string_view detail
     const auto slowest = std::min_element(
         candidates.begin(), candidates.end(),
         [](const Candidate& a, const Candidate& b) { return a.upload.rate < b.upload.rate; });
-    ++uploads_given_up_;
+    ++aborted_uploads_;
     invoke(*slowest->connection, [&](Connection& one) { return one.abort_upload(detail); });
     return true;
 }

@@ -73,7 +73,7 @@ class Reactor {
     std::vector<Connection*> ended_;
     std::map<Address, std::size_t> connections_per_client_;  ///< used if they are limited
     std::size_t limited_now_ = 0;
-    std::atomic<std::uint64_t> refused_{0}, limited_{0}, given_up_{0}, uploads_given_up_{0};
+    std::atomic<std::uint64_t> refused_{0}, limited_{0}, aborted_responses_{0}, aborted_uploads_{0};
     std::atomic<std::size_t> pinned_{0}, body_bytes_{0};
 };
 

@@ -81,7 +81,7 @@ class PendingRequest {
     [[nodiscard]] virtual const Address& client() const = 0;
 
     /// Returns true if the client has disconnected.
-    [[nodiscard]] virtual bool is_gone() const = 0;
+    [[nodiscard]] virtual bool is_disconnected() const = 0;
 
     /// Sends the response; with status client_left nothing is sent. Later calls have no effect.
     virtual void reply(api::Response response) = 0;
@@ -137,10 +137,10 @@ class Transport {
         std::uint64_t hot_hits = 0, hot_not_modified = 0,
                       hot_evictions = 0;  ///< of the hot-response table
         std::size_t hot_bytes = 0, hot_entries = 0;
-        std::size_t pinned = 0;              ///< bytes of responses in flight to slow clients
-        std::uint64_t given_up = 0;          ///< responses aborted to free memory
-        std::size_t body_bytes = 0;          ///< of request bodies in memory
-        std::uint64_t uploads_given_up = 0;  ///< request bodies aborted to free memory
+        std::size_t pinned = 0;               ///< bytes of responses in flight to slow clients
+        std::uint64_t aborted_responses = 0;  ///< responses aborted to free memory
+        std::size_t body_bytes = 0;           ///< of request bodies in memory
+        std::uint64_t aborted_uploads = 0;    ///< request bodies aborted to free memory
 
         /// Returns the number of open connections.
         [[nodiscard]] std::size_t open() const {

@@ -87,7 +87,7 @@ void WorkerRequest::start() {
 }
 
 void WorkerRequest::cancel(CancelReason reason) {
-    if (reason == CancelReason::disconnected) is_gone_ = true;
+    if (reason == CancelReason::disconnected) is_disconnected_ = true;
     std::function<void(CancelReason)> on_cancel;
     {
         const std::lock_guard lock(mutex_);

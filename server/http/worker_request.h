@@ -44,9 +44,8 @@ class Mailbox {
     /// Removes and returns all replies, and clears the wake-up signal.
     [[nodiscard]] std::vector<Reply> take();
 
-    [[nodiscard]] int descriptor() const {
-        return descriptor_;
-    }  ///< readable while there are replies
+    /// Returns a descriptor that is readable while there are replies.
+    [[nodiscard]] int descriptor() const { return descriptor_; }
 
   private:
     int descriptor_;
@@ -96,7 +95,7 @@ class WorkerRequest final : public PendingRequest,
 
     [[nodiscard]] const api::Request& request() const override { return request_; }
     [[nodiscard]] const Address& client() const override { return client_; }
-    [[nodiscard]] bool is_gone() const override { return is_gone_; }
+    [[nodiscard]] bool is_disconnected() const override { return is_disconnected_; }
     void reply(api::Response response) override;
     void resume(std::function<void()> task) override;
     void wait(std::function<void(CancelReason)> on_cancel) override;
@@ -111,11 +110,11 @@ class WorkerRequest final : public PendingRequest,
     bool closing_;
     std::uint64_t epoch_ = 0;  ///< of its start
     std::string label_;
-    std::atomic<bool> is_gone_{false}, responded_{false};
+    std::atomic<bool> is_disconnected_{false}, responded_{false};
     std::mutex mutex_;
     std::optional<CancelReason> cancelled_;
-    std::function<void(CancelReason)>
-        on_cancel_;  ///< may own this request, so it is released with the response
+    /// may own this request, so it is released with the response
+    std::function<void(CancelReason)> on_cancel_;
 };
 
 }  // namespace sporeprint::server

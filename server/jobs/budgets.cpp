@@ -32,8 +32,8 @@ Budgets::Bucket Budgets::bucket_of(const Address& client, std::int64_t now) cons
     return bucket;
 }
 
-void Budgets::take(const Address& client, Bucket bucket, std::int64_t wanted) {
-    bucket.level -= wanted;
+void Budgets::take(const Address& client, Bucket bucket, std::int64_t amount) {
+    bucket.level -= amount;
     auto found = buckets_.find(client);
     if (found == buckets_.end()) {
         if (buckets_.size() >= most_clients_) evict_one();
@@ -46,13 +46,13 @@ void Budgets::take(const Address& client, Bucket bucket, std::int64_t wanted) {
 }
 
 std::chrono::microseconds Budgets::spend(const Address& client, std::uint64_t work, Time time) {
-    const std::int64_t wanted = in_millionths(work);
+    const std::int64_t amount = in_millionths(work);
     const std::lock_guard lock(mutex_);
     const Bucket bucket = bucket_of(client, advance(time));
-    const std::int64_t enough = std::min(wanted, capacity_);
+    const std::int64_t enough = std::min(amount, capacity_);
     if (bucket.level < enough)
         return std::chrono::microseconds(ceil_div(enough - bucket.level, rate_));
-    if (wanted > 0) take(client, bucket, wanted);
+    if (amount > 0) take(client, bucket, amount);
     return {};
 }
 

@@ -71,7 +71,7 @@ class Budgets {
 
     std::int64_t advance(Time now);
     [[nodiscard]] Bucket bucket_of(const Address& client, std::int64_t now) const;
-    void take(const Address& client, Bucket bucket, std::int64_t wanted);
+    void take(const Address& client, Bucket bucket, std::int64_t amount);
     void fill(Bucket& bucket, std::int64_t now) const;
     void index(Buckets::iterator bucket);
     void evict_one();

@@ -24,10 +24,10 @@ struct Socket {
 
 }  // namespace
 
-bool is_healthy(const std::string& url, std::string& why) {
+bool is_healthy(const std::string& url, std::string& reason) {
     constexpr std::string_view scheme = "http://";
     if (!url.starts_with(scheme)) {
-        why = "the address does not begin with http://";
+        reason = "the address does not begin with http://";
         return false;
     }
     const std::string rest = url.substr(scheme.size());
@@ -44,13 +44,13 @@ bool is_healthy(const std::string& url, std::string& why) {
     hints.ai_socktype = SOCK_STREAM;
     addrinfo* found = nullptr;
     if (const int error = getaddrinfo(host.c_str(), port.c_str(), &hints, &found); error != 0) {
-        why = gai_strerror(error);
+        reason = gai_strerror(error);
         return false;
     }
     const std::unique_ptr<addrinfo, decltype(&freeaddrinfo)> addresses(found, freeaddrinfo);
     const std::string request =
         "GET " + path + " HTTP/1.1\r\nHost: " + authority + "\r\nConnection: close\r\n\r\n";
-    why = "no address";
+    reason = "no address";
     for (const addrinfo* address = found; address; address = address->ai_next) {
         const Socket socket{::socket(address->ai_family, SOCK_STREAM | SOCK_CLOEXEC, 0)};
         const timeval timeout{2, 0};
@@ -60,7 +60,7 @@ bool is_healthy(const std::string& url, std::string& why) {
         std::size_t received = 0;
         if (::connect(socket.number, address->ai_addr, address->ai_addrlen) != 0 ||
             ::send(socket.number, request.data(), request.size(), MSG_NOSIGNAL) < 0) {
-            why = std::strerror(errno);
+            reason = std::strerror(errno);
             continue;
         }
         while (received < 12) {
@@ -72,7 +72,7 @@ bool is_healthy(const std::string& url, std::string& why) {
         const std::string_view line(response.data(), received);
         if (line.size() == 12 && line.starts_with("HTTP/1.") && line.substr(8) == " 200")
             return true;
-        why = line.empty() ? "no answer in time" : "the answer was " + std::string(line);
+        reason = line.empty() ? "no answer in time" : "the answer was " + std::string(line);
         return false;
     }
     return false;

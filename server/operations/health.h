@@ -7,8 +7,8 @@ namespace sporeprint::server {
 
 /// Requests an http:// URL and checks the status.
 ///
-/// why      set to a message for the operator if the result is false
+/// reason      set to a message for the operator if the result is false
 /// returns  true if the status is 200; connecting, sending and receiving may take two seconds each
-[[nodiscard]] bool is_healthy(const std::string& url, std::string& why);
+[[nodiscard]] bool is_healthy(const std::string& url, std::string& reason);
 
 }  // namespace sporeprint::server

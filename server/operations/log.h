@@ -54,8 +54,8 @@ class Log {
     void enqueue(std::string_view line);
     void write();
 
-    std::unique_ptr<spdlog::logger>
-        logger_;  ///< has the least level; used for writing by writer_ only
+    /// has the least level; used for writing by writer_ only
+    std::unique_ptr<spdlog::logger> logger_;
     std::mutex mutex_;
     std::condition_variable wake_;
     std::deque<std::string> waiting_;  ///< blocks of lines, oldest first

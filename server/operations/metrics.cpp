@@ -225,12 +225,12 @@ std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) c
     now.family("sporeprint_pinned_bytes", "Bytes of answers that wait for slow clients", gauge)
         .count(gauges.connections.pinned);
     now.family("sporeprint_given_up_total", "Answers not waited for, to spare memory", counter)
-        .count(gauges.connections.given_up);
+        .count(gauges.connections.aborted_responses);
     now.family("sporeprint_body_bytes", "Bytes of request bodies that have arrived", gauge)
         .count(gauges.connections.body_bytes);
     now.family("sporeprint_uploads_given_up_total", "Bodies refused midway, to spare memory",
                counter)
-        .count(gauges.connections.uploads_given_up);
+        .count(gauges.connections.aborted_uploads);
     now.family("sporeprint_clients", "Clients whose budgets are remembered", gauge)
         .count(gauges.clients);
     now.family("sporeprint_ready", "Whether /readyz says so", gauge).count(gauges.ready ? 1u : 0u);

@@ -172,12 +172,12 @@ TEST_F(Hostile, HalfClosedClientsGetCachedResponsesButNoWork) {
 
     most_growth = 256 * megabyte;  // begun jobs complete
     const long left = metric("sporeprint_queue_rejected_total");
-    Clients is_gone;
+    Clients is_disconnected;
     for (int i = 0; i < 16; ++i) {
-        is_gone.push_back(std::make_unique<RawClient>(port()));
-        is_gone.back()->send(get("/v1/mushrooms/boletus_edulis.glb?texture_size=2048&seed=" +
-                                 std::to_string(7000 + i)));
-        is_gone.back()->finish();
+        is_disconnected.push_back(std::make_unique<RawClient>(port()));
+        is_disconnected.back()->send(get(
+            "/v1/mushrooms/boletus_edulis.glb?texture_size=2048&seed=" + std::to_string(7000 + i)));
+        is_disconnected.back()->finish();
     }
     for (int i = 0; i < 2000 && metric("sporeprint_queue_rejected_total") == left; ++i)
         std::this_thread::sleep_for(10ms);

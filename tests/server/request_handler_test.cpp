@@ -33,7 +33,7 @@ class TestRequest final : public PendingRequest {
 
     const api::Request& request() const override { return request_; }
     const Address& client() const override { return client_; }
-    bool is_gone() const override { return false; }
+    bool is_disconnected() const override { return false; }
     void reply(api::Response response) override {
         const std::lock_guard lock(mutex_);
         if (!response_) response_ = std::move(response);

@@ -30,15 +30,17 @@ api::Response text_response(const std::string& text, int status = 200) {
     return response;
 }
 
-using IsGone = std::function<bool()>;
+using IsDisconnected = std::function<bool()>;
 
 /// A transport on a free port whose responses the test supplies.
 struct Fixture {
-    explicit Fixture(std::function<api::Response(const api::Request&, const IsGone&)> response,
-                     TransportOptions options = without_timeouts())
+    explicit Fixture(
+        std::function<api::Response(const api::Request&, const IsDisconnected&)> response,
+        TransportOptions options = without_timeouts())
         : Fixture(
               [response = std::move(response)](const std::shared_ptr<PendingRequest>& pending) {
-                  pending->reply(response(pending->request(), [&] { return pending->is_gone(); }));
+                  pending->reply(
+                      response(pending->request(), [&] { return pending->is_disconnected(); }));
               },
               options) {}
 
@@ -100,7 +102,7 @@ struct Fixture {
     std::optional<Transport> transport;
 };
 
-api::Response echo(const api::Request& request, const IsGone&) {
+api::Response echo(const api::Request& request, const IsDisconnected&) {
     std::string text = request.method + ' ' + request.target + '\n';
     for (const auto& [name, value] : request.headers) text += name + '=' + value + '\n';
     return text_response(text + '[' + request.body + ']');
@@ -144,7 +146,7 @@ TEST(Transport, SendsAllSlices) {
     std::string large(3 << 20, 'x');
     for (std::size_t i = 0; i < large.size(); ++i) large[i] = static_cast<char>(i * 31 >> 3);
     const Slice whole = slice_of(large);
-    Fixture server([&](const api::Request&, const IsGone&) {
+    Fixture server([&](const api::Request&, const IsDisconnected&) {
         api::Response response = text_response("head,");
         response.body.push_back(whole);
         response.body.push_back(Slice());
@@ -157,7 +159,7 @@ TEST(Transport, SendsAllSlices) {
 }
 
 TEST(Transport, SendsHeadWithLengthButWithoutBody) {
-    Fixture server([](const api::Request& request, const IsGone&) {
+    Fixture server([](const api::Request& request, const IsDisconnected&) {
         api::Response response = text_response("12345");
         response.has_body = request.target == "/known";
         return response;
@@ -175,7 +177,7 @@ TEST(Transport, SendsHeadWithLengthButWithoutBody) {
 }
 
 TEST(Transport, SendsNotModifiedWithoutLengthOrBody) {
-    Fixture server([](const api::Request&, const IsGone&) {
+    Fixture server([](const api::Request&, const IsDisconnected&) {
         api::Response response;
         response.status = 304;
         response.headers = {{"ETag", "\"a\""}};
@@ -193,7 +195,7 @@ TEST(Transport, SendsNotModifiedWithoutLengthOrBody) {
 }
 
 TEST(Transport, SendsNoDuplicateOrMalformedHeaders) {
-    Fixture server([](const api::Request&, const IsGone&) {
+    Fixture server([](const api::Request&, const IsDisconnected&) {
         api::Response response = text_response("x");
         response.headers.insert(response.headers.end(), {{"content-length", "99"},
                                                          {"Date", "never"},
@@ -217,7 +219,8 @@ TEST(Transport, SendsNoDuplicateOrMalformedHeaders) {
 }
 
 TEST(Transport, IgnoresRanges) {
-    Fixture server([](const api::Request&, const IsGone&) { return text_response("0123456789"); });
+    Fixture server(
+        [](const api::Request&, const IsDisconnected&) { return text_response("0123456789"); });
     RawClient client(server.port());
     std::string many = "0-0";
     for (int i = 0; i < 3000; ++i) many += ",0-";
@@ -232,7 +235,7 @@ TEST(Transport, IgnoresRanges) {
 
 TEST(Transport, NeverCompressesByItself) {
     const std::string text(100'000, 'a');
-    Fixture server([&](const api::Request&, const IsGone&) { return text_response(text); });
+    Fixture server([&](const api::Request&, const IsDisconnected&) { return text_response(text); });
     RawClient client(server.port());
     const auto response = client.ask("GET / HTTP/1.1\r\nAccept-Encoding: br, gzip\r\n\r\n");
     EXPECT_EQ(response.count("Content-Encoding"), 0u);
@@ -409,7 +412,7 @@ TEST(Transport, CountsReceivedBytesOfBodiesNotAnnouncedOnes) {
     expect_body_bytes(server, 7000);
     slow.clear();
     expect_body_bytes(server, 0);
-    EXPECT_EQ(server.transport->load().uploads_given_up, 0u);
+    EXPECT_EQ(server.transport->load().aborted_uploads, 0u);
 }
 
 TEST(Transport, AbortsTheSlowestOfTheLargestUploadsWhenMemoryIsFull) {
@@ -432,7 +435,7 @@ TEST(Transport, AbortsTheSlowestOfTheLargestUploadsWhenMemoryIsFull) {
     EXPECT_EQ(refusal.status, 503);
     EXPECT_EQ(refusal.header("Connection"), "close");
     expect_body_bytes(server, part + 1);
-    EXPECT_EQ(server.transport->load().uploads_given_up, 1u);
+    EXPECT_EQ(server.transport->load().aborted_uploads, 1u);
     quicker.send(std::string(2 * megabyte - part, 'b'));
     EXPECT_EQ(length_of_body(quicker.receive()), 2 * megabyte);
     small.send(std::string(999, 'a'));
@@ -457,7 +460,7 @@ TEST(Transport, LimitsTheBodyMemoryOfEachClient) {
     expect_body_bytes(server, part);
     second.send(std::string(megabyte - part, 'b'));
     EXPECT_EQ(length_of_body(second.receive()), megabyte);
-    EXPECT_EQ(server.transport->load().uploads_given_up, 1u);
+    EXPECT_EQ(server.transport->load().aborted_uploads, 1u);
 
     // Clients behind a trusted proxy have a limit each; the proxy itself has none.
     const std::vector<std::string> behind = {"X-Forwarded-For: 192.0.2.1\r\n",
@@ -479,7 +482,7 @@ TEST(Transport, LimitsTheBodyMemoryOfEachClient) {
         if (one) {
             EXPECT_EQ(length_of_body(one->receive()), megabyte);
         }
-    EXPECT_EQ(server.transport->load().uploads_given_up, 2u);
+    EXPECT_EQ(server.transport->load().aborted_uploads, 2u);
     same.close();
     expect_body_bytes(server, 0);
 }
@@ -533,7 +536,7 @@ TEST(Transport, ClosesSilentAndDrippingConnections) {
 TEST(Transport, ClosesConnectionsWhoseClientDoesNotRead) {
     const Slice large = slice_of(std::string(64 << 20, 'z'));
     Fixture server(
-        [&](const api::Request&, const IsGone&) {
+        [&](const api::Request&, const IsDisconnected&) {
             api::Response response = text_response("");
             response.body = {large};
             return response;
@@ -583,11 +586,11 @@ TEST(Transport, SurvivesHandlersThatThrow) {
 TEST(Transport, ReportsToHandlersThatTheClientHasDisconnected) {
     std::binary_semaphore begun(0);
     std::atomic<bool> noticed{false};
-    Fixture server([&](const api::Request&, const IsGone& is_gone) {
-        EXPECT_FALSE(is_gone());
+    Fixture server([&](const api::Request&, const IsDisconnected& is_disconnected) {
+        EXPECT_FALSE(is_disconnected());
         begun.release();
-        for (int i = 0; i < 2000 && !is_gone(); ++i) std::this_thread::sleep_for(5ms);
-        noticed = is_gone();
+        for (int i = 0; i < 2000 && !is_disconnected(); ++i) std::this_thread::sleep_for(5ms);
+        noticed = is_disconnected();
         return text_response("", client_left);
     });
     {
@@ -602,8 +605,9 @@ TEST(Transport, ReportsToHandlersThatTheClientHasDisconnected) {
 }
 
 TEST(Transport, AcceptsValidRequestIds) {
-    Fixture server(
-        [](const api::Request& request, const IsGone&) { return text_response(request.id); });
+    Fixture server([](const api::Request& request, const IsDisconnected&) {
+        return text_response(request.id);
+    });
     RawClient client(server.port());
     EXPECT_EQ(client.ask("GET / HTTP/1.1\r\nx-request-id: Abc_1-2\r\n\r\n").body, "Abc_1-2");
     const std::string first = client.ask("GET / HTTP/1.1\r\nX-Request-Id: a b\r\n\r\n").body;
@@ -716,7 +720,7 @@ TEST(Transport, RefusesRequestsBeyondTheWorkerQueue) {
     options.longest_queue = 1;
     std::counting_semaphore<> gate(0), begun(0);
     Fixture server(
-        [&](const api::Request&, const IsGone&) {
+        [&](const api::Request&, const IsDisconnected&) {
             begun.release();
             gate.acquire();
             return text_response("late");
@@ -743,7 +747,8 @@ TEST(Transport, CallsBackOnTimeoutAndOnDisconnection) {
         [&](const std::shared_ptr<PendingRequest>& pending) {
             pending->wait([&, pending](PendingRequest::CancelReason reason) {
                 ++(reason == PendingRequest::CancelReason::timed_out ? late : disconnected);
-                EXPECT_EQ(pending->is_gone(), reason == PendingRequest::CancelReason::disconnected);
+                EXPECT_EQ(pending->is_disconnected(),
+                          reason == PendingRequest::CancelReason::disconnected);
                 pending->reply(text_response(
                     "", reason == PendingRequest::CancelReason::timed_out ? 504 : client_left));
                 pending->reply(text_response("only the first response counts"));
@@ -784,7 +789,7 @@ TEST(Transport, ReusesCacheableResponses) {
     for (const std::size_t size : {std::size_t{0}, std::size_t{1000}, std::size_t{3} << 20}) {
         std::atomic<int> requested{0};
         const std::string text(size, 'x');
-        Fixture server([&](const api::Request& request, const IsGone&) {
+        Fixture server([&](const api::Request& request, const IsDisconnected&) {
             ++requested;
             api::Response response = text_response(text);
             response.headers.insert(
@@ -859,7 +864,7 @@ TEST(Transport, ReusesCacheableResponses) {
 
 TEST(Transport, ReusesResponsesPerEncoding) {
     std::atomic<int> requested{0};
-    Fixture server([&](const api::Request& request, const IsGone&) {
+    Fixture server([&](const api::Request& request, const IsDisconnected&) {
         ++requested;
         const bool gzip = request.header("Accept-Encoding") == "gzip";
         api::Response response = text_response(gzip ? "zipped" : "plain");
@@ -926,7 +931,7 @@ TEST(Transport, SendsPinnedResponsesWhileAllWorkersAreBusy) {
 TEST(Transport, InvalidatesStoredAndPendingResponses) {
     std::atomic<int> requested{0};
     std::counting_semaphore<> gate(0), begun(0);
-    Fixture server([&](const api::Request&, const IsGone&) {
+    Fixture server([&](const api::Request&, const IsDisconnected&) {
         api::Response response = text_response(std::to_string(++requested));
         response.cacheable = true;
         begun.release();
@@ -954,7 +959,7 @@ TEST(Transport, BoundsTheMemoryOfSlowClientsByAbortingTheSlowest) {
     options.most_pinned = 20 * megabyte;
     const auto common = std::make_shared<const Bytes>(8 * megabyte, std::uint8_t{'c'});
     Fixture server(
-        [&](const api::Request& request, const IsGone&) {
+        [&](const api::Request& request, const IsDisconnected&) {
             api::Response response;
             response.body = {request.target == "/common" ? Slice(common)
                                                          : Slice(std::make_shared<const Bytes>(
@@ -975,18 +980,18 @@ TEST(Transport, BoundsTheMemoryOfSlowClientsByAbortingTheSlowest) {
     for (int i = 0; i < 2000 && (writing() < 20 || load().pinned == 0); ++i)
         std::this_thread::sleep_for(5ms);
     EXPECT_EQ(load().pinned, 8 * megabyte) << "shared buffers count once";
-    EXPECT_EQ(load().given_up, 0u);
+    EXPECT_EQ(load().aborted_responses, 0u);
 
     for (int i = 0; i < 12; ++i) add_slow("/own");
-    for (int i = 0; i < 2000 && load().given_up < 9; ++i) std::this_thread::sleep_for(5ms);
-    EXPECT_GE(load().given_up, 9u) << "three buffers fit beside the shared one";
+    for (int i = 0; i < 2000 && load().aborted_responses < 9; ++i) std::this_thread::sleep_for(5ms);
+    EXPECT_GE(load().aborted_responses, 9u) << "three buffers fit beside the shared one";
     EXPECT_LE(load().pinned, options.most_pinned);
-    const std::uint64_t before = load().given_up;
+    const std::uint64_t before = load().aborted_responses;
     RawClient short_timeouts(server.port());
     for (int i = 0; i < 10; ++i)
         EXPECT_EQ(short_timeouts.ask("GET /own HTTP/1.1\r\n\r\n").body.size(), 4 * megabyte)
             << "a reading client is not aborted";
-    EXPECT_LE(load().given_up, before + 10);
+    EXPECT_LE(load().aborted_responses, before + 10);
 
     slow.clear();
     for (int i = 0; i < 2000 && load().pinned > 0; ++i) std::this_thread::sleep_for(5ms);
@@ -997,19 +1002,19 @@ TEST(Transport, NeverAbortsASingleSlowClient) {
     TransportOptions options = Fixture::without_timeouts();
     options.most_pinned = 1000;
     Fixture server([&](const api::Request&,
-                       const IsGone&) { return text_response(std::string(4 << 20, 'a')); },
+                       const IsDisconnected&) { return text_response(std::string(4 << 20, 'a')); },
                    options);
     RawClient slow(server.port(), 4096);
     slow.send("GET / HTTP/1.1\r\n\r\n");
     for (int i = 0; i < 2000 && server.transport->load().pinned == 0; ++i)
         std::this_thread::sleep_for(5ms);
     EXPECT_EQ(slow.receive().body.size(), 4u << 20);
-    EXPECT_EQ(server.transport->load().given_up, 0u);
+    EXPECT_EQ(server.transport->load().aborted_responses, 0u);
 }
 
 TEST(Transport, CompletesBegunRequestsWhenDraining) {
     std::counting_semaphore<> gate(0), begun(0);
-    Fixture server([&](const api::Request&, const IsGone&) {
+    Fixture server([&](const api::Request&, const IsDisconnected&) {
         begun.release();
         gate.acquire();
         return text_response("done");
