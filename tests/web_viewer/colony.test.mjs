@@ -1,13 +1,13 @@
-// Colonies on the page, in headless Chromium against a running server (SPOREPRINT_URL).
+// Tests of colonies on the page, in headless Chromium against a running server (SPOREPRINT_URL).
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import { launchBrowser, logEvents, ready, screenshotFolder, serverUrl } from "./support.mjs";
 
 const base = serverUrl();
 let browser;
-let shared; // so that pictures of the gallery are drawn once
+let shared; // thumbnails are rendered once
 let folder;
 let ids;
 
@@ -27,13 +27,13 @@ async function open(t, query, viewport = undefined) {
     const page = await shared.newPage();
     t.after(() => page.close());
     if (viewport) await page.setViewportSize(viewport);
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
     await page
         .locator("#form details:not([open]) summary")
         .evaluateAll((all) => all.forEach((one) => one.click()));
-    return { page, heard };
+    return { page, log };
 }
 
 const small = "lod=2&texture_size=128";
@@ -42,13 +42,13 @@ const counts = (page) => page.evaluate(() => window.sporeprint.counts);
 const row = (page, name) => page.locator(`#form .control[data-name="${name}"]`);
 const number = (page, name) => page.locator(`input[type=number][name="${name}"]`);
 
-function quiet(heard) {
-    assert.deepEqual(heard.console, []);
-    assert.deepEqual(heard.failed, []);
+function expectNoProblems(log) {
+    assert.deepEqual(log.console, []);
+    assert.deepEqual(log.failed, []);
 }
 
-test("the colony bench offers every species, every parameter of the schema, and tells how many were made", async (t) => {
-    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare&habit=rooted&${small}`);
+test("the page of colonies offers all species and parameters and counts individuals", async (t) => {
+    const { page, log } = await open(t, `?colony=hypholoma_fasciculare&habit=rooted&${small}`);
     assert.deepEqual(
         await page
             .locator("#gallery button")
@@ -83,17 +83,17 @@ test("the colony bench offers every species, every parameter of the schema, and 
         made + 1,
         "roots with their stems, and one node each",
     );
-    // A control shows what the species brings.
+    // A control shows the value of the species.
     assert.equal(
         Number(await number(page, "field_scale").inputValue()),
         Number(effective.field_scale.toPrecision(3)),
     );
     await page.screenshot({ path: path.join(folder, "colony_editor.png") });
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("what a habit does not have is not offered, and what a species cannot have stands at its control", async (t) => {
-    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare&${small}`);
+test("parameters of other habits are hidden, and a refusal is beside its control", async (t) => {
+    const { page, log } = await open(t, `?colony=hypholoma_fasciculare&${small}`);
     assert.equal(
         await page.locator('select[name="habit"]').inputValue(),
         "tuft",
@@ -105,7 +105,7 @@ test("what a habit does not have is not offered, and what a species cannot have 
     await ready(page);
     assert.equal(await row(page, "depth").isVisible(), true);
     assert.equal(parameters(page).habit, "rooted");
-    quiet(heard);
+    expectNoProblems(log);
     await number(page, "depth").fill("9");
     await number(page, "depth").press("Enter");
     await ready(page);
@@ -116,10 +116,10 @@ test("what a habit does not have is not offered, and what a species cannot have 
         /only habit=rooted has it/,
     );
     assert.ok(
-        heard.failed.every((line) => line.endsWith(": 422")),
-        heard.failed.join(),
+        log.failed.every((line) => line.endsWith(": 422")),
+        log.failed.join(),
     );
-    // Another species brings its own habit, and what was set on the last one's is gone.
+    // Another species has a habit of its own; what was set for the last one is dropped.
     await page.locator('#gallery button[data-species="trametes_versicolor"]').click();
     await ready(page);
     assert.equal(await page.locator('select[name="habit"]').inputValue(), "tier");
@@ -131,8 +131,8 @@ test("what a habit does not have is not offered, and what a species cannot have 
     });
 });
 
-test("roots are seen from above, without the caps, until another view is taken", async (t) => {
-    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare&habit=rooted&${small}`);
+test("the view of the roots hides the caps until another view is chosen", async (t) => {
+    const { page, log } = await open(t, `?colony=hypholoma_fasciculare&habit=rooted&${small}`);
     const triangles = async () => {
         await ready(page);
         return page.evaluate(() => window.sporeprint.renderer.triangles);
@@ -158,11 +158,11 @@ test("roots are seen from above, without the caps, until another view is taken",
         await page.locator('#views [data-view="roots"]').getAttribute("aria-pressed"),
         "false",
     );
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a mix goes along from the bench to its colony and back", async (t) => {
-    const { page, heard } = await open(
+test("the links carry a mix from the morph editor to its colony and back", async (t) => {
+    const { page, log } = await open(
         t,
         "?morph=mycena_sanguinolenta:0.5,amanita_muscaria:0.5&lod=3&texture_size=128",
     );
@@ -175,7 +175,7 @@ test("a mix goes along from the bench to its colony and back", async (t) => {
     assert.match(await page.locator("#common-name").textContent(), / × /);
     assert.equal(await page.locator("#mode-morph").getAttribute("href"), `?morph=${mix}`);
     assert.ok((await page.evaluate(() => window.sporeprint.made)).made > 1);
-    quiet(heard);
+    expectNoProblems(log);
     await page.locator("#gallery button").first().click();
     assert.equal(
         await page.locator("#mode-morph").isVisible(),
@@ -185,8 +185,8 @@ test("a mix goes along from the bench to its colony and back", async (t) => {
     assert.equal(await page.locator("#mode-species").getAttribute("href"), `?species=${ids[0]}`);
 });
 
-test("a colony repeated by the graphics card is counted and framed as that of nodes", async (t) => {
-    const { page, heard } = await open(t, `?colony=coprinus_comatus&count=8&distinct=2&${small}`);
+test("a colony of GPU instances is counted and framed like one of nodes", async (t) => {
+    const { page, log } = await open(t, `?colony=coprinus_comatus&count=8&distinct=2&${small}`);
     const nodes = await page.evaluate(() => ({
         ...window.sporeprint.counts,
         ...window.sporeprint.size,
@@ -199,16 +199,16 @@ test("a colony repeated by the graphics card is counted and framed as that of no
     }));
     assert.equal(gpu.triangles, nodes.triangles);
     assert.equal(gpu.drawCalls, 3, "stems and two individuals");
-    // Boxes of instances are those of their meshes' boxes, so a little larger.
+    // Boxes of instances are made of the boxes of their meshes, and therefore slightly larger.
     assert.ok(
         gpu.width >= nodes.width * 0.999 && gpu.width < nodes.width * 1.3,
         `${gpu.width} of ${nodes.width} m`,
     );
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("the file that is saved is that of the copied address, and brings its settings back", async (t) => {
-    const { page, heard } = await open(
+test("the downloaded file equals that of the copied URL and restores its settings", async (t) => {
+    const { page, log } = await open(
         t,
         `?colony=russula_vinosa&seed=3&habit=ring&lod=2&texture_size=128`,
     );
@@ -245,23 +245,23 @@ test("the file that is saved is that of the copied address, and brings its setti
         lod: "2",
         texture_size: "128",
     });
-    assert.deepEqual(heard.failed, []);
+    assert.deepEqual(log.failed, []);
 });
 
-test("who asks for fewer individuals by keys is told how many of them were made", async (t) => {
-    const { page, heard } = await open(t, `?colony=hypholoma_fasciculare&${small}`);
-    heard.requests.length = 0;
+test("the number of individuals is shown after the count was changed by keys", async (t) => {
+    const { page, log } = await open(t, `?colony=hypholoma_fasciculare&${small}`);
+    log.requests.length = 0;
     const slider = page.locator('input[type=range][name="count"]');
     await slider.focus();
     for (let i = 0; i < 3; ++i) await slider.press("ArrowLeft");
     await ready(page);
     assert.equal(parameters(page).count, "21");
     assert.equal((await page.evaluate(() => window.sporeprint.made)).requested, 21);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("five ways to grow fit in every width, and a colony in 360 pixels", async (t) => {
-    const { page, heard } = await open(
+test("the navigation and a colony fit into every width from 320 pixels", async (t) => {
+    const { page, log } = await open(
         t,
         `?colony=hypholoma_fasciculare:0.5,coprinus_comatus:0.5&lod=3&texture_size=128`,
         { width: 360, height: 740 },
@@ -283,5 +283,5 @@ test("five ways to grow fit in every width, and a colony in 360 pixels", async (
             `${width} pixels wide`,
         );
     }
-    quiet(heard);
+    expectNoProblems(log);
 });

@@ -1,28 +1,30 @@
-// Makes one labelled picture of many mushrooms, to look at shapes side by side.
+// Makes one labelled picture of many mushrooms, to compare shapes side by side.
 //
 //   node tests/web_viewer/contact_sheet.mjs http://127.0.0.1:8080 [options]
 //     --out FILE            picture to write (build/screenshots/contact_sheet.png)
 //     --species a,b         rows (all species); a mix is written with + for its commas: a:0.5+b:0.5
-//     --leaves              leaves instead of mushrooms: rows are presets, --species names some of them
+//     --leaves              leaves instead of mushrooms: rows are presets; --species selects some
 //     --trees               trees instead of mushrooms
-//     --colonies            colonies instead of mushrooms: rows are those of --species, else one of each habit
+//     --colonies            colonies instead of mushrooms: rows are those of --species, or one of
+//                           each habit
 //     --ages 0,0.3,0.6,1    columns, each list is crossed with the others
 //     --seeds 1,2
 //     --lods 0,2
 //     --views three-quarter,front,side,top,below; of colonies also roots
 //     --set name=value      any other parameter for every cell; may be repeated
 //     --vary name=v1,v2     any other parameter as columns; may be repeated
-//     --each a+b:name=v1,v2 one row for a parameter, its values for each of the species; may be repeated, instead of rows by species
+//     --each a+b:name=v1,v2 instead of rows by species: a row for a parameter, with its values for
+//                           each of the species; may be repeated
 //     --cell 320            side of a cell in pixels
 //     --wireframe           draws edges
 //
 // or the page's own sheets, as a person downloads them:
 //     --mixes a,b,c,d,e     variety sheet of the morphs between two to five control shapes
 //     --glb FILE            and the same as one GLB
-//     --growth              growth strips of all species, or of those of --species (mixes too), one below the other
+//     --growth              growth strips of all species, or of those of --species (also mixes)
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
-import { launchBrowser, listen, ready, root } from "./support.mjs";
+import { launchBrowser, logEvents, ready, root } from "./support.mjs";
 
 function readArguments(argv) {
     const options = {
@@ -79,7 +81,7 @@ const species =
     options.species ??
     (await (await fetch(`${options.base}/v1/${list}`)).json())[list].map(({ id }) => id);
 
-/** What colonies are looked at when no species is named: two of each habit, two mixes, two from afar. */
+/** Colonies shown when no species is named: two of each habit, two mixes, two far ones. */
 const habits = {
     rooted: [
         "hypholoma_fasciculare?habit=rooted",
@@ -101,9 +103,9 @@ for (const [name, values] of options.vary) {
         })),
     );
 }
-// Software drawing on a busy machine: one strip has taken minutes.
-const patience = 900_000; // milliseconds
-/** What to show: rows of cells, each a mix with its parameters. */
+// Software rendering on a busy machine: one strip has taken minutes.
+const timeoutMs = 900_000;
+/** Rows of cells, each a mix with its parameters. */
 const table = options.each.length
     ? options.each.map(({ mixes, name, values }) => ({
           title: name,
@@ -137,7 +139,7 @@ const table = options.each.length
         }));
 const views = options.views ?? ["three-quarter"];
 
-/** Opens an address; after the first one without loading the page again. */
+/** Opens an address; all but the first one without loading the page again. */
 async function go(page, address) {
     if (page.url().startsWith(options.base)) {
         await page.evaluate((there) => {
@@ -154,7 +156,7 @@ async function go(page, address) {
 const browser = await launchBrowser();
 let broken = 0;
 
-/** Opens a sheet of the page by its address and takes what its button saves. */
+/** Opens a sheet of the page by its address and returns what its button saves. */
 async function downloaded(page, address, button) {
     if (address) {
         await page.goto(options.base + address);
@@ -167,10 +169,10 @@ async function downloaded(page, address, button) {
 }
 
 async function pageSheets() {
-    // A sheet is as large as its cells; the stage behind it need not be.
+    // A sheet is as large as its cells; the stage behind it may be small.
     const page = await browser.newPage({ viewport: { width: 640, height: 400 } });
-    page.setDefaultTimeout(patience);
-    const heard = listen(page);
+    page.setDefaultTimeout(timeoutMs);
+    const log = logEvents(page);
     await mkdir(path.dirname(options.out), { recursive: true });
     const rest = options.set.map((one) => `&${one}`).join("");
     if (options.mixes) {
@@ -193,7 +195,8 @@ async function pageSheets() {
             );
             strips.push((await readFile(await file.path())).toString("base64"));
         }
-        const size = (png) => [16, 20].map((at) => Buffer.from(png, "base64").readUInt32BE(at)); // of a PNG's first chunk
+        // Width and height are in the first chunk of a PNG.
+        const size = (png) => [16, 20].map((at) => Buffer.from(png, "base64").readUInt32BE(at));
         const width = Math.max(...strips.map((png) => size(png)[0]));
         const columns = inColumns(strips, Math.max(...strips.map((png) => size(png)[1])));
         const all = await browser.newPage({
@@ -209,12 +212,13 @@ async function pageSheets() {
         );
         await writeFile(options.out, await all.screenshot({ fullPage: true }));
     }
-    for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
+    for (const line of [...new Set([...log.console, ...log.failed])]) console.error(line);
     for (const file of [options.out, options.mixes && options.glb].filter(Boolean))
         console.log(file);
 }
 
-/** Things of a height in as many columns as a picture needs: Chromium repeats itself in one taller than 8192 pixels. */
+/** Returns things of a height in as many columns as a picture needs: Chromium repeats the content
+ *  of pictures taller than 8192 pixels. */
 function inColumns(things, height) {
     const columns = Math.ceil((things.length * height) / 8000),
         each = Math.ceil(things.length / columns);
@@ -225,7 +229,7 @@ function inColumns(things, height) {
 
 async function ownSheet() {
     const page = await browser.newPage({ viewport: { width: options.cell, height: options.cell } });
-    const heard = listen(page);
+    const log = logEvents(page);
     const rows = [];
     for (const { title, shown } of table) {
         const cells = [];
@@ -263,7 +267,7 @@ async function ownSheet() {
         }
         rows.push({ title, cells });
     }
-    for (const line of [...new Set([...heard.console, ...heard.failed])]) console.error(line);
+    for (const line of [...new Set([...log.console, ...log.failed])]) console.error(line);
 
     const escaped = (text) => text.replace(/[&<>"]/g, (sign) => `&#${sign.charCodeAt(0)};`);
     const columns = inColumns(rows, options.cell + 40);

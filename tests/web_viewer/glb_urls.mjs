@@ -1,15 +1,17 @@
-// Prints URLs of GLBs that cover what can be asked for, one a line, for validate_glbs.mjs.
+// Prints URLs of GLBs that cover what can be requested, one per line, for validate_glbs.mjs.
 //
-//   node tests/web_viewer/glb_urls.mjs SERVER 2         every pair of values of two parameters stands in some URL
+//   node tests/web_viewer/glb_urls.mjs SERVER 2         every pair of values of two parameters
 //   node tests/web_viewer/glb_urls.mjs SERVER 3         every triple
 //   node tests/web_viewer/glb_urls.mjs SERVER product   every combination
 //
-// The same server and strength give the same URLs. The file as it is served to who asks for nothing is always among them.
+// The same server and strength give the same URLs. The file with default parameters is always one
+// of them.
 import { fileURLToPath } from "node:url";
 
 /**
- * Returns rows that together hold every combination of values of `strength` factors (a covering array), found greedily: each
- * row begins with a combination that no row has yet, and takes for every other factor the value that adds most new ones.
+ * Returns rows that together contain every combination of values of `strength` factors (a covering
+ * array), found greedily: each row begins with a combination that no row has yet, and uses for every
+ * other factor the value that adds most new combinations.
  *
  * @param {number[]} sizes number of values of each factor
  * @param {number} strength from 1 to the number of factors
@@ -22,7 +24,8 @@ export function coveringArray(sizes, strength) {
         for (let i = from; i < sizes.length; ++i) choose(i + 1, [...group, i]);
     };
     choose(0, []);
-    // What no row has yet: for each group of factors a number for each combination of their values.
+    // Combinations that no row contains yet: for each group of factors, the numbers of the
+    // combinations of their values.
     const missing = groups.map(
         (group) => new Set(Array(group.reduce((n, i) => n * sizes[i], 1)).keys()),
     );
@@ -46,7 +49,8 @@ export function coveringArray(sizes, strength) {
                     );
                 let best = 0;
                 let most = -1;
-                // Ties go to another value in each row, so that all of them come equally often.
+                // Ties are resolved differently in each row, so that all values are used equally
+                // often.
                 for (let n = 0; n < sizes[i]; ++n) {
                     const value = (n + rows.length) % sizes[i];
                     row[i] = value;
@@ -64,7 +68,7 @@ export function coveringArray(sizes, strength) {
     return rows;
 }
 
-/** Returns all rows of a product. */
+/** Returns all rows of a Cartesian product. */
 export function product(sizes) {
     return sizes.reduce(
         (rows, size) =>
@@ -74,14 +78,15 @@ export function product(sizes) {
 }
 
 const small = "texture_size=128";
-const images = [small, small, "textures=none"]; // images are where most can be wrong
+const images = [small, small, "textures=none"]; // most defects can be in images
 const lods = ["", "lod=1", "lod=2", "lod=3"];
 
-/** Returns what can be asked for: for each product its route, its factors (values are parts of a query), and what stands alone. */
-async function offers(server) {
+/** Returns for each product its route and its factors; the values are parts of a query. Some
+ *  requests are listed alone, because each of their factors has one value. */
+async function requestFactors(server) {
     const list = async (route, key) => {
         const response = await fetch(`${server}${route}`);
-        if (!response.ok) throw new Error(`${route} answered ${response.status}`);
+        if (!response.ok) throw new Error(`${route} responded with ${response.status}`);
         const found = (await response.json())[key].map(({ id }) => id);
         if (found.length < 3) throw new Error(`${route} has only ${found.length} ${key}`);
         return found;
@@ -89,8 +94,9 @@ async function offers(server) {
     const species = await list("/v1/species", "species");
     const mixes = [];
     for (const family of ["swept", "branched"]) {
-        const kin = await list(`/v1/species?family=${family}`, "species");
-        for (let i = 1; i < kin.length; ++i) mixes.push(`${kin[i - 1]}:0.4,${kin[i]}:0.6`);
+        const related = await list(`/v1/species?family=${family}`, "species");
+        for (let i = 1; i < related.length; ++i)
+            mixes.push(`${related[i - 1]}:0.4,${related[i]}:0.6`);
     }
     const leaves = await list("/v1/leaves", "leaves");
     const trees = await list("/v1/trees", "trees");
@@ -173,8 +179,8 @@ async function main() {
         process.exit(2);
     }
     const urls = new Set();
-    for (const { route, factors } of await offers(server.replace(/\/+$/, ""))) {
-        // What stands twice in a list is only more often taken; in a whole product once is enough.
+    for (const { route, factors } of await requestFactors(server.replace(/\/+$/, ""))) {
+        // A value that is listed twice is used more often; in a whole product once is enough.
         const values = strength === "product" ? factors.map((list) => [...new Set(list)]) : factors;
         const sizes = values.map((list) => list.length);
         const rows =
@@ -183,8 +189,8 @@ async function main() {
                 : coveringArray(sizes, Math.min(Number(strength), sizes.length));
         for (const row of rows) {
             const [id, ...query] = row.map((value, i) => values[i][value]);
-            const asked = query.filter(Boolean).join("&");
-            urls.add(`${server}/v1/${route}/${id}.glb${asked && `?${asked}`}`);
+            const parameters = query.filter(Boolean).join("&");
+            urls.add(`${server}/v1/${route}/${id}.glb${parameters && `?${parameters}`}`);
         }
     }
     console.log([...urls].join("\n"));

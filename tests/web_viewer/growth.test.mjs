@@ -1,11 +1,11 @@
-// Growth on the page, in headless Chromium against a running server (SPOREPRINT_URL): play, stay, scrub.
+// Tests of growth on the page, in headless Chromium against a running server (SPOREPRINT_URL).
 import assert from "node:assert/strict";
 import path from "node:path";
 import test, { after, before } from "node:test";
 import {
     galleryComplete,
     launchBrowser,
-    listen,
+    logEvents,
     ready,
     screenshotFolder,
     serverUrl,
@@ -14,7 +14,7 @@ import {
 const base = serverUrl();
 const species = "boletus_edulis";
 let browser;
-let shared; // so that pictures of the gallery are drawn once
+let shared; // thumbnails are rendered once
 let folder;
 
 before(async () => {
@@ -29,37 +29,37 @@ async function open(t, query = "", reducedMotion = "no-preference") {
     const page = await shared.newPage();
     t.after(() => page.close());
     await page.emulateMedia({ reducedMotion });
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${base}/?species=${species}${query}`);
     await ready(page);
-    return { page, heard };
+    return { page, log };
 }
 
 const growth = (page) => page.evaluate(() => window.sporeprint.growth);
-const clips = (heard) =>
-    heard.requests
+const clips = (log) =>
+    log.requests
         .filter((url) => /\.glb\?.*animation=growth/.test(url))
         .map((url) => new URL(url).searchParams);
-/** The last model asked for that is no picture of the gallery. */
-const lastModel = (heard) =>
-    new URL(heard.requests.findLast((url) => /\.glb/.test(url) && !/texture_size=256/.test(url)))
+/** Returns the query of the last requested model that is no thumbnail. */
+const lastModel = (log) =>
+    new URL(log.requests.findLast((url) => /\.glb/.test(url) && !/texture_size=256/.test(url)))
         .searchParams;
 const parameters = (page) => new URL(page.url()).searchParams;
 const picture = (page) => page.locator("#stage").screenshot();
 
-function quiet(heard) {
-    assert.deepEqual(heard.console, []);
-    assert.deepEqual(heard.failed, []);
+function expectNoProblems(log) {
+    assert.deepEqual(log.console, []);
+    assert.deepEqual(log.failed, []);
 }
 
-test("play asks for the clip at LOD 1, grows from the button on, and staying asks for the mushroom of that age", async (t) => {
-    const { page, heard } = await open(t, "&seed=7");
-    assert.deepEqual(clips(heard), []);
+test("play requests a clip at LOD 1, and stopping requests the model of the age", async (t) => {
+    const { page, log } = await open(t, "&seed=7");
+    assert.deepEqual(clips(log), []);
     await page.locator("#play").focus();
     await page.keyboard.press("Enter");
     await page.waitForFunction(() => window.sporeprint.growth.playing);
     assert.deepEqual(
-        clips(heard).map((query) => [...query]),
+        clips(log).map((query) => [...query]),
         [
             [
                 ["seed", "7"],
@@ -69,7 +69,7 @@ test("play asks for the clip at LOD 1, grows from the button on, and staying ask
         ],
     );
     assert.equal(await page.locator("#play").getAttribute("aria-label"), "Stay at this age");
-    // In one turn of the page: the clip runs on while a test looks.
+    // In one task of the page, because the clip continues while a test reads.
     const seen = await page.evaluate(
         () =>
             new Promise((resolve) => {
@@ -101,22 +101,22 @@ test("play asks for the clip at LOD 1, grows from the button on, and staying ask
     assert.ok(Math.abs(age - seen.ages.at(-1)) < 0.01, `stayed at ${age}`);
     assert.equal((await growth(page)).age, undefined, "the still mushroom stands there again");
     assert.deepEqual(
-        [...lastModel(heard)],
+        [...lastModel(log)],
         [
             ["seed", "7"],
             ["age", String(age)],
         ],
     );
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a clip runs to its end in eight seconds and leaves the mushroom that was asked for", async (t) => {
-    const { page, heard } = await open(t, "&lod=3");
+test("a clip lasts eight seconds, and then the mushroom of the settings is shown", async (t) => {
+    const { page, log } = await open(t, "&lod=3");
     const before_ = await page.evaluate(() => window.sporeprint.counts.vertices);
     await page.locator("#play").click();
     await page.waitForFunction(() => window.sporeprint.growth.playing);
-    assert.equal(clips(heard)[0].get("lod"), "3", "no finer than what was chosen");
-    // Its pace, on the page's own clock: frames may be few.
+    assert.equal(clips(log)[0].get("lod"), "3", "no finer than what was chosen");
+    // Measured on the page's own clock, because there may be few frames.
     const pace = await page.evaluate(
         () =>
             new Promise((resolve) => {
@@ -139,13 +139,13 @@ test("a clip runs to its end in eight seconds and leaves the mushroom that was a
     assert.equal(await page.evaluate(() => window.sporeprint.counts.vertices), before_);
     assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), "0.6");
     assert.equal(parameters(page).get("age"), null);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("with a clip on the stage the age moves it without asking the server, until the hand rests", async (t) => {
-    const { page, heard } = await open(t, "&animation=growth&frames=5&lod=2");
+test("the age poses a loaded clip without a request until it stays the same", async (t) => {
+    const { page, log } = await open(t, "&animation=growth&frames=5&lod=2");
     assert.deepEqual(
-        clips(heard).map((query) => [...query]),
+        clips(log).map((query) => [...query]),
         [
             [
                 ["lod", "2"],
@@ -154,26 +154,26 @@ test("with a clip on the stage the age moves it without asking the server, until
             ],
         ],
     );
-    assert.equal((await growth(page)).playing, false, "nobody pressed play");
+    assert.equal((await growth(page)).playing, false, "play was not pressed");
     assert.notEqual(await page.locator('.control[data-name="frames"]').getAttribute("hidden"), "");
     await galleryComplete(page);
     const still = await picture(page);
-    const asked = () => heard.requests.filter((url) => url.includes("/v1/")).length;
-    const before_ = asked();
+    const requestCount = () => log.requests.filter((url) => url.includes("/v1/")).length;
+    const before_ = requestCount();
     const slider = page.locator('input[type=range][name="age"]');
     await slider.focus();
     for (let press = 0; press < 8; ++press) await page.keyboard.press("ArrowLeft");
     const { age } = await growth(page);
     assert.ok(Math.abs(age - Number(await slider.inputValue())) < 1e-9);
-    assert.equal(asked(), before_);
+    assert.equal(requestCount(), before_);
     assert.notDeepEqual(await picture(page), still, "it has another shape");
     await ready(page);
-    assert.equal(lastModel(heard).get("age"), String(age));
-    quiet(heard);
+    assert.equal(lastModel(log).get("age"), String(age));
+    expectNoProblems(log);
 });
 
-test("the number of frames is neither offered nor sent without a clip", async (t) => {
-    const { page, heard } = await open(t, "&animation=growth&frames=5&lod=3");
+test("the number of frames is neither shown nor sent without a clip", async (t) => {
+    const { page, log } = await open(t, "&animation=growth&frames=5&lod=3");
     await page.evaluate(() =>
         document.querySelectorAll("details").forEach((details) => (details.open = true)),
     );
@@ -181,12 +181,12 @@ test("the number of frames is neither offered nor sent without a clip", async (t
     await ready(page);
     assert.equal(await page.locator('.control[data-name="frames"]').isVisible(), false);
     assert.equal(parameters(page).get("frames"), null);
-    assert.equal(lastModel(heard).get("frames"), null);
-    quiet(heard);
+    assert.equal(lastModel(log).get("frames"), null);
+    expectNoProblems(log);
 });
 
-test("who wants no motion gets the clip to move by hand", async (t) => {
-    const { page, heard } = await open(t, "&lod=2", "reduce");
+test("with reduced motion the clip is moved by the slider only", async (t) => {
+    const { page, log } = await open(t, "&lod=2", "reduce");
     await page.locator("#play").click();
     await page.waitForFunction(() => document.activeElement?.name === "age");
     assert.match(await page.locator("#status").textContent(), /move the age/);
@@ -198,10 +198,10 @@ test("who wants no motion gets the clip to move by hand", async (t) => {
     await page.screenshot({ path: path.join(folder, "growth-by-hand.png") });
     await ready(page);
     assert.equal(parameters(page).get("age"), "0");
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("growing again and again leaves nothing behind on the graphics card", async (t) => {
+test("playing repeatedly frees all memory of the graphics card", async (t) => {
     const { page } = await open(t, "&lod=3");
     const round = async () => {
         await page.locator("#play").click();

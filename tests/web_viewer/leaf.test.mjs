@@ -1,13 +1,13 @@
-// Leaves on the page, in headless Chromium against a running server (SPOREPRINT_URL).
+// Tests of leaves on the page, in headless Chromium against a running server (SPOREPRINT_URL).
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
 import test, { after, before } from "node:test";
-import { launchBrowser, listen, ready, screenshotFolder, serverUrl } from "./support.mjs";
+import { launchBrowser, logEvents, ready, screenshotFolder, serverUrl } from "./support.mjs";
 
 const base = serverUrl();
 let browser;
-let shared; // so that pictures of the gallery are drawn once
+let shared; // thumbnails are rendered once
 let folder;
 
 before(async () => {
@@ -24,24 +24,24 @@ after(() => browser?.close());
 async function open(t, query) {
     const page = await shared.newPage();
     t.after(() => page.close());
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
     await page
         .locator("#form details:not([open]) summary")
         .evaluateAll((all) => all.forEach((one) => one.click()));
-    return { page, heard };
+    return { page, log };
 }
 
 const parameters = (page) => Object.fromEntries(new URL(page.url()).searchParams);
 
-function quiet(heard) {
-    assert.deepEqual(heard.console, []);
-    assert.deepEqual(heard.failed, []);
+function expectNoProblems(log) {
+    assert.deepEqual(log.console, []);
+    assert.deepEqual(log.failed, []);
 }
 
-test("the leaf bench offers every preset and every parameter of the schema", async (t) => {
-    const { page, heard } = await open(t, "?leaf");
+test("the page of leaves offers every preset and every parameter of the schema", async (t) => {
+    const { page, log } = await open(t, "?leaf");
     const { leaves } = await (await fetch(`${base}/v1/leaves`)).json();
     assert.deepEqual(
         await page
@@ -64,18 +64,18 @@ test("the leaf bench offers every preset and every parameter of the schema", asy
         await page.locator("#dimensions").textContent(),
         /^[\d.]+ cm long, [\d.]+ cm wide$/,
     );
-    // A control shows what the preset brings.
+    // A control shows the value of the preset.
     assert.equal(await page.locator('input[type=number][name="venation.nodes"]').inputValue(), "5");
     assert.equal(
         await page.locator('input[type=color][name="summer.inner"]').inputValue(),
         "#3e6826",
     );
     await page.screenshot({ path: path.join(folder, "leaf_editor.png") });
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("what is moved is asked for, stands in the address, and goes with the next preset", async (t) => {
-    const { page, heard } = await open(t, "?leaf=birch&seed=7");
+test("a changed parameter is requested, in the address, and dropped with the preset", async (t) => {
+    const { page, log } = await open(t, "?leaf=birch&seed=7");
     const before = await page.evaluate(() => window.sporeprint.counts.triangles);
     const nodes = page.locator('input[type=number][name="venation.nodes"]');
     await nodes.fill("14");
@@ -92,12 +92,12 @@ test("what is moved is asked for, stands in the address, and goes with the next 
     await ready(page);
     assert.equal(parameters(page)["summer.inner"], "#aa2211");
     assert.ok(
-        heard.requests.some((url) =>
+        log.requests.some((url) =>
             /\/v1\/leaves\/birch\.glb\?seed=7&venation\.nodes=14&summer\.inner=%23aa2211$/.test(
                 url,
             ),
         ),
-        heard.requests.join("\n"),
+        log.requests.join("\n"),
     );
     await page.locator('#gallery button[data-species="ivy"]').click();
     await ready(page);
@@ -106,11 +106,11 @@ test("what is moved is asked for, stands in the address, and goes with the next 
     await ready(page);
     assert.equal(parameters(page).leaf, "birch");
     assert.equal(await nodes.inputValue(), "14");
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("what cannot be is said beside its control, and the last leaf stays", async (t) => {
-    const { page, heard } = await open(t, "?leaf=maple");
+test("a refusal is shown beside its control, and the last leaf stays", async (t) => {
+    const { page, log } = await open(t, "?leaf=maple");
     await page.locator('select[name="venation.lobes"]').selectOption("13");
     await page.locator('.control[data-name="venation.vein_deg"] .validation-error').waitFor();
     assert.match(
@@ -120,14 +120,14 @@ test("what cannot be is said beside its control, and the last leaf stays", async
         /petiole/,
     );
     assert.ok(
-        heard.failed.every((line) => line.endsWith(": 422")),
-        heard.failed.join(),
+        log.failed.every((line) => line.endsWith(": 422")),
+        log.failed.join(),
     );
     assert.ok((await page.evaluate(() => window.sporeprint.counts.triangles)) > 100);
 });
 
-test("the file that is saved is that of the shown address, and brings its settings back", async (t) => {
-    const { page, heard } = await open(t, "?leaf=oak&autumn=0.5&lod=2");
+test("the downloaded file equals that of the address and restores its settings", async (t) => {
+    const { page, log } = await open(t, "?leaf=oak&autumn=0.5&lod=2");
     const [download] = await Promise.all([
         page.waitForEvent("download"),
         page.locator("#download").click(),
@@ -138,7 +138,7 @@ test("the file that is saved is that of the shown address, and brings its settin
         await (await fetch(`${base}/v1/leaves/oak.glb?autumn=0.5&lod=2`)).arrayBuffer(),
     );
     assert.ok(saved.equals(served));
-    // Dropped on the mushrooms' page it opens the leaf bench.
+    // Dropped on the mushrooms' page it opens the page of leaves.
     await page.goto(`${base}/?species=boletus_edulis&lod=3`);
     await ready(page);
     await page
@@ -147,6 +147,6 @@ test("the file that is saved is that of the shown address, and brings its settin
     await page.waitForURL(/leaf=oak/);
     await ready(page);
     assert.deepEqual(parameters(page), { leaf: "oak", autumn: "0.5", lod: "2" });
-    // The gallery of the page that was left was still loading: what the browser says of that is not looked at.
-    assert.deepEqual(heard.failed, []);
+    // The gallery of the page before was still loading: console messages about that are ignored.
+    assert.deepEqual(log.failed, []);
 });

@@ -1,19 +1,21 @@
 // The naming trial: can people who know neither code nor data name each species from its picture?
 //
-//   node tests/web_viewer/naming_trial.mjs sheet http://127.0.0.1:8080 --out FOLDER [--shuffle 1] [--cell 264]
-//       writes FOLDER/sheet_1.png, … (numbered pictures in shuffled order, each from the side and from below, with a bar of
-//       length), FOLDER/names.txt (the alphabetical list of names that goes to the judges) and FOLDER/key.json (which is what)
+//   node tests/web_viewer/naming_trial.mjs sheet URL --out FOLDER [--shuffle 1] [--cell 264]
+//       writes FOLDER/sheet_1.png, … (numbered pictures in shuffled order, each from the side and
+//       from below, with a scale bar), FOLDER/names.txt (the alphabetical list of names for the
+//       judges) and FOLDER/key.json (the right names); URL is that of a running server
 //   node tests/web_viewer/naming_trial.mjs score FOLDER
-//       reads FOLDER/key.json and every FOLDER/answers_*.json ({"1":"scientific name", …}), prints and writes FOLDER/confusion.md
+//       reads FOLDER/key.json and every FOLDER/answers_*.json ({"1":"scientific name", …}), prints
+//       and writes FOLDER/confusion.md
 import { mkdir, readdir, readFile, writeFile } from "node:fs/promises";
 import path from "node:path";
 import { pathToFileURL } from "node:url";
 import { launchBrowser, ready } from "./support.mjs";
 
-/** Least mean share of a trial that is passed. */
+/** Mean score that passes a trial. */
 export const pass = 0.8;
 
-/** 1 for the species, a half for its genus, 0 for all else. */
+/** Returns 1 for the species, 0.5 for its genus, 0 otherwise. */
 export function points(said, is) {
     const words = (name) => name.trim().toLowerCase().split(/\s+/);
     const [genus, species] = words(said ?? "");
@@ -22,7 +24,8 @@ export function points(said, is) {
     return species === ofSpecies ? 1 : 0.5;
 }
 
-/** Shares of each judge and of all, and the pictures that were not named: [{number, is, said: [..]}]. */
+/** Returns the scores of each judge, their mean, and the pictures that were not named by all:
+ *  [{number, is, said: [..]}]. */
 export function scored(key, judges) {
     const numbers = Object.keys(key);
     const shares = judges.map(
@@ -40,14 +43,14 @@ export function scored(key, judges) {
     return { shares, mean, missed };
 }
 
-/** The key and the judges' answers of a folder, answers in the order of their files' names. */
+/** Reads the key and the judges' answers from a folder, in the order of file names. */
 export async function readTrial(folder) {
     const json = async (name) => JSON.parse(await readFile(path.join(folder, name), "utf8"));
     const files = (await readdir(folder)).filter((name) => /^answers_.*\.json$/.test(name)).sort();
     return { key: await json("key.json"), files, judges: await Promise.all(files.map(json)) };
 }
 
-/** The confusion table as Markdown. */
+/** Returns the confusion table as Markdown. */
 export function confusionTable({ key, files }, { shares, mean, missed }) {
     const percent = (share) => `${(100 * share).toFixed(1)} %`;
     const judge = (file) => file.replace(/^answers_|\.json$/g, "");
@@ -68,7 +71,7 @@ export function confusionTable({ key, files }, { shares, mean, missed }) {
     ].join("\n");
 }
 
-/** The same order for the same number: a shuffle that needs no clock. */
+/** Shuffles a list; the same number gives the same order. */
 function shuffled(list, number) {
     let state = number >>> 0;
     const next = () => {
@@ -97,7 +100,7 @@ async function makeSheet(base, { out, shuffle = 1, cell = 264, across = 3, rows 
         const page = await browser.newPage({ viewport: { width: cell, height: cell } });
         const cells = [];
         for (const [i, { id }] of order.entries()) {
-            // The bar of length is the page's own; names and numbers are not shown.
+            // The scale bar is the page's own; names and numbers are not shown.
             await page.goto(`${base}/?species=${id}&shot=1`);
             await ready(page);
             await page.evaluate(() => document.querySelector(".scale").classList.remove("chrome"));

@@ -1,4 +1,4 @@
-// The page in headless Chromium against a running server (SPOREPRINT_URL): what a person sees and does.
+// Tests of the page in headless Chromium against a running server (SPOREPRINT_URL).
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
@@ -6,7 +6,7 @@ import test, { after, before } from "node:test";
 import {
     galleryComplete,
     launchBrowser,
-    listen,
+    logEvents,
     ready,
     screenshotFolder,
     serverUrl,
@@ -21,7 +21,7 @@ let species;
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    // One storage for all tests: the gallery's pictures are made once.
+    // All tests share one storage, so that thumbnails are rendered once.
     shared = await browser.newContext({
         viewport: { width: 960, height: 560 },
         reducedMotion: "reduce",
@@ -31,28 +31,29 @@ before(async () => {
 
 after(() => browser?.close());
 
-/** A page of its own; `heard` is what it said and asked for. */
+/** Opens a page; `log` has its console messages and requests. */
 async function open(t, query = "", viewport = undefined, from = base) {
     const page = await shared.newPage();
     t.after(() => page.close());
     if (viewport) await page.setViewportSize(viewport);
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${from}/${query}`);
     await ready(page);
-    return { page, heard };
+    return { page, log };
 }
 
 const stagePicture = (page) => page.locator("#stage").screenshot();
 const parameters = (page) => new URL(page.url()).searchParams;
-/** What was asked for to be shown large: the gallery's pictures come when there is time. */
-const models = (heard) =>
-    heard.requests.filter(
+/** Returns the requested models without thumbnails. */
+const models = (log) =>
+    log.requests.filter(
         (url) =>
             /\/v1\/mushrooms\/[^/]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url),
     );
 const slider = (page, name) => page.locator(`input[type=range][name="${name}"]`);
 
-/** How many different colours a picture has: a blank stage has a gradient's few. */
+/** Returns the number of different colours in a picture: an empty stage has only those of a
+ *  gradient. */
 async function colours(t, png) {
     const context = await browser.newContext();
     t.after(() => context.close());
@@ -69,16 +70,16 @@ async function colours(t, png) {
     }, png.toString("base64"));
 }
 
-function quiet(heard) {
-    assert.deepEqual(heard.console, []);
-    assert.deepEqual(heard.failed, []);
+function expectNoProblems(log) {
+    assert.deepEqual(log.console, []);
+    assert.deepEqual(log.failed, []);
 }
 
-test("every species loads, is drawn, and nothing is said on the console", async (t) => {
+test("every species is loaded and drawn without console messages", async (t) => {
     const whole = serverUrl({ everySpecies: true });
     const { species } = await (await fetch(`${whole}/v1/species`)).json();
     assert.ok(species.length > 0);
-    const { page, heard } = await open(t, "", { width: 1280, height: 800 }, whole);
+    const { page, log } = await open(t, "", { width: 1280, height: 800 }, whole);
     await galleryComplete(page);
     assert.equal(
         await page.locator("#gallery img").count(),
@@ -106,14 +107,14 @@ test("every species loads, is drawn, and nothing is said on the console", async 
         const png = await page.screenshot({ path: path.join(folder, `species-${id}.png`) });
         assert.ok((await colours(t, png)) > 1500, `${id} is drawn`);
     }
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a dragged slider shows drafts, then what was chosen, and writes the address", async (t) => {
-    const { page, heard } = await open(t, `?species=${species[0].id}`);
+test("a dragged slider requests drafts and the final model and writes the address", async (t) => {
+    const { page, log } = await open(t, `?species=${species[0].id}`);
     await galleryComplete(page);
     const before_ = await stagePicture(page);
-    const asked = models(heard).length;
+    const requestCount = models(log).length;
     const box = await slider(page, "age").boundingBox();
     const y = box.y + box.height / 2;
     await page.mouse.move(box.x + box.width * 0.6, y);
@@ -123,8 +124,8 @@ test("a dragged slider shows drafts, then what was chosen, and writes the addres
         await page.waitForTimeout(60);
     }
     await page.waitForTimeout(400);
-    const drafts = models(heard)
-        .slice(asked)
+    const drafts = models(log)
+        .slice(requestCount)
         .map((url) => new URL(url).searchParams);
     assert.ok(drafts.length >= 1 && drafts.length <= 12, `${drafts.length} drafts for one drag`);
     assert.ok(
@@ -135,7 +136,7 @@ test("a dragged slider shows drafts, then what was chosen, and writes the addres
     const age = Number(parameters(page).get("age"));
     assert.ok(age > 0.05 && age < 0.45, `age is ${age}`);
     assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), String(age));
-    const last = new URL(models(heard).at(-1)).searchParams;
+    const last = new URL(models(log).at(-1)).searchParams;
     assert.deepEqual([...last], [["age", String(age)]]);
     assert.notDeepEqual(await stagePicture(page), before_, "the picture changed");
     await page.screenshot({ path: path.join(folder, "after-drag.png") });
@@ -147,12 +148,12 @@ test("a dragged slider shows drafts, then what was chosen, and writes the addres
     await page.goForward();
     await ready(page);
     assert.equal(Number(parameters(page).get("age")), age);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
 test("an address opens as it was shared", async (t) => {
     const id = species.at(-1).id;
-    const { page, heard } = await open(t, `?species=${id}&seed=42&age=0.35&lod=1`);
+    const { page, log } = await open(t, `?species=${id}&seed=42&age=0.35&lod=1`);
     assert.equal(await page.locator('input[type=number][name="seed"]').inputValue(), "42");
     assert.equal(await page.locator('input[type=number][name="age"]').inputValue(), "0.35");
     assert.equal(await page.locator('#lods button[aria-pressed="true"]').textContent(), "L1");
@@ -160,7 +161,7 @@ test("an address opens as it was shared", async (t) => {
         await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"),
         id,
     );
-    quiet(heard);
+    expectNoProblems(log);
 });
 
 test("what an address gets wrong is said in words beside the control", async (t) => {
@@ -173,8 +174,8 @@ test("what an address gets wrong is said in words beside the control", async (t)
     assert.equal(await slider(page, "age").getAttribute("aria-invalid"), "true");
 });
 
-test("a species that is not there is said in words and another one is shown", async (t) => {
-    const { page, heard } = await open(t, "?species=amanita_unicornis");
+test("an unknown species is reported and the first one is shown", async (t) => {
+    const { page, log } = await open(t, "?species=amanita_unicornis");
     assert.match(
         await page.locator("#problem").textContent(),
         /'amanita_unicornis' is no species here/,
@@ -183,19 +184,19 @@ test("a species that is not there is said in words and another one is shown", as
         await page.locator('#gallery button[aria-pressed="true"]').getAttribute("data-species"),
         species[0].id,
     );
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a mix is named after its members, and all of them are marked", async (t) => {
+test("the names and the gallery show all members of a mix", async (t) => {
     const [first, last] = [species[0], species.at(-1)];
     const page = await shared.newPage();
     t.after(() => page.close());
-    // What the page makes of a mix is asked here, not which species this server mixes.
+    // This test is about the page's handling of a mix, not about which species can be mixed.
     await page.route(/\/v1\/mushrooms\/[^/]+,/, (route) => {
         const url = route.request().url();
         return route.continue({ url: url.replace(/mushrooms\/[^/]+\./, `mushrooms/${first.id}.`) });
     });
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${base}/?species=${first.id}:0.5,${last.id}:0.5`);
     await ready(page);
     assert.equal(await page.locator('#gallery button[aria-pressed="true"]').count(), 2);
@@ -203,10 +204,10 @@ test("a mix is named after its members, and all of them are marked", async (t) =
         await page.locator("#common-name").textContent(),
         `${first.common_name} × ${last.common_name}`,
     );
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("every control is native, named by its query name, described and within its range", async (t) => {
+test("every control is a native input with query name, description and valid value", async (t) => {
     const { page } = await open(t);
     const schema = await (await fetch(`${base}/v1/mushrooms/schema`)).json();
     const names = Object.keys(schema.properties).filter(
@@ -238,15 +239,15 @@ test("every control is native, named by its query name, described and within its
     assert.deepEqual(errors, []);
 });
 
-test("a control of the species' own is sent once moved, and no more after its reset", async (t) => {
-    const { page, heard } = await open(t, `?species=${species[0].id}`);
+test("a value of the species' own is sent only while it is changed", async (t) => {
+    const { page, log } = await open(t, `?species=${species[0].id}`);
     await page.evaluate(() =>
         document.querySelectorAll("details").forEach((details) => (details.open = true)),
     );
     const row = page.locator(".control.inherited.number:visible").first();
     assert.equal(await row.count(), 1);
     const name = await row.getAttribute("data-name");
-    assert.ok(!models(heard).some((url) => new URL(url).searchParams.has(name)));
+    assert.ok(!models(log).some((url) => new URL(url).searchParams.has(name)));
     const own = await slider(page, name).inputValue();
     await slider(page, name).focus();
     await page.keyboard.press(
@@ -256,15 +257,15 @@ test("a control of the species' own is sent once moved, and no more after its re
     );
     await ready(page);
     assert.ok(parameters(page).has(name));
-    assert.ok(new URL(models(heard).at(-1)).searchParams.has(name));
+    assert.ok(new URL(models(log).at(-1)).searchParams.has(name));
     await page.locator(`.control[data-name="${name}"] .reset`).click();
     await ready(page);
     assert.ok(!parameters(page).has(name));
     assert.equal(await slider(page, name).inputValue(), own);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-/** Drops bytes onto the page as a file from the desktop. */
+/** Drops bytes onto the page as a file. */
 async function drop(page, bytes, name) {
     const transfer = await page.evaluateHandle(
         ([data, file]) => {
@@ -280,14 +281,14 @@ async function drop(page, bytes, name) {
     await page.dispatchEvent("body", "drop", { dataTransfer: transfer });
 }
 
-test("a dropped GLB restores its controls", async (t) => {
+test("a dropped GLB restores its settings", async (t) => {
     const id = species.at(-1).id;
     const bytes = await (
         await fetch(
             `${base}/v1/mushrooms/${id}.glb?age=0.35&seed=42&variation=0.8&texture_size=256`,
         )
     ).arrayBuffer();
-    const { page, heard } = await open(t, `?species=${species[0].id}&size=2`);
+    const { page, log } = await open(t, `?species=${species[0].id}&size=2`);
     await drop(page, bytes, "found.glb");
     await page.waitForFunction((wanted) => location.search.includes(wanted), id);
     await ready(page);
@@ -302,10 +303,10 @@ test("a dropped GLB restores its controls", async (t) => {
     assert.equal(await page.locator('select[name="texture_size"]').inputValue(), "256");
     assert.match(await page.locator("#status").textContent(), /./);
     await page.screenshot({ path: path.join(folder, "after-drop.png") });
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a file that is no GLB of ours is refused in words and the mushroom stays", async (t) => {
+test("a file of another origin is refused with a message, and the mushroom stays", async (t) => {
     const { page } = await open(t);
     const before_ = page.url();
     await drop(page, Buffer.from("not a model"), "poem.glb");
@@ -315,20 +316,20 @@ test("a file that is no GLB of ours is refused in words and the mushroom stays",
     await ready(page);
 });
 
-test("nothing is asked for and nothing is drawn once the page is idle", async (t) => {
-    const { page, heard } = await open(t);
+test("an idle page sends no request and draws no frame", async (t) => {
+    const { page, log } = await open(t);
     await galleryComplete(page);
     await page.waitForTimeout(500);
-    const asked = heard.requests.length;
+    const requestCount = log.requests.length;
     const { frames } = await page.evaluate(() => window.sporeprint.renderer);
     await page.waitForTimeout(3000);
-    assert.deepEqual(heard.requests.slice(asked), []);
+    assert.deepEqual(log.requests.slice(requestCount), []);
     assert.equal((await page.evaluate(() => window.sporeprint.renderer)).frames, frames);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
 test("a second visit takes the gallery's pictures from Cache Storage", async (t) => {
-    const { page, heard } = await open(t);
+    const { page, log } = await open(t);
     await galleryComplete(page);
     const seen = [];
     page.on("request", (request) => {
@@ -339,11 +340,11 @@ test("a second visit takes the gallery's pictures from Cache Storage", async (t)
     await galleryComplete(page);
     assert.equal(await page.locator("#gallery img").count(), species.length);
     assert.deepEqual(seen, []);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("the whole page can be walked by keyboard with the focus in sight", async (t) => {
-    const { page, heard } = await open(t);
+test("the whole page can be used by keyboard and the focus is always visible", async (t) => {
+    const { page, log } = await open(t);
     await galleryComplete(page);
     const seen = new Set();
     let unseen = 0;
@@ -405,11 +406,11 @@ test("the whole page can be walked by keyboard with the focus in sight", async (
     for (let turn = 0; turn < 4; ++turn) await page.keyboard.press("ArrowRight");
     await page.evaluate(() => window.sporeprint.ready());
     assert.notDeepEqual(await stagePicture(page), before_, "arrow keys turn the mushroom");
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a window 360 pixels wide has everything and no sideways scrolling", async (t) => {
-    const { page, heard } = await open(t, "", { width: 360, height: 740 });
+test("the page fits into 360 pixels without horizontal scrolling", async (t) => {
+    const { page, log } = await open(t, "", { width: 360, height: 740 });
     await galleryComplete(page);
     await page.evaluate(() =>
         document.querySelectorAll("details").forEach((details) => (details.open = true)),
@@ -428,7 +429,7 @@ test("a window 360 pixels wide has everything and no sideways scrolling", async 
     assert.deepEqual(over, []);
     await page.screenshot({ path: path.join(folder, "phone.png") });
     await page.screenshot({ path: path.join(folder, "phone-whole.png"), fullPage: true });
-    quiet(heard);
+    expectNoProblems(log);
 });
 
 test("the downloaded file and the copied address are the same bytes", async (t) => {
@@ -459,7 +460,7 @@ test("the downloaded file and the copied address are the same bytes", async (t) 
     );
 });
 
-test("many changes leave nothing behind on the graphics card", async (t) => {
+test("repeated changes free all memory of the graphics card", async (t) => {
     const { page } = await open(t);
     await galleryComplete(page);
     const roll = async () => {
@@ -476,7 +477,7 @@ test("many changes leave nothing behind on the graphics card", async (t) => {
 });
 
 test("wireframe and named views change the picture, not the address", async (t) => {
-    const { page, heard } = await open(t, `?species=${species[0].id}`);
+    const { page, log } = await open(t, `?species=${species[0].id}`);
     const plain = await stagePicture(page);
     await page.locator("#wireframe").click();
     await page.evaluate(() => window.sporeprint.ready());
@@ -486,10 +487,10 @@ test("wireframe and named views change the picture, not the address", async (t) 
     await page.evaluate(() => window.sporeprint.ready());
     assert.notDeepEqual(await stagePicture(page), wire);
     assert.deepEqual([...parameters(page)], [["species", species[0].id]]);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a busy server is asked again after the time it names, and the page says so", async (t) => {
+test("a request to a busy server is repeated after Retry-After, which is shown", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}`);
     await galleryComplete(page);
     let refused = 0;
@@ -547,7 +548,7 @@ test("the API page shows every route of the description", async (t) => {
     const context = await browser.newContext({ viewport: { width: 1100, height: 800 } });
     t.after(() => context.close());
     const page = await context.newPage();
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${base}/docs`);
     await page.waitForFunction(() => document.documentElement.dataset.docs === "complete");
     const { paths } = await (await fetch(`${base}/openapi.json`)).json();
@@ -557,11 +558,11 @@ test("the API page shows every route of the description", async (t) => {
     await page.screenshot({ path: path.join(folder, "docs.png") });
     await page.setViewportSize({ width: 360, height: 740 });
     assert.ok((await page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("the search above the gallery narrows it, and gives it back", async (t) => {
-    const { page, heard } = await open(t);
+test("the search narrows the gallery, and Escape shows all of it again", async (t) => {
+    const { page, log } = await open(t);
     const shown = () =>
         page
             .locator("#gallery li:not([hidden]) button")
@@ -575,5 +576,5 @@ test("the search above the gallery narrows it, and gives it back", async (t) => 
     await page.locator("#find").press("Escape");
     assert.equal((await shown()).length, species.length);
     assert.equal(await page.locator("#found").textContent(), "");
-    quiet(heard);
+    expectNoProblems(log);
 });

@@ -1,4 +1,4 @@
-// What the page's tests and tools share: packages of the page's room, a browser, a listening ear.
+// Shared by the page's tests and tools: npm packages, a browser, a log of a page's events.
 import { createRequire } from "node:module";
 import { mkdir } from "node:fs/promises";
 import path from "node:path";
@@ -7,12 +7,12 @@ import { fileURLToPath } from "node:url";
 const here = path.dirname(fileURLToPath(import.meta.url));
 export const root = path.resolve(here, "../..");
 
-/** The page's room holds the packages; tests have none of their own. */
+/** Resolves packages of web_viewer; tests have none of their own. */
 export const packages = createRequire(path.join(root, "web_viewer/package.json"));
 
 /**
- * Address of the running server, without a slash at its end. For `everySpecies` that of a server with the whole atlas
- * (SPOREPRINT_ALL_URL), where there are two.
+ * Returns the URL of the running server without a slash at its end. With `everySpecies` it is that of
+ * a server with the whole atlas (SPOREPRINT_ALL_URL), if there are two servers.
  */
 export function serverUrl({ everySpecies = false } = {}) {
     const url = (everySpecies && process.env.SPOREPRINT_ALL_URL) || process.env.SPOREPRINT_URL;
@@ -49,22 +49,22 @@ export async function launchBrowser() {
     });
 }
 
-/** Notes everything a page says or fails at; `requests` grows with each request it makes. */
-export function listen(page) {
-    const heard = { console: [], failed: [], requests: [] };
-    page.on("console", (message) => heard.console.push(`${message.type()}: ${message.text()}`));
-    page.on("pageerror", (error) => heard.console.push(`uncaught: ${error.message}`));
-    page.on("request", (request) => heard.requests.push(request.url()));
+/** Logs console messages, failures and requests of a page; the returned lists grow with them. */
+export function logEvents(page) {
+    const log = { console: [], failed: [], requests: [] };
+    page.on("console", (message) => log.console.push(`${message.type()}: ${message.text()}`));
+    page.on("pageerror", (error) => log.console.push(`uncaught: ${error.message}`));
+    page.on("request", (request) => log.requests.push(request.url()));
     page.on("requestfailed", (request) => {
-        // A request that the page itself gave up, for a newer one, did not fail.
+        // The page cancels requests that are out of date: these are no failures.
         if (request.failure()?.errorText !== "net::ERR_ABORTED") {
-            heard.failed.push(`${request.url()}: ${request.failure()?.errorText}`);
+            log.failed.push(`${request.url()}: ${request.failure()?.errorText}`);
         }
     });
     page.on("response", (response) => {
-        if (response.status() >= 400) heard.failed.push(`${response.url()}: ${response.status()}`);
+        if (response.status() >= 400) log.failed.push(`${response.url()}: ${response.status()}`);
     });
-    return heard;
+    return log;
 }
 
 /** Waits until the shown model equals the controls and a frame was drawn. */

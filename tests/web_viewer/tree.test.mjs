@@ -1,4 +1,4 @@
-// Trees on the page, in headless Chromium against a running server (SPOREPRINT_URL).
+// Tests of trees on the page, in headless Chromium against a running server (SPOREPRINT_URL).
 import assert from "node:assert/strict";
 import { readFile } from "node:fs/promises";
 import path from "node:path";
@@ -6,7 +6,7 @@ import test, { after, before } from "node:test";
 import {
     galleryComplete,
     launchBrowser,
-    listen,
+    logEvents,
     ready,
     screenshotFolder,
     serverUrl,
@@ -14,7 +14,7 @@ import {
 
 const base = serverUrl();
 let browser;
-let shared; // so that pictures of the gallery are drawn once
+let shared; // thumbnails are rendered once
 let folder;
 
 before(async () => {
@@ -31,25 +31,25 @@ after(() => browser?.close());
 async function open(t, query) {
     const page = await shared.newPage();
     t.after(() => page.close());
-    const heard = listen(page);
+    const log = logEvents(page);
     await page.goto(`${base}/${query}`);
     await ready(page);
     await page
         .locator("#form details:not([open]) summary")
         .evaluateAll((all) => all.forEach((one) => one.click()));
-    return { page, heard };
+    return { page, log };
 }
 
 const parameters = (page) => Object.fromEntries(new URL(page.url()).searchParams);
 const counts = (page) => page.evaluate(() => window.sporeprint.counts);
 
-function quiet(heard) {
-    assert.deepEqual(heard.console, []);
-    assert.deepEqual(heard.failed, []);
+function expectNoProblems(log) {
+    assert.deepEqual(log.console, []);
+    assert.deepEqual(log.failed, []);
 }
 
-test("the tree bench offers every preset, every parameter of the schema, and the matrix in force", async (t) => {
-    const { page, heard } = await open(t, "?tree&lod=2");
+test("the page of trees offers every preset and parameter and shows the matrix", async (t) => {
+    const { page, log } = await open(t, "?tree&lod=2");
     const { trees } = await (await fetch(`${base}/v1/trees`)).json();
     assert.deepEqual(
         await page
@@ -86,11 +86,11 @@ test("the tree bench offers every preset, every parameter of the schema, and the
         matrix.flat().map((share) => Number(share.toFixed(4))),
     );
     await page.screenshot({ path: path.join(folder, "tree_editor.png") });
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("a change of the table grows a tree of one's own matrix, which stands in the page's address", async (t) => {
-    const { page, heard } = await open(t, "?tree=birch&lod=2");
+test("a change of the table posts a custom matrix, which is written to the address", async (t) => {
+    const { page, log } = await open(t, "?tree=birch&lod=2");
     const before = (await counts(page)).triangles;
     const entry = page.locator('#matrix input[data-cell="0-1"]');
     await entry.fill("0.6");
@@ -103,9 +103,9 @@ test("a change of the table grows a tree of one's own matrix, which stands in th
     );
     assert.match(parameters(page).rows, /^0\.4,0\.6;/);
     assert.notEqual((await counts(page)).triangles, before);
-    assert.ok(heard.requests.some((url) => url.endsWith("/v1/trees.glb")));
-    assert.equal(await page.locator("#copy-url").isDisabled(), true, "no address says it");
-    await galleryComplete(page); // or the browser would speak of the pictures that it gives up
+    assert.ok(log.requests.some((url) => url.endsWith("/v1/trees.glb")));
+    assert.equal(await page.locator("#copy-url").isDisabled(), true, "no URL contains it");
+    await galleryComplete(page); // or the browser reports cancelled requests
     await page.reload();
     await ready(page);
     assert.equal(await page.locator('#matrix input[data-cell="0-1"]').inputValue(), "0.6");
@@ -113,11 +113,11 @@ test("a change of the table grows a tree of one's own matrix, which stands in th
     await ready(page);
     assert.equal((await counts(page)).triangles, before);
     assert.equal(parameters(page).rows, undefined);
-    quiet(heard);
+    expectNoProblems(log);
 });
 
-test("what cannot be is said under the table by its row, and the last tree stays", async (t) => {
-    const { page, heard } = await open(t, "?tree=herb&lod=3");
+test("a refused row has its message under the table, and the last tree stays", async (t) => {
+    const { page, log } = await open(t, "?tree=herb&lod=3");
     const entry = page.locator('#matrix input[data-cell="1-2"]');
     await entry.fill("0");
     await entry.press("Enter");
@@ -127,14 +127,14 @@ test("what cannot be is said under the table by its row, and the last tree stays
         /Order 3: .*hardly ever end/,
     );
     assert.ok(
-        heard.failed.every((line) => line.endsWith(": 422")),
-        heard.failed.join(),
+        log.failed.every((line) => line.endsWith(": 422")),
+        log.failed.join(),
     );
     assert.ok((await counts(page)).triangles > 100);
 });
 
-test("the file that is saved is that of the shown address, and brings its settings back", async (t) => {
-    const { page, heard } = await open(t, "?tree=poplar&autumn=0.5&lod=3");
+test("the downloaded file equals that of the address and restores its settings", async (t) => {
+    const { page, log } = await open(t, "?tree=poplar&autumn=0.5&lod=3");
     const [download] = await Promise.all([
         page.waitForEvent("download"),
         page.locator("#download").click(),
@@ -153,5 +153,5 @@ test("the file that is saved is that of the shown address, and brings its settin
     await page.waitForURL(/tree=poplar/);
     await ready(page);
     assert.deepEqual(parameters(page), { tree: "poplar", autumn: "0.5", lod: "3" });
-    assert.deepEqual(heard.failed, []);
+    assert.deepEqual(log.failed, []);
 });

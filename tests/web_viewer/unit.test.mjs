@@ -1,4 +1,4 @@
-// The parts of the page that need no browser: schema to fields, settings to addresses, words.
+// Tests of the modules that need no browser: schema to fields, settings to addresses, texts.
 import assert from "node:assert/strict";
 import { spawnSync } from "node:child_process";
 import { readFileSync } from "node:fs";
@@ -89,7 +89,7 @@ const schema = {
 const fields = page.groupsOf(schema).flatMap((group) => group.fields);
 const named = (name) => fields.find((field) => field.name === name);
 
-test("what stands at the top level is about what grows: an individual or a whole colony", () => {
+test("the group of top-level parameters is named after the product", () => {
     assert.equal(page.groupsOf(schema)[0].label, "Individual");
     assert.equal(page.groupsOf(schema, page.colonies.groupName)[0].label, "Colony");
 });
@@ -114,7 +114,7 @@ test("every parameter of the schema becomes a field under its query name, except
     assert.equal(named("deformation.bend_deg").group, "deformation");
 });
 
-test("alternatives of a variant are one list of names and the fields of all of them", () => {
+test("alternatives of a variant become one list of names and the fields of all", () => {
     assert.deepEqual(named("hymenium.form").options, ["gills", "pores"]);
     assert.equal(named("hymenium.count").owner, "species");
     assert.equal(named("hymenium.count").fallback, undefined);
@@ -127,7 +127,7 @@ test("a slider's step is 1, 2 or 5 times a power of ten and leaves at least 180 
     }
 });
 
-test("an address carries only what differs, in the schema's order", () => {
+test("an address contains only values that are not defaults, in the schema's order", () => {
     const settings = new page.Settings(fields, "boletus_edulis");
     assert.equal(settings.address(".glb"), "v1/mushrooms/boletus_edulis.glb");
     settings.set("deformation.bend_deg", 20);
@@ -148,7 +148,7 @@ test("an address carries only what differs, in the schema's order", () => {
     );
 });
 
-test("a leaf has its own routes, and its colours are controls of their own kind", () => {
+test("a leaf has routes of its own, and its colours have colour inputs", () => {
     const tint = { type: "string", format: "color", "x-default-from": "preset" };
     const parts = page
         .groupsOf({
@@ -178,7 +178,7 @@ test("a leaf has its own routes, and its colours are controls of their own kind"
     );
 });
 
-test("a page's query and a canonical address say what grew", () => {
+test("a page's query and a canonical path determine the product", () => {
     assert.equal(page.productOf(new URLSearchParams("leaf")), page.leaves);
     assert.equal(page.productOf(new URLSearchParams("seed=7")), page.mushrooms);
     assert.deepEqual(page.modelAt("/v1/leaves/oak.glb"), { product: page.leaves, id: "oak" });
@@ -191,7 +191,7 @@ test("a page's query and a canonical address say what grew", () => {
     assert.equal(page.modelAt("/v1/morphs/a/b.glb"), undefined);
 });
 
-test("nothing that the page links or asks for leaves the path that it stands under", () => {
+test("all links and requests of the page are relative to its path prefix", () => {
     for (const product of page.products) assert.match(product.path, /^v1\/\w+$/);
     for (const file of ["index.html", "docs.html"]) {
         const text = readFileSync(path.join(root, "web_viewer/src", file), "utf8");
@@ -208,7 +208,7 @@ test("nothing that the page links or asks for leaves the path that it stands und
     }
 });
 
-test("another species drops what was set on the last one's own shape and keeps the rest", () => {
+test("choosing another species drops values of the last one's shape and keeps the rest", () => {
     const settings = new page.Settings(fields, "boletus_edulis");
     settings.set("deformation.bend_deg", 20);
     settings.set("seed", 7);
@@ -216,13 +216,13 @@ test("another species drops what was set on the last one's own shape and keeps t
     assert.equal(settings.address(".glb"), "v1/mushrooms/russula_vinosa.glb?seed=7");
 });
 
-test("what a page address says is read back, and what it cannot use is named", () => {
+test("a page address is read back, and parameters that cannot be used are reported", () => {
     const settings = new page.Settings(fields, "a");
-    const faults = settings.read(
+    const rejected = settings.read(
         new URLSearchParams("species=a&age=3.7e-1&lod=9&sed=4&textures=none&seed=0x10&glow=true"),
     );
     assert.deepEqual(
-        faults.map(({ parameter }) => parameter),
+        rejected.map(({ parameter }) => parameter),
         ["lod", "sed", "seed"],
     );
     assert.deepEqual(
@@ -235,7 +235,7 @@ test("what a page address says is read back, and what it cannot use is named", (
     );
 });
 
-test("a drag asks for linked textures and a lower level of detail, never a higher one", () => {
+test("a draft has linked textures and never a finer level of detail", () => {
     const settings = new page.Settings(fields, "a");
     assert.deepEqual(
         [...settings.draftValues(true)],
@@ -250,7 +250,7 @@ test("a drag asks for linked textures and a lower level of detail, never a highe
     assert.deepEqual([...settings.draftValues(true)], [["lod", 3]]);
 });
 
-test("playing asks for the growth of the settings at most at LOD 1, and frames are only sent with a clip", () => {
+test("a clip is requested at LOD 1 or coarser, and frames are sent only with a clip", () => {
     const properties = {
         ...schema.properties,
         animation: { enum: ["none", "growth"], default: "none" },
@@ -280,7 +280,7 @@ test("playing asks for the growth of the settings at most at LOD 1, and frames a
     );
 });
 
-test("values outside the schema have their fault in words", () => {
+test("values outside the schema have a validation error", () => {
     assert.equal(page.validationError(named("age"), 1.7), "is above 1");
     assert.equal(page.validationError(named("seed"), 1.5), "needs a whole number");
     assert.equal(page.validationError(named("age"), Number.NaN), "needs a number");
@@ -295,7 +295,7 @@ test("Retry-After is read as seconds and as a date, within bounds", () => {
     assert.equal(page.retryAfter("0", 0), 0.25);
 });
 
-test("the scale bar has a round length and is as long on the screen as it says", () => {
+test("the scale bar has a round length and the right number of pixels", () => {
     for (const perMetre of [90, 1234, 5000, 33333, 1e6]) {
         const bar = page.scaleBar(perMetre, 64);
         assert.ok(Math.abs(bar.pixels - bar.metres * perMetre) < 1e-9);
@@ -306,7 +306,7 @@ test("the scale bar has a round length and is as long on the screen as it says",
     assert.equal(page.centimetres(0.0005), "0.05 cm");
 });
 
-test("seasons and numbers are said as a person says them", () => {
+test("seasons and numbers are formatted for people", () => {
     assert.equal(page.seasonText([7, 8, 9, 10]), "Jul–Oct");
     assert.equal(page.seasonText([11, 12, 1, 2]), "Nov–Feb");
     assert.equal(page.seasonText([9]), "Sep");
@@ -315,12 +315,12 @@ test("seasons and numbers are said as a person says them", () => {
     assert.equal(page.kilobytes(1_240_000), "1.24 MB");
 });
 
-// The morph bench
+// The morph editor
 
 const close = (one, other, most = 1e-12) =>
     assert.ok(Math.abs(one - other) <= most, `${one} is not ${other}`);
 
-/** Points all over a polygon: corners, edges, inside. */
+/** Returns points of a polygon: corners, edges, inside. */
 function pointsIn(corners) {
     const points = [];
     for (let a = 0; a < corners.length; ++a) {
@@ -346,7 +346,7 @@ function pointsIn(corners) {
 
 for (const n of [3, 4, 5]) {
     const corners = page.polygon(n);
-    test(`weights on a pad of ${n} corners sum to one, are never negative and give their point back`, () => {
+    test(`weights in a polygon of ${n} corners sum to one and determine the point`, () => {
         for (const point of pointsIn(corners)) {
             const weights = page.weightsAt(point, corners);
             close(
@@ -363,7 +363,7 @@ for (const n of [3, 4, 5]) {
         }
     });
 
-    test(`a corner of ${n} is exactly its species, an edge mixes its two ends alone`, () => {
+    test(`a corner of ${n} is exactly its species, and an edge mixes only its two ends`, () => {
         corners.forEach((corner, index) => {
             assert.deepEqual(
                 page.weightsAt(corner, corners),
@@ -380,7 +380,7 @@ for (const n of [3, 4, 5]) {
         for (const weight of page.weightsAt({ x: 0, y: 0 }, corners)) close(weight, 1 / n);
     });
 
-    test(`a small step on a pad of ${n} corners is a small step of the weights, also towards corners and edges`, () => {
+    test(`weights in a polygon of ${n} corners are continuous, also at its border`, () => {
         for (const point of pointsIn(corners)) {
             const before = page.weightsAt(point, corners);
             for (const [dx, dy] of [
@@ -399,7 +399,7 @@ for (const n of [3, 4, 5]) {
         }
     });
 
-    test(`a point pulled out of ${n} corners stays on the rim at the nearest place`, () => {
+    test(`a point outside ${n} corners is moved to the nearest point of the border`, () => {
         for (const point of pointsIn(corners)) {
             const far = { x: point.x * 3 + 0.1, y: point.y * 3 - 0.2 };
             const kept = page.insidePolygon(far, corners);
@@ -420,7 +420,7 @@ for (const n of [3, 4, 5]) {
     });
 }
 
-test("mixes are spelled as the service's canonical rule does", () => {
+test("mixes have the service's canonical form", () => {
     const mix = (text) => page.canonicalMix(page.readShares(text));
     assert.equal(mix("a"), "a");
     assert.equal(mix("a:5"), "a");
@@ -434,7 +434,7 @@ test("mixes are spelled as the service's canonical rule does", () => {
         assert.equal(page.readShares(text), undefined, text);
 });
 
-test("rows of a matrix are read as they are written, and sum to one whatever share is changed", () => {
+test("rows of a matrix are read as they were written, and always sum to one", () => {
     const rows = [
         [0.5, 0.5],
         [0.25, 0.5, 0.25],
@@ -457,7 +457,7 @@ test("rows of a matrix are read as they are written, and sum to one whatever sha
     assert.deepEqual(
         page.withShare([1, 0, 0], 0, 0.4),
         [0.4, 0.3, 0.3],
-        "nothing has no proportion",
+        "zeros have no proportion",
     );
     assert.deepEqual(page.withShare([0.5, 0.5], 0, 7), [1, 0]);
     for (let i = 0; i < 300; ++i) {
@@ -472,7 +472,7 @@ test("rows of a matrix are read as they are written, and sum to one whatever sha
     assert.deepEqual(page.grownBy(rows), [...rows, [0, 0.25, 0.5, 0.25]]);
 });
 
-test("rows of one's own are posted with what else is set, and leave with the preset", () => {
+test("custom rows are posted with all settings, and dropped with the preset", () => {
     const parts = page
         .groupsOf({
             type: "object",
@@ -495,7 +495,7 @@ test("rows of one's own are posted with what else is set, and leave with the pre
     assert.equal(settings.request().address, "v1/trees/herb.glb?lod=2");
 });
 
-test("another share of one species leaves the others in proportion", () => {
+test("changing one share keeps the proportions of the others", () => {
     const shares = page.readShares("a:0.5,b:0.3,c:0.2");
     const weights = (index, weight) =>
         page.reweighted(shares, index, weight).map((share) => Number(share.weight.toFixed(9)));
@@ -508,7 +508,7 @@ test("another share of one species leaves the others in proportion", () => {
     );
 });
 
-test("the bench's address says all shares in their order and the arcs, and is read back", () => {
+test("the address of a morph contains all shares and arcs in order, and is read back", () => {
     const settings = new page.Settings(fields, "a");
     const known = (id) => ["a", "b", "c"].includes(id);
     const read = (query) => settings.readMorph(new URLSearchParams(query), known);
@@ -532,7 +532,7 @@ test("the bench's address says all shares in their order and the arcs, and is re
     assert.equal(settings.morph, undefined);
 });
 
-test("own arcs are posted with what differs, a mix without them has its plain address", () => {
+test("own arcs are posted with the settings; a mix without arcs has a plain URL", () => {
     const settings = new page.Settings(fields, "a");
     settings.readMorph(new URLSearchParams("morph=b:0.6,a:0.4&arcs=cap:0.25:0.4"), () => true);
     settings.set("age", 0.3);
@@ -552,7 +552,7 @@ test("own arcs are posted with what differs, a mix without them has its plain ad
     assert.equal(settings.request().body, undefined);
 });
 
-test("arcs of one sub-curve cross when their ends change places or meet", () => {
+test("arcs of one sub-curve cross if their ends are in reverse order or meet", () => {
     const arc = (curve, a, b) => ({ curve, a, b });
     assert.ok(page.crosses(arc("cap", 0.2, 0.6), arc("cap", 0.4, 0.5)));
     assert.ok(page.crosses(arc("cap", 0.2, 0.6), arc("cap", 0.2, 0.7)));
@@ -564,7 +564,7 @@ test("arcs of one sub-curve cross when their ends change places or meet", () => 
     );
 });
 
-test("a new arc goes into the widest gap and crosses nothing", () => {
+test("a new arc is in the widest gap and crosses no other arc", () => {
     const arcs = [];
     for (let step = 0; step < 12; ++step) arcs.push(page.widestGap(arcs, "cap"));
     assert.ok(!page.crossing(arcs).includes(true));
@@ -575,7 +575,7 @@ test("a new arc goes into the widest gap and crosses nothing", () => {
     assert.equal(page.matched([], "stem", 0, "a"), 0);
 });
 
-test("undo and redo walk back and forth, and a new step forgets what was undone", () => {
+test("undo and redo are inverse, and a new step discards the undone ones", () => {
     const history = new page.History("");
     for (const value of ["a", "ab", "abc"]) history.push(value);
     assert.deepEqual([history.undo(), history.undo()], ["ab", "a"]);
@@ -593,7 +593,7 @@ test("undo and redo walk back and forth, and a new step forgets what was undone"
 });
 
 for (const n of [2, 3, 4, 5]) {
-    test(`a variety sheet of ${n} has every control shape and no mushroom twice`, () => {
+    test(`a variety sheet of ${n} has every control shape and no duplicates`, () => {
         const { cells, columns, rows } = page.varietyLayout(n);
         assert.equal(cells.length, n === 3 ? 21 : 25);
         const seen = new Set(
@@ -630,7 +630,7 @@ test("the page's TypeScript has no type errors", () => {
     assert.equal(status, 0, stdout);
 });
 
-test("species are found by parts of their names, form, substrate and month, all words at once", () => {
+test("the search matches all words with names, form, substrate and months", () => {
     const hoof = {
         id: "fomes",
         scientific_name: "Fomes fomentarius",
@@ -658,7 +658,7 @@ test("species are found by parts of their names, form, substrate and month, all 
     );
 });
 
-test("a naming trial counts a genus half, whatever the letters' case, and lists what was missed", () => {
+test("a naming trial scores the genus 0.5, ignores case and lists what was missed", () => {
     assert.equal(points("Boletus edulis", "Boletus edulis"), 1);
     assert.equal(points(" mycena  GALERICULATA ", "Mycena haematopus"), 0.5);
     assert.equal(points("Mycenastrum corium", "Mycena haematopus"), 0);
@@ -681,7 +681,7 @@ test("a naming trial counts a genus half, whatever the letters' case, and lists 
     assert.match(table, /\| 2 \| \*Mycena haematopus\* \| Mycena galericulata \| \(nothing\) \|/);
 });
 
-test("the trial that was held last was passed, and its table is that of its answers", async () => {
+test("the last naming trial was passed, and its table matches its answers", async () => {
     const folder = path.join(
         import.meta.dirname ?? path.dirname(new URL(import.meta.url).pathname),
         "naming_trial",
@@ -696,7 +696,7 @@ test("the trial that was held last was passed, and its table is that of its answ
     );
 });
 
-test("a covering array holds every pair, and one of strength three every triple, in fewer rows than the product", () => {
+test("a covering array contains every pair or triple in fewer rows than the product", () => {
     const sizes = [7, 4, 3, 3, 2];
     for (const strength of [2, 3]) {
         const rows = coveringArray(sizes, strength);

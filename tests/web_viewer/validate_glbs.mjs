@@ -1,6 +1,6 @@
-// Runs glTF-Validator over GLBs; zero errors, warnings, infos and hints, or the list of what is wrong.
+// Runs glTF-Validator over GLBs; lists every error, warning, info and hint.
 //
-//   node tests/web_viewer/validate_glbs.mjs http://127.0.0.1:8080/v1/mushrooms/boletus_edulis.glb?lod=1 ...
+//   node tests/web_viewer/validate_glbs.mjs URL ...     e.g. http://127.0.0.1:8080/v1/trees/birch.glb
 //   node tests/web_viewer/validate_glbs.mjs FOLDER|FILE ...
 //     -              takes more of them from standard input, one a line
 //     --allow CODE   lets an issue pass (opt-in extensions: UNSUPPORTED_EXTENSION, UNUSED_OBJECT)
@@ -19,12 +19,14 @@ async function bytesOf(source) {
     if (!/^https?:/.test(source)) return new Uint8Array(await readFile(source));
     const response = await fetch(source);
     if (!response.ok)
-        throw new Error(`answered ${response.status}: ${(await response.text()).slice(0, 300)}`);
+        throw new Error(
+            `responded with ${response.status}: ${(await response.text()).slice(0, 300)}`,
+        );
     return new Uint8Array(await response.arrayBuffer());
 }
 
-/** What is wrong with a GLB, in lines; none when all is well. */
-async function faultsOf(source, allowed) {
+/** Returns the issues of a GLB as lines; none if it is valid. */
+async function issuesOf(source, allowed) {
     try {
         const { issues } = await packages("gltf-validator").validateBytes(await bytesOf(source), {
             uri: source,
@@ -71,7 +73,7 @@ async function main() {
         process.exit(2);
     }
 
-    // Each thread asks for the next one when it is done: some take a hundred times as long as others.
+    // Each thread takes the next file when it is done: some take a hundred times as long as others.
     let next = 0;
     let failed = 0;
     let done = 0;
@@ -87,9 +89,9 @@ async function main() {
                         next < sources.length
                             ? worker.postMessage(sources[next++])
                             : worker.terminate().then(resolve);
-                    worker.on("message", (faults) => {
-                        if (faults.length > 0) failed += 1;
-                        for (const line of faults) console.error(line);
+                    worker.on("message", (issues) => {
+                        if (issues.length > 0) failed += 1;
+                        for (const line of issues) console.error(line);
                         done += 1;
                         if (done % 50 === 0) console.error(`[${done}/${sources.length}]`);
                         give();
@@ -106,5 +108,5 @@ async function main() {
 if (isMainThread) await main();
 else
     parentPort.on("message", async (source) =>
-        parentPort.postMessage(await faultsOf(source, workerData.allowed)),
+        parentPort.postMessage(await issuesOf(source, workerData.allowed)),
     );

@@ -1,4 +1,4 @@
-// The buttons that take the shown model away: download, copied URL, copied curl command.
+// The buttons for the shown model: download, copied URL, copied curl command.
 import { byId, make } from "./dom";
 import type { LoadedModel } from "./model_loader";
 import { announce } from "./status_line";
@@ -6,7 +6,7 @@ import { announce } from "./status_line";
 /** Time after which the memory of a saved file is freed: the download has begun by then. */
 const revokeMs = 10_000;
 
-/** Saves bytes as a file of the person's. */
+/** Saves bytes as a download. */
 export function saveFile(blob: Blob, name: string): void {
     const address = URL.createObjectURL(blob);
     make("a", { href: address, download: name }).click();

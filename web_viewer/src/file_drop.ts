@@ -1,4 +1,4 @@
-// Files from the person's computer, dropped on the page or chosen with the button, and the settings
+// Local files, dropped on the page or chosen with the button, and the settings
 // that the service finds in them.
 import { byId } from "./dom";
 import { RequestFailed, send } from "./http";

@@ -190,7 +190,7 @@ export class Page {
 
     /** A setting was changed: writes the address and requests the model. */
     private changed(name: string): void {
-        // Naming a matrix or requesting another order discards one's own rows.
+        // Naming a matrix or requesting another order discards custom rows.
         if (["matrix", "blend", "toward", "order"].includes(name)) this.settings.rows = undefined;
         this.address.write(name);
         if (name === "age") this.editor.readGraph();

@@ -27,7 +27,7 @@ export interface Product {
     thumbnailDirections: Directions;
     /** It is lifted so that nothing of it is below the ground. */
     liesOnGround: boolean;
-    /** It has a ramification matrix, which can be replaced by one's own. */
+    /** It has a ramification matrix, which can be replaced by a custom one. */
     hasMatrix: boolean;
     list: () => Promise<Species[]>;
 }

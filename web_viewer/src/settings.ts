@@ -47,7 +47,7 @@ export class Settings {
     mix: string;
     /** Defined while the morph editor is open; `mix` is then the mix of its shares. */
     morph: Morph | undefined;
-    /** One's own ramification matrix, sent in a body; undefined for a named one. */
+    /** Custom ramification matrix, sent in a body; undefined for a named one. */
     rows: readonly (readonly number[])[] | undefined;
     readonly values = new Map<string, Value>();
 
@@ -211,7 +211,7 @@ export class Settings {
         return `?${what}${rows}${parameters}${shot ? `&shot=${encodeURIComponent(shot)}` : ""}`;
     }
 
-    /** Reads one's own matrix from the page's query; returns what it could not use. */
+    /** Reads a custom matrix from the page's query; returns what it could not use. */
     readMatrix(query: URLSearchParams): ProblemItem[] {
         this.rows = undefined;
         const text = query.get("rows");
