@@ -1,46 +1,33 @@
 #include "api/openapi.h"
 
+#include <algorithm>
 #include <array>
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
 
 #include "api/http/errors.h"
 #include "api/http/routes.h"
-#include "api/openapi_schemas.h"
+#include "api/http/schemas.h"
 #include "api/products/mix.h"
-#include "api/products/presets.h"
 #include "core/params/describe.h"
 
 namespace sporeprint::api {
 
 namespace {
 
-/// A group of operations, as pages that show the document have them.
-struct Tag {
-    const char* name;
-    const char* description;
-};
+/// The tag of images, which occur in several products.
+constexpr const char* image_tag = "surfaces";
+constexpr const char* image_tag_description = "Images that files with textures=linked point to.";
 
-constexpr std::array<Tag, 8> tags = {{
-    {"mushrooms", "Mushrooms of one species, of a mix, or of a model of your own."},
-    {"morphs", "What lies between two species."},
-    {"colonies", "Many mushrooms that stand together, with their roots."},
-    {"leaves", "Leaves with their veins."},
-    {"trees", "Trees, shrubs and herbs that branch by a ramification matrix."},
-    {"surfaces", "Images that files with textures=linked point to."},
-    {"species", "The templates that mushrooms are grown of."},
-    {"service", "The page, documents, files that are read back, and how the service is."},
-}};
-
-const char* tag_of(const Route& route) {
-    const std::string_view pattern = route.pattern;
-    for (const Tag& tag : tags)
-        if (pattern.starts_with(std::string("/v1/") + tag.name)) return tag.name;
-    return "service";
+const char* tag_of(const RouteGroup& group, const Route& route) {
+    return route.kind == RouteKind::image ? image_tag : group.tag;
 }
 
-/// The leaves of a nested schema as query parameters with dotted names.
+bool is_get(const Route& route) { return std::string_view(route.method) == "GET"; }
+
+/// Adds the leaves of a nested schema as query parameters with dotted names.
 void add_query_parameters(const Value& schema, const std::string& prefix, Value& parameters) {
     const Value* properties = schema.find("properties");
     if (!properties) return;
@@ -50,7 +37,7 @@ void add_query_parameters(const Value& schema, const std::string& prefix, Value&
             continue;
         }
         if (const Value* type = leaf.find("type"); type && *type == Value("array"))
-            continue;  // a list comes in a body
+            continue;  // lists are possible in bodies only
         Value plain = leaf;
         Value parameter = object({{"name", prefix + key}, {"in", "query"}, {"required", false}});
         if (const Value* doc = leaf.find("description")) parameter.set("description", *doc);
@@ -93,9 +80,7 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
                                        text, example));
     if (has("{id}")) parameters.push(path_parameter("id", "A species id.", text, example));
     if (has("{preset}"))
-        parameters.push(path_parameter(
-            "preset", "A preset's id.", text,
-            has("/trees/") ? Trees::presets().front().id : Leaves::presets().front().id));
+        parameters.push(path_parameter("preset", "A preset's id.", text, route.example()));
     if (has("{a}")) {
         parameters.push(path_parameter("a", "Id of the first species.", text, example));
         parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
@@ -112,15 +97,14 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
                                        object({{"type", "string"}, {"enum", names}}),
                                        "base_color"));
     }
-    const bool is_get = std::string_view(route.method) == "GET";
-    add_query_parameters(query_schema(route.endpoint), "", parameters);
-    if (is_generated(route.endpoint) && is_get)
+    if (route.query_schema) add_query_parameters(route.query_schema(), "", parameters);
+    if (is_generated(route) && is_get(route))
         parameters.push(query_parameter(
             "v", false,
             "Version token. Today's makes the answer immutable; any other is 410 with the "
             "canonical address of today's.",
             text));
-    if (is_signed && is_generated(route.endpoint)) {
+    if (is_signed && is_generated(route)) {
         parameters.push(
             query_parameter("key", true, "Id of the key that signed the address.", text));
         parameters.push(query_parameter("expires", false,
@@ -132,9 +116,9 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
     return parameters;
 }
 
-// --- Answers ----------------------------------------------------------------------------
+// --- Responses --------------------------------------------------------------------------
 
-/// A header of any answer. `is_required` where it is never left out.
+/// A header of responses. `is_required` is true if it is always present.
 struct HeaderInfo {
     const char* name;
     const char* description;
@@ -162,7 +146,8 @@ constexpr std::array<HeaderInfo, 17> header_infos = {{
     {"Access-Control-Allow-Origin", "Which pages may read the answer."},
 }};
 
-/// References to the headers of an answer. Where one is not always sent, its name ends with '?'.
+/// Returns references to the headers of a response. A '?' at the end of a name marks a header that
+/// is not always present.
 Value headers_of(std::initializer_list<std::string_view> names) {
     Value headers = Value::object();
     for (std::string_view name : names) {
@@ -185,74 +170,41 @@ Value component_headers() {
     return headers;
 }
 
-/// Which problems a route may answer with.
-std::set<int> problems_of(Endpoint endpoint, bool is_signed) {
-    const std::set<int> of_all = {400, 405, 408, 414, 429, 431, 500, 503};
-    std::set<int> problems = of_all;
-    switch (endpoint) {
-        case Endpoint::livez:
-        case Endpoint::readyz:
+/// Returns the statuses of the problems that a route can respond with.
+std::set<int> problems_of(const Route& route, bool is_signed) {
+    std::set<int> problems = {400, 405, 408, 414, 429, 431, 500, 503};  // of all routes
+    switch (route.kind) {
+        case RouteKind::health:
+            if (route.may_be_elsewhere) problems.insert(404);
             return problems;
-        case Endpoint::metrics:
-            problems.insert(404);  // it may have a port of its own
-            return problems;
-        case Endpoint::species_list:
-            problems.insert({412, 422});
-            return problems;
-        case Endpoint::root:
-        case Endpoint::openapi:
-        case Endpoint::mushroom_list:
-        case Endpoint::mushroom_schema:
-        case Endpoint::colony_list:
-        case Endpoint::colony_schema:
-        case Endpoint::leaf_list:
-        case Endpoint::leaf_schema:
-        case Endpoint::tree_list:
-        case Endpoint::tree_schema:
+        case RouteKind::document:
             problems.insert(412);
+            if (std::string_view(route.pattern).find('{') != std::string_view::npos)
+                problems.insert(404);
+            if (route.query_schema) problems.insert(422);
             return problems;
-        case Endpoint::page:
-        case Endpoint::docs:
-        case Endpoint::asset:
-        case Endpoint::species:
-        case Endpoint::problem_type:
+        case RouteKind::page:
             problems.insert({404, 412});
             return problems;
-        case Endpoint::inspect:
+        case RouteKind::upload:
             problems.insert({411, 413, 415, 422, 504});
             break;
-        case Endpoint::mushroom_post:
-        case Endpoint::morph_post:
-        case Endpoint::colony_post:
-        case Endpoint::leaf_post:
-        case Endpoint::tree_post:
-            problems.insert({404, 410, 411, 412, 413, 415, 422, 504});
-            break;
-        default:
+        case RouteKind::product:
+        case RouteKind::image:
             problems.insert({404, 410, 412, 422, 504});
+            if (!is_get(route)) problems.insert({411, 413, 415});
             break;
     }
     if (is_signed) problems.insert(403);
     return problems;
 }
 
-/// Whether a route answers with something made and kept: an upload is looked at each time.
-bool is_cached(Endpoint endpoint) {
-    return is_generated(endpoint) && endpoint != Endpoint::inspect;
-}
-
-/// Whether the server itself answers: of the process, not of what it makes.
-bool is_health(Endpoint endpoint) {
-    return endpoint == Endpoint::livez || endpoint == Endpoint::readyz ||
-           endpoint == Endpoint::metrics;
-}
-
-/// Whether a range of the body may be asked for: of files that are not sent as gzip by demand. Of a POST no part is sent.
+/// Returns true if ranges of the body may be requested: for files that are not compressed on
+/// demand. A range of a response to POST is never sent.
 bool has_ranges(const Route& route) {
-    const std::string_view type = route.responses;
-    return std::string_view(route.method) == "GET" &&
-           (type == "model/gltf-binary" || type == "image/jpeg" ||
-            route.endpoint == Endpoint::asset);
+    const std::string_view type = route.media_type;
+    return is_get(route) && (type == "model/gltf-binary" || type == "image/jpeg" ||
+                             type == "application/octet-stream");
 }
 
 Value success_headers(const Route& route, bool is_signed) {
@@ -261,34 +213,52 @@ Value success_headers(const Route& route, bool is_signed) {
         const Value more = headers_of(names);
         for (const auto& [key, value] : more.members()) headers.set(key, value);
     };
-    if (is_health(route.endpoint)) {
+    if (route.kind == RouteKind::health) {
         add({"Cache-Control", "X-Request-Id"});
         return headers;
     }
     add({"Cache-Control", "X-Request-Id", "X-Content-Type-Options", "Access-Control-Allow-Origin?",
          "Vary?", "Content-Encoding?"});
-    if (is_generated(route.endpoint)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
-    if (route.endpoint == Endpoint::inspect) return headers;
+    if (is_generated(route)) add({"Server-Timing?", "RateLimit?", "RateLimit-Policy?"});
+    if (route.kind == RouteKind::upload) return headers;
     add({"ETag"});
     if (has_ranges(route)) add({"Accept-Ranges?"});
-    if (!is_cached(route.endpoint)) return headers;
+    if (!is_cached(route)) return headers;
     add({"Cache-Status", "Content-Disposition"});
     if (!is_signed) {
-        // A body may say what no address does.
-        const bool has_address = std::string_view(route.method) == "GET";
-        add({has_address ? "Content-Location" : "Content-Location?"});
+        // The request of a body may have no URL.
+        add({is_get(route) ? "Content-Location" : "Content-Location?"});
     }
     return headers;
 }
 
-/// Media types of a route's 200, each with its schema.
+/// Returns the schema of the body of a response with status 200.
+Value response_schema(const Route& route) {
+    const std::string_view type = route.media_type;
+    if (route.response_schema) return reference(std::string("schemas/") + route.response_schema);
+    if (type.ends_with("json")) return typed("object");
+    if (type.starts_with("text/")) return typed("string");
+    return object({{"type", "string"}, {"format", "binary"}});
+}
+
+/// Returns the request body of a route that has one.
+Value request_body(const Route& route) {
+    if (route.request_body) return reference(std::string("requestBodies/") + route.request_body);
+    const Value file = object({{"type", "string"}, {"format", "binary"}});
+    return object({{"required", true},
+                   {"description", "The whole file."},
+                   {"content", object({{route.body_type, object({{"schema", file}})}})}});
+}
+
+/// Returns the media types of a response with status 200, each with its schema.
 Value success_content(const Route& route) {
-    const Value schema = response_schema(route.endpoint);
+    const Value schema = response_schema(route);
+    const std::string_view pattern = route.pattern;
     Value content = Value::object();
-    // Files of the page are of many types; who has no page built is told so in plain text.
-    content.set(route.endpoint == Endpoint::asset ? "*/*" : route.responses,
+    // Files of the page have many types; without an installed page the root is plain text.
+    content.set(pattern == "/assets/{name}" ? "*/*" : route.media_type,
                 object({{"schema", schema}}));
-    if (route.endpoint == Endpoint::page) content.set("text/plain", object({{"schema", schema}}));
+    if (pattern == "/") content.set("text/plain", object({{"schema", schema}}));
     return content;
 }
 
@@ -298,27 +268,28 @@ std::string description(const Route& route, bool is_head, bool is_signed) {
         return text +
                " Answers with the headers of GET and no body; nothing is made for it, and "
                "Content-Length is told only of what is kept.";
-    if (is_cached(route.endpoint))
+    if (is_cached(route))
         text +=
             " The same request gives the same bytes. The key of the answer is known before it "
             "is made, so a condition that holds costs nothing.";
-    if (is_cached(route.endpoint) && std::string_view(route.method) == "GET" && !is_signed)
+    if (is_cached(route) && is_get(route) && !is_signed)
         text += " Content-Location is the canonical address.";
-    if (is_signed && is_generated(route.endpoint)) text += " The address has to be signed.";
+    if (is_signed && is_generated(route)) text += " The address has to be signed.";
     return text;
 }
 
-/// The operation of a route; for GET also that of HEAD.
-Value operation(const Route& route, const Atlas& atlas, bool is_head, bool is_signed) {
-    const bool is_get = std::string_view(route.method) == "GET";
+/// Returns the operation of a route; for GET also that of HEAD.
+Value operation(const RouteGroup& group, const Route& route, const DocumentInputs& inputs,
+                bool is_head) {
+    const bool is_signed = inputs.signed_urls;
     Value out = object({{"operationId", (is_head ? "head_" : "") + std::string(route.id)},
                         {"summary", route.summary},
                         {"description", description(route, is_head, is_signed)},
-                        {"tags", Value(Value::Array{tag_of(route)})}});
-    Value parameters = parameters_of(route, atlas, is_signed);
+                        {"tags", Value(Value::Array{tag_of(group, route)})}});
+    Value parameters = parameters_of(route, inputs.atlas, is_signed);
     if (!parameters.items().empty()) out.set("parameters", std::move(parameters));
-    if (*route.takes) out.set("requestBody", taken_body(route));
-    if (is_signed && is_generated(route.endpoint))
+    if (*route.body_type) out.set("requestBody", request_body(route));
+    if (is_signed && is_generated(route))
         out.set("security", Value(Value::Array{object({{"signature", Value::array()}})}));
 
     Value responses = Value::object();
@@ -333,8 +304,8 @@ Value operation(const Route& route, const Atlas& atlas, bool is_head, bool is_si
         responses.set("206", std::move(part));
     }
     responses.set("200", std::move(success));
-    std::set<int> problems = problems_of(route.endpoint, is_signed);
-    if (is_get && !is_health(route.endpoint))
+    std::set<int> problems = problems_of(route, is_signed);
+    if (is_get(route) && route.kind != RouteKind::health)
         responses.set("304", reference("responses/not-modified"));
     if (!is_head && has_ranges(route)) problems.insert(416);
     for (const int status : problems)
@@ -352,7 +323,7 @@ Value component_responses(bool is_signed) {
                   {"headers", headers_of({"ETag", "Cache-Control", "X-Request-Id", "Cache-Status?",
                                           "Content-Location?", "Vary?"})}})}});
     for (const ProblemType& type : problem_types()) {
-        if (type.status == 501) continue;  // of a method that no operation has
+        if (type.status == 501) continue;  // for methods without operations
         if (type.status == 403 && !is_signed) continue;
         Value headers = headers_of({"Cache-Control", "X-Request-Id", "Access-Control-Allow-Origin?",
                                     "X-Content-Type-Options?"});
@@ -382,7 +353,7 @@ Value component_responses(bool is_signed) {
     return responses;
 }
 
-/// `headers` without those that `document` nowhere refers to.
+/// Returns the members of `headers` to which `document` refers.
 Value used_headers(const Value& document, const Value& headers) {
     std::set<std::string> used;
     const auto walk = [&](const auto& again, const Value& value) -> void {
@@ -403,20 +374,35 @@ Value used_headers(const Value& document, const Value& headers) {
 
 }  // namespace
 
-Value openapi(const Atlas& atlas, std::string_view version, bool is_signed,
-              std::string_view base_path) {
-    Value paths = Value::object();
-    for (const Route& route : routes()) {
-        const bool is_get = std::string_view(route.method) == "GET";
-        Value item = object({{is_get ? "get" : "post", operation(route, atlas, false, is_signed)}});
-        if (is_get) item.set("head", operation(route, atlas, true, is_signed));
-        paths.set(route.pattern, std::move(item));
+Value openapi(const DocumentInputs& inputs, std::string_view version) {
+    const bool is_signed = inputs.signed_urls;
+    std::map<const Route*, const RouteGroup*> group_of;
+    Value tags = Value::array(), schemas = Value::object(), bodies = Value::object();
+    const auto add_tag = [&](const char* name, const char* description) {
+        tags.push(object({{"name", name}, {"description", description}}));
+    };
+    const auto is_product = [](const RouteGroup& group) {
+        return std::any_of(group.routes.begin(), group.routes.end(), is_cached);
+    };
+    for (const RouteGroup& group : inputs.routes.groups()) {
+        for (const Route& route : group.routes) group_of.emplace(&route, &group);
+        if (group.add_schemas) group.add_schemas(schemas);
+        if (group.add_bodies) group.add_bodies(bodies, inputs.atlas);
+        if (is_product(group)) add_tag(group.tag, group.description);
     }
-    Value groups = Value::array();
-    for (const Tag& tag : tags)
-        groups.push(object({{"name", tag.name}, {"description", tag.description}}));
-    Value components = object({{"schemas", component_schemas()},
-                               {"requestBodies", component_bodies(atlas)},
+    add_tag(image_tag, image_tag_description);
+    for (const RouteGroup& group : inputs.routes.groups())
+        if (!is_product(group) && *group.description) add_tag(group.tag, group.description);
+    Value paths = Value::object();
+    for (const Route* const route : inputs.routes.routes()) {
+        const RouteGroup& group = *group_of.at(route);
+        Value item =
+            object({{is_get(*route) ? "get" : "post", operation(group, *route, inputs, false)}});
+        if (is_get(*route)) item.set("head", operation(group, *route, inputs, true));
+        paths.set(route->pattern, std::move(item));
+    }
+    Value components = object({{"schemas", std::move(schemas)},
+                               {"requestBodies", std::move(bodies)},
                                {"responses", component_responses(is_signed)}});
     if (is_signed)
         components.set(
@@ -440,9 +426,10 @@ Value openapi(const Atlas& atlas, std::string_view version, bool is_signed,
                           "For pictures, never for identifying mushrooms to eat."},
                          {"license", object({{"name", "MIT"}, {"identifier", "MIT"}})}})},
         {"servers",
-         Value(Value::Array{object({{"url", std::string(base_path.empty() ? "/" : base_path)}})})},
+         Value(Value::Array{
+             object({{"url", std::string(inputs.base_path.empty() ? "/" : inputs.base_path)}})})},
         {"security", Value::array()},
-        {"tags", std::move(groups)},
+        {"tags", std::move(tags)},
         {"paths", std::move(paths)},
         {"components", std::move(components)},
     });

@@ -8,10 +8,10 @@
 #include "api/http/compression.h"
 #include "api/http/conditions.h"
 #include "api/http/query.h"
-#include "api/http/routes.h"
 #include "api/http/stopwatch.h"
 #include "api/http/text.h"
-#include "api/products/endpoints.h"
+#include "api/products/context.h"
+#include "api/routes.h"
 #include "api/static_documents.h"
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
@@ -20,12 +20,7 @@ namespace sporeprint::api {
 
 namespace {
 
-bool is_cached_by_key(const Key& key) {
-    return key.starts_with("mushroom.") || key.starts_with("morph.") || key.starts_with("leaf.") ||
-           key.starts_with("tree.") || key.starts_with("colony.");
-}
-
-/// "queue;dur=0.01, build;dur=2.5" of the steps that were taken.
+/// Returns "queue;dur=0.01, build;dur=2.5" for the steps that were measured.
 std::string server_timing(const Timing& timing) {
     const std::array<std::pair<const char*, double>, 5> steps = {{{"queue", timing.queue},
                                                                   {"resolve", timing.resolve},
@@ -42,7 +37,7 @@ std::string server_timing(const Timing& timing) {
     return spent;
 }
 
-/// 413 and 415 of routes that take a body.
+/// Returns 413 or 415 if a route does not accept the body of a request.
 std::optional<Response> refuse_body(const ResponseBuilder& responses, const Request& request,
                                     const Route& route) {
     if (!request.header("Content-Encoding").empty())
@@ -50,27 +45,27 @@ std::optional<Response> refuse_body(const ResponseBuilder& responses, const Requ
                                  "bodies with a Content-Encoding are not taken; send it plain");
     const std::string_view given = request.header("Content-Type");
     const std::string_view type = trimmed(given.substr(0, given.find(';')));
-    if (!same_word(type, route.takes))
+    if (!same_word(type, route.body_type))
         return responses.problem(request, 415,
                                  "the body is " +
                                      (type.empty() ? "of no stated type" : in_quotes(type)) +
-                                     "; send Content-Type: " + route.takes);
-    if (request.body.size() > longest_body(route))
+                                     "; send Content-Type: " + route.body_type);
+    if (request.body.size() > route.most_body)
         return responses.problem(request, 413,
                                  "the body has " + std::to_string(request.body.size()) +
-                                     " bytes; at most " + std::to_string(longest_body(route)) +
+                                     " bytes; at most " + std::to_string(route.most_body) +
                                      " are taken");
     return std::nullopt;
 }
 
-/// What the head of a request says: where it goes, and what is wrong with it so far.
+/// The parsed head of a request, with the errors found in it.
 struct Head {
     Target target;
     Match match;
     ValidationErrors errors;
 };
 
-/// Reads the head of a request; an answer if that is final whatever the body is.
+/// Parses the head of a request. Returns the response if it does not depend on the body.
 std::optional<Response> read_head(const ResponseBuilder& responses, const Request& request,
                                   Head& head) {
     if (request.target.size() > longest_target)
@@ -92,10 +87,10 @@ std::optional<Response> read_head(const ResponseBuilder& responses, const Reques
     head.errors.add(400, malformed);
     if (path_malformed) return responses.problem(request, head.errors);
 
-    head.match = match_route(request.method, head.target.segments);
+    head.match = route_table().match(request.method, head.target.segments);
     const Match& match = head.match;
     if (match.allow.empty()) {
-        const std::string meant = closest_route(head.target.segments);
+        const std::string meant = route_table().closest(head.target.segments);
         const std::string detail =
             "there is nothing at " + in_quotes(head.target.path) +
             (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?");
@@ -109,150 +104,42 @@ std::optional<Response> read_head(const ResponseBuilder& responses, const Reques
         set_header(response, "Allow", match.allow);
         return response;
     }
-    return *match.route->takes ? refuse_body(responses, request, *match.route) : std::nullopt;
+    return *match.route->body_type ? refuse_body(responses, request, *match.route) : std::nullopt;
 }
 
-/// The answer to a request, or the job that leads to it. Throws CacheMiss where `context` keeps to what is kept.
-Plan plan_route(Context& context, const StaticDocuments& documents, const Request& request) {
+/// Returns the response to a request, or the job that computes it. Throws CacheMiss if a
+/// correspondence is needed that the caches of the context may not compute.
+Plan plan_route(Context& context, const Request& request) {
     Head head;
     if (std::optional<Response> response = read_head(context.responses, request, head))
         return *std::move(response);
-    const Atlas& atlas = *context.atlas;
-    const Target& target = head.target;
-    const Match& match = head.match;
-    ValidationErrors& errors = head.errors;
-    const Route& route = *match.route;
-
-    switch (route.endpoint) {
-        case Endpoint::page:
-            return documents.page(request, "index.html");
-        case Endpoint::docs:
-            return documents.page(request, "docs.html");
-        case Endpoint::asset:
-            return documents.asset(request, match.captured[0]);
-        case Endpoint::root:
-            return documents.about(request, target, errors);
-        case Endpoint::mushroom_list:
-            return documents.mushroom_list(request, target, errors);
-        case Endpoint::mushroom_schema:
-            return documents.mushroom_schema(request, target, errors);
-        case Endpoint::openapi:
-            return documents.openapi(request, target, errors);
-        case Endpoint::species_list:
-            return documents.species_list(request, target, errors);
-        case Endpoint::species:
-            return documents.species(request, target, match.captured[0], errors);
-        case Endpoint::mushroom_glb:
-        case Endpoint::mushroom_json: {
-            MushroomRequest requested =
-                read_mushroom(match.captured[0], target.query, atlas, errors);
-            requested.product =
-                route.endpoint == Endpoint::mushroom_glb ? Product::glb : Product::json;
-            return plan_mushroom(context, request, std::move(requested), errors);
-        }
-        case Endpoint::mushroom_post:
-            refuse_query(target, errors);
-            return plan_mushroom(context, request, read_mushroom(request.body, atlas, errors),
-                                 errors);
-        case Endpoint::morph:
-            return plan_morph(
-                context, request,
-                read_morph(read_pair(match.captured[0], match.captured[1], atlas, errors),
-                           target.query, errors),
-                errors);
-        case Endpoint::morph_post: {
-            refuse_query(target, errors);
-            const SpeciesPair pair = read_pair(match.captured[0], match.captured[1], atlas, errors);
-            return plan_mushroom(context, request, read_morph(pair, request.body, errors), errors);
-        }
-        case Endpoint::problem_type:
-            return documents.problem_type(request, target, match.captured[0], errors);
-        case Endpoint::colony_list:
-            return documents.colony_list(request, target, errors);
-        case Endpoint::colony_schema:
-            return documents.colony_schema(request, target, errors);
-        case Endpoint::colony_glb:
-        case Endpoint::colony_json: {
-            ColonyRequest requested = read_colony(match.captured[0], target.query, atlas, errors);
-            requested.product =
-                route.endpoint == Endpoint::colony_glb ? Product::glb : Product::json;
-            return plan_colony(context, request, std::move(requested), errors);
-        }
-        case Endpoint::colony_post:
-            refuse_query(target, errors);
-            return plan_colony(context, request, read_colony(request.body, atlas, errors), errors);
-        case Endpoint::leaf_list:
-            return documents.leaf_list(request, target, errors);
-        case Endpoint::leaf_schema:
-            return documents.leaf_schema(request, target, errors);
-        case Endpoint::leaf_glb:
-        case Endpoint::leaf_json: {
-            auto requested = read_preset<Leaves>(match.captured[0], target.query, errors);
-            requested.product = route.endpoint == Endpoint::leaf_glb ? Product::glb : Product::json;
-            return plan_leaf(context, request, std::move(requested), errors);
-        }
-        case Endpoint::leaf_post:
-            refuse_query(target, errors);
-            return plan_leaf(context, request, read_preset<Leaves>(request.body, errors), errors);
-        case Endpoint::leaf_surface:
-            return plan_surface(context, request,
-                                read_preset_surface<Leaves>(match.captured[0], match.captured[1],
-                                                            target.query, errors),
-                                errors);
-        case Endpoint::tree_list:
-            return documents.tree_list(request, target, errors);
-        case Endpoint::tree_schema:
-            return documents.tree_schema(request, target, errors);
-        case Endpoint::tree_glb:
-        case Endpoint::tree_json: {
-            auto requested = read_preset<Trees>(match.captured[0], target.query, errors);
-            requested.product = route.endpoint == Endpoint::tree_glb ? Product::glb : Product::json;
-            return plan_tree(context, request, std::move(requested), errors);
-        }
-        case Endpoint::tree_post:
-            refuse_query(target, errors);
-            return plan_tree(context, request, read_preset<Trees>(request.body, errors), errors);
-        case Endpoint::tree_surface:
-            return plan_surface(context, request,
-                                read_preset_surface<Trees>(match.captured[0], match.captured[1],
-                                                           target.query, errors),
-                                errors);
-        case Endpoint::surface:
-            return plan_surface(
-                context, request,
-                read_surface(match.captured[0], match.captured[1], target.query, atlas, errors),
-                errors);
-        case Endpoint::inspect:
-            refuse_query(target, errors);
-            return plan_inspection(context, request, errors);
-        case Endpoint::livez:
-        case Endpoint::readyz:
-        case Endpoint::metrics:
-            break;  // the server's own; match_route never finds them
-    }
-    return context.responses.problem(request, 404, "there is nothing at " + in_quotes(target.path));
+    const Route& route = *head.match.route;
+    if (route.document)
+        return context.documents->document(route, request, head.target, head.errors);
+    RouteCall call{context, request, route, head.target, head.match.captured, head.errors};
+    return route.plan(call);
 }
 
 }  // namespace
 
 struct Service::Parts {
-    std::shared_ptr<Store> store;  ///< perhaps of other services too
+    std::shared_ptr<Store> store;  ///< shared with the services before and after a reload
     Context context, correspondence_ready;
     StaticDocuments documents;
 
     Parts(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options,
           std::shared_ptr<Store> the_store)
         : store(std::move(the_store)),
-          context{std::move(atlas), options,
-                  ResponseBuilder(options.allow_origin, options.base_path), *store,
-                  cached_only(*store)},
-          correspondence_ready{context.atlas, options, context.responses, *store,
-                               computed_inline(*store)},
-          documents(context.atlas, context.responses, options) {}
-
-    /// The image that a request for one asks for; nothing, with faults, for none, and for a route that is not of images.
-    std::optional<ImageResource> requested_image(const Match& match, const Target& target,
-                                                 ValidationErrors& errors) const;
+          context{std::move(atlas),
+                  options,
+                  ResponseBuilder(options.allow_origin, options.base_path),
+                  *store,
+                  cached_only(*store),
+                  route_table(),
+                  &documents},
+          correspondence_ready{context.atlas,           options,       context.responses, *store,
+                               computed_inline(*store), route_table(), &documents},
+          documents(context.atlas, context.responses, options, route_table()) {}
 };
 
 Service::Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options)
@@ -265,29 +152,10 @@ Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
 
 Service::~Service() = default;
 
-std::optional<ImageResource> Service::Parts::requested_image(const Match& match,
-                                                             const Target& target,
-                                                             ValidationErrors& errors) const {
-    const auto image = [&](const auto& requested) {
-        return errors.empty() ? std::optional(image_of(context, requested)) : std::nullopt;
-    };
-    const Endpoint endpoint = match.route ? match.route->endpoint : Endpoint::inspect;
-    if (endpoint == Endpoint::surface)
-        return image(read_surface(match.captured[0], match.captured[1], target.query,
-                                  *context.atlas, errors));
-    if (endpoint == Endpoint::leaf_surface)
-        return image(read_preset_surface<Leaves>(match.captured[0], match.captured[1], target.query,
-                                                 errors));
-    if (endpoint == Endpoint::tree_surface)
-        return image(
-            read_preset_surface<Trees>(match.captured[0], match.captured[1], target.query, errors));
-    return std::nullopt;
-}
-
-std::variant<Response, Job> Service::plan(const Request& request, bool correspondence_ready) {
+Plan Service::plan(const Request& request, bool correspondence_ready) {
     try {
         return plan_route(correspondence_ready ? parts_->correspondence_ready : parts_->context,
-                          parts_->documents, request);
+                          request);
     } catch (const CacheMiss& missing) {
         auto run = [this, request](std::stop_token, const Observer& observer, const Parallel&) {
             observer(Step::resolve);
@@ -302,7 +170,7 @@ std::variant<Response, Job> Service::plan(const Request& request, bool correspon
 }
 
 void Service::finish(const Key& key, const Response& response) {
-    if (response.status != 200 || !is_cached_by_key(key)) return;
+    if (response.status != 200 || !response.is_stored) return;
     Cache<CachedResponse>& responses = parts_->context.store.responses;
     auto cached = std::make_shared<Response>(response);
     take_header(*cached, "Cache-Status");
@@ -310,7 +178,7 @@ void Service::finish(const Key& key, const Response& response) {
         auto variant = std::make_shared<Response>(*cached);
         select_gzip(*variant);
         cached->gzipped.clear();
-        if (cached->body.empty()) {  // of a job that made the variant alone
+        if (cached->body.empty()) {  // the job computed only the variant
             responses.insert(key, std::move(variant));
             return;
         }
@@ -319,8 +187,8 @@ void Service::finish(const Key& key, const Response& response) {
     responses.insert(key, std::move(cached));
 }
 
-Response Service::deliver(const Request& request, const Response& shared, Outcome outcome,
-                          const Timing& timing) const {
+Response Service::deliver(const Request& request, const Delivery& delivery, const Response& shared,
+                          Outcome outcome, const Timing& timing) const {
     const Context& context = parts_->context;
     Response response = shared;
     if (!response.gzipped.empty() && (response.body.empty() || accepts_gzip(request)))
@@ -332,21 +200,8 @@ Response Service::deliver(const Request& request, const Response& shared, Outcom
             status.resize(status.size() - std::string_view("; stored").size());
         status += "; collapsed";
     }
-    std::vector<Problem> ignored;
-    const Target target = split_target(below(context.options.base_path, request.target), ignored);
-    const Match match = match_route(request.method, target.segments);
-    const Endpoint endpoint = match.route ? match.route->endpoint : Endpoint::inspect;
-
-    ValidationErrors none;
-    const std::optional<ImageResource> image = parts_->requested_image(match, target, none);
-    if (!none.empty()) return context.responses.problem(request, none);
-    if (image && response.status == 200) {
-        response = delivered_image(context.responses, *image, std::move(response));
-        set_header(response, "Cache-Status", std::move(status));
-    } else if (endpoint != Endpoint::inspect && response.status == 200) {
-        const bool versioned = std::any_of(target.query.begin(), target.query.end(),
-                                           [](const auto& pair) { return pair.first == "v"; });
-        set_header(response, "Cache-Control", cache_control(versioned));
+    if (delivery && response.status == 200) {
+        delivery(response);
         set_header(response, "Cache-Status", std::move(status));
     }
     std::string spent = server_timing(timing);
@@ -388,10 +243,10 @@ Cost Service::cost_of_reading(const Request& request) const {
     const std::string_view target =
         below(parts_->context.options.base_path,
               std::string_view(request.target).substr(0, longest_target));
-    const Match match = match_route(request.method, split_target(target, ignored).segments);
-    // Other bodies are not looked at; of an upload to /v1/inspect its job is charged.
-    if (!match.route || std::string_view(match.route->takes) != "application/json" ||
-        request.body.size() > longest_body(*match.route))
+    const Match match = route_table().match(request.method, split_target(target, ignored).segments);
+    // Other bodies are not parsed; for an upload to /v1/inspect the job is charged.
+    if (!match.route || std::string_view(match.route->body_type) != "application/json" ||
+        request.body.size() > match.route->most_body)
         return {};
     return cost_of_json(request.body);
 }
@@ -399,8 +254,8 @@ Cost Service::cost_of_reading(const Request& request) const {
 std::size_t Service::most_body(std::string_view method, std::string_view target) const {
     std::vector<Problem> ignored;
     target = below(parts_->context.options.base_path, target.substr(0, longest_target));
-    const Match match = match_route(method, split_target(target, ignored).segments);
-    return match.route ? longest_body(*match.route) : 256u << 10;
+    const Match match = route_table().match(method, split_target(target, ignored).segments);
+    return match.route ? match.route->most_body : 256u << 10;
 }
 
 std::optional<Response> Service::response_to_head(const Request& request) const {
@@ -427,7 +282,7 @@ Response handle(Service& service, const Request& request) {
         Stopwatch watch;
         const Response shared = job.run({}, watch.observer(), in_turn);
         service.finish(job.key, shared);
-        return service.deliver(request, shared, Outcome::generated, watch.timing());
+        return service.deliver(request, job.delivery, shared, Outcome::generated, watch.timing());
     } catch (...) {
         return service.problem(request, std::current_exception());
     }

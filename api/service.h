@@ -1,4 +1,5 @@
-// The meaning of the service: plan() answers what it can in microseconds and describes the rest as a Job.
+// The service without sockets: plan() responds immediately where that is possible in microseconds,
+// and otherwise returns a Job.
 #pragma once
 
 #include <memory>
@@ -17,45 +18,51 @@ class Service {
   public:
     Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options);
 
-    /// The same with other templates, to take its place: options, counters and what is kept are common to both. Keys tell what
-    /// was made of which templates. The folder of the page is read anew.
+    /// Creates a service with other templates that replaces `other`: both share options, counters
+    /// and caches, whose keys contain the hash of the templates. The folder of the page is read
+    /// again.
     Service(std::shared_ptr<const Atlas> atlas, const Service& other);
     ~Service();
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
 
-    /// Parses, checks, makes the canonical text, compares ETags, looks into the caches. Never blocks, never throws.
+    /// Parses and checks a request, builds its canonical text, compares ETags and looks into the
+    /// caches. Never blocks, never throws.
     ///
-    /// prepared  a correspondence that the answer needs and that is not kept is made here, in milliseconds; otherwise that is
-    ///           a Job that `prepares`
-    [[nodiscard]] std::variant<Response, Job> plan(const Request& request,
-                                                   bool correspondence_ready = false);
+    /// correspondence_ready  true: a correspondence that is needed and not cached is computed here,
+    ///                       in milliseconds; false: the result is then a warm-up job
+    ///                       (Job::is_warm_up)
+    [[nodiscard]] Plan plan(const Request& request, bool correspondence_ready = false);
 
-    /// Called once per flight with what the job returned: fills the cache.
+    /// Stores the response of a job in the cache. Called once per computation.
     void finish(const Key& key, const Response& response);
 
-    /// The shared answer of a job made ready for one of those who waited (Cache-Status, Server-Timing, request id; no body for HEAD).
-    [[nodiscard]] Response deliver(const Request& request, const Response& shared, Outcome outcome,
+    /// Returns the shared response of a job, completed for one of the clients that waited for it
+    /// (Cache-Status, Server-Timing, request id; no body for HEAD).
+    [[nodiscard]] Response deliver(const Request& request, const Delivery& delivery,
+                                   const Response& shared, Outcome outcome,
                                    const Timing& timing) const;
 
-    /// problem+json for faults that are found before or beside plan() (408, 413, 414, 429, 431, 500, 503, 504 …).
+    /// Returns problem+json for an error found outside plan() (408, 413, 414, 429, 431, 500, 503,
+    /// 504).
     [[nodiscard]] Response problem(const Request& request, int status, std::string_view detail,
                                    const std::vector<Header>& extra = {}) const;
 
-    /// An exception thrown by Job::run as an answer (the one table); unknown exceptions are 500 without detail.
+    /// Returns the problem for an exception of Job::run; unknown exceptions are 500 without detail.
     [[nodiscard]] Response problem(const Request& request, std::exception_ptr error) const;
 
-    /// Grows one mushroom, to know that it can: for /readyz.
+    /// Generates one mushroom, for /readyz. Returns true on success.
     [[nodiscard]] bool self_test();
 
-    /// The final answer to a request whose body has not come yet, if its head alone decides: 400, 404, 405, 413, 414, 415.
+    /// Returns the final response to a request whose body has not arrived, if the head alone
+    /// decides it: 308, 400, 404, 405, 414, 415, or that to OPTIONS.
     [[nodiscard]] std::optional<Response> response_to_head(const Request& request) const;
 
-    /// What plan() takes to read the body of a request, whether it is refused, kept or to be made;
-    /// nothing for most.
+    /// Returns the cost of parsing the body of a request, which is charged whatever the response
+    /// is; zero for most requests.
     [[nodiscard]] Cost cost_of_reading(const Request& request) const;
 
-    /// Whether a body of this size may come to this target (413), in bytes.
+    /// Returns the largest body that a route accepts, in bytes (413 beyond).
     [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view target) const;
 
     [[nodiscard]] const Counters& counters() const;
@@ -65,10 +72,10 @@ class Service {
     std::unique_ptr<Parts> parts_;
 };
 
-/// plan() on a thread that may take milliseconds: never a Job that `prepares`.
-[[nodiscard]] std::variant<Response, Job> plan_here(Service& service, const Request& request);
+/// Calls plan() on a thread that may take milliseconds; never returns a warm-up job.
+[[nodiscard]] Plan plan_here(Service& service, const Request& request);
 
-/// plan + run inline: HTTP behaviour without sockets, for tests and tools.
+/// Plans and runs a request inline, without sockets, for tests and tools.
 [[nodiscard]] Response handle(Service& service, const Request& request);
 
 }  // namespace sporeprint::api

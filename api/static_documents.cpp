@@ -2,14 +2,16 @@
 
 #include <utility>
 
+#include "api/http/schemas.h"
 #include "api/openapi.h"
 #include "api/products/catalogue.h"
+#include "api/products/context.h"
 #include "api/products/mix.h"
-#include "api/products/presets.h"
 #include "api/products/product.h"
 #include "core/grow/mushroom.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
+#include "core/params/schema.h"
 
 #ifndef SPOREPRINT_VERSION
 #error "SPOREPRINT_VERSION comes from the project's version in CMakeLists.txt"
@@ -19,7 +21,7 @@ namespace sporeprint::api {
 
 namespace {
 
-/// Text of ours as HTML.
+/// Returns a trusted text as HTML.
 std::string escaped(std::string_view text) {
     std::string out;
     for (const char c : text) {
@@ -33,7 +35,7 @@ std::string escaped(std::string_view text) {
     return out;
 }
 
-/// What a type of problem means, for a person who follows the `type` of an answer.
+/// Returns the page that explains a type of problem.
 std::string page_of(const ProblemType& type) {
     const std::string title = std::to_string(type.status) + ' ' + escaped(type.title);
     return "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
@@ -45,14 +47,9 @@ std::string page_of(const ProblemType& type) {
 
 }  // namespace
 
-void refuse_query(const Target& target, ValidationErrors& errors) {
-    for (const auto& pair : target.query)
-        errors.add(400, printable(pair.first), "unknown parameter; this route takes none");
-}
-
 namespace {
 
-/// The same document with a base path before the addresses in each of its `links`.
+/// Returns a document with a base path before the URLs in each of its `links`.
 Value under(const std::string& base, Value value) {
     if (base.empty()) return value;
     if (value.is_array())
@@ -71,46 +68,27 @@ Value under(const std::string& base, Value value) {
 }  // namespace
 
 StaticDocuments::StaticDocuments(std::shared_ptr<const Atlas> atlas,
-                                 const ResponseBuilder& responses, const ServiceOptions& options)
+                                 const ResponseBuilder& responses, const ServiceOptions& options,
+                                 const RouteTable& routes)
     : atlas_(std::move(atlas)), responses_(responses) {
     if (!options.assets.empty()) assets_ = read_assets(options.assets);
-    Value links = Value::object();
-    links.set("species", "/v1/species");
-    links.set("mushrooms", "/v1/mushrooms").set("mushroom_schema", "/v1/mushrooms/schema");
-    if (atlas_->entries().size() > 1)  // an example: any two will do
-        links.set("morph", "/v1/morphs/" + atlas_->entries()[0].species.id.string() + '/' +
-                               atlas_->entries()[1].species.id.string());
-    links.set("colonies", "/v1/colonies").set("colony_schema", "/v1/colonies/schema");
-    links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
-    links.set("trees", "/v1/trees").set("tree_schema", "/v1/trees/schema");
-    links.set("openapi", "/openapi.json").set("docs", "/docs");
-    Value root = Value::object();
-    root.set("name", "sporeprint")
-        .set("version", SPOREPRINT_VERSION)
-        .set("generator_version", generator_version)
-        .set("links", std::move(links));
     const std::string& base = responses_.base_path();
-    about_ = json_document(under(base, std::move(root)));
+    const DocumentInputs inputs{*atlas_, routes, options.signed_urls, base};
+    for (const Route* const route : routes.routes())
+        if (route->document)
+            documents_.emplace(
+                route, json_document(under(base, route->document(inputs)), route->media_type));
     species_list_ = json_document(under(base, api::species_list(*atlas_)));
-    mushroom_list_ = json_document(under(base, api::product_list(*atlas_, "mushrooms")));
-    schema_ = json_document(api::mushroom_schema(), "application/schema+json");
-    colony_list_ = json_document(under(base, api::product_list(*atlas_, "colonies")));
-    colony_schema_ = json_document(api::colony_schema(), "application/schema+json");
-    leaf_list_ = json_document(under(base, preset_list<Leaves>()));
-    leaf_schema_ = json_document(api::leaf_schema(), "application/schema+json");
-    tree_list_ = json_document(under(base, preset_list<Trees>()));
-    tree_schema_ = json_document(api::tree_schema(), "application/schema+json");
-    openapi_ =
-        json_document(api::openapi(*atlas_, SPOREPRINT_VERSION, options.signed_addresses, base));
     for (const ProblemType& type : problem_types())
-        problem_types_.emplace(type.slug, document("text/html; charset=utf-8", page_of(type)));
+        problem_types_.emplace(type.slug, api::document("text/html; charset=utf-8", page_of(type)));
     for (const AtlasEntry& entry : atlas_->entries())
-        species_.emplace(entry.species.id.string(), document("application/json", entry.json));
-    hint_ = document("text/plain; charset=utf-8",
-                     "Sporeprint grows mushrooms. The page is not installed here; the API is:\n"
-                     "  GET /v1/species\n  GET /v1/mushrooms/<species>.glb?age=0.6&seed=7\n  "
-                     "GET /v1/leaves\n  GET /v1/trees\n  GET /openapi.json\n",
-                     revalidated);
+        species_.emplace(entry.species.id.string(), api::document("application/json", entry.json));
+    hint_ =
+        api::document("text/plain; charset=utf-8",
+                      "Sporeprint grows mushrooms. The page is not installed here; the API is:\n"
+                      "  GET /v1/species\n  GET /v1/mushrooms/<species>.glb?age=0.6&seed=7\n  "
+                      "GET /v1/leaves\n  GET /v1/trees\n  GET /openapi.json\n",
+                      revalidated);
 }
 
 Response StaticDocuments::page(const Request& request, std::string_view file) const {
@@ -127,61 +105,11 @@ Response StaticDocuments::asset(const Request& request, const std::string& file)
     return responses_.problem(request, 404, "there is no file " + in_quotes(file));
 }
 
-Response StaticDocuments::plain(const Request& request, const Target& target,
-                                const Document& document, ValidationErrors& errors) const {
+Response StaticDocuments::document(const Route& route, const Request& request, const Target& target,
+                                   ValidationErrors& errors) const {
     refuse_query(target, errors);
-    return errors.empty() ? responses_.document(request, document)
+    return errors.empty() ? responses_.document(request, documents_.at(&route))
                           : responses_.problem(request, errors);
-}
-
-Response StaticDocuments::about(const Request& request, const Target& target,
-                                ValidationErrors& errors) const {
-    return plain(request, target, about_, errors);
-}
-
-Response StaticDocuments::mushroom_list(const Request& request, const Target& target,
-                                        ValidationErrors& errors) const {
-    return plain(request, target, mushroom_list_, errors);
-}
-
-Response StaticDocuments::mushroom_schema(const Request& request, const Target& target,
-                                          ValidationErrors& errors) const {
-    return plain(request, target, schema_, errors);
-}
-
-Response StaticDocuments::colony_list(const Request& request, const Target& target,
-                                      ValidationErrors& errors) const {
-    return plain(request, target, colony_list_, errors);
-}
-
-Response StaticDocuments::colony_schema(const Request& request, const Target& target,
-                                        ValidationErrors& errors) const {
-    return plain(request, target, colony_schema_, errors);
-}
-
-Response StaticDocuments::leaf_list(const Request& request, const Target& target,
-                                    ValidationErrors& errors) const {
-    return plain(request, target, leaf_list_, errors);
-}
-
-Response StaticDocuments::leaf_schema(const Request& request, const Target& target,
-                                      ValidationErrors& errors) const {
-    return plain(request, target, leaf_schema_, errors);
-}
-
-Response StaticDocuments::tree_list(const Request& request, const Target& target,
-                                    ValidationErrors& errors) const {
-    return plain(request, target, tree_list_, errors);
-}
-
-Response StaticDocuments::tree_schema(const Request& request, const Target& target,
-                                      ValidationErrors& errors) const {
-    return plain(request, target, tree_schema_, errors);
-}
-
-Response StaticDocuments::openapi(const Request& request, const Target& target,
-                                  ValidationErrors& errors) const {
-    return plain(request, target, openapi_, errors);
 }
 
 Response StaticDocuments::species_list(const Request& request, const Target& target,
@@ -222,5 +150,191 @@ Response StaticDocuments::problem_type(const Request& request, const Target& tar
     return errors.empty() ? responses_.document(request, found->second)
                           : responses_.problem(request, errors);
 }
+
+namespace {
+
+constexpr const char *json = "application/json", *html = "text/html", *plain = "text/plain";
+
+Value about(const DocumentInputs& inputs) {
+    Value links = Value::object();
+    for (const RouteGroup& group : inputs.routes.groups())
+        if (group.add_links) group.add_links(links, inputs.atlas);
+    Value root = Value::object();
+    root.set("name", "sporeprint")
+        .set("version", SPOREPRINT_VERSION)
+        .set("generator_version", generator_version)
+        .set("links", std::move(links));
+    return root;
+}
+
+constexpr Route pages[] = {
+    {.kind = RouteKind::page,
+     .method = "GET",
+     .pattern = "/",
+     .id = "page",
+     .summary = "The viewer page.",
+     .media_type = html,
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->page(call.request, "index.html");
+     }},
+    {.kind = RouteKind::page,
+     .method = "GET",
+     .pattern = "/docs",
+     .id = "docs",
+     .summary = "A page that shows this document.",
+     .media_type = html,
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->page(call.request, "docs.html");
+     }},
+    {.kind = RouteKind::page,
+     .method = "GET",
+     .pattern = "/assets/{name}",
+     .id = "asset",
+     .summary = "A file of the viewer page.",
+     .media_type = "application/octet-stream",
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->asset(call.request, call.captured[0]);
+     }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1",
+     .id = "about",
+     .summary = "Name, version and links.",
+     .media_type = json,
+     .response_schema = "about",
+     .document = about},
+};
+
+constexpr Route species[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/species",
+     .id = "list_species",
+     .summary = "The species of the atlas, filtered.",
+     .media_type = json,
+     .response_schema = "species_list",
+     // A filter has no preset to take defaults from.
+     .query_schema = [] { return without_default_source(schema<SpeciesFilter>()); },
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->species_list(call.request, call.target, call.errors);
+     }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/species/{id}",
+     .id = "get_species",
+     .summary = "The template of a species.",
+     .media_type = json,
+     .response_schema = "species",
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->species(call.request, call.target, call.captured[0],
+                                                call.errors);
+     }},
+};
+
+constexpr Route references[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/openapi.json",
+     .id = "openapi",
+     .summary = "This document.",
+     .media_type = json,
+     .document = [](const DocumentInputs& inputs) { return openapi(inputs, SPOREPRINT_VERSION); }},
+    {.kind = RouteKind::page,
+     .method = "GET",
+     .pattern = "/problems/{type}",
+     .id = "get_problem_type",
+     .summary = "What a type of problem means and what to do about it.",
+     .media_type = html,
+     .plan = [](RouteCall& call) -> Plan {
+         return call.context.documents->problem_type(call.request, call.target, call.captured[0],
+                                                     call.errors);
+     }},
+};
+
+constexpr Route health[] = {
+    {.kind = RouteKind::health,
+     .method = "GET",
+     .pattern = "/livez",
+     .id = "livez",
+     .summary = "Whether the process lives; never queued behind work.",
+     .media_type = plain},
+    {.kind = RouteKind::health,
+     .method = "GET",
+     .pattern = "/readyz",
+     .id = "readyz",
+     .summary = "Whether it takes requests: atlas loaded, one mushroom grown, neither draining nor "
+                "saturated.",
+     .media_type = plain},
+    {.kind = RouteKind::health,
+     .method = "GET",
+     .pattern = "/metrics",
+     .id = "metrics",
+     .summary = "Counters as Prometheus text.",
+     .media_type = plain,
+     .may_be_elsewhere = true},
+};
+
+void add_species_schemas(Value& schemas) {
+    const Value text = typed("string"), whole = typed("integer");
+    const Value pair =
+        object({{"type", "array"}, {"items", typed("number")}, {"minItems", 2}, {"maxItems", 2}});
+    Value pair_or_null = pair;
+    pair_or_null.set("type", Value(Value::Array{"array", "null"}));
+    schemas.set("species", as_template(with_branched_order(schema<Species>())))
+        .set("species_list", objects({{"species", list_of(objects({{"id", text},
+                                                                   {"scientific_name", text},
+                                                                   {"common_name", text},
+                                                                   {"family", text},
+                                                                   {"form", text},
+                                                                   {"cap_diameter_m", pair_or_null},
+                                                                   {"height_m", pair},
+                                                                   {"substrate", text},
+                                                                   {"habit", text},
+                                                                   {"season", list_of(whole)},
+                                                                   {"links", map_of(text)}}))}}));
+}
+
+void add_service_schemas(Value& schemas) {
+    const Value text = typed("string"), whole = typed("integer");
+    Value problem = objects(
+        {{"type", text}, {"title", text}, {"status", whole}, {"detail", text}, {"instance", text}});
+    problem.find("properties")
+        ->set("errors", list_of(objects({{"parameter", text}, {"detail", text}})));
+    problem.find("properties")
+        ->set("canonical", object({{"type", "string"},
+                                   {"description", "On 410: the address of today's answer."}}));
+    schemas
+        .set("about", objects({{"name", text},
+                               {"version", text},
+                               {"generator_version", whole},
+                               {"links", map_of(text)}}))
+        .set("problem", std::move(problem));
+}
+
+constexpr const char* service_tag = "service";
+
+}  // namespace
+
+const RouteGroup page_routes = {
+    .tag = service_tag, .description = "", .routes = pages, .add_schemas = add_service_schemas};
+
+const RouteGroup species_routes = {
+    .tag = "species",
+    .description = "The templates that mushrooms are grown of.",
+    .routes = species,
+    .add_links = [](Value& links, const Atlas&) { links.set("species", "/v1/species"); },
+    .add_schemas = add_species_schemas};
+
+const RouteGroup reference_routes = {.tag = service_tag,
+                                     .description = "",
+                                     .routes = references,
+                                     .add_links = [](Value& links, const Atlas&) {
+                                         links.set("openapi", "/openapi.json").set("docs", "/docs");
+                                     }};
+
+const RouteGroup health_routes = {
+    .tag = service_tag,
+    .description = "The page, documents, files that are read back, and how the service is.",
+    .routes = health};
 
 }  // namespace sporeprint::api

@@ -192,7 +192,7 @@ int serve(const Options& options, const Environment& environment) {
     service_options.assets = page_folder(options);
     service_options.store = options.store.string();
     service_options.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
-    service_options.signed_addresses = !options.sign_keys.empty();
+    service_options.signed_urls = !options.sign_keys.empty();
     service_options.allow_origin = options.allow_origin.string();
     service_options.base_path = options.base_path.string();
     AppState state;
@@ -362,8 +362,8 @@ int run(int argc, char** argv) {
     }
 
     if (!health.empty()) {
-        std::string why;
-        return is_healthy(health, why) ? fine : complain(health + ": " + why, failed);
+        std::string reason;
+        return is_healthy(health, reason) ? fine : complain(health + ": " + reason, failed);
     }
     Given flags;
     for (std::size_t i = 0; i < lines.size(); ++i)

@@ -8,8 +8,8 @@
 
 #include "api/http/query.h"
 #include "api/http/response_builder.h"
-#include "api/http/routes.h"
 #include "api/http/stopwatch.h"
+#include "api/routes.h"
 #include "server/operations/machine.h"
 
 namespace sporeprint::server {
@@ -46,7 +46,8 @@ std::string route_of(std::string_view base, std::string_view method, std::string
     std::vector<Problem> ignored;
     const api::Target requested = api::split_target(target, ignored);
     for (const std::string_view tried : {method, std::string_view("GET")})
-        if (const api::Match match = api::match_route(tried, requested.segments); match.route)
+        if (const api::Match match = api::route_table().match(tried, requested.segments);
+            match.route)
             return match.route->pattern;
     return "UNKNOWN";
 }
@@ -191,12 +192,14 @@ void RequestHandler::respond(const StatePointer& state,
         if (called_before->exchange(true))
             pending->resume([=, this] { respond(state, pending, checked, true); });
     };
-    const auto completed = [=, this](const SharedJobs::Completion& completion) {
-        if (is_warm_up && !completion.error) return proceed();
-        pending->resume([=, this] {
-            reply(pending, checked, deliver(*state->service, *checked.request, completion));
-        });
-    };
+    const auto completed =
+        [=, this, delivery = std::move(job.delivery)](const SharedJobs::Completion& completion) {
+            if (is_warm_up && !completion.error) return proceed();
+            pending->resume([=, this] {
+                reply(pending, checked,
+                      deliver(*state->service, *checked.request, delivery, completion));
+            });
+        };
     const std::optional<SharedJobs::Ticket> ticket = join(state, std::move(job), completed);
     lookup_guard.reset();
     if (!ticket) {
@@ -280,10 +283,10 @@ RequestHandler::CheckedRequest RequestHandler::check_signature(
     CheckedRequest checked{{pending, &original}, std::nullopt, {}, false};
     if (!state.signatures || original.method == "OPTIONS") return checked;
     std::vector<Problem> ignored;
-    const api::Match match = api::match_route(
+    const api::Match match = api::route_table().match(
         original.method,
         api::split_target(api::below(options_.base_path, original.target), ignored).segments);
-    if (!match.route || !api::is_generated(match.route->endpoint)) return checked;
+    if (!match.route || !api::is_generated(*match.route)) return checked;
     SignatureCheck signature = state.signatures->check(original.method, original.target,
                                                        original.body, seconds_since_1970());
     if (!signature.is_valid) {
@@ -348,6 +351,7 @@ std::optional<RequestHandler::SharedJobs::Ticket> RequestHandler::join(
 }
 
 api::Response RequestHandler::deliver(const api::Service& service, const api::Request& request,
+                                      const api::Delivery& delivery,
                                       const SharedJobs::Completion& completion) {
     if (completion.error) {
         api::Response response = service.problem(request, completion.error);
@@ -357,7 +361,7 @@ api::Response RequestHandler::deliver(const api::Service& service, const api::Re
         return response;
     }
     if (completion.collapsed) metrics_.collapsed();
-    return service.deliver(request, completion.result->response,
+    return service.deliver(request, delivery, completion.result->response,
                            completion.collapsed ? api::Outcome::collapsed : api::Outcome::generated,
                            completion.result->timing);
 }

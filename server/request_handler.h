@@ -154,7 +154,7 @@ class RequestHandler {
                                        bool metrics);
     /// Returns the response to one of the requests that waited for a computation.
     api::Response deliver(const api::Service& service, const api::Request& request,
-                          const SharedJobs::Completion& completion);
+                          const api::Delivery& delivery, const SharedJobs::Completion& completion);
     /// Returns a response of text that must not be stored.
     api::Response text_response(const api::Request& request, const std::string& text,
                                 std::string type = "text/plain; charset=utf-8") const;

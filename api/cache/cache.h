@@ -1,4 +1,5 @@
-// A cache bounded by bytes with the S3-FIFO policy: keys that come once cannot push out keys that come often.
+// A cache bounded by bytes with the S3-FIFO policy: keys that are used once cannot evict keys that
+// are used often.
 #pragma once
 
 #include <algorithm>
@@ -25,10 +26,11 @@
 
 namespace sporeprint::api {
 
-/// Spreads keys over shards and buckets; the maps compare whole keys, so a collision costs time, never a wrong answer.
+/// Returns the hash of a key, for shards and buckets. The maps compare whole keys, so a collision
+/// costs time but never returns a wrong value.
 [[nodiscard]] std::uint64_t hash_of(std::string_view key);
 
-/// What an entry costs beside its value and key: map and list nodes, and its trace in the ghost queue.
+/// Bytes of an entry beside its value and key: map and list nodes, and its hash in the ghost queue.
 inline constexpr std::size_t entry_overhead = 256;
 
 struct CacheStats {
@@ -38,17 +40,17 @@ struct CacheStats {
 
 /// Thread-safe map from canonical text to a value. `Value` is cheap to copy (a shared_ptr).
 ///
-/// source  [Yang2023] S3-FIFO, algorithm 1: a small queue (a tenth) that most keys never leave, a main queue (the rest) with
-///         second chances, a ghost queue of hashes; differs: sizes are bytes, and a value larger than the small queue
-///         enters the main queue directly.
+/// source  [Yang2023] S3-FIFO, algorithm 1: a small queue (a tenth) that most keys never leave, a
+///         main queue (the rest) with second chances, a ghost queue of hashes; differs: sizes are
+///         bytes, and a value larger than the small queue enters the main queue directly.
 template <class Value>
 class Cache {
   public:
-    /// Bytes of a value, without key and overhead.
+    /// Returns the bytes of a value, without key and overhead.
     using SizeOf = std::function<std::size_t(const Value&)>;
 
-    /// budget  bytes for everything kept; divided among one shard per 64 MB, at least one and at most eight, so that the
-    ///         largest object (an eighth of the whole budget) fits into a shard
+    /// budget  bytes of all entries; divided among one shard per 64 MB, at least one and at most
+    ///         eight, so that the largest object (an eighth of the whole budget) fits into a shard
     Cache(std::size_t budget, SizeOf estimate_cost)
         : size_of_(std::move(estimate_cost)), most_(budget / 8) {
         const std::size_t count = std::clamp<std::size_t>(budget >> 26, 1, 8);
@@ -58,7 +60,7 @@ class Cache {
         }
     }
 
-    /// The value kept under `key`. Counts as a use.
+    /// Returns the value cached under `key`, if there is one. Counts as a use.
     [[nodiscard]] std::optional<Value> find(std::string_view key) {
         Shard& shard = shard_of(key);
         const std::lock_guard lock(shard.mutex);
@@ -73,30 +75,32 @@ class Cache {
         return entry.value;
     }
 
-    /// Whether find() would answer; counts nothing.
+    /// Returns true if find() would return a value; does not count as a use.
     [[nodiscard]] bool holds(std::string_view key) const {
         const Shard& shard = shard_of(key);
         const std::lock_guard lock(shard.mutex);
         return shard.map.find(key) != shard.map.end();
     }
 
-    /// What keeping `value` under `key` costs of the budget.
+    /// Returns the bytes of the budget that an entry takes.
     [[nodiscard]] std::size_t weight(std::string_view key, const Value& value) const {
         return size_of_(value) + key.size() + entry_overhead;
     }
 
-    /// Whether insert() would keep something of this weight(): at most an eighth of the whole budget.
+    /// Returns true if insert() would accept an entry of this weight(): at most an eighth of the
+    /// whole budget.
     [[nodiscard]] bool fits(std::size_t bytes) const { return bytes <= most_; }
 
-    /// Keeps `value`, and drops others to make room. Equal keys mean equal values, so one already kept stays.
+    /// Inserts a value and evicts others until it fits. Equal keys mean equal values, so an entry
+    /// that exists stays.
     ///
-    /// returns  false if it is too large to keep
+    /// returns  false if it is too large for the cache
     bool insert(std::string_view key, Value value) {
         const std::size_t bytes = weight(key, value);
         const std::uint64_t hash = hash_of(key);
         Shard& shard = *shards_[hash % shards_.size()];
-        std::vector<Value>
-            dropped;  // destroyed after the lock is released: freeing megabytes takes time
+        // Destroyed after the lock is released, since freeing megabytes takes time.
+        std::vector<Value> dropped;
         const std::lock_guard lock(shard.mutex);
         if (!fits(bytes)) {
             ++shard.stats.refused;
@@ -147,19 +151,20 @@ class Cache {
         mutable std::mutex mutex;
         std::size_t budget = 0;
         Queue small, main;
-        std::unordered_map<std::string_view, typename List::iterator, Spread>
-            map;  ///< keys live in the entries
-        std::deque<std::pair<std::uint64_t, std::uint64_t>>
-            ghosts;  ///< hash and serial, oldest first
-        std::unordered_map<std::uint64_t, std::uint64_t>
-            ghost_serials;  ///< the serial that counts for a hash
+        /// Its keys point into the entries.
+        std::unordered_map<std::string_view, typename List::iterator, Spread> map;
+        /// Hashes and serials, oldest first.
+        std::deque<std::pair<std::uint64_t, std::uint64_t>> ghosts;
+        /// The current serial of each hash.
+        std::unordered_map<std::uint64_t, std::uint64_t> ghost_serials;
         std::uint64_t next_serial = 0;
         CacheStats stats;
 
-        /// Whether the hash was among the ghosts; it no longer counts. Its place in the queue runs out by itself.
+        /// Removes a hash from the ghosts. Returns true if it was one. Its place in the queue
+        /// expires by itself.
         bool forget(std::uint64_t hash) { return ghost_serials.erase(hash) > 0; }
 
-        void remember_ghost(std::uint64_t hash) {
+        void add_ghost(std::uint64_t hash) {
             ghosts.emplace_back(hash, next_serial);
             ghost_serials[hash] = next_serial++;
             while (ghosts.size() > std::max<std::size_t>(64, main.list.size())) {
@@ -180,7 +185,8 @@ class Cache {
             ++stats.evictions;
         }
 
-        /// One step towards room: drops an entry, moves one from the small to the main queue, or gives a second chance.
+        /// Does one step of eviction: evicts an entry, moves one from the small to the main queue,
+        /// or gives one a second chance.
         void evict(std::vector<Value>& dropped) {
             if (small.list.empty() || main.bytes > budget - budget / 10) {
                 Entry& last = main.list.back();
@@ -197,7 +203,7 @@ class Cache {
                 main.list.splice(main.list.begin(), small.list, std::prev(small.list.end()));
                 return;
             }
-            remember_ghost(last.hash);
+            add_ghost(last.hash);
             drop(small, dropped);
         }
     };
@@ -211,7 +217,7 @@ class Cache {
     std::vector<std::unique_ptr<Shard>> shards_;
 };
 
-/// A cache that makes what it lacks, once for all who ask at the same time.
+/// A cache that computes missing values, once for all concurrent callers (single flight).
 template <class Value>
 class ComputingCache {
   public:
@@ -221,11 +227,15 @@ class ComputingCache {
     [[nodiscard]] Cache<Value>& cache() { return cache_; }
     [[nodiscard]] const Cache<Value>& cache() const { return cache_; }
 
-    /// The value kept under `key`, or what `make` makes now; `hit` tells which.
+    /// Returns the value cached under `key`, or computes it with `make`; sets `hit` to true if it
+    /// was cached or computed by another thread.
     ///
-    /// make is called outside every lock, by one thread per key. Others wait only while it runs on another thread; when it
-    /// throws, its own caller gets the exception and each waiter tries for itself. A failure is never kept.
-    /// throws  what make throws; Cancelled if `stop` is requested while waiting
+    /// `make` is called outside every lock, by one thread per key; other threads wait for it. If it
+    /// throws, its own caller gets the exception and each waiting thread tries again itself. A
+    /// failure is never cached. A thread that needs the key which it is computing calls `make` at
+    /// once.
+    ///
+    /// throws  the exceptions of `make`; Cancelled if `stop` is requested while waiting
     Value get_or_compute(std::string_view key, const std::function<Value()>& make,
                          std::stop_token stop, bool& hit) {
         for (;;) {
@@ -233,44 +243,46 @@ class ComputingCache {
                 hit = true;
                 return *std::move(cached);
             }
-            std::shared_ptr<Flight> flight;
+            std::shared_ptr<Computation> computation;
             bool leads = false;
             {
                 const std::lock_guard lock(mutex_);
-                const auto found = flights_.find(key);
-                if (found == flights_.end()) {
+                const auto found = in_flight_.find(key);
+                if (found == in_flight_.end()) {
                     leads = true;
-                    flight = std::make_shared<Flight>();
-                    flight->leader = std::this_thread::get_id();
-                    flights_.emplace(std::string(key), flight);
+                    computation = std::make_shared<Computation>();
+                    computation->leader = std::this_thread::get_id();
+                    in_flight_.emplace(std::string(key), computation);
                 } else {
-                    flight = found->second;
+                    computation = found->second;
                 }
             }
             hit = false;
-            if (leads) return lead(key, *flight, make, hit);
-            if (flight->leader == std::this_thread::get_id()) return make();
-            std::unique_lock lock(flight->mutex);
-            if (!flight->landed.wait(lock, stop, [&] { return flight->done; })) throw Cancelled();
-            if (flight->value) {
+            if (leads) return lead(key, *computation, make, hit);
+            if (computation->leader == std::this_thread::get_id()) return make();
+            std::unique_lock lock(computation->mutex);
+            if (!computation->completed.wait(lock, stop, [&] { return computation->done; }))
+                throw Cancelled();
+            if (computation->value) {
                 hit = true;
-                return *flight->value;
+                return *computation->value;
             }
         }
     }
 
   private:
-    struct Flight {
+    struct Computation {
         std::thread::id leader;
         std::mutex mutex;
-        std::condition_variable_any landed;
+        std::condition_variable_any completed;
         bool done = false;
         std::optional<Value> value;
     };
 
-    Value lead(std::string_view key, Flight& flight, const std::function<Value()>& make,
+    Value lead(std::string_view key, Computation& computation, const std::function<Value()>& make,
                bool& hit) {
-        // Another may have landed between our look-up and our flight: look again before making.
+        // Another computation may have completed between the lookup and the start of this one: look
+        // again.
         std::optional<Value> generated;
         try {
             generated = cache_.holds(key) ? cache_.find(key) : std::nullopt;
@@ -278,27 +290,27 @@ class ComputingCache {
             if (!generated) generated = make();
             cache_.insert(key, *generated);
         } catch (...) {
-            land(key, flight, std::nullopt);
+            complete(key, computation, std::nullopt);
             throw;
         }
-        land(key, flight, generated);
+        complete(key, computation, generated);
         return *std::move(generated);
     }
 
-    void land(std::string_view key, Flight& flight, std::optional<Value> value) {
+    void complete(std::string_view key, Computation& computation, std::optional<Value> value) {
         {
             const std::lock_guard lock(mutex_);
-            flights_.erase(flights_.find(key));
+            in_flight_.erase(in_flight_.find(key));
         }
-        const std::lock_guard lock(flight.mutex);
-        flight.value = std::move(value);
-        flight.done = true;
-        flight.landed.notify_all();
+        const std::lock_guard lock(computation.mutex);
+        computation.value = std::move(value);
+        computation.done = true;
+        computation.completed.notify_all();
     }
 
     Cache<Value> cache_;
     std::mutex mutex_;
-    std::map<std::string, std::shared_ptr<Flight>, std::less<>> flights_;
+    std::map<std::string, std::shared_ptr<Computation>, std::less<>> in_flight_;
 };
 
 }  // namespace sporeprint::api

@@ -28,10 +28,11 @@ constexpr std::size_t digest_length = 32;
 constexpr const char* extension = ".body";
 constexpr const char* aside = "aside";
 
-/// Before the hash of the body and the body itself.
+/// Returns what a file contains before the hash of the body and the body: format and key.
 std::string preamble(std::string_view key) { return std::string(format).append(key) += '\n'; }
 
-/// The body of a file that holds what was written under `key`, whole.
+/// Returns the body of a file that was written under `key`; nothing if it is damaged or has another
+/// key.
 std::optional<Slice> body_in(const std::shared_ptr<const Bytes>& file, std::string_view key) {
     const std::string_view text(reinterpret_cast<const char*>(file->data()), file->size());
     const std::string before = preamble(key);
@@ -56,7 +57,8 @@ std::error_code write_all(int file, const void* data, std::size_t size) {
     return {};
 }
 
-/// Makes a file of a head and a body; the error when it cannot be made whole.
+/// Writes a file that consists of a head and a body. Returns the error if it cannot be written
+/// completely.
 std::error_code write(const fs::path& path, std::string_view head, const Body& body) {
     const int file = ::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
     if (file < 0) return last_error();
@@ -67,12 +69,12 @@ std::error_code write(const fs::path& path, std::string_view head, const Body& b
     return error;
 }
 
-/// Whether a name is one that the store gives: the hash of a key.
+/// Returns true if a file name is one that the store generates: the hash of a key.
 bool is_name(std::string_view name) {
     return name.size() == digest_length && name.find_first_not_of("0123456789abcdef") == name.npos;
 }
 
-/// Whether a file begins as those of the store do.
+/// Returns true if a file begins with the format line of the store.
 bool begins_as_ours(const fs::path& path) {
     std::array<char, format.size()> head{};
     std::ifstream stream(path, std::ios::binary);
@@ -80,9 +82,9 @@ bool begins_as_ours(const fs::path& path) {
            std::string_view(head.data(), head.size()) == format;
 }
 
-/// The bytes of a file; nullptr when it cannot be read, or is too large for one of the store.
+/// Returns the bytes of a file; nullptr if it cannot be read or is too large for the store.
 ///
-/// plausible  bytes up to which a file is read without a look at its beginning
+/// plausible  bytes up to which a file is read without checking its first line
 /// most       bytes up to which it is read at all
 std::shared_ptr<const Bytes> contents(const fs::path& path, std::uint64_t plausible,
                                       std::uint64_t most) {
@@ -97,11 +99,12 @@ std::shared_ptr<const Bytes> contents(const fs::path& path, std::uint64_t plausi
     return bytes;
 }
 
-/// Whether far fewer blocks are allocated than a file that was written has. A file system may have
-/// compressed it; by a factor of eight it cannot, for images and most numbers are dense already.
+/// Returns true if far fewer blocks are allocated than a completely written file would have. A file
+/// system may compress files, but not by a factor of eight, since images and most numbers are dense
+/// already.
 bool has_holes(const struct stat& status) {
-    constexpr std::uint64_t block = 512;           // of st_blocks, whatever the file system has
-    constexpr std::uint64_t smallest = 64u << 10;  // below, a file may be kept inside its inode
+    constexpr std::uint64_t block = 512;           // unit of st_blocks on every file system
+    constexpr std::uint64_t smallest = 64u << 10;  // smaller files may be stored inside their inode
     const auto size = static_cast<std::uint64_t>(status.st_size);
     return size >= smallest && static_cast<std::uint64_t>(status.st_blocks) * block < size / 8;
 }
@@ -124,7 +127,7 @@ fs::path DirectoryStore::path_of(const std::string& name) const {
     return folder_ / name.substr(0, 2) / (name + extension);
 }
 
-/// Finds what earlier processes left, the latest used last.
+/// Registers the files of earlier processes, the most recently used last.
 void DirectoryStore::take_stock() {
     struct Found {
         fs::file_time_type used;
@@ -149,8 +152,8 @@ void DirectoryStore::take_stock() {
         const bool named = S_ISREG(status.st_mode) && path.extension() == extension &&
                            is_name(name) && path_of(name) == path;
         const auto bytes = static_cast<std::uint64_t>(status.st_size);
-        // A file may have been written under a larger bound, and some file systems count the
-        // blocks of a new file late: its beginning decides.
+        // A file may have been written under a larger bound, and some file systems count the blocks
+        // of a new file late: its first line decides.
         const bool plausible = bytes <= most_of_one() && !has_holes(status);
         if (!named || (!plausible && !begins_as_ours(path))) {
             if (foreign.files++ == 0) foreign.file = path;
@@ -210,7 +213,7 @@ std::optional<Slice> DirectoryStore::find(std::string_view key) {
     std::error_code ignored;
     if (body)
         fs::last_write_time(path, fs::file_time_type::clock::now(),
-                            ignored);  // its order, for the next start
+                            ignored);  // keeps the order of use for the next start
     else if (file)
         fs::remove(path, ignored);
     const std::lock_guard lock(mutex_);

@@ -15,12 +15,12 @@ std::size_t weight_of(const Painted& painted) {
     return raw.rgb[0].size() + raw.rgb[1].size() + raw.rgb[2].size() + sizeof(RawImages);
 }
 
-/// What a cache did when it was asked.
+/// The result of a cache lookup.
 struct Requested {
     bool hit = false, stored = false;
 };
 
-/// Asks a cache whose values hold a shared_ptr<const T>, perhaps as an alternative.
+/// Gets a value from a cache whose values are a shared_ptr<const T> or a variant with one.
 template <class T, class Value>
 std::shared_ptr<const T> ask(ComputingCache<Value>& cache, const std::string& key,
                              const std::function<std::shared_ptr<const T>()>& make,

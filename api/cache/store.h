@@ -1,4 +1,4 @@
-// What is kept between requests: the caches, what they count, and how a job borrows them.
+// The caches of the service, their counters, and the context of a job that uses them.
 #pragma once
 
 #include <atomic>
@@ -24,7 +24,8 @@ using Images = std::shared_ptr<const ImageSet>;
 using Painting = std::shared_ptr<const RawImages>;
 using Morph = std::shared_ptr<const MorphSet>;
 
-/// What the image cache keeps: files as they are sent, and the paintings that mixes are dissolved from. One budget for both.
+/// The values of the image cache: encoded files, and the paintings from which images of mixes are
+/// blended. Both share one budget.
 using Painted = std::variant<Images, Painting>;
 
 /// The caches of a service. Thread-safe.
@@ -39,27 +40,31 @@ struct Store {
     Cache<CachedResponse> responses;
     ComputingCache<Painted> images;
     ComputingCache<Morph> morphs;
-    std::optional<DirectoryStore> directory;  ///< none unless asked for
+    std::optional<DirectoryStore> directory;  ///< only if the options name a folder
     Counters counters;
-    std::atomic<std::uint64_t> inspections{0};  ///< uploads so far, to tell them apart
+    std::atomic<std::uint64_t> inspections{0};  ///< number of uploads so far; part of their keys
 };
 
-/// Thrown by `cached_only` for what is not kept.
+/// Thrown by `cached_only` for a value that is not cached.
 struct CacheMiss {
     std::string key;
-    Cost cost;  ///< of finding it; told by whoever knows what was asked for
+    Cost cost;  ///< of computing it; set by the product that needs it
 };
 
-/// A Memo for plan(): finds what is kept, throws CacheMiss where something would have to be made. Counts nothing.
+/// Returns a Caches for plan() that looks values up and throws CacheMiss if one would have to be
+/// computed. Does not count hits.
 [[nodiscard]] Caches cached_only(Store& store);
 
-/// A Memo for plan(): makes the correspondences that are not kept, a millisecond each, and waits for nobody who makes the same.
+/// Returns a Caches for plan() that computes missing correspondences, which takes milliseconds,
+/// without waiting for other threads that compute the same.
 [[nodiscard]] Caches computed_inline(Store& store);
 
-/// What a cache said, as a member of Cache-Status: "sporeprint-images; fwd=miss; stored".
+/// Returns the result of a lookup as a member of Cache-Status: "sporeprint-images; fwd=miss;
+/// stored".
 [[nodiscard]] std::string cache_member(std::string_view cache, bool hit, bool stored);
 
-/// What one job borrows: a Workshop whose Memo asks the caches, and what they said. The Memo may be asked on several threads.
+/// The resources of one job: an ExecutionContext whose Caches use the store, and the results of
+/// lookups. The Caches may be used on several threads.
 class JobContext {
   public:
     JobContext(Store& store, std::stop_token stop, const Observer& observer,
@@ -69,8 +74,8 @@ class JobContext {
 
     [[nodiscard]] const ExecutionContext& execution() const { return execution_; }
 
-    /// Members of Cache-Status of the caches that were asked, those of the first answers: what is asked twice in one job was
-    /// not there before it. Empty if none was.
+    /// Returns the members of Cache-Status for the caches that were used, from the first lookup of
+    /// each: later lookups find what the job itself has inserted. Empty if none was used.
     [[nodiscard]] std::string cache_status() const;
 
   private:

@@ -19,19 +19,22 @@ namespace sporeprint::api {
 
 namespace {
 
-constexpr std::size_t least_bytes = 1u
-                                    << 20;  ///< smaller files are what a drag of a control asks for
-/// Images, which gzip does not make smaller, are less than this fraction of a file that is compressed:
-/// a mushroom with images of 1024 texels would cost 37 ms more for a fifth of its bytes.
+/// Smaller files are generated while a control is dragged.
+constexpr std::size_t least_bytes = 1u << 20;
+/// The images of a file that is compressed are less than this fraction of it, since gzip does not
+/// make them smaller: a mushroom with images of 1024 texels would cost 37 ms more for a fifth of
+/// its bytes.
 constexpr std::size_t mesh_shares = 6;
-constexpr std::size_t block = 512u << 10;  ///< of input, compressed by itself
-constexpr std::size_t chunk_begins = 20;   ///< after the headers of a GLB and of its JSON chunk
+constexpr std::size_t block = 512u << 10;  ///< bytes of input that are compressed independently
+/// Offset after the headers of the GLB and of its JSON chunk.
+constexpr std::size_t chunk_begins = 20;
 
-/// A tree of 8.6 MB takes 126 ms at level 1 and comes to 56.0 %, 171 ms at level 4 and 55.2 %, 285 ms at level 6 and 55.5 %;
-/// a mushroom without images of 0.9 MB takes 18, 22 and 22 ms and comes to 70.5, 69.9 and 69.9 %.
+/// zlib level. A tree of 8.6 MB takes 126 ms at level 1 and shrinks to 56.0 %, 171 ms at level 4
+/// and 55.2 %, 285 ms at level 6 and 55.5 %; a mushroom without images of 0.9 MB takes 18, 22 and
+/// 22 ms and shrinks to 70.5, 69.9 and 69.9 %.
 constexpr int level = 1;
 
-/// `size` bytes of a body from `begin` on, fewer where it ends.
+/// Returns `size` bytes of a body from `begin` on, fewer at its end.
 std::string text_at(const Body& body, std::size_t begin, std::size_t size) {
     std::string text;
     for (const Slice& slice : body) {
@@ -47,7 +50,7 @@ std::string text_at(const Body& body, std::size_t begin, std::size_t size) {
     return text;
 }
 
-/// Bytes of the images that a GLB embeds.
+/// Returns the number of bytes of the images that a GLB embeds.
 std::size_t image_bytes(const Body& glb) {
     const std::string header = text_at(glb, 0, chunk_begins);
     if (header.size() < chunk_begins) return 0;
@@ -69,7 +72,7 @@ std::size_t image_bytes(const Body& glb) {
     return sum;
 }
 
-/// A block as raw deflate, ready to be followed by the next one.
+/// Returns a block as raw deflate, to which the next block can be appended.
 Bytes deflated(const Body& input, bool is_last) {
     z_stream stream{};
     if (deflateInit2(&stream, level, Z_DEFLATED, -15, 8, Z_DEFAULT_STRATEGY) != Z_OK)
@@ -133,7 +136,7 @@ Body gzip_glb(const Body& glb, const std::stop_token& stop, const Parallel& para
         });
     parallel(pieces);
 
-    // One member with neither name nor time, as some clients read no more than the first.
+    // A single gzip member, without name and time: some clients read only the first member.
     Bytes header = {0x1f, 0x8b, 8, 0, 0, 0, 0, 0, 4, 255}, trailer;
     Body out{Slice(std::make_shared<const Bytes>(std::move(header)))};
     uLong checksum = crc32(0, nullptr, 0);

@@ -1,4 +1,4 @@
-// GLB files as gzip: which of them are worth it, what it costs, and the variant itself.
+// GLB files as gzip: which files have a gzip variant, what compressing costs, and the variant.
 #pragma once
 
 #include <cstdint>
@@ -10,27 +10,30 @@ namespace sporeprint::api {
 
 inline constexpr const char* glb_type = "model/gltf-binary";
 
-/// Whether a GLB has a gzip variant: it has at least 1 MiB, and images, which are compressed already, are less than a sixth of it.
-/// Depends on nothing but the file, so every server says the same of one URL.
+/// Returns true if a GLB has a gzip variant: it has at least 1 MiB, and images, which are
+/// compressed already, are less than a sixth of it. The result depends on the file alone, so all
+/// servers agree for one URL.
 [[nodiscard]] bool is_worth_gzip(const Body& glb);
 
-/// What compressing so many bytes costs.
+/// Returns the cost of compressing this number of bytes.
 [[nodiscard]] Cost gzip_cost(std::uint64_t bytes);
 
-/// The same for a GLB that is not made yet, by its estimate; nothing where it will not be worth it.
+/// Returns the same cost for a GLB that is not generated yet, from its estimate; zero if it will
+/// have no gzip variant.
 [[nodiscard]] Cost gzip_cost_of_glb(const Cost& estimate);
 
-/// The gzip variant of a GLB: equal input, equal bytes.
+/// Returns the gzip variant of a GLB; equal input gives equal bytes.
 ///
-/// stop      looked at after each 512 kB
-/// parallel  blocks are compressed by themselves, on idle threads too; the bytes do not depend on how many
+/// stop      checked after each 512 kB
+/// parallel  runs the compression of each block, also on idle threads; the bytes do not depend on
+///           their number
 /// throws    Cancelled
 [[nodiscard]] Body gzip_glb(const Body& glb, const std::stop_token& stop, const Parallel& parallel);
 
-/// The key that the gzip variant is kept under.
+/// Returns the cache key of the gzip variant.
 [[nodiscard]] Key gzip_key(const Key& key);
 
-/// Makes the gzip variant that an answer holds beside its body the answer's body.
+/// Replaces the body of a response by the gzip variant that it holds beside it.
 void select_gzip(Response& response);
 
 }  // namespace sporeprint::api

@@ -60,7 +60,8 @@ bool has_hash(std::string_view file_name) {
     const std::string_view hash = stem.substr(dash + 1);
     const auto is_digit = [](char c) { return c >= '0' && c <= '9'; };
     const auto is_letter = [](char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
-    // esbuild writes eight capitals and digits, others write hexadecimal; a word such as "settings" is no hash.
+    // esbuild writes eight capitals and digits, other tools write hexadecimal digits; a word such
+    // as "settings" is no hash.
     const bool all =
         std::all_of(hash.begin(), hash.end(), [&](char c) { return is_digit(c) || is_letter(c); });
     const bool word =

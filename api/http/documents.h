@@ -1,4 +1,5 @@
-// Documents that are ready before anybody asks: the page's files, the schema, OpenAPI, species.
+// Documents that are computed when the service starts: files of the page, schemas, OpenAPI,
+// species.
 #pragma once
 
 #include <filesystem>
@@ -11,7 +12,7 @@
 
 namespace sporeprint::api {
 
-/// A representation with its gzip variant made once.
+/// A representation and its gzip variant, which is compressed once.
 struct Document {
     std::string content_type;
     std::string cache_control;
@@ -25,13 +26,15 @@ inline constexpr const char* cached_for_an_hour =
 inline constexpr const char* immutable_for_a_year = "public, max-age=31536000, immutable";
 inline constexpr const char* revalidated = "no-cache";
 
-/// Whether bodies of a media type go out as gzip to those who accept it: text, JSON, JavaScript, SVG.
+/// Returns true if bodies of a media type are sent as gzip to clients that accept it: text, JSON,
+/// JavaScript, SVG.
 [[nodiscard]] bool compressible(std::string_view content_type);
 
-/// Media type of a file by the ending of its name.
+/// Returns the media type of a file by the extension of its name.
 [[nodiscard]] std::string content_type_of(std::string_view file_name);
 
-/// Whether a name carries a hash ("app-3F9A1C02.js"), so that its content never changes.
+/// Returns true if a file name contains a hash ("app-3F9A1C02.js"), so that its content never
+/// changes.
 [[nodiscard]] bool has_hash(std::string_view file_name);
 
 [[nodiscard]] Document document(std::string content_type, std::string_view text,
@@ -39,7 +42,8 @@ inline constexpr const char* revalidated = "no-cache";
 [[nodiscard]] Document json_document(const Value& value,
                                      std::string_view content_type = "application/json");
 
-/// The files of a folder by name, read once. Names that begin with '.' and files over 64 MB are left out.
+/// Reads the files of a folder once and returns them by name. Names that begin with '.' and files
+/// over 64 MB are left out.
 ///
 /// throws  InvalidInput if the folder cannot be read
 [[nodiscard]] std::map<std::string, Document, std::less<>> read_assets(

@@ -49,7 +49,7 @@ std::string gzip_etag(std::string_view etag) {
 bool names_any(std::string_view list) { return trimmed(list) == "*"; }
 
 bool names_etag(std::string_view list, std::string_view etag, Comparison comparison) {
-    // Walked by hand: a quoted tag may hold commas.
+    // Parsed by hand, since a quoted tag may contain commas.
     std::string_view rest = list;
     for (;;) {
         while (!rest.empty() &&
@@ -67,8 +67,8 @@ bool names_etag(std::string_view list, std::string_view etag, Comparison compari
 }
 
 bool accepts_gzip(std::string_view accept_encoding) {
-    // The hot table asks this for each request, so nothing is allocated here.
-    int named = -1, any = -1;  // -1 not mentioned, 0 refused, 1 allowed
+    // The hot table of the server calls this for each request, so nothing is allocated here.
+    int named = -1, any = -1;  // -1 absent, 0 refused, 1 allowed
     const auto next = [](std::string_view& rest, char separator) {
         const std::size_t end = std::min(rest.find(separator), rest.size());
         const std::string_view piece = trimmed(rest.substr(0, end));

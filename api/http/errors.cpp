@@ -63,7 +63,7 @@ constexpr std::array<ProblemType, 19> types = {{
      "Ask for less: a higher lod, a smaller texture_size or fewer individuals."},
 }};
 
-/// By strength: which status wins when several apply.
+/// If several statuses apply, the first of these is the status of the response.
 constexpr std::array<int, 4> strongest_first = {404, 400, 422, 410};
 
 std::string count_of(std::span<const Problem> problems, int status) {
@@ -76,7 +76,7 @@ std::string count_of(std::span<const Problem> problems, int status) {
 
 template <class T>
 bool is_field_of(std::string_view key) {
-    return key_count<T>(key) > 0;  // those of inlined members too
+    return key_count<T>(key) > 0;  // also those of inlined members
 }
 
 }  // namespace

@@ -8,15 +8,15 @@ namespace sporeprint::api {
 
 namespace {
 
-/// One of the counts of a Cost, and how many microseconds each takes.
+/// One count of a Cost, and its microseconds per unit.
 struct Term {
     std::uint64_t Cost::*count;
     double microseconds;
 };
 
 /// Fitted to the processor times of about 450 requests to all routes, each on one thread with
-/// nothing cached, in a release build of generator version 10; tests/api/costs_test.cpp measures
-/// whether they still hold.
+/// nothing cached, in a release build of generator version 10; tests/api/costs_test.cpp checks them
+/// against measurements.
 constexpr Term terms[] = {
     {&Cost::base, 1.0},
     {&Cost::outlines, 500.0},  // one species alone 0.5 ms, two 1.6 ms, four 4 ms
@@ -45,7 +45,7 @@ constexpr Term terms[] = {
 }  // namespace
 
 std::uint64_t Cost::work() const {
-    double sum = 50.0;  // nothing is free
+    double sum = 50.0;  // of every request
     for (const Term& term : terms)
         sum += term.microseconds * static_cast<double>(this->*term.count);
     return static_cast<std::uint64_t>(sum);
@@ -57,7 +57,7 @@ Cost& Cost::operator+=(const Cost& other) {
 }
 
 Cost cost_of_json(std::string_view text) {
-    // Commas and colons in texts count too: who sends those is charged too much.
+    // Commas and colons inside strings count too, so such bodies are charged too much.
     Cost cost;
     cost.json_bytes = text.size();
     for (const char c : text) cost.json_values += c == ',' || c == ':' ? 1 : 0;

@@ -13,7 +13,7 @@ int hex_digit(char c) {
     return -1;
 }
 
-/// Decodes one piece of a target and says what is wrong with it.
+/// Decodes one piece of a target and adds a problem for whatever is malformed.
 std::string decoded(std::string_view text, const char* what, std::vector<Problem>& problems) {
     std::string out;
     if (!percent_decode(text, out))

@@ -1,4 +1,4 @@
-// A request target taken apart: path segments and query parameters, percent-decoded strictly.
+// Parsing of a request target into path segments and query parameters, strictly percent-decoded.
 #pragma once
 
 #include <string>
@@ -10,31 +10,34 @@
 
 namespace sporeprint::api {
 
-/// Longest target accepted, in bytes (414 beyond).
+/// Longest target that is accepted, in bytes (414 beyond).
 inline constexpr std::size_t longest_target = 4096;
 
 struct Target {
-    std::string path;                   ///< decoded, as asked
+    std::string path;                   ///< decoded, as requested
     std::vector<std::string> segments;  ///< of the path, each decoded after splitting
-    std::vector<std::pair<std::string, std::string>>
-        query;  ///< decoded pairs in order; '+' is a plus sign
+    /// Decoded pairs in order; '+' is a plus sign.
+    std::vector<std::pair<std::string, std::string>> query;
 };
 
-/// Path and query of a target in origin form, or in absolute form, whose scheme and host are passed over.
+/// Returns path and query of a target in origin form, or in absolute form, whose scheme and host
+/// are ignored.
 [[nodiscard]] std::string_view origin_form(std::string_view target);
 
-/// Path and query below a base path: without it where the target begins with it, as they are elsewhere, since some proxies take the
-/// base path off.
+/// Returns path and query below a base path. A target that does not begin with it is returned
+/// unchanged, since some proxies remove the base path.
 ///
-/// base  "" or "/a/b", no '/' at its end
+/// base  "" or "/a/b", without '/' at the end
 [[nodiscard]] std::string_view below(std::string_view base, std::string_view target);
 
-/// Takes a request target apart: origin form, or absolute form whose scheme and host are passed over.
+/// Parses a request target in origin form, or in absolute form, whose scheme and host are ignored.
 ///
-/// problems  malformed escapes, control characters, bytes that are no UTF-8, empty parameters and parameters without '='
+/// problems  malformed escapes, control characters, invalid UTF-8, empty parameters and parameters
+///           without '=' are added to these
 [[nodiscard]] Target split_target(std::string_view target, std::vector<Problem>& problems);
 
-/// Replaces each %XX. Returns false, and leaves `out` unspecified, if a '%' is not followed by two hexadecimal digits.
+/// Replaces each %XX. Returns false and leaves `out` unspecified if a '%' is not followed by two
+/// hexadecimal digits.
 [[nodiscard]] bool percent_decode(std::string_view text, std::string& out);
 
 }  // namespace sporeprint::api

@@ -9,7 +9,7 @@ namespace sporeprint::api {
 
 namespace {
 
-/// The value of decimal digits, at most the largest std::size_t; nothing for other text.
+/// Returns the value of decimal digits, at most the largest std::size_t; nothing for other text.
 std::optional<std::size_t> number_of(std::string_view digits) {
     if (digits.empty()) return std::nullopt;
     std::size_t value = 0;

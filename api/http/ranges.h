@@ -1,4 +1,4 @@
-// Byte ranges of bodies: what a Range header asks for, and the part of a body that answers it.
+// Byte ranges: parsing of Range headers, and parts of bodies.
 #pragma once
 
 #include <cstddef>
@@ -14,13 +14,14 @@ struct ByteRange {
     std::size_t size = 0;  ///< 0 if no byte of the body is in the range: 416
 };
 
-/// The range that a Range header asks for of a body of `size` bytes: "bytes=a-b", "bytes=a-" or "bytes=-n".
+/// Returns the range that a Range header requests of a body of `size` bytes: "bytes=a-b",
+/// "bytes=a-" or "bytes=-n".
 ///
-/// returns  nothing where the header is to be ignored: several ranges, another unit, or malformed
+/// returns  nothing if the header must be ignored: several ranges, another unit, or malformed
 /// source   [RFC9110] section 14.1.2
 [[nodiscard]] std::optional<ByteRange> byte_range(std::string_view header, std::size_t size);
 
-/// The bytes of a range as slices of the same memory; nothing is copied.
+/// Returns the bytes of a range as slices of the same memory; nothing is copied.
 [[nodiscard]] Body part_of(const Body& body, const ByteRange& range);
 
 }  // namespace sporeprint::api

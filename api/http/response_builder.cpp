@@ -18,8 +18,8 @@ constexpr const char* exposed_headers =
     "Content-Location, Content-Range, ETag, RateLimit, RateLimit-Policy, Retry-After, "
     "Server-Timing, X-Request-Id";
 
-/// What a page of ours may do: its own scripts and styles, pictures that it makes itself, no frame round it. The pages say the
-/// same of themselves, but a page cannot forbid frames.
+/// The permissions of pages: their own scripts and styles, images that they create themselves, no
+/// embedding in frames. The pages contain the same policy in HTML, but that cannot forbid frames.
 constexpr std::pair<const char*, const char*> page_headers[] = {
     {"Content-Security-Policy",
      "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; object-src 'none'; "
@@ -83,10 +83,12 @@ void bound_freshness(Response& response, std::int64_t seconds_left) {
     std::int64_t seconds = 0;
     std::from_chars(given.data() + at + age.size(), given.data() + given.size(), seconds);
     seconds = std::clamp<std::int64_t>(seconds_left, 0, seconds);
-    // `public` and not `private`: the signature is part of the URL and so of every cache's key, hence a shared cache gives the
-    // answer only to clients that have the signed URL. `s-maxage` would repeat max-age. `must-revalidate` forbids what
-    // RFC 9111 section 4.2.4 else allows, a stale answer when the server cannot be reached, and `immutable` and
-    // `stale-while-revalidate` are left out, so that no cache serves the answer after the URL has expired.
+    // `public` and not `private`: the signature is part of the URL and so of the key in every
+    // cache, hence a shared cache sends the response only to clients that have the signed URL.
+    // `s-maxage` would repeat max-age. `must-revalidate` forbids stale responses when the server
+    // cannot be reached, which RFC 9111 section 4.2.4 otherwise allows. `immutable` and
+    // `stale-while-revalidate` are left out, so that no cache serves the response after the URL has
+    // expired.
     set_header(response, "Cache-Control",
                "public, max-age=" + std::to_string(seconds) + ", must-revalidate");
 }

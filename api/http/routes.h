@@ -1,84 +1,103 @@
-// The table of routes: the one place that lists what the service answers. Matching is literal, without regular expressions.
+// The description of a route, and the table in which a request's path is looked up. Matching is
+// literal, without regular expressions. Each product describes its own routes.
 #pragma once
 
+#include <cstddef>
 #include <optional>
 #include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "api/http/message.h"
+#include "core/atlas/atlas.h"
+#include "core/params/value.h"
+
 namespace sporeprint::api {
 
-enum class Endpoint {
-    page,
-    docs,
-    asset,
-    root,
-    species_list,
-    species,
-    mushroom_list,
-    mushroom_glb,
-    mushroom_json,
-    mushroom_schema,
-    mushroom_post,
-    morph,
-    morph_post,
-    colony_list,
-    colony_glb,
-    colony_json,
-    colony_schema,
-    colony_post,
-    leaf_list,
-    leaf_glb,
-    leaf_json,
-    leaf_schema,
-    leaf_post,
-    tree_list,
-    tree_glb,
-    tree_json,
-    tree_schema,
-    tree_post,
-    surface,
-    leaf_surface,
-    tree_surface,
-    inspect,
-    openapi,
-    problem_type,
-    livez,
-    readyz,
-    metrics
+struct RouteCall;
+class RouteTable;
+
+/// The kind of a response. It decides how the response is cached, which problems it can have, and
+/// whether a signature is required.
+enum class RouteKind {
+    page,      ///< a file of the viewer, or a page in HTML
+    document,  ///< JSON about the service, computed without a job
+    product,   ///< a generated file or its description; cached
+    image,     ///< an image of a product; cached
+    upload,    ///< a report about a client's file; not cached
+    health     ///< the process itself; served by `server`
+};
+
+/// The inputs of documents that are computed when the service starts.
+struct DocumentInputs {
+    const Atlas& atlas;
+    const RouteTable& routes;
+    bool signed_urls = false;
+    std::string_view base_path;
 };
 
 struct Route {
-    Endpoint endpoint;
-    const char* method;  ///< "GET" (HEAD agrees) or "POST"
-    const char*
-        pattern;  ///< "/v1/mushrooms/{mix}.glb": a segment may hold one {name} before a literal ending
-    const char* id;  ///< operationId
+    RouteKind kind;
+    const char* method;   ///< "GET" (HEAD is served too) or "POST"
+    const char* pattern;  ///< "/a/{name}.glb": {name} stands before a literal ending
+    const char* id;       ///< operationId
     const char* summary;
-    const char* responses;  ///< media type of the 200
-    const char* takes;      ///< media type of the body, or ""
+    const char* media_type;                              ///< of the response with status 200
+    const char* body_type = "";                          ///< media type of the request body
+    std::size_t most_body = 256 << 10;                   ///< bytes of the request body
+    const char* (*example)() = nullptr;                  ///< of {preset}
+    const char* response_schema = nullptr;               ///< name in /components/schemas
+    const char* request_body = nullptr;                  ///< name in /components/requestBodies
+    Value (*query_schema)() = nullptr;                   ///< nested schema of the query parameters
+    Value (*document)(const DocumentInputs&) = nullptr;  ///< a document without query parameters
+    Plan (*plan)(RouteCall&) = nullptr;                  ///< the handler of all other routes
+    bool may_be_elsewhere = false;                       ///< 404 if it has a port of its own
 };
 
-[[nodiscard]] std::span<const Route> routes();
+/// Returns true for routes whose responses are generated on demand: they cost work, and a signature
+/// is required where URLs are signed.
+[[nodiscard]] bool is_generated(const Route& route);
 
-/// Whether what a route answers is made on demand: what costs work, and what a signature is asked for. All else are documents.
-[[nodiscard]] bool is_generated(Endpoint endpoint);
+/// Returns true for routes whose generated responses are cached.
+[[nodiscard]] bool is_cached(const Route& route);
 
+/// The routes of one product or service, and what they add to common documents.
+struct RouteGroup {
+    const char* tag;          ///< of the OpenAPI document, also the first segment after /v1/
+    const char* description;  ///< of that tag
+    std::span<const Route> routes;
+    void (*add_links)(Value& links, const Atlas& atlas) = nullptr;    ///< to GET /v1
+    void (*add_schemas)(Value& schemas) = nullptr;                    ///< /components/schemas
+    void (*add_bodies)(Value& bodies, const Atlas& atlas) = nullptr;  ///< requestBodies
+};
+
+/// The result of a lookup.
 struct Match {
-    const Route* route = nullptr;
+    const Route* route = nullptr;       ///< null when the path or the method is unknown
     std::vector<std::string> captured;  ///< in the order of the {names}
-    std::string
-        allow;  ///< every method of the path, "GET, HEAD, OPTIONS"; empty when the path is unknown
+    std::string allow;  ///< every method of the path, "GET, HEAD, OPTIONS"; empty if it is unknown
 };
 
-/// Finds the route of a path and method; HEAD counts as GET. `route` is null when the path or the method is not known.
-[[nodiscard]] Match match_route(std::string_view method, std::span<const std::string> segments);
+class RouteTable {
+  public:
+    explicit RouteTable(std::vector<RouteGroup> groups);
 
-/// The address a person most likely meant by an unknown path, or "".
-[[nodiscard]] std::string closest_route(std::span<const std::string> segments);
+    [[nodiscard]] std::span<const RouteGroup> groups() const { return groups_; }
 
-/// Longest body that a route takes, in bytes.
-[[nodiscard]] std::size_t longest_body(const Route& route);
+    /// Returns the routes of all groups, in their order.
+    [[nodiscard]] std::span<const Route* const> routes() const { return routes_; }
+
+    /// Finds the route of a path and a method; HEAD counts as GET. Routes of kind `health` are not
+    /// found.
+    [[nodiscard]] Match match(std::string_view method, std::span<const std::string> segments) const;
+
+    /// Returns the path that was most likely meant by an unknown one, or "".
+    [[nodiscard]] std::string closest(std::span<const std::string> segments) const;
+
+  private:
+    std::vector<RouteGroup> groups_;
+    std::vector<const Route*> routes_;
+};
 
 }  // namespace sporeprint::api

@@ -1,4 +1,4 @@
-// The options, counters and timings of a service: what its parts share without knowing the service.
+// Options, counters and timings of the service, as plain data for all parts of it.
 #pragma once
 
 #include <atomic>
@@ -16,23 +16,23 @@ struct ServiceOptions {
     std::size_t image_cache_bytes = 128u << 20;
     std::size_t morph_cache_bytes = 16u << 20;
     std::filesystem::path assets;  ///< folder of the built page; empty for none
-    std::filesystem::path store;   ///< folder that finished files are kept in; empty for none
+    std::filesystem::path store;   ///< folder in which generated files are stored; empty for none
     std::uint64_t store_bytes = std::uint64_t{1} << 30;
-    std::function<void(const StoreEvent&)>
-        store_event;  ///< called on any thread, several at once; may be empty
+    /// Called on any thread, also concurrently; may be empty.
+    std::function<void(const StoreEvent&)> store_event;
     std::string allow_origin = "*";
-    std::string base_path;          ///< under which clients see the service: "" or "/a/b"
-    bool signed_addresses = false;  ///< only who holds a key makes addresses; so answers tell none
+    std::string base_path;     ///< path under which clients see the service: "" or "/a/b"
+    bool signed_urls = false;  ///< URLs need a signature; responses contain none
     std::uint64_t most_vertices = 2'000'000;             ///< budget of one request
-    std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< three bytes each: 189 MB
+    std::uint64_t most_texels = 5 * 3u * 2048u * 2048u;  ///< 3 bytes each: 189 MB
 };
 
-/// Counted since start; read at any time.
+/// Counters since the start of the process; may be read at any time.
 struct Counters {
     std::atomic<std::uint64_t> generated{0}, painted{0};
     std::atomic<std::uint64_t> glb_hits{0}, glb_misses{0}, glb_not_modified{0};
     std::atomic<std::uint64_t> image_hits{0}, image_misses{0};
-    std::atomic<std::uint64_t> painting_hits{0}, painting_misses{0};  ///< kept beside the images
+    std::atomic<std::uint64_t> painting_hits{0}, painting_misses{0};  ///< cached beside the images
     std::atomic<std::uint64_t> morph_hits{0}, morph_misses{0};
     std::atomic<std::uint64_t> glb_cache_bytes{0}, glb_cache_entries{0}, glb_evictions{0};
     std::atomic<std::uint64_t> image_cache_bytes{0}, image_cache_entries{0}, image_evictions{0};
@@ -41,7 +41,8 @@ struct Counters {
     std::atomic<std::uint64_t> store_bytes{0}, store_entries{0}, store_evictions{0};
 };
 
-/// How a planned job came to its answer, for Cache-Status.
+/// How a response was computed, for Cache-Status: by its own job, or by one that another request
+/// had started.
 enum class Outcome { generated, collapsed };
 
 /// Milliseconds per step, for Server-Timing; negative means not taken.

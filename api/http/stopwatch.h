@@ -1,4 +1,4 @@
-// Measures the steps of a job: core reports them, the clock is here.
+// Measures the steps of a job: core reports them, this class reads the clock.
 #pragma once
 
 #include <array>
@@ -10,7 +10,8 @@
 
 namespace sporeprint::api {
 
-/// Lends an observer to one job. A step lasts until the next one begins, the last until timing() is asked.
+/// Provides the progress observer of one job. A step lasts until the next one begins, the last one
+/// until timing() is called.
 class Stopwatch {
   public:
     [[nodiscard]] Observer observer() {
@@ -23,7 +24,8 @@ class Stopwatch {
         current_ = step;
     }
 
-    /// Milliseconds per step so far; `queue_ms` is taken over, negative for none.
+    /// Returns milliseconds per step so far. `queue_ms` is copied into the result; negative means
+    /// none.
     [[nodiscard]] Timing timing(double queue_ms = -1.0) {
         const std::lock_guard lock(mutex_);
         close();

@@ -1,4 +1,4 @@
-// Small pieces of text handling that HTTP needs: words in any case, lists with commas.
+// Text functions for HTTP: comparison in any case, trimming, splitting.
 #pragma once
 
 #include <algorithm>
@@ -8,30 +8,32 @@
 
 namespace sporeprint::api {
 
+/// Returns an ASCII letter in lower case, and any other character unchanged.
 [[nodiscard]] constexpr char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Equal but for ASCII case.
+/// Returns true if two texts are equal except for ASCII case.
 [[nodiscard]] constexpr bool same_word(std::string_view a, std::string_view b) {
     return std::equal(a.begin(), a.end(), b.begin(), b.end(),
                       [](char x, char y) { return lower(x) == lower(y); });
 }
 
+/// Returns a text with its ASCII letters in lower case.
 [[nodiscard]] inline std::string lower(std::string_view text) {
     std::string out(text);
     std::transform(out.begin(), out.end(), out.begin(), [](char c) { return lower(c); });
     return out;
 }
 
-/// Without spaces and tabs at both ends.
+/// Returns a text without spaces and tabs at both ends.
 [[nodiscard]] constexpr std::string_view trimmed(std::string_view text) {
     while (!text.empty() && (text.front() == ' ' || text.front() == '\t')) text.remove_prefix(1);
     while (!text.empty() && (text.back() == ' ' || text.back() == '\t')) text.remove_suffix(1);
     return text;
 }
 
-/// The pieces between separators, trimmed; an empty text has one empty piece.
+/// Returns the trimmed pieces between separators; an empty text has one empty piece.
 [[nodiscard]] inline std::vector<std::string_view> split(std::string_view text, char separator) {
     std::vector<std::string_view> out;
     for (std::size_t begin = 0; begin <= text.size();) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "api/http/schemas.h"
 #include "api/http/text.h"
 #include "core/params/reader.h"
 
@@ -76,6 +77,21 @@ Value product_list(const Atlas& atlas, const std::string& product) {
                       .set("links", std::move(links)));
     }
     return Value::object().set(product, std::move(list));
+}
+
+Value product_list_schema() {
+    const Value text = typed("string");
+    return list_of(objects({{"id", text}, {"name", text}, {"links", map_of(text)}}));
+}
+
+Value with_branched_order(Value schema) {
+    each_schema(schema, [](Value& one) {
+        if (Value* properties = one.find("properties"))
+            if (Value* ramification = properties->find("ramification"))
+                if (Value* inner = ramification->find("properties"))
+                    inner->find("order")->set("minimum", 2);
+    });
+    return schema;
 }
 
 }  // namespace sporeprint::api

@@ -1,4 +1,4 @@
-// The list of species and its filters.
+// The list of species and its filters; the lists of products that are generated from species.
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace sporeprint::api {
 
-/// Shape families, as the list names them.
+/// Shape families, with the names of the list.
 enum class Family { swept, branched };
 
 constexpr const char* name(Family family) {
@@ -74,18 +74,26 @@ struct SpeciesFilter {
     bool operator==(const SpeciesFilter&) const = default;
 };
 
-/// Whether a species passes. One without a cap passes no filter on diameters.
+/// Returns true if a species matches a filter. One without a cap matches no filter on diameters.
 [[nodiscard]] bool passes(const Species& species, const SpeciesFilter& filter);
 
-/// The shape family of a species: that of its stages.
+/// Returns the shape family of the stages of a species.
 [[nodiscard]] Family family_of(const Species& species);
 
-/// {"species":[…]}, sorted by id.
+/// Returns {"species":[…]}, sorted by id.
 [[nodiscard]] Value species_list(const Atlas& atlas, const SpeciesFilter& filter = {});
 
-/// {"mushrooms":[{"id","name","links"}]}, sorted by id: the species that a product is grown of.
+/// Returns {"mushrooms":[{"id","name","links"}]}, sorted by id: the species of which a product can
+/// be generated.
 ///
-/// product  as in its addresses, /v1/{product}
+/// product  the name in its URLs, /v1/{product}
 [[nodiscard]] Value product_list(const Atlas& atlas, const std::string& product);
+
+/// Returns the schema of the items of product_list().
+[[nodiscard]] Value product_list_schema();
+
+/// Returns the schema of a species or model in which branched fungi have order 2 or more: a branch
+/// graph of order 1 would have no fork and is refused, where a tree of order 1 is a twig.
+[[nodiscard]] Value with_branched_order(Value schema);
 
 }  // namespace sporeprint::api

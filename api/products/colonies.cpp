@@ -1,9 +1,19 @@
 #include "api/products/colonies.h"
 
+#include <algorithm>
+#include <utility>
+
+#include "api/http/schemas.h"
+#include "api/products/catalogue.h"
 #include "api/products/mix.h"
+#include "api/products/mushrooms.h"
+#include "api/products/plan_product.h"
+#include "api/products/surfaces.h"
+#include "core/grow/colony.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
+#include "core/params/schema.h"
 
 namespace sporeprint::api {
 
@@ -56,5 +66,221 @@ std::string file_name(const ColonySpec& spec, Product product) {
     for (const MixPart& part : spec.mix) (out += part.id) += '-';
     return out + "colony-" + std::to_string(spec.params.seed) + ending_of(product);
 }
+
+namespace {
+
+/// Approximate vertices of the mesh that measures the space of an individual: its cap at lod=1.
+constexpr std::uint64_t spacing_vertices = 3000;
+
+/// Returns the cost of generating a request with this estimate, without that of its correspondence.
+Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
+             const Atlas& atlas) {
+    const auto distinct = static_cast<std::uint64_t>(spec.params.distinct);
+    Cost cost = cost_of_individuals(spec.mix, is_branched(spec.mix, atlas), 1 + distinct);
+    cost.base = 300;
+    cost.vertices = distinct * spacing_vertices;
+    cost.placed_vertices = estimated.vertices;
+    cost.members = static_cast<std::uint64_t>(spec.params.count);
+    if (product == Product::json) return cost;
+    cost.bytes = estimated.bytes;
+    if (spec.params.textures != Textures::embedded) return cost;
+    cost.atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    cost.texels = estimated.texels;
+    return cost;
+}
+
+bool shows_roots(const ColonySpec& spec, const Atlas& atlas) {
+    try {
+        return colony_traits(spec, atlas).roots == RootsShown::shown;
+    } catch (const InvalidInput&) {
+        return false;  // the estimate reports the problem
+    }
+}
+
+/// Returns an approximate estimate of a request whose individuals are not resolved yet, without
+/// roots, which cannot be estimated.
+Estimate guessed(const ColonySpec& spec) {
+    const ColonyParams& params = spec.params;
+    const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
+    Estimate guess;
+    // Caps are those of the next level of detail; a stem has about six nodes of nine quads, each
+    // subdivided into sixteen near the viewer.
+    guess.vertices = (static_cast<std::uint64_t>(params.distinct) * 1000 +
+                      static_cast<std::uint64_t>(params.count) * 400) >>
+                     (2 * std::min(params.lod, 2));
+    const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
+    guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    guess.bytes = 60 * guess.vertices + images / 3;
+    return guess;
+}
+
+}  // namespace
+
+std::string Colonies::version(const ColonySpec& spec, const Atlas& atlas) {
+    return version_token(spec.mix, atlas);
+}
+
+std::string Colonies::url(const ColonySpec& spec, Product product) {
+    return canonical_address(spec, product);
+}
+
+std::string Colonies::key(const ColonySpec& spec, Product product, const std::string& version) {
+    return key_of(spec, product, version);
+}
+
+std::string Colonies::file_name(const ColonySpec& spec, Product product) {
+    return api::file_name(spec, product);
+}
+
+Cost Colonies::cost(const Context& context, const ColonySpec& spec, Product product,
+                    const Caches& caches) {
+    const Estimate estimated = estimate(spec, *context.atlas, caches);
+    refuse_over_budget(context.options, estimated, spec.mix.size() > 1);
+    return cost_of(spec, estimated, product, *context.atlas);
+}
+
+Cost Colonies::search(const ColonySpec& spec, const Atlas& atlas) {
+    return cost_of_search(spec.mix, atlas);
+}
+
+std::optional<Cost> Colonies::guess(const ColonySpec& spec, Product product, const Atlas& atlas) {
+    if (shows_roots(spec, atlas)) return std::nullopt;
+    return cost_of(spec, guessed(spec), product, atlas);
+}
+
+ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec, const std::string&,
+                               const ExecutionContext& execution) {
+    // Its images are those of a mushroom, of higher resolution than its level of detail alone would
+    // have.
+    const MushroomSpec surface =
+        surface_spec(paint_mushroom_spec(spec), *context.atlas, execution.caches);
+    SurfaceAddress image = surface_address(surface);
+    image.texture_size = {spec.params.texture_size >> spec.params.lod};
+    return mushroom_image_urls(surface, image, *context.atlas);
+}
+
+Body Colonies::grow(const Context& context, const ColonySpec& spec, const Extras& extras, int,
+                    const ExecutionContext& execution) {
+    return grow_colony(spec, *context.atlas, extras, execution).glb;
+}
+
+Value Colonies::describe(const Context& context, const ColonySpec& spec, const std::string& version,
+                         const ExecutionContext& execution) {
+    const Colony colony = colony_parts(spec, *context.atlas, execution);
+    execution.observer(Step::pack);
+    Value body = Value::object();
+    body.set("canonical", canonical_address(spec, Product::glb));
+    body.set("v", version);
+    body.set("mix", mix_value(spec.mix));
+    body.set("made", std::uint64_t{colony.members.size()});
+    body.set("effective", write(colony.effective));
+    body.set("estimate", description(measured(spec, colony)));
+    body.set("bounds_m", description(bounds(colony)));
+    return body;
+}
+
+namespace {
+
+template <Product product>
+Plan plan_from_url(RouteCall& call) {
+    ColonyRequest requested =
+        read_colony(call.captured[0], call.target.query, *call.context.atlas, call.errors);
+    requested.product = product;
+    return plan_product<Colonies>(call.context, call.request, std::move(requested), call.errors);
+}
+
+Plan plan_from_body(RouteCall& call) {
+    refuse_query(call.target, call.errors);
+    return plan_product<Colonies>(call.context, call.request,
+                                  read_colony(call.request.body, *call.context.atlas, call.errors),
+                                  call.errors);
+}
+
+constexpr const char *json = "application/json", *glb = "model/gltf-binary";
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/colonies",
+     .id = "list_colonies",
+     .summary = "The species that colonies are grown of, with links.",
+     .media_type = json,
+     .response_schema = "colony_list",
+     .document =
+         [](const DocumentInputs& inputs) { return product_list(inputs.atlas, "colonies"); }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/colonies/schema",
+     .id = "colony_schema",
+     .summary = "JSON Schema of the query parameters of a colony.",
+     .media_type = "application/schema+json",
+     .document =
+         [](const DocumentInputs&) {
+             return schema_document<ColonyParams>("Parameters of a colony");
+         }},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/colonies/{mix}.glb",
+     .id = "get_colony",
+     .summary = "Grows a colony: roots, stems and caps, each cap stored once.",
+     .media_type = glb,
+     .query_schema = [] { return schema<ColonyParams>(); },
+     .plan = plan_from_url<Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/colonies/{mix}.json",
+     .id = "describe_colony",
+     .summary = "What would be grown: canonical address, how many found room, effective "
+                "parameters, cost and bounds.",
+     .media_type = json,
+     .response_schema = "colony_description",
+     .query_schema = [] { return schema<ColonyParams>(); },
+     .plan = plan_from_url<Product::json>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/colonies.glb",
+     .id = "post_colony",
+     .summary = "Grows a colony from a body: a mix and what is to differ from its habit.",
+     .media_type = glb,
+     .body_type = json,
+     .request_body = "colony_order",
+     .plan = plan_from_body},
+};
+
+void add_links(Value& links, const Atlas&) {
+    links.set("colonies", "/v1/colonies").set("colony_schema", "/v1/colonies/schema");
+}
+
+void add_schemas(Value& schemas) {
+    const Value text = typed("string");
+    schemas.set("colony_params", as_written(schema<ColonyParams>()))
+        .set("colony_list", objects({{"colonies", product_list_schema()}}))
+        .set("colony_description", objects({{"canonical", text},
+                                            {"v", text},
+                                            {"mix", mix_list_schema()},
+                                            {"made", typed("integer")},
+                                            {"effective", reference("schemas/colony_params")},
+                                            {"estimate", estimate_schema()},
+                                            {"bounds_m", bounds_schema()}}));
+}
+
+void add_bodies(Value& bodies, const Atlas& atlas) {
+    bodies.set(
+        "colony_order",
+        json_body("A mix of species and what is to differ from its habit.",
+                  with_members({{"mix", mix_schema()}, {"v", version_member()}},
+                               schema<ColonyParams>(), "mix"),
+                  object({{"mix", object({{example_id(atlas), 1}})}, {"count", 12}, {"seed", 7}})));
+}
+
+}  // namespace
+
+const RouteGroup colony_routes = {
+    .tag = "colonies",
+    .description = "Many mushrooms that stand together, with their roots.",
+    .routes = routes,
+    .add_links = add_links,
+    .add_schemas = add_schemas,
+    .add_bodies = add_bodies};
 
 }  // namespace sporeprint::api

@@ -1,38 +1,62 @@
-// Requests for colonies: from an address or a body to a ColonySpec, and back to the canonical address and key.
+// Colonies: from a URL or a body to a ColonySpec, back to the canonical URL and key, and their
+// routes.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "api/products/context.h"
 #include "api/products/product.h"
 #include "core/atlas/atlas.h"
 #include "core/colony/colony_spec.h"
 
 namespace sporeprint::api {
 
-/// An order with what is to be made of it and the version token that came along.
+/// A specification, the product to generate, and the version token of the request.
 struct ColonyRequest {
     ColonySpec spec;
     Product product = Product::glb;
     std::optional<std::string> version;
 };
 
-/// Reads the {mix} and the query of an address. Whatever is wrong goes to `faults`, all of it.
+/// Reads the {mix} and the query of a URL. Adds all problems to `errors`.
 [[nodiscard]] ColonyRequest read_colony(std::string_view mix, Query query, const Atlas& atlas,
                                         ValidationErrors& errors);
 
-/// Reads a body: {"mix":{id:weight}} beside the query parameters.
+/// Reads a body: {"mix":{id:weight}} beside the query parameters. Adds all problems to `errors`.
 [[nodiscard]] ColonyRequest read_colony(std::string_view body, const Atlas& atlas,
                                         ValidationErrors& errors);
 
-/// Canonical address without version: path with the canonical mix, then what differs from its default, in schema order.
+/// Returns the canonical URL without version: path with the canonical mix, then parameters that
+/// differ from their defaults, in schema order.
 [[nodiscard]] std::string canonical_address(const ColonySpec& spec, Product product = Product::glb);
 
-/// Full canonical text of all values, with product, generator version and templates: equal keys, equal bytes.
+/// Returns the canonical text of all values, with product, generator version and templates: equal
+/// keys mean equal bytes.
 [[nodiscard]] std::string key_of(const ColonySpec& spec, Product product, std::string_view version);
 
-/// "armillaria_mellea-colony-7.glb"
+/// Returns "armillaria_mellea-colony-7.glb".
 [[nodiscard]] std::string file_name(const ColonySpec& spec, Product product);
+
+/// The Kind of plan_product.h for colonies.
+struct Colonies {
+    static std::string version(const ColonySpec& spec, const Atlas& atlas);
+    static std::string url(const ColonySpec& spec, Product product);
+    static std::string key(const ColonySpec& spec, Product product, const std::string& version);
+    static std::string file_name(const ColonySpec& spec, Product product);
+    static Cost cost(const Context& context, const ColonySpec& spec, Product product,
+                     const Caches& caches);
+    static Cost search(const ColonySpec& spec, const Atlas& atlas);
+    static std::optional<Cost> guess(const ColonySpec& spec, Product product, const Atlas& atlas);
+    static ImageUrls image_urls(const Context& context, const ColonySpec& spec,
+                                const std::string& version, const ExecutionContext& execution);
+    static Body grow(const Context& context, const ColonySpec& spec, const Extras& extras,
+                     int depth, const ExecutionContext& execution);
+    static Value describe(const Context& context, const ColonySpec& spec,
+                          const std::string& version, const ExecutionContext& execution);
+};
+
+extern const RouteGroup colony_routes;
 
 }  // namespace sporeprint::api

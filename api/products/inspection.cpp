@@ -1,24 +1,28 @@
+#include "api/products/inspection.h"
+
 #include <utility>
 
 #include "api/http/query.h"
-#include "api/http/routes.h"
-#include "api/products/endpoints.h"
+#include "api/http/schemas.h"
+#include "api/products/context.h"
 #include "core/gltf/inspect.h"
 
 namespace sporeprint::api {
 
 namespace {
 
-bool is_address(std::string_view text) {
+bool is_url(const RouteTable& routes, std::string_view text) {
     std::vector<Problem> problems;
     const Target target = split_target(text, problems);
     return problems.empty() && text.starts_with("/v1/") &&
-           match_route("GET", target.segments).route;
+           routes.match("GET", target.segments).route;
 }
 
-}  // namespace
-
-Plan plan_inspection(Context& context, const Request& request, ValidationErrors& errors) {
+Plan plan_inspection(RouteCall& call) {
+    refuse_query(call.target, call.errors);
+    Context& context = call.context;
+    const Request& request = call.request;
+    const ValidationErrors& errors = call.errors;
     if (!errors.empty()) return context.responses.problem(request, errors);
     const std::size_t bytes = request.body.size();
     const std::string_view json =
@@ -30,14 +34,14 @@ Plan plan_inspection(Context& context, const Request& request, ValidationErrors&
                                              std::to_string(most_inspected_json) + " are read");
     Cost cost = cost_of_json(json);
     cost.base = 20;
-    // The job holds the JSON chunk alone: of an upload of 64 MB the rest is never copied.
-    auto run = [json = std::make_shared<const std::string>(json), bytes](
+    // The job holds only the JSON chunk: the rest of an upload of 64 MB is never copied.
+    auto run = [json = std::make_shared<const std::string>(json), bytes, &routes = context.routes](
                    const std::stop_token& stop, const Observer& observer, const Parallel&) {
         observer(Step::resolve);
         const Inspection found = inspect_json(*json, stop);
-        // A model of one's own, or arcs, have no address.
+        // A custom model or arcs have no URL.
         if (!found.canonical.empty() &&
-            (found.canonical.size() > longest_target || !is_address(found.canonical)))
+            (found.canonical.size() > longest_target || !is_url(routes, found.canonical)))
             throw InvalidInput(
                 "", "the canonical request in this file is not an address of Sporeprint");
         std::vector<Problem> problems;
@@ -64,8 +68,37 @@ Plan plan_inspection(Context& context, const Request& request, ValidationErrors&
         response.body = {slice_of(dump(body))};
         return response;
     };
-    // Each upload is its own piece of work: a number makes the key, not a hash of up to 64 MB.
+    // Each upload is a separate piece of work: its key is a number, not a hash of up to 64 MB.
     return Job{"inspection " + std::to_string(context.store.inspections++), cost, std::move(run)};
 }
+
+constexpr Route routes[] = {{.kind = RouteKind::upload,
+                             .method = "POST",
+                             .pattern = "/v1/inspect",
+                             .id = "inspect",
+                             .summary = "Reads a GLB of Sporeprint and answers with the request "
+                                        "that made it.",
+                             .media_type = "application/json",
+                             .body_type = "model/gltf-binary",
+                             .most_body = 64u << 20,
+                             .response_schema = "inspection",
+                             .plan = plan_inspection}};
+
+void add_schemas(Value& schemas) {
+    const Value text = typed("string");
+    const Value text_or_null =
+        object({{"type", Value(Value::Array{"string", "null"})},
+                {"description",
+                 "The address that makes it again; null for a model or arcs of one's own."}});
+    schemas.set("inspection", objects({{"generator", text},
+                                       {"canonical", text_or_null},
+                                       {"effective", typed("object")},
+                                       {"counts", map_of(typed("integer"))}}));
+}
+
+}  // namespace
+
+const RouteGroup inspection_routes = {
+    .tag = "service", .description = "", .routes = routes, .add_schemas = add_schemas};
 
 }  // namespace sporeprint::api

@@ -1,32 +1,27 @@
-#include "api/products/preset_endpoint.h"
-#include "core/grow/leaf.h"
+#include "api/products/leaves.h"
+
+#include "core/params/schema.h"
 
 namespace sporeprint::api {
 
-namespace {
+Grown Leaves::grow(const LeafSpec& spec, const Extras& extras, int,
+                   const ExecutionContext& execution) {
+    return grow_leaf(spec, extras, execution);
+}
 
-struct Recipe {
-    static Grown grow(const LeafSpec& spec, const Extras& extras, int,
-                      const ExecutionContext& execution) {
-        return grow_leaf(spec, extras, execution);
-    }
+std::pair<Estimate, Bounds> Leaves::measure(const LeafSpec& spec,
+                                            const ExecutionContext& execution) {
+    execution.observer(Step::build);
+    const Mesh mesh = leaf_mesh(spec);
+    execution.observer(Step::pack);
+    return {measured(spec, mesh), bounds(mesh)};
+}
 
-    static Cost cost(const LeafSpec&) { return {.base = 150}; }
+Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }
 
-    static Cost paint_cost(const LeafSpec& spec) { return cost_of_paint(paint_of(spec.params)); }
+Cost Leaves::cost_of_painting(const LeafSpec& spec) { return cost_of_paint(paint_of(spec.params)); }
 
-    static std::pair<Estimate, Bounds> measure(const LeafSpec& spec,
-                                               const ExecutionContext& execution) {
-        execution.observer(Step::build);
-        const Mesh mesh = leaf_mesh(spec);
-        execution.observer(Step::pack);
-        return {measured(spec, mesh), bounds(mesh)};
-    }
-};
-
-}  // namespace
-
-Cost cost_of_paint(const LeafPaint& paint) {
+Cost Leaves::cost_of_paint(const LeafPaint& paint) {
     const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
     const auto vertices = static_cast<std::uint64_t>(most_of_leaf(paint.venation, 0).vertices);
     return {.leaf_atlases = 1,
@@ -35,18 +30,102 @@ Cost cost_of_paint(const LeafPaint& paint) {
             .leaf_row_vertices = side * vertices};
 }
 
-Plan plan_leaf(Context& context, const Request& request, PresetRequest<Leaves> requested,
-               ValidationErrors& errors) {
-    return plan_preset<Leaves, Recipe>(context, request, std::move(requested), errors);
+namespace {
+
+Value params_schema() { return from_preset<LeafShape, LeafPalette>(schema<LeafParams>()); }
+
+constexpr const char *json = "application/json", *glb = "model/gltf-binary";
+
+const char* example_preset() { return Leaves::presets().front().id; }
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/leaves",
+     .id = "list_leaves",
+     .summary = "The leaves to begin with.",
+     .media_type = json,
+     .response_schema = "leaf_list",
+     .document = [](const DocumentInputs&) { return preset_list<Leaves>(); }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/leaves/schema",
+     .id = "leaf_schema",
+     .summary = "JSON Schema of the query parameters of a leaf.",
+     .media_type = "application/schema+json",
+     .document =
+         [](const DocumentInputs&) {
+             return from_preset<LeafShape, LeafPalette>(
+                 schema_document<LeafParams>("Parameters of a leaf"));
+         }},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/leaves/{preset}.glb",
+     .id = "get_leaf",
+     .summary = "Grows a leaf and answers with a GLB file.",
+     .media_type = glb,
+     .example = example_preset,
+     .query_schema = params_schema,
+     .plan = plan_preset_url<Leaves, Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/leaves/{preset}.json",
+     .id = "describe_leaf",
+     .summary = "What would be grown: canonical address, effective parameters, cost and bounds.",
+     .media_type = json,
+     .example = example_preset,
+     .response_schema = "leaf_description",
+     .query_schema = params_schema,
+     .plan = plan_preset_url<Leaves, Product::json>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/leaves.glb",
+     .id = "post_leaf",
+     .summary = "Grows a leaf from a body: a preset and what is to differ from it.",
+     .media_type = glb,
+     .body_type = json,
+     .request_body = "leaf_order",
+     .plan = plan_preset_body<Leaves>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/surfaces/leaves/{preset}/{image}.jpg",
+     .id = "get_leaf_surface",
+     .summary = "One image of a leaf's atlas; what textures=linked points to.",
+     .media_type = "image/jpeg",
+     .example = example_preset,
+     .query_schema = [] { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
+     .plan = plan_preset_image<Leaves>},
+};
+
+void add_links(Value& links, const Atlas&) {
+    links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
 }
 
-Plan plan_surface(Context& context, const Request& request, const PresetSurface<Leaves>& requested,
-                  ValidationErrors& errors) {
-    return plan_preset_surface<Leaves>(context, request, requested, errors);
+void add_schemas(Value& schemas) {
+    const Value text = typed("string");
+    schemas.set("leaf_params", as_written(schema<LeafParams>()))
+        .set("leaf_list",
+             objects({{"leaves",
+                       list_of(objects({{"id", text}, {"name", text}, {"links", map_of(text)}}))}}))
+        .set("leaf_description", preset_description_schema("leaf_params"));
 }
 
-ImageResource image_of(const Context&, const PresetSurface<Leaves>& requested) {
-    return image_of<Leaves>(requested);
+void add_bodies(Value& bodies, const Atlas&) {
+    bodies.set("leaf_order",
+               json_body("A preset and what is to differ from it.",
+                         preset_body_schema<Leaves>(params_schema()),
+                         object({{"preset", Leaves::presets().front().id},
+                                 {"autumn", 0.5},
+                                 {"venation", object({{"lobes", 7}, {"vein_deg", 40}})}})));
 }
+
+}  // namespace
+
+const RouteGroup leaf_routes = {.tag = "leaves",
+                                .description = "Leaves with their veins.",
+                                .routes = routes,
+                                .add_links = add_links,
+                                .add_schemas = add_schemas,
+                                .add_bodies = add_bodies};
 
 }  // namespace sporeprint::api

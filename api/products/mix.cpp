@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 
+#include "api/http/schemas.h"
 #include "api/http/text.h"
 #include "core/params/messages.h"
 
@@ -11,7 +12,7 @@ namespace sporeprint::api {
 
 namespace {
 
-/// A number by JSON's grammar and nothing else, not even space around it.
+/// Reads a number in JSON's grammar, without white space around it. Returns false for other text.
 bool number_of(std::string_view text, double& number) {
     if (text.empty() || text.find_first_not_of("+-.0123456789eE") != std::string_view::npos)
         return false;
@@ -22,7 +23,7 @@ bool number_of(std::string_view text, double& number) {
     return true;
 }
 
-/// The faults of ids and weights that both spellings share; then the canonical form.
+/// Checks ids and weights, which is common to both notations, and returns the canonical form.
 Mix checked(Weights weights, const Atlas& atlas, ValidationErrors& errors, bool clean) {
     if (weights.size() > most_species) {
         errors.add(400, "mix",
@@ -59,10 +60,11 @@ Mix canonical_mix(Weights weights) {
     std::sort(weights.begin(), weights.end());
     double most = 0.0, sum = 0.0;
     for (const auto& [id, weight] : weights) most = std::max(most, weight);
-    for (auto& [id, weight] : weights)
-        sum += weight /= most;  // so that the sum of huge weights is finite
+    // The division keeps the sum of huge weights finite.
+    for (auto& [id, weight] : weights) sum += weight /= most;
 
-    // In millionths of a thousandth: rounding noise of the division is far below, so equal remainders compare equal.
+    // In millionths of a thousandth: rounding errors of the division are far smaller, so equal
+    // remainders compare as equal.
     struct Share {
         std::size_t index;
         std::int64_t whole, rest;
@@ -105,7 +107,7 @@ std::string unknown_species(std::string_view id, const Atlas& atlas) {
     std::string out = "unknown species " + in_quotes(id);
     const std::string_view meant = closest(id, ids);
     if (!meant.empty()) return out + "; did you mean " + in_quotes(meant) + "?";
-    // A genus alone, or another spelling of the whole: name the species whose id begins with it.
+    // For a genus alone, or another spelling, suggest the species whose id begins with it.
     for (const std::string& known : ids)
         if (id.size() >= 3 && known.starts_with(lower(id)))
             return out + "; did you mean " + in_quotes(known) + "?";
@@ -174,6 +176,25 @@ Mix read_mix_object(const Value& json, const Atlas& atlas, ValidationErrors& err
         weights.emplace_back(id, weight.is_number() ? weight.as_number() : 1.0);
     }
     return checked(std::move(weights), atlas, errors, clean);
+}
+
+Value mix_value(const Mix& mix) {
+    Value list = Value::array();
+    for (const MixPart& part : mix)
+        list.push(Value::object().set("id", part.id).set("weight", part.weight / 1000.0));
+    return list;
+}
+
+Value mix_schema() {
+    return object({{"type", "object"},
+                   {"minProperties", 1},
+                   {"maxProperties", most_species},
+                   {"additionalProperties", object({{"type", "number"}, {"exclusiveMinimum", 0}})},
+                   {"description", "Species ids and their weights."}});
+}
+
+Value mix_list_schema() {
+    return list_of(objects({{"id", typed("string")}, {"weight", typed("number")}}));
 }
 
 }  // namespace sporeprint::api

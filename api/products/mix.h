@@ -1,4 +1,4 @@
-// The mix of species in an address: "amanita_muscaria:0.7,boletus_edulis:0.3".
+// The mix of species in a URL: "amanita_muscaria:0.7,boletus_edulis:0.3".
 #pragma once
 
 #include <string>
@@ -12,31 +12,39 @@
 
 namespace sporeprint::api {
 
-/// Most species in one mix.
+/// Largest number of species in one mix.
 inline constexpr std::size_t most_species = 8;
 
-/// Species ids with weights as a client wrote them.
+/// Species ids with weights as the client wrote them.
 using Weights = std::vector<std::pair<std::string, double>>;
 
-/// Canonical form: weights in thousandths by largest remainder (ties by id, sum 1000), those that round to 0 dropped, sorted
-/// by id. canonical(canonical(x)) = canonical(x).
+/// Returns the canonical form: weights in thousandths by largest remainder (ties by id, sum 1000),
+/// without those that round to 0, sorted by id. Idempotent.
 ///
 /// weights  positive and finite, ids distinct, not empty
 [[nodiscard]] Mix canonical_mix(Weights weights);
 
-/// The mix as an address holds it: no weight for a lone species, no trailing zeros.
+/// Returns the mix as it stands in a URL: no weight for a single species, no trailing zeros.
 [[nodiscard]] std::string mix_text(const Mix& mix);
 
-/// Reads the {mix} of an address. Faults carry the parameter "mix": 400 for form and weights, 404 for species that the atlas
-/// does not hold (with the name probably meant).
+/// Reads the {mix} of a URL. Errors name the parameter "mix": 400 for syntax and weights, 404 for
+/// species that are not in the atlas (with a suggestion).
 ///
-/// returns  the canonical mix; empty when there are faults
+/// returns  the canonical mix; empty if there are errors
 [[nodiscard]] Mix read_mix(std::string_view text, const Atlas& atlas, ValidationErrors& errors);
 
-/// Reads {"mix":{id:weight}} of a body; the same rules.
+/// Reads {"mix":{id:weight}} of a body by the same rules.
 [[nodiscard]] Mix read_mix_object(const Value& json, const Atlas& atlas, ValidationErrors& errors);
 
-/// "unknown species 'amanita'; did you mean 'amanita_muscaria'?"
+/// Returns "unknown species 'amanita'; did you mean 'amanita_muscaria'?"
 [[nodiscard]] std::string unknown_species(std::string_view id, const Atlas& atlas);
+
+/// Returns the mix as descriptions contain it: [{"id","weight"}], weights as shares of 1.
+[[nodiscard]] Value mix_value(const Mix& mix);
+
+/// Returns the schema of a mix in a body.
+[[nodiscard]] Value mix_schema();
+/// Returns the schema of mix_value().
+[[nodiscard]] Value mix_list_schema();
 
 }  // namespace sporeprint::api

@@ -1,4 +1,4 @@
-// Requests about morphs of two species: their correspondence, and mushrooms between them with the designer's own arcs.
+// Morphs of two species: their correspondence, and mushrooms between them with arcs of the client.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@
 
 namespace sporeprint::api {
 
-/// The ids of the two species of an address, in its order.
+/// The ids of the two species of a URL, in its order.
 using SpeciesPair = std::array<std::string, 2>;
 
 /// Query parameters of GET /v1/morphs/{a}/{b}.
@@ -34,7 +34,7 @@ struct MorphParams {
     bool operator==(const MorphParams&) const = default;
 };
 
-/// Most arcs of one body.
+/// Largest number of arcs in one body.
 inline constexpr std::size_t most_arcs = 64;
 
 /// Body of POST /v1/morphs/{a}/{b}.glb.
@@ -59,32 +59,36 @@ struct MorphSpec {
     bool operator==(const MorphSpec&) const = default;
 };
 
-/// What GET asks for.
+/// A request for a correspondence.
 struct MorphRequest {
     SpeciesPair species;
     MorphParams params;
     std::optional<std::string> version;
 };
 
-/// Reads the {a} and {b} of an address: 404 for species that the atlas does not hold, 422 for one and the same.
+/// Reads the {a} and {b} of a URL: 404 for species that are not in the atlas, 422 for twice the
+/// same.
 [[nodiscard]] SpeciesPair read_pair(std::string_view a, std::string_view b, const Atlas& atlas,
                                     ValidationErrors& errors);
 
 /// Reads the query of GET /v1/morphs/{a}/{b}.
 [[nodiscard]] MorphRequest read_morph(SpeciesPair species, Query query, ValidationErrors& errors);
 
-/// Reads the body of POST /v1/morphs/{a}/{b}.glb as an order of a mix: t in thousandths, arcs sorted along their curves and seen
-/// from the species that comes first by id, so that equal meaning is an equal order. Arcs that cross are 422, each named.
+/// Reads the body of POST /v1/morphs/{a}/{b}.glb as a request for a mix: t in thousandths, arcs
+/// sorted along their curves and oriented from the species that is first by id, so that requests
+/// with equal meaning are equal. Arcs that cross are 422, each with its path.
 [[nodiscard]] MushroomRequest read_morph(const SpeciesPair& species, std::string_view body,
                                          ValidationErrors& errors);
 
-/// Canonical address of a correspondence without version.
+/// Returns the canonical URL of a correspondence without version.
 [[nodiscard]] std::string canonical_address(const MorphRequest& request);
 
-/// Version token of what a pair is made with, whatever its order.
+/// Returns the version token of a pair of species, which does not depend on their order.
 [[nodiscard]] std::string version_token(const SpeciesPair& species, const Atlas& atlas);
 
-/// Full canonical text of a correspondence.
+/// Returns the full canonical text of a correspondence.
 [[nodiscard]] std::string key_of(const MorphRequest& request, std::string_view version);
+
+extern const RouteGroup morph_routes;
 
 }  // namespace sporeprint::api

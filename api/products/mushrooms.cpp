@@ -1,10 +1,22 @@
 #include "api/products/mushrooms.h"
 
+#include <algorithm>
+#include <memory>
+#include <utility>
+#include <variant>
+
+#include "api/http/schemas.h"
+#include "api/products/catalogue.h"
 #include "api/products/mix.h"
+#include "api/products/plan_product.h"
+#include "api/products/surfaces.h"
+#include "core/grow/mushroom.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
+#include "core/params/schema.h"
+#include "core/surface/codecs.h"
 
 namespace sporeprint::api {
 
@@ -39,7 +51,7 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Validat
     else {
         std::vector<Problem> of_model;
         read(*model, request.spec.model.emplace(), Info{.name = ""}, "/model", of_model);
-        // What is left out may be what makes it impossible: an outline without points.
+        // A missing value may be what makes the model impossible: an outline without points.
         if (of_model.empty()) check(*request.spec.model, Info{.name = ""}, "/model", of_model);
         add_problems(of_model, *request.spec.model, "/model", true, errors);
     }
@@ -87,5 +99,276 @@ std::string file_name(const MushroomSpec& spec, Product product) {
     if (spec.mix.empty()) out = "model-";
     return out + std::to_string(spec.params.seed) + ending_of(product);
 }
+
+namespace {
+
+/// Returns the estimate of a request. Throws for well-formed values that are impossible together,
+/// as far as that is known once the individual is resolved; no mesh is built.
+Estimate weighed(const Context& context, const MushroomSpec& spec, const Caches& caches) {
+    if (spec.model && spec.params.textures == Textures::linked)
+        throw Impossible(
+            "/textures",
+            "a model of your own has no address that images could be linked to; ask for embedded "
+            "or none");
+    const Estimate cost = estimate(spec, *context.atlas, caches);
+    refuse_over_budget(context.options, cost, spec.mix.size() > 1,
+                       spec.params.animation != Animation::none);
+    return cost;
+}
+
+/// Returns the number of frames of the clip of a request.
+std::uint64_t frames_of(const MushroomSpec& spec) {
+    return spec.params.animation == Animation::none
+               ? 0
+               : static_cast<std::uint64_t>(spec.params.frames);
+}
+
+/// Returns the cost of generating a request with this estimate, without that of its correspondence.
+Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product product,
+             const Atlas& atlas) {
+    const bool branches = spec.model ? std::holds_alternative<Branched>(spec.model->shape)
+                                     : is_branched(spec.mix, atlas);
+    Cost cost =
+        cost_of_individuals(spec.mix, branches, product == Product::glb ? 1 + frames_of(spec) : 1);
+    cost.base = 300;
+    cost.vertices = estimated.vertices;
+    if (product == Product::json) return cost;
+    cost.bytes = estimated.bytes;
+    if (spec.params.textures != Textures::embedded) return cost;
+    cost.atlases = static_cast<std::uint64_t>(atlases_held(spec));
+    cost.texels = estimated.texels;
+    if (spec.model)
+        for (const Upload* upload :
+             {&spec.model->surface.cap.image, &spec.model->surface.hymenium.image,
+              &spec.model->surface.stem.image})
+            cost.pixels += declared_pixels(upload->bytes);
+    return cost;
+}
+
+/// Returns an approximate estimate of a request whose individual is not resolved yet.
+Estimate guessed(const MushroomSpec& spec) {
+    const MushroomParams& params = spec.params;
+    const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
+    Estimate guess;
+    guess.vertices = std::uint64_t{12'000} >> (2 * params.lod);
+    const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
+    guess.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
+    guess.bytes = 60 * guess.vertices + images / 3;
+    const std::uint64_t frames = frames_of(spec);
+    guess.bytes += guess.vertices * 24 * frames;
+    guess.vertices += guess.vertices * frames;
+    return guess;
+}
+
+/// Returns the certificate that no outline of this mix intersects itself.
+Certificate certificate(const MushroomSpec& spec, const Individual& individual, const Atlas& atlas,
+                        const GetOrCompute<MorphSet>& morphs) {
+    // resolve() checks the outline that is swept by exact predicates and refuses one that
+    // intersects itself, so every individual here has passed. Branched individuals have no
+    // certificate.
+    if (spec.mix.size() < 2 || individual.is_branched()) return {};
+    const SpeciesShapes shapes = species_shapes(spec, atlas, morphs);
+    return spec.mix.size() == 2 ? shapes.set->certificate(shapes.weights[0], shapes.weights[1])
+                                : shapes.set->certificate();
+}
+
+}  // namespace
+
+bool is_branched(const Mix& mix, const Atlas& atlas) {
+    const AtlasEntry* const first = mix.empty() ? nullptr : atlas.find(mix.front().id);
+    return first && family_of(first->species) == Family::branched;
+}
+
+Cost cost_of_individuals(const Mix& mix, bool branches, std::uint64_t count) {
+    // Branch graphs are merged; outlines are only blended.
+    return branches ? Cost{.branch_graphs = std::max<std::uint64_t>(mix.size(), 1) * count}
+                    : Cost{.individuals = count};
+}
+
+Cost cost_of_search(const Mix& mix, const Atlas& atlas) {
+    if (is_branched(mix, atlas)) return {};
+    const std::uint64_t species = std::max<std::uint64_t>(mix.size(), 1);
+    return {.outlines = species, .pairs = species * (species - 1) / 2};
+}
+
+std::string Mushrooms::version(const MushroomSpec& spec, const Atlas& atlas) {
+    return version_token(spec.mix, atlas);
+}
+
+std::string Mushrooms::url(const MushroomSpec& spec, Product product) {
+    // A custom model and arcs have no URL.
+    return spec.model || !spec.arcs.empty() ? std::string() : canonical_address(spec, product);
+}
+
+std::string Mushrooms::key(const MushroomSpec& spec, Product product, const std::string& version) {
+    return key_of(spec, product, version);
+}
+
+std::string Mushrooms::file_name(const MushroomSpec& spec, Product product) {
+    return api::file_name(spec, product);
+}
+
+Cost Mushrooms::cost(const Context& context, const MushroomSpec& spec, Product product,
+                     const Caches& caches) {
+    return cost_of(spec, weighed(context, spec, caches), product, *context.atlas);
+}
+
+Cost Mushrooms::search(const MushroomSpec& spec, const Atlas& atlas) {
+    return cost_of_search(spec.mix, atlas);
+}
+
+Cost Mushrooms::guess(const MushroomSpec& spec, Product product, const Atlas& atlas) {
+    return cost_of(spec, guessed(spec), product, atlas);
+}
+
+ImageUrls Mushrooms::image_urls(const Context& context, const MushroomSpec& spec,
+                                const std::string&, const ExecutionContext& execution) {
+    const MushroomSpec surface = surface_spec(spec, *context.atlas, execution.caches);
+    return mushroom_image_urls(surface, surface_address(surface), *context.atlas);
+}
+
+Body Mushrooms::grow(const Context& context, const MushroomSpec& spec, const Extras& extras, int,
+                     const ExecutionContext& execution) {
+    return grow_mushroom(spec, *context.atlas, extras, execution).glb;
+}
+
+Value Mushrooms::describe(const Context& context, const MushroomSpec& spec,
+                          const std::string& version, const ExecutionContext& execution) {
+    const Atlas& atlas = *context.atlas;
+    execution.observer(Step::resolve);
+    const Individual individual = resolve(spec, atlas, execution.caches.morphs);
+    execution.observer(Step::build);
+    const Bounds box = bounds(mushroom_mesh(spec, individual));
+    execution.observer(Step::pack);
+    Value body = Value::object();
+    // The URL of the GLB, which users copy into their applications.
+    body.set("canonical", canonical_address(spec, Product::glb));
+    body.set("v", version);
+    body.set("mix", mix_value(spec.mix));
+    body.set("effective", write(individual.effective));
+    body.set("estimate", description(estimate(spec, individual)));
+    body.set("bounds_m", description(box));
+    body.set("certificate", write(certificate(spec, individual, atlas, execution.caches.morphs)));
+    return body;
+}
+
+namespace {
+
+template <Product product>
+Plan plan_from_url(RouteCall& call) {
+    MushroomRequest requested =
+        read_mushroom(call.captured[0], call.target.query, *call.context.atlas, call.errors);
+    requested.product = product;
+    return plan_product<Mushrooms>(call.context, call.request, std::move(requested), call.errors);
+}
+
+Plan plan_from_body(RouteCall& call) {
+    refuse_query(call.target, call.errors);
+    return plan_product<Mushrooms>(
+        call.context, call.request,
+        read_mushroom(call.request.body, *call.context.atlas, call.errors), call.errors);
+}
+
+constexpr const char *json = "application/json", *glb = "model/gltf-binary";
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/mushrooms",
+     .id = "list_mushrooms",
+     .summary = "The species that mushrooms are grown of, with links.",
+     .media_type = json,
+     .response_schema = "mushroom_list",
+     .document =
+         [](const DocumentInputs& inputs) { return product_list(inputs.atlas, "mushrooms"); }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/schema",
+     .id = "mushroom_schema",
+     .summary = "JSON Schema of the query parameters of a mushroom.",
+     .media_type = "application/schema+json",
+     .document =
+         [](const DocumentInputs&) {
+             return schema_document<MushroomParams>("Parameters of a mushroom");
+         }},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/{mix}.glb",
+     .id = "get_mushroom",
+     .summary = "Grows a mushroom and answers with a GLB file.",
+     .media_type = glb,
+     .query_schema = [] { return schema<MushroomParams>(); },
+     .plan = plan_from_url<Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/{mix}.json",
+     .id = "describe_mushroom",
+     .summary = "What would be grown: canonical address, effective parameters, cost and bounds.",
+     .media_type = json,
+     .response_schema = "mushroom_description",
+     .query_schema = [] { return schema<MushroomParams>(); },
+     .plan = plan_from_url<Product::json>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/mushrooms.glb",
+     .id = "post_mushroom",
+     .summary = "Grows a mushroom from a body: a mix, or a whole model of your own.",
+     .media_type = glb,
+     .body_type = json,
+     .most_body = 4u << 20,  // images may be uploaded
+     .request_body = "mushroom_order",
+     .plan = plan_from_body},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/surfaces/mushrooms/{mix}/{image}.jpg",
+     .id = "get_surface",
+     .summary = "One image of a mushroom's atlas; what textures=linked points to.",
+     .media_type = "image/jpeg",
+     .query_schema = [] { return schema<SurfaceAddress>(); },
+     .plan = plan_mushroom_image},
+};
+
+void add_links(Value& links, const Atlas&) {
+    links.set("mushrooms", "/v1/mushrooms").set("mushroom_schema", "/v1/mushrooms/schema");
+}
+
+void add_schemas(Value& schemas) {
+    const Value text = typed("string");
+    schemas.set("mushroom_params", as_written(schema<MushroomParams>()))
+        .set("mushroom_list", objects({{"mushrooms", product_list_schema()}}))
+        .set("mushroom_description", objects({{"canonical", text},
+                                              {"v", text},
+                                              {"mix", mix_list_schema()},
+                                              {"effective", reference("schemas/mushroom_params")},
+                                              {"estimate", estimate_schema()},
+                                              {"bounds_m", bounds_schema()},
+                                              {"certificate", reference("schemas/certificate")}}))
+        .set("certificate", as_written(schema<Certificate>()));
+}
+
+void add_bodies(Value& bodies, const Atlas& atlas) {
+    Value order = with_members({{"mix", mix_schema()},
+                                {"model", with_branched_order(schema<Model>())},
+                                {"v", version_member()}},
+                               schema<MushroomParams>(), "");
+    order.set("oneOf", Value(Value::Array{object({{"required", Value(Value::Array{"mix"})}}),
+                                          object({{"required", Value(Value::Array{"model"})}})}));
+    bodies.set(
+        "mushroom_order",
+        json_body("A mix of species, or a whole model of your own, and what is to differ.",
+                  std::move(order),
+                  object({{"mix", object({{example_id(atlas), 1}})}, {"age", 0.6}, {"seed", 7}})));
+}
+
+}  // namespace
+
+const RouteGroup mushroom_routes = {.tag = "mushrooms",
+                                    .description =
+                                        "Mushrooms of one species, of a mix, or of a "
+                                        "model of your own.",
+                                    .routes = routes,
+                                    .add_links = add_links,
+                                    .add_schemas = add_schemas,
+                                    .add_bodies = add_bodies};
 
 }  // namespace sporeprint::api

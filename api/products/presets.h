@@ -1,4 +1,5 @@
-// Requests for what grows from presets (leaves, trees): from an address or a body to an order, and back to the canonical address and key.
+// Products that grow from presets (leaves, trees): from a URL or a body to a specification, back to
+// the canonical URL and key, and their routes. `Kind` names the product: Leaves, Trees.
 #pragma once
 
 #include <algorithm>
@@ -9,62 +10,26 @@
 #include <utility>
 #include <vector>
 
+#include "api/http/schemas.h"
+#include "api/products/images.h"
+#include "api/products/plan_product.h"
 #include "api/products/product.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
-#include "core/plant/leaf_spec.h"
-#include "core/plant/tree_spec.h"
 
 namespace sporeprint::api {
 
-/// Leaves, as what follows knows them: names, presets, and what they are ordered and painted by.
-struct Leaves {
-    using Preset = LeafPreset;
-    using Order = LeafSpec;
-    using Params = LeafParams;
-    using Paint = LeafPaint;
-    static constexpr const char *one = "leaf", *all = "leaves";
-    static std::span<const Preset> presets() { return leaf_presets(); }
-};
-
-/// Trees. What a kind has beside names, presets and types it says by functions that others need not have.
-struct Trees {
-    using Preset = TreePreset;
-    using Order = TreeSpec;
-    using Params = TreeParams;
-    using Paint = TreePaint;
-    static constexpr const char *one = "tree", *all = "trees";
-    static std::span<const Preset> presets() { return tree_presets(); }
-
-    /// What a matrix of one's own means in a body: it is called `own`, its order is the highest that it has, and it is blended with
-    /// nothing, unless the body says otherwise. Its faults are 422, each by its row; rows that no matrix asks for are one.
-    static void take_from_body(Value& body, ValidationErrors& errors);
-
-    /// One text for one tree.
-    static void settle(Params& params) { without_unused_rows(params); }
-
-    /// Rows of one's own are in no address.
-    static bool has_address(const Order& spec);
-
-    /// What else the list tells of a preset.
-    static void tell(const Preset& preset, Value& item) {
-        item.set("order", preset.shape.topology.order);
-    }
-
-    /// What else it is made with: the leaves that it may bear.
-    static std::string more_templates();
-};
-
+/// A specification, the product to generate, and the version token of the request.
 template <class Kind>
 struct PresetRequest {
-    typename Kind::Order spec;
+    typename Kind::Spec spec;
     Product product = Product::glb;
     std::optional<std::string> version;
 };
 
-/// One image of what grows from a preset.
+/// A request for one image of a product from a preset.
 template <class Kind>
 struct PresetSurface {
     std::string preset;
@@ -73,7 +38,8 @@ struct PresetSurface {
     std::optional<std::string> version;
 };
 
-/// The preset of that id; of the first, with 404 for `parameter`, when there is none.
+/// Returns the preset with an id. If there is none, adds 404 for `parameter` and returns the first
+/// preset.
 template <class Kind>
 const typename Kind::Preset& preset_of(std::string_view id, const char* parameter,
                                        ValidationErrors& errors) {
@@ -89,14 +55,14 @@ const typename Kind::Preset& preset_of(std::string_view id, const char* paramete
     return Kind::presets().front();
 }
 
-/// The parameters of a preset that is there.
+/// Returns the parameters of a preset that exists.
 template <class Kind>
 typename Kind::Params own_params(std::string_view id) {
     ValidationErrors none;
     return params_of(preset_of<Kind>(id, "", none));
 }
 
-/// Reads the {preset} and the query of an address.
+/// Reads the {preset} and the query of a URL.
 template <class Kind>
 PresetRequest<Kind> read_preset(std::string_view id, Query query, ValidationErrors& errors) {
     const auto& preset = preset_of<Kind>(id, "preset", errors);
@@ -112,7 +78,7 @@ PresetRequest<Kind> read_preset(std::string_view id, Query query, ValidationErro
     return request;
 }
 
-/// Reads a body: {"preset":id} beside the query parameters nested ("venation":{"lobes":7}).
+/// Reads a body: {"preset":id} beside the nested query parameters ("venation":{"lobes":7}).
 template <class Kind>
 PresetRequest<Kind> read_preset(std::string_view body, ValidationErrors& errors) {
     PresetRequest<Kind> request;
@@ -141,7 +107,7 @@ PresetRequest<Kind> read_preset(std::string_view body, ValidationErrors& errors)
     return request;
 }
 
-/// Today's version token of what is made from a preset.
+/// Returns the current version token of a preset.
 template <class Kind>
 std::string preset_token(const std::string& preset) {
     std::string templates = preset + ' ' + canonical_text(own_params<Kind>(preset));
@@ -149,29 +115,30 @@ std::string preset_token(const std::string& preset) {
     return token_of(templates);
 }
 
-/// Canonical address without version: the preset, then what differs from it, in schema order; empty where no address says it.
-template <class Kind, class Order>
-std::string canonical_address(const Order& spec, Product product) {
+/// Returns the canonical URL without version: the preset, then parameters that differ from it, in
+/// schema order; empty if no URL can express the specification.
+template <class Kind, class Spec>
+std::string canonical_address(const Spec& spec, Product product) {
     if constexpr (requires { Kind::has_address(spec); })
         if (!Kind::has_address(spec)) return {};
     return with_query(std::string("/v1/") + Kind::all + '/' + spec.preset + ending_of(product),
                       query_text(spec.params, own_params<Kind>(spec.preset)));
 }
 
-/// Full canonical text of all values: equal keys, equal bytes.
-template <class Kind, class Order>
-std::string key_of(const Order& spec, Product product, const std::string& version) {
+/// Returns the canonical text of all values: equal keys mean equal bytes.
+template <class Kind, class Spec>
+std::string key_of(const Spec& spec, Product product, const std::string& version) {
     return std::string(Kind::one) + ending_of(product) + ' ' + version + '\n' + spec.preset + '\n' +
            canonical_text(spec.params);
 }
 
-/// "maple-7.glb"
-template <class Order>
-std::string preset_file_name(const Order& spec, Product product) {
+/// Returns "maple-7.glb".
+template <class Spec>
+std::string preset_file_name(const Spec& spec, Product product) {
     return spec.preset + '-' + std::to_string(spec.params.seed) + ending_of(product);
 }
 
-/// Reads {preset}, {image} and query of an address under /v1/surfaces.
+/// Reads {preset}, {image} and query of a URL under /v1/surfaces.
 template <class Kind>
 PresetSurface<Kind> read_preset_surface(std::string_view id, std::string_view image, Query query,
                                         ValidationErrors& errors) {
@@ -187,7 +154,7 @@ PresetSurface<Kind> read_preset_surface(std::string_view id, std::string_view im
     return requested;
 }
 
-/// Canonical address of an image without version.
+/// Returns the canonical URL of an image without version.
 template <class Kind, class Paint>
 std::string canonical_image_address(const std::string& preset, ImageKind kind, const Paint& paint) {
     return with_query(
@@ -195,7 +162,18 @@ std::string canonical_image_address(const std::string& preset, ImageKind kind, c
         query_text(paint, paint_of(own_params<Kind>(preset))));
 }
 
-/// {"leaves":[{"id","name","links"}]}
+/// Returns the URLs of the three images of an atlas, with a version token.
+template <class Kind, class Paint>
+ImageUrls preset_image_urls(const std::string& preset, const Paint& paint,
+                            const std::string& version) {
+    ImageUrls urls;
+    for (std::size_t i = 0; i < urls.size(); ++i)
+        urls[i] = with_version(
+            canonical_image_address<Kind>(preset, static_cast<ImageKind>(i), paint), version);
+    return urls;
+}
+
+/// Returns {"leaves":[{"id","name","links"}]}.
 template <class Kind>
 Value preset_list() {
     const std::string root = std::string("/v1/") + Kind::all + '/';
@@ -209,6 +187,135 @@ Value preset_list() {
         list.push(std::move(item.set("links", std::move(links))));
     }
     return Value::object().set(Kind::all, std::move(list));
+}
+
+/// The Kind of plan_product.h for a product from presets, whose own Kind has:
+///   grow(spec, extras, depth, execution)   the file; depth of links to further images
+///   measure(spec, execution)               its exact estimate and its bounds
+///   cost_of_growing(spec)                  cost beside its vertices, bytes and images
+///   cost_of_painting(spec)                 cost of painting all of its images
+///   add_details(spec, body)                optional: adds further members to its JSON
+template <class Kind>
+struct PresetProduct {
+    using Spec = typename Kind::Spec;
+
+    static std::string version(const Spec& spec, const Atlas&) {
+        return preset_token<Kind>(spec.preset);
+    }
+    static std::string url(const Spec& spec, Product product) {
+        return canonical_address<Kind>(spec, product);
+    }
+    static std::string key(const Spec& spec, Product product, const std::string& version) {
+        return key_of<Kind>(spec, product, version);
+    }
+    static std::string file_name(const Spec& spec, Product product) {
+        return preset_file_name(spec, product);
+    }
+
+    static Cost cost(const Context& context, const Spec& spec, Product product, const Caches&) {
+        const Estimate estimated = estimate(spec);
+        refuse_over_budget(context.options, estimated);
+        Cost cost = Kind::cost_of_growing(spec);
+        cost.placed_vertices = estimated.vertices;
+        if (product == Product::json) return cost;
+        cost.bytes = estimated.bytes;
+        if (spec.params.textures == Textures::embedded) cost += Kind::cost_of_painting(spec);
+        return cost;
+    }
+
+    static ImageUrls image_urls(const Context&, const Spec& spec, const std::string& version,
+                                const ExecutionContext&) {
+        return preset_image_urls<Kind>(spec.preset, paint_of(spec.params), version);
+    }
+
+    static Body grow(const Context&, const Spec& spec, const Extras& extras, int depth,
+                     const ExecutionContext& execution) {
+        return Kind::grow(spec, extras, depth, execution).glb;
+    }
+
+    static Value describe(const Context&, const Spec& spec, const std::string& version,
+                          const ExecutionContext& execution) {
+        const auto [cost, box] = Kind::measure(spec, execution);
+        Value body = Value::object();
+        body.set("canonical", canonical_address<Kind>(spec, Product::glb));
+        body.set("v", version);
+        body.set("preset", spec.preset);
+        body.set("effective", write(spec.params));
+        body.set("estimate", description(cost));
+        body.set("bounds_m", description(box));
+        if constexpr (requires { Kind::add_details(spec, body); }) Kind::add_details(spec, body);
+        return body;
+    }
+};
+
+/// Handles GET /v1/{kind}/{preset}.glb and .json.
+template <class Kind, Product product>
+Plan plan_preset_url(RouteCall& call) {
+    auto requested = read_preset<Kind>(call.captured[0], call.target.query, call.errors);
+    requested.product = product;
+    return plan_product<PresetProduct<Kind>>(call.context, call.request, std::move(requested),
+                                             call.errors);
+}
+
+/// Handles POST /v1/{kind}.glb.
+template <class Kind>
+Plan plan_preset_body(RouteCall& call) {
+    refuse_query(call.target, call.errors);
+    return plan_product<PresetProduct<Kind>>(
+        call.context, call.request, read_preset<Kind>(call.request.body, call.errors), call.errors);
+}
+
+/// Handles GET /v1/surfaces/{kind}/{preset}/{image}.jpg.
+template <class Kind>
+Plan plan_preset_image(RouteCall& call) {
+    Context& context = call.context;
+    const auto requested = read_preset_surface<Kind>(call.captured[0], call.captured[1],
+                                                     call.target.query, call.errors);
+    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    const auto decide = [&](ValidationErrors& found) {
+        const auto paint = std::make_shared<const typename Kind::Paint>(requested.paint);
+        const auto side = static_cast<std::uint64_t>(paint->texture_size.value);
+        refuse_texels(context.options, 3 * side * side, false, found);
+        return PaintWork{image_key(*paint), Kind::cost_of_paint(*paint),
+                         [paint](const ExecutionContext& execution) {
+                             return painted_images(*paint, execution);
+                         }};
+    };
+    std::string of = requested.preset;
+    if constexpr (requires { requested.paint.seed; })
+        of += '-' + std::to_string(requested.paint.seed);
+    const ImageResource image{
+        *requested.kind, preset_token<Kind>(requested.preset),
+        canonical_image_address<Kind>(requested.preset, *requested.kind, requested.paint),
+        std::move(of), requested.version};
+    return plan_image(context, call.request, image, decide, call.errors);
+}
+
+/// Returns the schema of the body of POST /v1/{kind}.glb.
+///
+/// params  schema of its parameters
+template <class Kind>
+Value preset_body_schema(Value params) {
+    Value ids = Value::array();
+    for (const auto& preset : Kind::presets()) ids.push(preset.id);
+    return with_members({{"preset", object({{"type", "string"},
+                                            {"enum", std::move(ids)},
+                                            {"description", "What to begin with."}})},
+                         {"v", version_member()}},
+                        std::move(params), "preset");
+}
+
+/// Returns the schema of descriptions of a product from presets.
+///
+/// params  name of the schema of its parameters
+inline Value preset_description_schema(const char* params) {
+    const Value text = typed("string");
+    return objects({{"canonical", text},
+                    {"v", text},
+                    {"preset", text},
+                    {"effective", reference(std::string("schemas/") + params)},
+                    {"estimate", estimate_schema()},
+                    {"bounds_m", bounds_schema()}});
 }
 
 }  // namespace sporeprint::api

@@ -1,4 +1,5 @@
-// What requests for all products have in common: version token, body, canonical address, what their JSON tells.
+// Functions common to requests for all products: version token, body, canonical URL, JSON
+// description.
 #pragma once
 
 #include <algorithm>
@@ -20,34 +21,35 @@ namespace sporeprint::api {
 /// The decoded names and values of a query.
 using Query = std::span<const std::pair<std::string, std::string>>;
 
-/// What is made of an order.
+/// The file that is generated.
 enum class Product { glb, json };
 
-/// Ending of the name of what is made: ".glb" or ".json".
+/// Returns the extension of the file: ".glb" or ".json".
 [[nodiscard]] const char* ending_of(Product product);
 
-/// Media type of what is made.
+/// Returns the media type of the file.
 [[nodiscard]] const char* type_of(Product product);
 
-/// Takes `v` out of a query; what remains goes to `rest`.
+/// Removes `v` from a query and returns it; the other parameters are appended to `rest`.
 [[nodiscard]] std::optional<std::string> take_version(
     Query query, std::vector<std::pair<std::string, std::string>>& rest, ValidationErrors& errors);
 
-/// Takes `v` out of a body.
+/// Removes `v` from a body and returns it.
 [[nodiscard]] std::optional<std::string> take_version(Value& body, std::vector<Problem>& problems);
 
-/// The JSON object of a body; empty, with the reason in `faults`, when it is none.
+/// Returns the JSON object of a body; nothing, with the reason in `errors`, if it is none.
 [[nodiscard]] std::optional<Value> read_body(std::string_view body, ValidationErrors& errors);
 
-/// Adds what was found while `params` were read: values that are each in range but impossible together are 422, all else is 400.
+/// Adds the problems of reading `params` to `errors`: values that are each in range but impossible
+/// together are 422, all others 400.
 ///
-/// path    JSON pointer of `params` in the body; "" for all of it, and for a query
+/// path    JSON pointer of `params` in the body; "" for the whole body, and for a query
 /// posted  the problems name places in a body; otherwise they name parameters of a query
 template <class Params>
 void add_problems(const std::vector<Problem>& problems, const Params& params,
                   const std::string& path, bool posted, ValidationErrors& errors) {
     if (problems.empty()) return;
-    std::vector<Problem> impossible;  // A value out of its range was not taken over.
+    std::vector<Problem> impossible;  // A value out of range was not assigned.
     check(params, Info{.name = ""}, path, impossible);
     for (const Problem& problem : problems) {
         const bool together =
@@ -59,7 +61,8 @@ void add_problems(const std::vector<Problem>& problems, const Params& params,
     }
 }
 
-/// Makes each -0 of a described struct 0, so that equal keys cannot differ in the sign of a zero.
+/// Replaces each -0 of a described struct by 0, so that equal keys cannot differ in the sign of a
+/// zero.
 template <class T>
 void without_negative_zero(T& value) {
     if constexpr (Described<T>) {
@@ -75,26 +78,27 @@ void without_negative_zero(T& value) {
     }
 }
 
-/// Today's version token of what is made with `templates`: generator version, '-', 8 hexadecimal digits of their hash.
+/// Returns the current version token of products generated from `templates`: generator version,
+/// '-', 8 hexadecimal digits of their hash.
 [[nodiscard]] std::string token_of(std::string_view templates);
 
-/// A path and its query, where there is one.
+/// Returns a path with its query, if there is one.
 [[nodiscard]] std::string with_query(std::string path, const std::string& query);
 
-/// Appends `v` as the last parameter.
+/// Appends `v` as the last parameter of a URL.
 [[nodiscard]] std::string with_version(std::string address, std::string_view version);
 
-/// Reference to an address under /v1 from a document whose own address has `depth` segments between /v1/ and its name: relative, so
-/// that it holds under any prefix.
+/// Returns a reference to a URL under /v1 from a document whose own URL has `depth` segments
+/// between /v1/ and its name. The reference is relative, so that it is valid under any prefix.
 ///
 /// address  "/v1/surfaces/..."
 /// depth    0 for /v1/mushrooms.glb, 1 for /v1/mushrooms/x.glb, 2 for /v1/morphs/a/b.glb
 [[nodiscard]] std::string reference_from(int depth, std::string_view address);
 
-/// Reads the {image} of an address; 404 for none of them.
+/// Reads the {image} of a URL; adds 404 if it is unknown.
 [[nodiscard]] std::optional<ImageKind> read_image(std::string_view image, ValidationErrors& errors);
 
-/// Members of what the JSON of a product tells.
+/// Returns members of the JSON description of a product.
 [[nodiscard]] Value description(const Estimate& estimate);
 [[nodiscard]] Value description(const Bounds& bounds);
 

@@ -1,3 +1,5 @@
+#include "api/products/resource.h"
+
 #include <algorithm>
 #include <string>
 #include <utility>
@@ -6,7 +8,7 @@
 #include "api/http/conditions.h"
 #include "api/http/encoding.h"
 #include "api/http/query.h"
-#include "api/products/endpoints.h"
+#include "api/products/product.h"
 #include "core/params/messages.h"
 
 namespace sporeprint::api {
@@ -17,8 +19,9 @@ constexpr const char* hit = "sporeprint; hit";
 constexpr const char* hit_not_modified = "sporeprint; hit; detail=not-modified";
 constexpr const char* missed = "sporeprint; fwd=miss";
 
-/// The answer to HEAD of what is not made yet: every header that GET would carry but the length. Whether a GLB has a gzip variant
-/// is known once it is made, so these are the headers of the identity.
+/// Returns the response to HEAD of a resource that is not generated yet: the headers of GET without
+/// the length. Whether a GLB has a gzip variant is known only once it exists, so these are the
+/// headers of the identity.
 Response unmade(const Context& context, const Request& request, Response head) {
     const std::string type(header_of(head, "Content-Type"));
     head.has_body = false;
@@ -37,20 +40,20 @@ Response unmade(const Context& context, const Request& request, Response head) {
     return head;
 }
 
-/// Whether the answer may be the gzip variant of a GLB. A range is one of the identity unless If-Range names the variant, so
-/// that ranges which a client puts together are of one representation.
+/// Returns true if the response may be the gzip variant of a GLB. A range is one of the identity
+/// unless If-Range names the variant, so that a client combines only ranges of one representation.
 bool takes_gzip_of_glb(const Request& request, std::string_view type, const std::string& etag) {
     if (type != glb_type || !accepts_gzip(request)) return false;
     return request.method != "GET" || !header_list(request, "Range") ||
            (header_list(request, "If-Range") && if_range_matches(request, gzip_etag(etag)));
 }
 
-/// What is cached of a resource that may have a gzip variant.
+/// The cached representation of a resource that may have a gzip variant.
 struct Found {
-    std::optional<CachedResponse>
-        cached;  ///< the variant to be sent if it is cached, else the identity
+    /// The representation to send if it is cached, else the identity.
+    std::optional<CachedResponse> cached;
     bool has_variants = false;
-    bool is_chosen = false;  ///< whether it is the variant to be sent
+    bool is_chosen = false;  ///< true if it is the representation to send
 };
 
 Found find_cached(Store& store, const Key& key, bool takes_gzip) {
@@ -64,14 +67,22 @@ Found find_cached(Store& store, const Key& key, bool takes_gzip) {
     return found;
 }
 
-/// Whether the cache takes the gzip variant of a job's answer.
+/// Returns true if the gzip variant of a job's response fits into the cache.
 bool stores_gzip(const Store& store, Response response, const Key& key) {
     select_gzip(response);
     return store.responses.fits(weight_of(response) + key.size() + entry_overhead);
 }
 
-/// The job that makes the gzip variant of a cached GLB.
-Job gzip_job(Store& store, CachedResponse cached, const Key& key) {
+/// Returns a function that sets Cache-Control, which depends on whether the URL has a version
+/// token.
+Delivery with_cache_control(bool versioned) {
+    return [versioned](Response& response) {
+        set_header(response, "Cache-Control", cache_control(versioned));
+    };
+}
+
+/// Returns the job that computes the gzip variant of a cached GLB.
+Job gzip_job(Store& store, CachedResponse cached, const Key& key, bool versioned) {
     const Cost cost = gzip_cost(size_of(cached->body));
     auto run = [&store, cached = std::move(cached), key = gzip_key(key)](
                    std::stop_token stop, const Observer& observer, const Parallel& parallel) {
@@ -79,15 +90,20 @@ Job gzip_job(Store& store, CachedResponse cached, const Key& key) {
         Response response;
         response.headers = cached->headers;
         response.gzipped = gzip_glb(cached->body, stop, parallel);
+        response.is_stored = true;
         const bool stored = stores_gzip(store, response, key);
         set_header(response, "Cache-Status",
                    cache_member("sporeprint-gzip", false, stored) + ", " + hit);
         return response;
     };
-    return Job{gzip_key(key), cost, std::move(run)};
+    return Job{.key = gzip_key(key),
+               .cost = cost,
+               .run = std::move(run),
+               .delivery = with_cache_control(versioned)};
 }
 
-/// What `resource` costs; what of it is impossible goes to the faults, named as the client wrote it.
+/// Returns the cost of generating a resource. Adds what is impossible to `errors`, with the names
+/// that the client uses.
 Cost weighed(const Request& request, const Resource& resource, const Caches& caches,
              ValidationErrors& errors) {
     const bool posted = request.method == "POST";
@@ -104,7 +120,7 @@ Cost weighed(const Request& request, const Resource& resource, const Caches& cac
     return {};
 }
 
-/// 410, or whatever is stronger.
+/// Returns 410, or a problem that precedes it.
 Response superseded(Context& context, const Request& request, const Resource& resource,
                     ValidationErrors& errors) {
     static_cast<void>(weighed(request, resource, context.caches, errors));
@@ -167,13 +183,14 @@ int link_depth(const Context& context, const Request& request) {
 
 Plan plan_resource(Context& context, const Request& request, Resource resource,
                    ValidationErrors& errors) {
-    if (resource.is_linked && context.options.signed_addresses)
+    if (resource.is_linked && context.options.signed_urls)
         errors.add(422, request.method == "POST" ? "/textures" : "textures",
                    "addresses are signed here, and those of linked images are not; ask for "
                    "embedded or none");
     if (!errors.empty()) return context.responses.problem(request, errors);
     const int depth = link_depth(context, request);
-    // Links are relative, so that bytes depend on how deep the address lies that they are resolved against.
+    // Links are relative, so the bytes depend on the depth of the URL against which they are
+    // resolved.
     const bool linked_elsewhere = resource.is_linked && depth != usual_depth;
     if (linked_elsewhere) resource.key += "\nlinked from depth " + std::to_string(depth);
     if (resource.requested_version && *resource.requested_version != resource.version)
@@ -182,12 +199,12 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
     Store& store = context.store;
     const bool versioned = resource.requested_version.has_value() && request.method != "POST";
     const std::string etag = etag_of(resource.key);
-    Response head;  // what every answer about this resource carries
+    Response head;  // the headers of every response about this resource
     head.headers = {{"Content-Type", resource.type},
                     {"ETag", etag},
                     {"Cache-Control", cache_control(versioned)},
                     {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
-    if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_addresses)
+    if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_urls)
         head.headers.emplace_back("Content-Location", context.responses.link(with_version(
                                                           resource.address, resource.version)));
     const bool takes_gzip = takes_gzip_of_glb(request, resource.type, etag);
@@ -195,7 +212,8 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
     std::vector<std::string> etags = current_etags(request, etag, resource.type);
     if (resource.type == glb_type && accepts_gzip(request)) etags.push_back(gzip_etag(etag));
 
-    // In the order of RFC 9110 section 13.2.2: If-Match leads to 412, then If-None-Match to 304, or to 412 of a POST.
+    // In the order of RFC 9110 section 13.2.2: If-Match leads to 412, then If-None-Match to 304, or
+    // to 412 for POST.
     const Conditions conditions(request);
     const auto unchanged = [&](const std::string& current) {
         if (request.method == "POST")
@@ -217,7 +235,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
     if (found.cached) {
         ++store.counters.glb_hits;
         if (!found.is_chosen && request.method != "HEAD")
-            return gzip_job(store, *found.cached, resource.key);
+            return gzip_job(store, *found.cached, resource.key, versioned);
         Response response = **found.cached;
         set_header(response, "Cache-Control", cache_control(versioned));
         set_header(response, "Cache-Status", hit);
@@ -230,7 +248,8 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
         context.responses.select_range(request, response);
         return response;
     }
-    // A correspondence that is not kept takes milliseconds: the job that makes the body finds it, if there is to be one.
+    // A correspondence that is not cached takes milliseconds: the job that generates the body
+    // computes it, if there is such a job.
     std::optional<Cost> cost;
     try {
         cost = weighed(request, resource, context.caches, errors);
@@ -256,6 +275,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
                 set_header(response, "Vary", "Accept-Encoding");
                 if (takes_gzip) response.gzipped = gzip_glb(response.body, stop, parallel);
             }
+            response.is_stored = true;
             if (!status.empty()) status += ", ";
             const bool stored =
                 store.responses.fits(weight_of(response) + key.size() + entry_overhead);
@@ -263,7 +283,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
                        status + cache_member("sporeprint", false, stored));
             return std::move(response);
         };
-        // What was made before is possible and within its budget.
+        // A stored file is possible and within its budget.
         if (store.directory)
             if (std::optional<Slice> written = store.directory->find(key)) {
                 response.body = {*std::move(written)};
@@ -279,7 +299,10 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
         if (store.directory) store.directory->insert(key, response.body);
         return finished(job_context.cache_status());
     };
-    return Job{std::move(resource.key), estimate + compressing, std::move(run)};
+    return Job{.key = std::move(resource.key),
+               .cost = estimate + compressing,
+               .run = std::move(run),
+               .delivery = with_cache_control(versioned)};
 }
 
 }  // namespace sporeprint::api

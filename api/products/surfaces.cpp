@@ -1,8 +1,12 @@
 #include "api/products/surfaces.h"
 
 #include <cmath>
+#include <utility>
 
+#include "api/products/images.h"
 #include "api/products/mix.h"
+#include "api/products/mushrooms.h"
+#include "api/products/resource.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
 
@@ -65,6 +69,70 @@ SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query 
 std::string canonical_address(const Mix& mix, ImageKind kind, const SurfaceAddress& address) {
     return with_query("/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + name(kind) + ".jpg",
                       query_text(address));
+}
+
+ImageUrls mushroom_image_urls(const MushroomSpec& surface, const SurfaceAddress& address,
+                              const Atlas& atlas) {
+    ImageUrls urls;
+    for (std::size_t i = 0; i < urls.size(); ++i)
+        urls[i] = with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), address),
+                               version_token(surface.mix, atlas));
+    return urls;
+}
+
+namespace {
+
+std::uint64_t texels_held(const PaintSpec& paint_spec) {
+    const auto side = static_cast<std::uint64_t>(side_of(paint_spec));
+    return 3 * side * side * static_cast<std::uint64_t>(atlases_held(paint_spec));
+}
+
+/// Returns the painting of a URL; adds what is impossible to `errors`.
+PaintSpec painted(Context& context, const SurfaceRequest& requested, ValidationErrors& errors) {
+    try {
+        PaintSpec paint_spec =
+            painted_at(requested.address, requested.mix, *context.atlas, context.caches);
+        refuse_texels(context.options, texels_held(paint_spec), paint_spec.size() > 1, errors);
+        return paint_spec;
+    } catch (const Impossible& impossible) {
+        errors.add(422, named(impossible, false));
+    } catch (const InvalidInput& invalid) {
+        errors.add(400, named(invalid, false));
+    } catch (CacheMiss& missing) {
+        // Painting a mix also needs each of its species alone.
+        missing.cost = cost_of_search(requested.mix, *context.atlas);
+        if (requested.mix.size() > 1) missing.cost.outlines *= 2;
+        throw;
+    }
+    return {};
+}
+
+}  // namespace
+
+Plan plan_mushroom_image(RouteCall& call) {
+    Context& context = call.context;
+    ValidationErrors& errors = call.errors;
+    const Request& request = call.request;
+    const SurfaceRequest requested =
+        read_surface(call.captured[0], call.captured[1], call.target.query, *context.atlas, errors);
+    if (!errors.empty()) return context.responses.problem(request, errors);
+    const auto decide = [&](ValidationErrors& found) {
+        const auto paint_spec =
+            std::make_shared<const PaintSpec>(painted(context, requested, found));
+        if (paint_spec->empty()) return PaintWork{};
+        const Cost cost{.base = 300,
+                        .atlases = static_cast<std::uint64_t>(atlases_held(*paint_spec)),
+                        .texels = texels_held(*paint_spec)};
+        return PaintWork{image_key(*paint_spec), cost,
+                         [paint_spec](const ExecutionContext& execution) {
+                             return painted_images(*paint_spec, execution);
+                         }};
+    };
+    const ImageResource image{
+        *requested.kind, version_token(requested.mix, *context.atlas),
+        canonical_address(requested.mix, *requested.kind, requested.address),
+        requested.mix.front().id + '-' + std::to_string(requested.address.seed), requested.version};
+    return plan_image(context, request, image, decide, errors);
 }
 
 }  // namespace sporeprint::api

@@ -1,10 +1,12 @@
-// Addresses of images: what paint depends on, quantised, so that any server can paint a linked texture anew.
+// URLs of images: all parameters on which painting depends, quantised, so that any server can paint
+// a linked image again.
 #pragma once
 
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "api/products/context.h"
 #include "api/products/product.h"
 #include "core/atlas/atlas.h"
 #include "core/grow/painting.h"
@@ -12,7 +14,7 @@
 
 namespace sporeprint::api {
 
-/// How much of what is painted is left.
+/// Amounts of painted ornaments.
 struct PaintedAmounts {
     std::optional<double> warts, scales;
 
@@ -24,7 +26,7 @@ struct PaintedAmounts {
     bool operator==(const PaintedAmounts&) const = default;
 };
 
-/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom that paint reads.
+/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom on which painting depends.
 struct SurfaceAddress {
     std::uint32_t seed = 1;
     double age = 38.0 / 64.0;
@@ -66,32 +68,46 @@ struct SurfaceAddress {
     bool operator==(const SurfaceAddress&) const = default;
 };
 
-/// Age in the steps that images know.
+/// Returns an age rounded to the steps of image URLs, 1/64.
 [[nodiscard]] double quantised_age(double age);
 
-/// The address, beside the mix, of the images of `order`, which is a surface_spec.
+/// Returns the query parameters of the images of a mushroom.
+///
+/// spec  as surface_spec() returns it
 [[nodiscard]] SurfaceAddress surface_address(const MushroomSpec& spec);
 
-/// What an address paints: equal to the paint_spec_of of the order that it was made from.
+/// Returns the painting of a URL, which is equal to paint_spec_of() of the specification from which
+/// the URL was made.
 ///
-/// mix     a surface_mix
-/// throws  Impossible: what no species of the mix can have
+/// mix     as surface_mix() returns it
+/// throws  Impossible if no species of the mix can have a parameter
 [[nodiscard]] PaintSpec painted_at(const SurfaceAddress& address, const Mix& mix,
                                    const Atlas& atlas, const Caches& caches = {});
 
+/// A request for one image of a mushroom.
 struct SurfaceRequest {
-    Mix mix;  ///< a surface_mix
+    Mix mix;  ///< as surface_mix() returns it
     std::optional<ImageKind> kind;
     SurfaceAddress address;
     std::optional<std::string> version;
 };
 
-/// Reads {mix}, {image} and query of an address under /v1/surfaces/mushrooms; weights and age are quantised.
+/// Reads {mix}, {image} and query of a URL under /v1/surfaces/mushrooms; weights and age are
+/// quantised.
 [[nodiscard]] SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query query,
                                           const Atlas& atlas, ValidationErrors& errors);
 
-/// Canonical address of an image without version.
+/// Returns the canonical URL of an image without version.
 [[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind,
                                             const SurfaceAddress& address);
+
+/// Returns the URLs of the three images of a mushroom, with their version tokens.
+///
+/// surface  as surface_spec() returns it
+[[nodiscard]] ImageUrls mushroom_image_urls(const MushroomSpec& surface,
+                                            const SurfaceAddress& address, const Atlas& atlas);
+
+/// Handles GET /v1/surfaces/mushrooms/{mix}/{image}.jpg.
+[[nodiscard]] Plan plan_mushroom_image(RouteCall& call);
 
 }  // namespace sporeprint::api

@@ -1,10 +1,13 @@
-#include "api/products/presets.h"
+#include "api/products/trees.h"
+
+#include "api/products/leaves.h"
+#include "core/params/schema.h"
 
 namespace sporeprint::api {
 
 namespace {
 
-/// The rows of a body, if they are lists of numbers at all.
+/// Returns the rows of a body; nothing if they are not lists of numbers.
 std::optional<RamificationMatrix> rows_of(const Value& given) {
     if (!given.is_array() || given.items().size() >= most_order) return std::nullopt;
     RamificationMatrix matrix;
@@ -29,9 +32,9 @@ bool says(const Value& body, const char* key, const char* text) {
 void Trees::take_from_body(Value& body, ValidationErrors& errors) {
     const Value* given = body.find("rows");
     const std::optional<RamificationMatrix> matrix = given ? rows_of(*given) : std::nullopt;
-    if (!matrix) return;  // what is wrong with the form of it, the reader says
+    if (!matrix) return;  // the reader reports problems of syntax
     const char* own = name(MatrixKind::own);
-    // No rows are what a tree without a matrix of its own has: its effective parameters say so.
+    // A tree without a custom matrix has no rows; its effective parameters contain an empty list.
     if (given->items().empty() && body.find("matrix") && !says(body, "matrix", own) &&
         !says(body, "toward", own) && !says(body, "tips", own))
         return;
@@ -39,7 +42,7 @@ void Trees::take_from_body(Value& body, ValidationErrors& errors) {
         says(body, "matrix", own) || says(body, "toward", own) || says(body, "tips", own);
     if (!body.find("matrix") && !requested) body.set("matrix", own);
     if (says(body, "matrix", own)) {
-        // What the preset blends with and how high it grows was said of its own matrix.
+        // The blend and order of the preset belong to its own matrix.
         if (!body.find("order")) body.set("order", matrix->order());
         if (!body.find("blend")) body.set("blend", 0.0);
     } else if (!requested) {
@@ -49,13 +52,13 @@ void Trees::take_from_body(Value& body, ValidationErrors& errors) {
     const std::vector<Problem> problems = validation_errors(*matrix, "/rows");
     errors.add(422, problems);
     if (problems.empty()) return;
-    // One fault is not told twice: what follows is read as if nobody had asked for them.
+    // Each problem is reported once: the rest is read as if the rows were absent.
     for (const char* key : {"matrix", "toward", "tips"})
         if (says(body, key, own)) body.erase(key);
     body.erase("rows");
 }
 
-bool Trees::has_address(const Order& spec) {
+bool Trees::has_address(const TreeSpec& spec) {
     const auto& rows = spec.params.look.shape.topology.rows;
     return rows.empty() || rows == own_params<Trees>(spec.preset).look.shape.topology.rows;
 }
@@ -69,5 +72,163 @@ std::string Trees::more_templates() {
     }();
     return text;
 }
+
+Grown Trees::grow(const TreeSpec& spec, const Extras& extras, int depth,
+                  const ExecutionContext& execution) {
+    ImageUrls of_leaves;
+    if (spec.params.textures == Textures::linked) {
+        const std::string leaf = name(spec.params.look.leaf);
+        of_leaves = preset_image_urls<Leaves>(leaf, paint_of(leaf_of(spec.params)),
+                                              preset_token<Leaves>(leaf));
+        for (std::string& url : of_leaves) url = reference_from(depth, url);
+    }
+    return grow_tree(spec, extras, of_leaves, execution);
+}
+
+std::pair<Estimate, Bounds> Trees::measure(const TreeSpec& spec,
+                                           const ExecutionContext& execution) {
+    execution.observer(Step::build);
+    const TreeMeshes meshes = tree_meshes(spec);
+    execution.observer(Step::pack);
+    return {measured(spec, meshes), bounds(meshes)};
+}
+
+Cost Trees::cost_of_growing(const TreeSpec& spec) {
+    const double twigs = expected_tips(spec.params.look.shape.topology);
+    return {.base = 100, .twigs = static_cast<std::uint64_t>(twigs)};
+}
+
+Cost Trees::cost_of_painting(const TreeSpec& spec) {
+    Cost cost = cost_of_paint(paint_of(spec.params));
+    if (spec.params.look.leaves.per_tip > 0)
+        cost += Leaves::cost_of_paint(paint_of(leaf_of(spec.params)));
+    return cost;
+}
+
+void Trees::add_details(const TreeSpec& spec, Value& body) {
+    const TreeTopology& topology = spec.params.look.shape.topology;
+    body.set("matrix", write(matrix_of(topology).rows));
+    body.set("expected_twigs", expected_tips(topology));
+}
+
+Cost Trees::cost_of_paint(const TreePaint& paint) {
+    const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
+    return {.bark_atlases = 1, .bark_texels = 3 * side * side};
+}
+
+namespace {
+
+Value params_schema() { return from_preset<TreeLook>(schema<TreeParams>()); }
+
+constexpr const char *json = "application/json", *glb = "model/gltf-binary";
+
+const char* example_preset() { return Trees::presets().front().id; }
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/trees",
+     .id = "list_trees",
+     .summary = "The trees to begin with.",
+     .media_type = json,
+     .response_schema = "tree_list",
+     .document = [](const DocumentInputs&) { return preset_list<Trees>(); }},
+    {.kind = RouteKind::document,
+     .method = "GET",
+     .pattern = "/v1/trees/schema",
+     .id = "tree_schema",
+     .summary = "JSON Schema of the query parameters of a tree.",
+     .media_type = "application/schema+json",
+     .document =
+         [](const DocumentInputs&) {
+             return from_preset<TreeLook>(schema_document<TreeParams>("Parameters of a tree"));
+         }},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/trees/{preset}.glb",
+     .id = "get_tree",
+     .summary = "Grows a tree and answers with a GLB file.",
+     .media_type = glb,
+     .example = example_preset,
+     .query_schema = params_schema,
+     .plan = plan_preset_url<Trees, Product::glb>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/trees/{preset}.json",
+     .id = "describe_tree",
+     .summary =
+         "What would be grown: canonical address, effective parameters, matrix, cost and bounds.",
+     .media_type = json,
+     .example = example_preset,
+     .response_schema = "tree_description",
+     .query_schema = params_schema,
+     .plan = plan_preset_url<Trees, Product::json>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/trees.glb",
+     .id = "post_tree",
+     .summary =
+         "Grows a tree from a body: a preset and what is to differ from it, also a ramification "
+         "matrix of your own.",
+     .media_type = glb,
+     .body_type = json,
+     .request_body = "tree_order",
+     .plan = plan_preset_body<Trees>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/surfaces/trees/{preset}/{image}.jpg",
+     .id = "get_tree_surface",
+     .summary =
+         "One image of a tree's bark; what textures=linked points to, beside those of its leaves.",
+     .media_type = "image/jpeg",
+     .example = example_preset,
+     .query_schema = [] { return from_preset<TreeLook>(schema<TreePaint>()); },
+     .plan = plan_preset_image<Trees>},
+};
+
+void add_links(Value& links, const Atlas&) {
+    links.set("trees", "/v1/trees").set("tree_schema", "/v1/trees/schema");
+}
+
+void add_schemas(Value& schemas) {
+    const Value text = typed("string"), whole = typed("integer");
+    Value description = preset_description_schema("tree_params");
+    for (const auto& [key, value] : {Value::Member("matrix", list_of(list_of(typed("number")))),
+                                     Value::Member("expected_twigs", typed("number"))}) {
+        description.find("properties")->set(key, value);
+        description.find("required")->push(key);
+    }
+    schemas.set("tree_params", as_written(schema<TreeParams>()))
+        .set("tree_list", objects({{"trees", list_of(objects({{"id", text},
+                                                              {"name", text},
+                                                              {"order", whole},
+                                                              {"links", map_of(text)}}))}}))
+        .set("tree_description", std::move(description));
+}
+
+void add_bodies(Value& bodies, const Atlas&) {
+    const auto row = [](std::initializer_list<double> shares) {
+        Value list = Value::array();
+        for (const double share : shares) list.push(share);
+        return list;
+    };
+    bodies.set(
+        "tree_order",
+        json_body("A preset and what is to differ from it, also a ramification matrix of your own.",
+                  preset_body_schema<Trees>(params_schema()),
+                  object({{"preset", Trees::presets().front().id},
+                          {"rows", Value(Value::Array{row({0.6, 0.4}), row({0.3, 0.4, 0.3})})},
+                          {"leaves", object({{"per_tip", 6}})}})));
+}
+
+}  // namespace
+
+const RouteGroup tree_routes = {
+    .tag = "trees",
+    .description = "Trees, shrubs and herbs that branch by a ramification matrix.",
+    .routes = routes,
+    .add_links = add_links,
+    .add_schemas = add_schemas,
+    .add_bodies = add_bodies};
 
 }  // namespace sporeprint::api

@@ -714,9 +714,10 @@ TEST_F(ServiceTest, CollapsedRequestsSaySoAndKeepTheirOwnHeaders) {
     const Response shared = std::get<Job>(first).run(
         {}, [](Step) {}, in_turn);
     service_.finish(std::get<Job>(first).key, shared);
-    const Response generated = service_.deliver(plain, shared, Outcome::generated, {.queue = 1.25});
-    const Response collapsed =
-        service_.deliver(versioned, shared, Outcome::collapsed, {.queue = 0.5});
+    const Response generated = service_.deliver(plain, std::get<Job>(first).delivery, shared,
+                                                Outcome::generated, {.queue = 1.25});
+    const Response collapsed = service_.deliver(versioned, std::get<Job>(second).delivery, shared,
+                                                Outcome::collapsed, {.queue = 0.5});
     EXPECT_EQ(header(generated, "Cache-Control"),
               "public, max-age=3600, stale-while-revalidate=86400");
     EXPECT_EQ(header(collapsed, "Cache-Control"), "public, max-age=31536000, immutable");
@@ -878,9 +879,11 @@ TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneFlight) {
     const Response shared = std::get<Job>(colour).run(
         {}, [](Step) {}, in_turn);
     const Response one =
-        service_.deliver(get(path + "base_color" + query), shared, Outcome::generated, {});
+        service_.deliver(get(path + "base_color" + query), std::get<Job>(colour).delivery, shared,
+                         Outcome::generated, {});
     const Response two =
-        service_.deliver(get(path + "normal" + query), shared, Outcome::collapsed, {});
+        service_.deliver(get(path + "normal" + query), std::get<Job>(normal).delivery, shared,
+                         Outcome::collapsed, {});
     EXPECT_NE(text_of(one), text_of(two));
     EXPECT_NE(header(one, "ETag"), header(two, "ETag"));
     EXPECT_EQ(header(one, ":digest"), "");

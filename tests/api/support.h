@@ -12,6 +12,7 @@
 
 #include "api/http/errors.h"
 #include "api/products/catalogue.h"
+#include "api/routes.h"
 #include "api/service.h"
 #include "core/atlas/atlas.h"
 #include "core/params/value.h"
@@ -69,6 +70,15 @@ class RequestedService : public testing::Test {
 
     Service service_{built_in_atlas(), ServiceOptions{}};
 };
+
+/// Returns the document at a path of its own route.
+inline Value document_at(std::string_view path) {
+    for (const Route* const route : route_table().routes())
+        if (route->document && path == route->pattern)
+            return route->document({*built_in_atlas(), route_table(), false, {}});
+    ADD_FAILURE() << "no document at " << path;
+    return Value::object();
+}
 
 /// "parameter: detail" of each of a problem's errors.
 inline std::vector<std::string> errors_of(const Response& response) {

@@ -134,8 +134,9 @@ TEST_F(GzipOfGlb, IsMadeWithTheFileByOneJobForWhoeverAsksFirst) {
         {}, [](Step) {}, in_turn);
     service_.finish(job.key, shared);
     const Response zipped =
-        service_.deliver(get(tree, gzip_please), shared, Outcome::generated, {});
-    const Response plain = service_.deliver(get(tree), shared, Outcome::collapsed, {});
+        service_.deliver(get(tree, gzip_please), job.delivery, shared, Outcome::generated, {});
+    const Response plain = service_.deliver(get(tree), std::get<Job>(plainly).delivery, shared,
+                                            Outcome::collapsed, {});
     EXPECT_EQ(header(zipped, "Content-Encoding"), "gzip");
     EXPECT_TRUE(header(zipped, "Cache-Status").ends_with("sporeprint; fwd=miss; stored"));
     EXPECT_EQ(header(plain, "Content-Encoding"), "");

@@ -2,9 +2,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <set>
 
 #include "api/http/query.h"
+#include "api/routes.h"
 
 namespace sporeprint::api {
 namespace {
@@ -15,39 +20,39 @@ std::vector<std::string> segments(std::string_view path) {
 }
 
 TEST(Routes, EachPatternIsFoundByAnAddressMadeFromIt) {
-    for (const Route& route : routes()) {
-        if (route.endpoint == Endpoint::livez || route.endpoint == Endpoint::readyz ||
-            route.endpoint == Endpoint::metrics)
-            continue;
+    for (const Route* const each : route_table().routes()) {
+        const Route& route = *each;
+        if (route.kind == RouteKind::health) continue;
         std::string path = route.pattern;
         for (std::size_t open; (open = path.find('{')) != std::string::npos;)
             path.replace(open, path.find('}') - open + 1, "x");
-        const Match match = match_route(route.method, segments(path));
+        const Match match = route_table().match(route.method, segments(path));
         ASSERT_NE(match.route, nullptr) << path;
-        EXPECT_EQ(match.route->endpoint, route.endpoint) << path;
+        EXPECT_EQ(match.route, &route) << path;
         for (const std::string& captured : match.captured) EXPECT_EQ(captured, "x");
     }
 }
 
 TEST(Routes, OperationIdsAreUnique) {
     std::set<std::string> ids;
-    for (const Route& route : routes()) EXPECT_TRUE(ids.insert(route.id).second) << route.id;
+    for (const Route* const route : route_table().routes())
+        EXPECT_TRUE(ids.insert(route->id).second) << route->id;
 }
 
 TEST(Routes, HeadCountsAsGetAndOtherMethodsTellWhatIsAllowed) {
-    EXPECT_NE(match_route("HEAD", segments("/v1/species")).route, nullptr);
-    const Match refused = match_route("DELETE", segments("/v1/species"));
+    EXPECT_NE(route_table().match("HEAD", segments("/v1/species")).route, nullptr);
+    const Match refused = route_table().match("DELETE", segments("/v1/species"));
     EXPECT_EQ(refused.route, nullptr);
     EXPECT_EQ(refused.allow, "GET, HEAD, OPTIONS");
-    EXPECT_EQ(match_route("HEAD", segments("/v1/mushrooms.glb")).route, nullptr);
-    EXPECT_EQ(match_route("GET", segments("/v1/mushrooms.glb")).allow, "POST, OPTIONS");
+    EXPECT_EQ(route_table().match("HEAD", segments("/v1/mushrooms.glb")).route, nullptr);
+    EXPECT_EQ(route_table().match("GET", segments("/v1/mushrooms.glb")).allow, "POST, OPTIONS");
 }
 
 TEST(Routes, TheSchemaIsNoMushroom) {
-    EXPECT_EQ(match_route("GET", segments("/v1/mushrooms/schema")).route->endpoint,
-              Endpoint::mushroom_schema);
-    EXPECT_EQ(match_route("GET", segments("/v1/mushrooms/schema.glb")).route->endpoint,
-              Endpoint::mushroom_glb);
+    EXPECT_EQ(route_table().match("GET", segments("/v1/mushrooms/schema")).route->id,
+              std::string("mushroom_schema"));
+    EXPECT_EQ(route_table().match("GET", segments("/v1/mushrooms/schema.glb")).route->id,
+              std::string("get_mushroom"));
 }
 
 TEST(Routes, AnUnknownPathIsToldTheOneProbablyMeant) {
@@ -63,15 +68,52 @@ TEST(Routes, AnUnknownPathIsToldTheOneProbablyMeant) {
         {"/something/quite/different", ""},
     };
     for (const auto& [path, meant] : cases) {
-        EXPECT_TRUE(match_route("GET", segments(path)).allow.empty()) << path;
-        EXPECT_EQ(closest_route(segments(path)), meant) << path;
+        EXPECT_TRUE(route_table().match("GET", segments(path)).allow.empty()) << path;
+        EXPECT_EQ(route_table().closest(segments(path)), meant) << path;
     }
 }
 
 TEST(Routes, BodiesAreBoundedByRoute) {
-    EXPECT_EQ(longest_body(*match_route("POST", segments("/v1/inspect")).route), 64u << 20);
-    EXPECT_EQ(longest_body(*match_route("POST", segments("/v1/mushrooms.glb")).route), 4u << 20);
-    EXPECT_EQ(longest_body(*match_route("GET", segments("/v1")).route), 256u << 10);
+    EXPECT_EQ(route_table().match("POST", segments("/v1/inspect")).route->most_body, 64u << 20);
+    EXPECT_EQ(route_table().match("POST", segments("/v1/mushrooms.glb")).route->most_body,
+              4u << 20);
+    EXPECT_EQ(route_table().match("GET", segments("/v1")).route->most_body, 256u << 10);
+}
+
+TEST(Routes, EachHasAHandlerADocumentOrTheServer) {
+    for (const Route* const route : route_table().routes())
+        EXPECT_EQ((route->plan != nullptr) + (route->document != nullptr) +
+                      (route->kind == RouteKind::health),
+                  1)
+            << route->pattern;
+}
+
+// Adding a product touches its own files and one row of routes.cpp.
+TEST(Routes, NoOtherFileNamesAProduct) {
+    namespace fs = std::filesystem;
+    const fs::path api = fs::path(SPOREPRINT_SOURCE) / "api";
+    std::size_t products = 0;
+    for (const RouteGroup& group : route_table().groups()) {
+        if (std::none_of(group.routes.begin(), group.routes.end(), is_cached)) continue;
+        ++products;
+        const std::string header = std::string("\"api/products/") + group.tag + ".h\"";
+        std::set<std::string> users;
+        for (const auto& entry : fs::recursive_directory_iterator(api)) {
+            if (!entry.is_regular_file()) continue;
+            const std::string name = fs::relative(entry.path(), api).generic_string();
+            if (name.starts_with("products/") || !(name.ends_with(".cpp") || name.ends_with(".h")))
+                continue;
+            std::ifstream file(entry.path());
+            const std::string text((std::istreambuf_iterator<char>(file)), {});
+            if (text.find(header) != std::string::npos ||
+                text.find("/v1/" + std::string(group.tag)) != std::string::npos)
+                users.insert(name);
+        }
+        // static_documents.cpp shows two addresses to who opens a service without its page.
+        users.erase("static_documents.cpp");
+        EXPECT_EQ(users, std::set<std::string>{"routes.cpp"}) << group.tag;
+    }
+    EXPECT_GE(products, 5u);
 }
 
 }  // namespace

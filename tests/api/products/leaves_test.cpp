@@ -1,5 +1,7 @@
 // Leaves over HTTP: lists, files, descriptions, images, and what is refused.
 
+#include "api/products/leaves.h"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,7 +11,7 @@
 
 #include "api/http/query.h"
 #include "api/openapi.h"
-#include "api/products/presets.h"
+#include "api/products/trees.h"
 #include "tests/api/support.h"
 #include "tests/support/draws.h"
 
@@ -224,7 +226,7 @@ TEST(LeavesBudget, WhatCostsTooMuchIs422BeforeAnyWork) {
 }
 
 TEST(LeafSchema, SaysWhoseDefaultsAreThePresets) {
-    const Value schema = leaf_schema();
+    const Value schema = test::document_at("/v1/leaves/schema");
     std::set<std::string> own, preset;
     const std::function<void(const Value&, const std::string&)> walk =
         [&](const Value& object, const std::string& prefix) {

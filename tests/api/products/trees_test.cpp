@@ -1,5 +1,7 @@
 // Trees over HTTP: lists, files, descriptions, matrices of one's own, images, and what is refused.
 
+#include "api/products/trees.h"
+
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
@@ -9,7 +11,7 @@
 
 #include "api/http/query.h"
 #include "api/openapi.h"
-#include "api/products/presets.h"
+#include "api/products/leaves.h"
 #include "tests/api/support.h"
 #include "tests/support/draws.h"
 
@@ -332,7 +334,7 @@ TEST_F(TreesTest, VersionsOfYesterdayAre410WithTheAddressOfToday) {
 }
 
 TEST(TreeSchema, SaysWhoseDefaultsAreThePresets) {
-    const Value schema = tree_schema();
+    const Value schema = test::document_at("/v1/trees/schema");
     std::set<std::string> own, preset;
     const std::function<void(const Value&, const std::string&)> walk =
         [&](const Value& object, const std::string& prefix) {

@@ -1,19 +1,20 @@
+#include "api/products/images.h"
+
 #include <utility>
 
 #include "api/http/conditions.h"
 #include "api/http/encoding.h"
-#include "api/products/endpoints.h"
-#include "api/products/mix.h"
+#include "api/products/product.h"
 #include "core/params/messages.h"
 
 namespace sporeprint::api {
 
 namespace {
 
-/// What only delivered_surface() reads of a job's shared answer: the digest of an image set. Never sent.
+/// A header of a job's shared response that is never sent: the digest of the image set.
 constexpr const char* digest_header = ":digest";
 
-/// What every answer about an image carries; the tag is that of what is painted.
+/// Returns the headers of every response about an image. Its ETag is computed from `digest`.
 Response image_head(const ResponseBuilder& responses, const ImageResource& image,
                     std::string_view digest) {
     Response head;
@@ -25,31 +26,6 @@ Response image_head(const ResponseBuilder& responses, const ImageResource& image
         {"Content-Disposition",
          "inline; filename=\"" + image.of + '-' + name(image.kind) + ".jpg\""}};
     return head;
-}
-
-std::uint64_t texels_held(const PaintSpec& paint_spec) {
-    const auto side = static_cast<std::uint64_t>(side_of(paint_spec));
-    return 3 * side * side * static_cast<std::uint64_t>(atlases_held(paint_spec));
-}
-
-/// What is painted at an address; adds to `faults` what of it is impossible.
-PaintSpec painted(Context& context, const SurfaceRequest& requested, ValidationErrors& errors) {
-    try {
-        PaintSpec paint_spec =
-            painted_at(requested.address, requested.mix, *context.atlas, context.caches);
-        refuse_texels(context.options, texels_held(paint_spec), paint_spec.size() > 1, errors);
-        return paint_spec;
-    } catch (const Impossible& impossible) {
-        errors.add(422, named(impossible, false));
-    } catch (const InvalidInput& invalid) {
-        errors.add(400, named(invalid, false));
-    } catch (CacheMiss& missing) {
-        // Its images are those of each species alone, too.
-        missing.cost = cost_of_search(requested.mix, *context.atlas);
-        if (requested.mix.size() > 1) missing.cost.outlines *= 2;
-        throw;
-    }
-    return {};
 }
 
 }  // namespace
@@ -98,7 +74,7 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
         responses.add_common_headers(request, head);
         return head;
     }
-    // One flight for the three images of an atlas: its answer holds them all, delivered_image() hands out the one asked for.
+    // One job makes the three images of a set; each client is sent the one that it requested.
     auto run = [&store, paint = std::move(work.paint), digest](
                    std::stop_token stop, const Observer& observer, const Parallel& parallel) {
         observer(Step::paint);
@@ -109,39 +85,15 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
         response.body.assign(set->files.begin(), set->files.end());
         return response;
     };
-    return Job{std::move(work.key), work.cost, std::move(run)};
-}
-
-ImageResource image_of(const Context& context, const SurfaceRequest& requested) {
-    return {*requested.kind, version_token(requested.mix, *context.atlas),
-            canonical_address(requested.mix, *requested.kind, requested.address),
-            requested.mix.front().id + '-' + std::to_string(requested.address.seed),
-            requested.version};
-}
-
-Plan plan_surface(Context& context, const Request& request, const SurfaceRequest& requested,
-                  ValidationErrors& errors) {
-    if (!errors.empty()) return context.responses.problem(request, errors);
-    const auto decide = [&](ValidationErrors& found) {
-        const auto paint_spec =
-            std::make_shared<const PaintSpec>(painted(context, requested, found));
-        if (paint_spec->empty()) return PaintWork{};
-        const Cost cost{.base = 300,
-                        .atlases = static_cast<std::uint64_t>(atlases_held(*paint_spec)),
-                        .texels = texels_held(*paint_spec)};
-        return PaintWork{image_key(*paint_spec), cost,
-                         [paint_spec](const ExecutionContext& execution) {
-                             return painted_images(*paint_spec, execution);
-                         }};
+    auto deliver = [&responses, image](Response& shared) {
+        Response response = image_head(responses, image, take_header(shared, digest_header));
+        response.body = {shared.body[static_cast<std::size_t>(image.kind)]};
+        shared = std::move(response);
     };
-    return plan_image(context, request, image_of(context, requested), decide, errors);
-}
-
-Response delivered_image(const ResponseBuilder& responses, const ImageResource& image,
-                         Response shared) {
-    Response response = image_head(responses, image, take_header(shared, digest_header));
-    response.body = {shared.body[static_cast<std::size_t>(image.kind)]};
-    return response;
+    return Job{.key = std::move(work.key),
+               .cost = work.cost,
+               .run = std::move(run),
+               .delivery = std::move(deliver)};
 }
 
 }  // namespace sporeprint::api

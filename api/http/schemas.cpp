@@ -1,0 +1,117 @@
+#include "api/http/schemas.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+Value triple() {
+    return object(
+        {{"type", "array"}, {"items", typed("number")}, {"minItems", 3}, {"maxItems", 3}});
+}
+
+}  // namespace
+
+Value object(std::initializer_list<Value::Member> members) { return Value(Value::Object(members)); }
+
+Value reference(std::string_view where) {
+    return object({{"$ref", "#/components/" + std::string(where)}});
+}
+
+Value typed(const char* type) { return object({{"type", type}}); }
+
+Value list_of(Value items) { return object({{"type", "array"}, {"items", std::move(items)}}); }
+
+Value objects(std::initializer_list<Value::Member> properties) {
+    Value required = Value::array();
+    for (const auto& property : properties) required.push(property.first);
+    return object({{"type", "object"},
+                   {"properties", object(properties)},
+                   {"required", std::move(required)}});
+}
+
+Value map_of(Value values) {
+    return object({{"type", "object"}, {"additionalProperties", std::move(values)}});
+}
+
+Value estimate_schema() {
+    const Value whole = typed("integer");
+    return objects({{"vertices", whole}, {"triangles", whole}, {"bytes", whole}});
+}
+
+Value bounds_schema() { return objects({{"min", triple()}, {"max", triple()}}); }
+
+Value version_member() {
+    return object(
+        {{"type", "string"}, {"description", "Version token; another than today's is 410."}});
+}
+
+Value as_written(Value schema) {
+    each_schema(schema, [](Value& one) {
+        one.erase("default");
+        const Value* properties = one.find("properties");
+        if (!properties) return;
+        Value required = Value::array();
+        for (const auto& [key, property] : properties->members())
+            if (!property.find("x-default-from") && !property.find("contentEncoding"))
+                required.push(key);
+        if (!required.items().empty()) one.set("required", std::move(required));
+    });
+    each_schema(schema, [](Value& one) { one.erase("x-default-from"); });
+    return schema;
+}
+
+Value as_template(Value schema) {
+    each_schema(schema, [](Value& one) {
+        if (const Value* given = one.find("default")) {
+            Value fallback = *given;
+            one.erase("default");
+            one.set("x-default", std::move(fallback));
+        }
+    });
+    return schema;
+}
+
+Value without_default_source(Value schema) {
+    each_schema(schema, [](Value& one) { one.erase("x-default-from"); });
+    return schema;
+}
+
+Value json_body(std::string_view description, Value schema, Value example) {
+    return object(
+        {{"required", true},
+         {"description", description},
+         {"content", object({{"application/json", object({{"schema", std::move(schema)},
+                                                          {"example", std::move(example)}})}})}});
+}
+
+Value with_members(Value::Object first, Value schema, const char* required) {
+    Value properties(std::move(first));
+    for (const auto& [key, property] : schema.find("properties")->members())
+        properties.set(key, property);
+    schema.set("properties", std::move(properties));
+    if (*required != '\0') schema.set("required", Value(Value::Array{required}));
+    return schema;
+}
+
+std::string example_id(const Atlas& atlas) {
+    if (atlas.find("amanita_muscaria") || atlas.entries().empty()) return "amanita_muscaria";
+    return atlas.entries().front().species.id.string();
+}
+
+std::string other_id(const Atlas& atlas) {
+    const std::string first = example_id(atlas);
+    for (const AtlasEntry& entry : atlas.entries())
+        if (entry.species.id.string() != first) return entry.species.id.string();
+    return "boletus_edulis";
+}
+
+void take_from_preset(Value& leaf) {
+    if (Value* properties = leaf.find("properties")) {
+        for (auto& [key, property] : properties->members()) take_from_preset(property);
+        return;
+    }
+    leaf.erase("default");
+    leaf.set("x-default-from", "preset");
+}
+
+}  // namespace sporeprint::api

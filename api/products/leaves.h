@@ -1,0 +1,33 @@
+// Leaves: the Kind of presets.h, and their routes.
+#pragma once
+
+#include <span>
+#include <utility>
+
+#include "api/products/presets.h"
+#include "core/grow/leaf.h"
+#include "core/plant/leaf_spec.h"
+
+namespace sporeprint::api {
+
+/// The Kind of presets.h for leaves.
+struct Leaves {
+    using Preset = LeafPreset;
+    using Spec = LeafSpec;
+    using Params = LeafParams;
+    using Paint = LeafPaint;
+    static constexpr const char *one = "leaf", *all = "leaves";
+    static std::span<const Preset> presets() { return leaf_presets(); }
+
+    static Grown grow(const LeafSpec& spec, const Extras& extras, int depth,
+                      const ExecutionContext& execution);
+    static std::pair<Estimate, Bounds> measure(const LeafSpec& spec,
+                                               const ExecutionContext& execution);
+    static Cost cost_of_growing(const LeafSpec& spec);
+    static Cost cost_of_paint(const LeafPaint& paint);  ///< of these images
+    static Cost cost_of_painting(const LeafSpec& spec);
+};
+
+extern const RouteGroup leaf_routes;
+
+}  // namespace sporeprint::api

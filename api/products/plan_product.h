@@ -1,0 +1,68 @@
+// From the request for a product to its Resource; common to all products.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+#include <utility>
+
+#include "api/products/product.h"
+#include "api/products/resource.h"
+#include "core/params/value.h"
+
+namespace sporeprint::api {
+
+/// Plans the response to a request for a product, as GLB or as the JSON that describes it. `Kind`
+/// has static functions of a specification (`Spec`):
+///   version(spec, atlas)                   current version token
+///   url(spec, product)                     canonical URL without version; "" if it has none
+///   key(spec, product, version)            canonical text of all values
+///   file_name(spec, product)
+///   cost(context, spec, product, caches)   cost of generating it; throws if it is impossible
+///   search(spec, atlas)                    optional: cost of computing its correspondence
+///   guess(spec, product, atlas)            optional: approximate cost without the correspondence
+///   image_urls(context, spec, version, execution)   URLs of its images with their versions
+///   grow(context, spec, extras, depth, execution)   the GLB; depth of links to further images
+///   describe(context, spec, version, execution)     the JSON
+///
+/// requested  the specification, the product and the version token that was requested
+template <class Kind, class Requested>
+Plan plan_product(Context& context, const Request& request, Requested requested,
+                  ValidationErrors& errors) {
+    if (!errors.empty()) return context.responses.problem(request, errors);
+    using Spec = decltype(requested.spec);
+    const Product product = requested.product;
+    const auto spec = std::make_shared<const Spec>(std::move(requested.spec));
+    Resource resource;
+    resource.version = Kind::version(*spec, *context.atlas);
+    resource.address = Kind::url(*spec, product);
+    resource.key = Kind::key(*spec, product, resource.version);
+    resource.type = type_of(product);
+    resource.file_name = Kind::file_name(*spec, product);
+    resource.requested_version = std::move(requested.version);
+    resource.is_linked = product == Product::glb && spec->params.textures == Textures::linked;
+    resource.estimate_cost = [&context, spec, product](const Caches& caches) {
+        return Kind::cost(context, *spec, product, caches);
+    };
+    if constexpr (requires { Kind::search(*spec, *context.atlas); })
+        resource.search = Kind::search(*spec, *context.atlas);
+    if constexpr (requires { Kind::guess(*spec, product, *context.atlas); })
+        resource.guess = Kind::guess(*spec, product, *context.atlas);
+    resource.make = [&context, spec, product, url = resource.address,
+                     depth = link_depth(context, request),
+                     version = resource.version](JobContext& job) -> Body {
+        if (product == Product::json)
+            return {slice_of(dump(Kind::describe(context, *spec, version, job.execution())))};
+        Extras extras;
+        extras.canonical = url;
+        if (spec->params.textures == Textures::linked) {
+            const ImageUrls urls = Kind::image_urls(context, *spec, version, job.execution());
+            for (std::size_t i = 0; i < urls.size(); ++i)
+                extras.image_urls[i] = reference_from(depth, urls[i]);
+        }
+        return Kind::grow(context, *spec, extras, depth, job.execution());
+    };
+    return plan_resource(context, request, std::move(resource), errors);
+}
+
+}  // namespace sporeprint::api

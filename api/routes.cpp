@@ -1,0 +1,29 @@
+#include "api/routes.h"
+
+#include "api/products/colonies.h"
+#include "api/products/inspection.h"
+#include "api/products/leaves.h"
+#include "api/products/morphs.h"
+#include "api/products/mushrooms.h"
+#include "api/products/trees.h"
+#include "api/static_documents.h"
+
+namespace sporeprint::api {
+
+const RouteTable& route_table() {
+    static const RouteTable table({
+        page_routes,
+        species_routes,
+        mushroom_routes,
+        morph_routes,
+        colony_routes,
+        leaf_routes,
+        tree_routes,
+        inspection_routes,
+        reference_routes,
+        health_routes,
+    });
+    return table;
+}
+
+}  // namespace sporeprint::api

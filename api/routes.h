@@ -1,0 +1,10 @@
+// The table of all routes: one row for each product or group of documents.
+#pragma once
+
+#include "api/http/routes.h"
+
+namespace sporeprint::api {
+
+[[nodiscard]] const RouteTable& route_table();
+
+}  // namespace sporeprint::api

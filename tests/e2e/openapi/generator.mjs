@@ -1,0 +1,186 @@
+// Random requests that the OpenAPI document describes, most of them valid, some with one error.
+import { follow } from "./shared.mjs";
+
+/** mulberry32: the same requests of the same seed. */
+export function random(state) {
+    const uniform = () => {
+        state = (state + 0x6d2b79f5) | 0;
+        let t = Math.imul(state ^ (state >>> 15), 1 | state);
+        t = (t + Math.imul(t ^ (t >>> 7), 61 | t)) ^ t;
+        return ((t ^ (t >>> 14)) >>> 0) / 4294967296;
+    };
+    const chance = (share) => uniform() < share;
+    const below = (n) => Math.floor(uniform() * n);
+    const pick = (list) => list[below(list.length)];
+    return { uniform, chance, below, pick };
+}
+
+/** Expensive parameters get small values. */
+const cheap = { texture_size: [128, 128, 256], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2] };
+
+export class Generator {
+    constructor(document, lists, dice) {
+        Object.assign(this, { document, lists, dice });
+    }
+
+    number(schema) {
+        const { dice } = this;
+        const low = schema.minimum ?? schema.exclusiveMinimum ?? 0, high = schema.maximum ?? low + 1;
+        const value = dice.chance(0.15) ? dice.pick([schema.minimum ?? high, high]) : low + dice.uniform() * (high - low);
+        return schema.type === "integer" ? Math.round(value) : Math.max(low, Math.min(high, dice.chance(0.3) ? value : Number(value.toPrecision(3))));
+    }
+
+    /** A value that the schema allows. */
+    right(given, name = "", depth = 0) {
+        const { dice } = this;
+        const schema = follow(this.document, given);
+        if (cheap[name] && !schema.properties && !dice.chance(0.01)) {
+            const fitting = cheap[name].filter((one) => (schema.enum?.includes(one) ?? true) && one >= (schema.minimum ?? one) && one <= (schema.maximum ?? one));
+            if (fitting.length) return dice.pick(fitting);
+        }
+        if ("const" in schema) return schema.const;
+        if (schema.enum) return dice.pick(schema.enum);
+        if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
+        if (schema.type === "array") {
+            const length = schema.minItems ?? Math.min(schema.maxItems ?? 3, dice.below(4));
+            const list = Array.from({ length }, () => this.right(schema.items, "", depth + 1));
+            return length === 2 && schema.maxItems === 2 && list.every((one) => typeof one === "number") ? list.sort((a, b) => a - b) : list;
+        }
+        if (schema.type === "boolean") return dice.chance(0.5);
+        if (schema.pattern) return dice.pick(["#D22B1F", "#00ff7A"]);
+        if (schema.contentEncoding) return ""; // no image; what is none is for the test of uploads
+        if (schema.type === "string") return dice.pick(["", "wood", "soil", "Ünïcode ✓"]).slice(0, schema.maxLength ?? 20);
+        return this.number(schema);
+    }
+
+    object(schema, name, depth) {
+        const { dice } = this;
+        if (name === "mix") return Object.fromEntries(this.someSpecies().map((id) => [id, Number((dice.uniform() * 9 + 0.1).toPrecision(3))]));
+        const out = {};
+        const wanted = depth === 0 ? 0.12 : 0.3;
+        const add = (part) => {
+            for (const [key, property] of Object.entries(part.properties ?? {}))
+                if (!(key in out) && (part.required?.includes(key) || dice.chance(wanted)) && !this.avoided(key, depth)) out[key] = this.right(property, key, depth + 1);
+        };
+        const choices = [...(schema.oneOf ? [schema.oneOf] : []), ...(schema.allOf ?? []).map((one) => one.oneOf)];
+        for (const choice of choices) {
+            const one = dice.pick(choice);
+            for (const key of one.required ?? []) if (!one.properties?.[key] && schema.properties?.[key]) out[key] = this.right(schema.properties[key], key, depth + 1);
+            add(one);
+        }
+        add({ ...schema, properties: Object.fromEntries(Object.entries(schema.properties ?? {}).filter(([key]) => !choices.flat().some((one) => one.required?.includes(key)))) });
+        return out;
+    }
+
+    avoided(key, depth) {
+        return depth === 0 && (key === "v" || key === "arcs" || key === "rows") && this.dice.chance(0.7) || key === "v";
+    }
+
+    /** Returns a value that the schema forbids, if one of the known kinds exists. */
+    wrong(given, inQuery) {
+        const { dice } = this;
+        const schema = follow(this.document, given);
+        const isObject = schema.type === "object" || schema.oneOf, isList = schema.type === "array";
+        const candidates = inQuery ? ["nothing", ""] : [null, isObject ? 7 : {}, isList ? "x" : [{}]];
+        if (schema.maximum !== undefined) candidates.push(schema.maximum + 1, schema.maximum * 1000 + 1);
+        if (schema.minimum !== undefined) candidates.push(schema.minimum - 1);
+        if (schema.type === "integer") candidates.push((schema.minimum ?? 0) + 0.5);
+        if (schema.type === "string" && !schema.enum && !schema.pattern && inQuery) return "x".repeat((schema.maxLength ?? 40) + 1);
+        return dice.pick(candidates);
+    }
+
+    someSpecies() {
+        const { dice } = this;
+        const family = dice.pick(this.lists.families);
+        return [...new Set(Array.from({ length: dice.pick([1, 1, 2, 2, 3, 5]) }, () => dice.pick(family)))];
+    }
+
+    pathValue(name, path) {
+        const { dice, lists } = this;
+        if (name === "mix") {
+            const ids = this.someSpecies();
+            return ids.length === 1 ? ids[0] : ids.map((id) => `${id}:${(dice.uniform() + 0.05).toFixed(2)}`).join(",");
+        }
+        if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
+        if (name === "preset") return dice.pick(path.includes("/trees/") ? lists.trees : lists.leaves);
+        if (name === "type") return dice.pick(lists.types);
+        if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
+        return undefined;
+    }
+
+    /** A request: { method, target, headers, body, right: nothing of it is wrong by the document, wrong: something surely is }. */
+    request({ method, path, operation }) {
+        const { dice } = this;
+        const headers = {};
+        const query = [];
+        let right = true, wrong = false, target = path;
+        for (const parameter of operation.parameters ?? []) {
+            if (parameter.in !== "path") continue;
+            let value = this.pathValue(parameter.name, path) ?? this.right(parameter.schema, parameter.name);
+            if (dice.chance(0.04)) [value, right] = [dice.pick(["nobody", "amanita_muscara", "%", "a:0,b:-1", "ä", "..", "x".repeat(300)]), false];
+            target = target.replace(`{${parameter.name}}`, encodeURIComponent(value).replaceAll("%3A", ":").replaceAll("%2C", ","));
+        }
+        const known = (operation.parameters ?? []).filter((one) => one.in === "query" && one.name !== "v");
+        const small = known.filter((one) => ["lod", "texture_size", "count"].includes(one.name));
+        for (const parameter of known) {
+            const chosen = small.includes(parameter) || dice.chance(Math.min(0.5, 3 / known.length));
+            if (!chosen) continue;
+            const spoilt = dice.chance(0.06);
+            if (spoilt) [right, wrong] = [false, true];
+            query.push([parameter.name, spoilt ? this.wrong(parameter.schema, true) : this.right(parameter.schema, parameter.name.split(".").pop())]);
+        }
+        if (known.length && dice.chance(0.02)) [right] = [false, query.push(...query.slice(0, 1))];
+        if (dice.chance(0.02)) [right] = [false, query.push([dice.pick(["sed", "v", "", "__proto__", "lod.x"]), "1"])];
+        if (query.length) target += `?${query.map(([key, value]) => `${encodeURIComponent(key)}=${encodeURIComponent(value)}`).join("&")}`;
+        if (dice.chance(0.005)) [right, target] = [false, `${target}${target.includes("?") ? "&" : "?"}a=${"y".repeat(5000)}`];
+        if (dice.chance(0.005)) [right, target] = [false, `${target}${target.includes("?") ? "&" : "?"}a=%zz`];
+
+        let body;
+        const [type, content] = Object.entries(follow(this.document, operation.requestBody)?.content ?? {})[0] ?? [];
+        if (type) {
+            headers["Content-Type"] = type;
+            if (type === "application/json") {
+                const schema = follow(this.document, content.schema);
+                const { properties } = schema;
+                let value = this.right(schema);
+                if ("texture_size" in properties) value = { lod: 3, texture_size: 128, ...value };
+                if ("count" in properties) value = { count: 2, ...value };
+                if (dice.chance(0.15)) {
+                    const key = dice.pick(Object.keys(properties));
+                    value = { ...value, [key]: this.wrong(properties[key], false) };
+                    [right, wrong] = [false, true];
+                } else if (dice.chance(0.04)) {
+                    [right, wrong, value] = [false, true, dice.pick([{ ...value, sed: 1 }, [], 7, null, { ...value, mix: { nobody: 1 } }])];
+                }
+                body = JSON.stringify(value);
+                if (dice.chance(0.02)) [right, wrong, body] = [false, true, body.slice(0, -1)];
+            } else {
+                const file = this.lists.file;
+                body = file;
+                if (dice.chance(0.5)) {
+                    right = false;
+                    body = Uint8Array.from(dice.pick([file.slice(0, dice.below(file.length)), new Uint8Array(dice.below(200)), file.map((one, i) => (i < 400 && dice.chance(0.02) ? dice.below(256) : one))]));
+                }
+            }
+            if (dice.chance(0.02)) [right, wrong, headers["Content-Type"]] = [false, true, "text/plain"];
+            if (dice.chance(0.01)) [right, wrong, headers["Content-Encoding"]] = [false, true, "gzip"];
+        }
+        headers["Accept-Encoding"] = dice.pick(["gzip", "identity"]);
+        if (method === "GET" && dice.chance(0.1)) headers["Range"] = dice.pick(["bytes=0-99", "bytes=-20", "bytes=5-", "bytes=0-1,5-9", "bytes=99999999999-", "lines=1-2"]);
+        if (dice.chance(0.03)) headers["If-None-Match"] = dice.pick(["*", '"nothing"', 'W/"x", "y"']);
+        if (dice.chance(0.02)) headers["If-Match"] = dice.pick(["*", '"nothing"']);
+        return { method, target, headers, body, right, wrong };
+    }
+}
+
+/** Fetches the ids that requests are made of: species by family, presets, types of problems, and a file to inspect. */
+export async function listsOf(url, document) {
+    const list = async (path, key) => (await (await fetch(url + path)).json())[key].map((one) => one.id);
+    return {
+    families: [await list("/v1/species?family=swept", "species"), await list("/v1/species?family=branched", "species")],
+    leaves: await list("/v1/leaves", "leaves"),
+    trees: await list("/v1/trees", "trees"),
+    types: Object.values(document.components.responses).map((one) => one.content?.["application/problem+json"]?.example.type.split("/").pop()).filter(Boolean),
+    file: new Uint8Array(await (await fetch(`${url}/v1/leaves/maple.glb?lod=3&texture_size=128`)).arrayBuffer()),
+    };
+}
