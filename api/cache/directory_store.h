@@ -83,9 +83,8 @@ class DirectoryStore {
     std::filesystem::path folder_;
     std::uint64_t most_bytes_;
     Report report_;
-    mutable std::mutex
-        mutex_;              ///< guards the members below; not held while reading or writing files
-    std::list<Entry> used_;  ///< most recently used first
+    mutable std::mutex mutex_;  ///< guards the members below; not held for reading or writing
+    std::list<Entry> used_;     ///< most recently used first
     std::map<std::string, std::list<Entry>::iterator, std::less<>> by_name_;
     std::uint64_t next_aside_ = 0;
     DirectoryStats stats_;
