@@ -1,6 +1,6 @@
 // The request handler: the layer between the transport and api::Service. It responds to health and
-// metrics requests and to cached resources at once; it joins everything else to a computation in
-// flight and responds when that completes.
+// metrics requests and to cached resources at once; it joins everything else to a
+// computation in flight and responds when that completes.
 #pragma once
 
 #include <atomic>

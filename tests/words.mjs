@@ -3,7 +3,7 @@
 //   node tests/words.mjs [FILE ...]     all files under version control, or these
 // words.txt has a line for each word: a regular expression, the standard term, and after "except" the files where the word means something else.
 import { execFileSync } from "node:child_process";
-import { readFileSync } from "node:fs";
+import { existsSync, readFileSync } from "node:fs";
 
 const rules = readFileSync(new URL("words.txt", import.meta.url), "utf8")
     .split("\n")
@@ -27,7 +27,7 @@ const files = process.argv.length > 2
     : execFileSync("git", ["-c", "safe.directory=*", "ls-files", "-co", "--exclude-standard"], { encoding: "utf8" }).split("\n");
 let found = 0;
 for (const file of files) {
-    if (!/^(core|api|server|tests|web_viewer)\/.*\.(h|cpp|inl|ts|html|css)$|(^|\/)README\.md$/.test(file)) continue;
+    if (!/^(core|api|server|tests|web_viewer)\/.*\.(h|cpp|inl|ts|html|css)$|(^|\/)README\.md$/.test(file) || !existsSync(file)) continue;
     searched(file, readFileSync(file, "utf8")).split("\n").forEach((line, i) => {
         // A name is looked at word by word: `kept_key` and `KeptKey` have two.
         const words = line.replace(/([a-z0-9])([A-Z])/g, "$1 $2").replace(/_/g, " ");

@@ -74,7 +74,7 @@ std::string base64(const std::string& bytes) {
     return base64_text(std::vector<std::uint8_t>(bytes.begin(), bytes.end()));
 }
 
-/// A body with a model of the client's own that wears these images.
+/// A body with the client's own model and these images.
 std::string model_with(const std::vector<std::pair<std::string, std::string>>& images,
                        const std::string& params) {
     Value model = write(built_in_atlas()->entries()[0].species.stages.back().model);
@@ -323,14 +323,14 @@ constexpr bool is_timed = false;
 
 struct Measured {
     double taken = 0.0;    ///< microseconds of processor time
-    double charged = 0.0;  ///< 0 for what is answered at once
+    double charged = 0.0;  ///< 0 where no job is needed
     int status = 0;
 
     [[nodiscard]] double ratio() const { return taken / charged; }
 };
 
 /// Runs one request as the server does, on one thread, of a service that has made nothing but what
-/// the case says: a correspondence that plan() needs before, then what is asked for. What reading
+/// the case says: a correspondence that plan() needs before, then the requested job. What reading
 /// its body takes is charged, too.
 Measured measured(const Case& one) {
     Service service(built_in_atlas(), {});
@@ -363,9 +363,9 @@ Measured measured(const Case& one) {
 }
 
 // The charge is in microseconds of one machine, and this may be another, and busy. So each ratio of
-// processor time to charge is compared with the median of all: what is asked is that charges are in
+// processor time to charge is compared with the median of all: the requirement is that charges are in
 // proportion. Only processor time of this thread counts, not the time on the wall, and of several
-// repetitions the shortest; what lies outside is measured again before it counts as a fault.
+// repetitions the shortest; what lies outside is measured again before it counts as a failure.
 TEST(Costs, WhatIsChargedFollowsTheProcessorTimeOfEveryRouteKindAndLevel) {
     constexpr double least = 0.5, most = 3.0, at_once = 1000.0;
     Cases cases = all_cases();
@@ -406,7 +406,7 @@ TEST(Costs, WhatIsChargedFollowsTheProcessorTimeOfEveryRouteKindAndLevel) {
     if (std::getenv("SPOREPRINT_COSTS")) std::printf("median %f\n", median);
 }
 
-TEST(Costs, AMixWhoseCorrespondenceIsNotKeptIsChargedForIt) {
+TEST(Costs, AMixWithoutACachedCorrespondenceIsChargedForIt) {
     const std::vector<std::string> swept = test::swept_species(*built_in_atlas());
     Service service(built_in_atlas(), {});
     const auto work = [&](const std::string& target) {

@@ -8,7 +8,8 @@ namespace {
 
 class EffectiveTest : public RequestedService {
   protected:
-    /// The answer to what `.json` tells of `target`, sent as a body with `more` beside it.
+    /// Returns the response to the effective parameters that `.json` reports for `target`, sent as a
+    /// body with `more` beside them.
     Response sent_back(const std::string& target, const std::string& route, const char* key) {
         const Value description = json_of(ask(target));
         Value body = *description.find("effective");

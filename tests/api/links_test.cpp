@@ -1,4 +1,4 @@
-// Links in what is answered: relative in files, under a base path where there is one.
+// Links in responses: relative in files, under a base path where there is one.
 #include <string>
 #include <vector>
 
@@ -109,7 +109,7 @@ TEST_F(LinksTest, AreAnotherRepresentationWhereTheyAreWrittenOtherwise) {
     EXPECT_NE(header(got, "Content-Location"), "");
     EXPECT_EQ(header(posted, "Content-Location"), "") << "no GET gives these bytes";
     EXPECT_EQ(header(between, "Content-Location"), "");
-    // What was kept for one is not given to the other.
+    // What was cached for one is not sent to the other.
     EXPECT_EQ(text_of(ask(address + "linked")), text_of(got));
     EXPECT_EQ(text_of(ask(post(body("linked")))), text_of(posted));
     EXPECT_EQ(header(ask(post(body("linked"))), "Cache-Status"), "sporeprint; hit");
@@ -149,7 +149,7 @@ TEST_F(BasePathTest, FilesAreTheSameWithAndWithoutIt) {
               header(plain("/v1/leaves/oak.json"), "ETag"));
 }
 
-TEST_F(BasePathTest, LinksAreToldWithIt) {
+TEST_F(BasePathTest, LinksBeginWithIt) {
     const auto link = [](const Response& response, const char* pointer) {
         const Value body = json_of(response);
         const Value* found = body.at_pointer(pointer);

@@ -215,7 +215,7 @@ const Value& responses(const Value& api, const char* path, const char* method) {
     return *api.find("paths")->find(path)->find(method)->find("responses");
 }
 
-TEST(OpenApi, TellsConditionsAndRangesWhereTheyAreAnswered) {
+TEST(OpenApi, DescribesConditionsAndRangesWhereTheyAreSupported) {
     const Value api = document();
     for (const Route* const each : route_table().routes()) {
         const Route& route = *each;
@@ -225,9 +225,10 @@ TEST(OpenApi, TellsConditionsAndRangesWhereTheyAreAnswered) {
             EXPECT_EQ(all.find("304"), nullptr) << route.pattern;
             EXPECT_EQ(all.find("412") != nullptr, route.kind != RouteKind::upload);
         }
-        const bool is_file = !posted && (std::string_view(route.media_type) == "model/gltf-binary" ||
-                                         std::string_view(route.media_type) == "image/jpeg" ||
-                                         std::string_view(route.pattern) == "/assets/{name}");
+        const bool is_file =
+            !posted && (std::string_view(route.media_type) == "model/gltf-binary" ||
+                        std::string_view(route.media_type) == "image/jpeg" ||
+                        std::string_view(route.pattern) == "/assets/{name}");
         for (const char* status : {"206", "416"})
             EXPECT_EQ(all.find(status) != nullptr, is_file) << route.pattern << status;
     }
@@ -237,7 +238,7 @@ TEST(OpenApi, TellsConditionsAndRangesWhereTheyAreAnswered) {
         EXPECT_NE(generated.find("200")->find("headers")->find(name), nullptr) << name;
 }
 
-TEST(OpenApi, AsksForSignaturesOnlyWhereTheyAreAskedFor) {
+TEST(OpenApi, RequiresSignaturesOnlyWhereTheServerDoes) {
     const Value plain = document();
     const Value protected_api = document(true);
     EXPECT_EQ(plain.at_pointer("/components/securitySchemes"), nullptr);
@@ -258,7 +259,7 @@ TEST(OpenApi, AsksForSignaturesOnlyWhereTheyAreAskedFor) {
     }
 }
 
-TEST(OpenApi, TellsTheTypesThatAreAnswered) {
+TEST(OpenApi, HasTheMediaTypesOfResponses) {
     const Value api = document();
     EXPECT_NE(api.at_pointer("/paths/~1readyz/get/responses/200/content/text~1plain"), nullptr);
     EXPECT_EQ(api.at_pointer("/paths/~1readyz/get/responses/503/$ref")->as_string(),
@@ -267,7 +268,7 @@ TEST(OpenApi, TellsTheTypesThatAreAnswered) {
               R"(["string","null"])");
 }
 
-TEST(OpenApi, ABodyRequiresOnlyWhatHasNoDefaultAndAnAnswerTellsAll) {
+TEST(OpenApi, ABodyRequiresOnlyWhatHasNoDefaultAndAResponseHasAll) {
     const Value api = document();
     const std::function<void(const Value&)> none_in_responses = [&](const Value& value) {
         if (value.is_array())

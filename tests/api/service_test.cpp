@@ -39,7 +39,7 @@ class ServiceTest : public test::RequestedService {};
 
 // --- Errors -----------------------------------------------------------------------------
 
-TEST_F(ServiceTest, FaultsOfAnAddressAreNamed) {
+TEST_F(ServiceTest, ErrorsOfAUrlAreNamed) {
     const struct {
         std::string query;
         int status;
@@ -83,7 +83,7 @@ TEST_F(ServiceTest, FaultsOfAnAddressAreNamed) {
     }
 }
 
-TEST_F(ServiceTest, AllProblemsComeInOneAnswerAndTheStrongestStatusWins) {
+TEST_F(ServiceTest, AllProblemsComeInOneResponseAndTheStrongestStatusWins) {
     const Response response = ask("/v1/mushrooms/xyzzy.glb?age=1.7&sed=3&v=old");
     expect_problem(response, 404);
     EXPECT_EQ(errors_of(response).size(), 3u) << text_of(response);
@@ -96,7 +96,7 @@ TEST_F(ServiceTest, AllProblemsComeInOneAnswerAndTheStrongestStatusWins) {
     EXPECT_EQ(json_of(two).find("detail")->as_string(), "2 parameters are invalid");
 }
 
-TEST_F(ServiceTest, UnknownSpeciesAndRoutesAreToldWhatWasProbablyMeant) {
+TEST_F(ServiceTest, UnknownSpeciesAndRoutesSuggestTheClosest) {
     const std::string id = first_species();
     const Response species = ask("/v1/mushrooms/" + id.substr(0, id.size() - 2) + ".glb");
     expect_problem(species, 404);
@@ -125,7 +125,7 @@ TEST_F(ServiceTest, MethodsAre405WithAllow) {
     }
 }
 
-TEST_F(ServiceTest, PreflightsAreAnswered) {
+TEST_F(ServiceTest, PreflightRequestsSucceed) {
     const Response response = ask(
         request("OPTIONS", "/v1/mushrooms.glb",
                 {{"Origin", "https://example.org"}, {"Access-Control-Request-Method", "POST"}}));
@@ -158,7 +158,7 @@ TEST_F(ServiceTest, BodiesOfAnotherTypeOrEncodingAre415AndLargeOnes413) {
     EXPECT_EQ(service_.most_body("POST", "/nothing"), 256u << 10);
 }
 
-TEST_F(ServiceTest, FaultsOfABodyArePointersIntoIt) {
+TEST_F(ServiceTest, ErrorsOfABodyArePointersIntoIt) {
     const std::string mix = "\"mix\":{\"" + first_species() + "\":1}";
     const struct {
         std::string body;
@@ -218,7 +218,7 @@ TEST_F(ServiceTest, WhatIsImpossibleIs422) {
     expect_problem(linked, 422);
     EXPECT_TRUE(names(linked, "/textures"));
 
-    // Pores asked of a species without pores, or gills of one without gills: one of the two each species lacks.
+    // Pores requested of a species without pores, or gills of one without gills: one of the two each species lacks.
     const Response anatomy = ask(small("&hymenium.pores_per_mm=2&hymenium.blades=20"));
     expect_problem(anatomy, 422);
     EXPECT_TRUE(names(anatomy, "hymenium.pores_per_mm") || names(anatomy, "hymenium.blades"))
@@ -726,7 +726,7 @@ TEST_F(ServiceTest, CollapsedRequestsSaySoAndKeepTheirOwnHeaders) {
     EXPECT_TRUE(header(collapsed, "Cache-Status").ends_with("sporeprint; fwd=miss; collapsed"));
 }
 
-TEST(ServiceCache, AnAnswerTooLargeToKeepIsNotSaidToBeStored) {
+TEST(ServiceCache, AResponseTooLargeToCacheIsNotReportedAsStored) {
     ServiceOptions options;
     options.cache_bytes = 8'000;
     Service service(built_in_atlas(), options);
@@ -869,7 +869,7 @@ TEST_F(ServiceTest, LinkedTexturesAreWhereTheFileSays) {
     expect_linked_images(service_, linked, embedded);
 }
 
-TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneFlight) {
+TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneJob) {
     const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
     const std::string query = ".jpg?texture_size=128";
     auto colour = plan_here(service_, get(path + "base_color" + query)),
@@ -893,7 +893,7 @@ TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneFlight) {
     EXPECT_EQ(size_of(head.body), size_of(ask(path + "orm" + query).body));
 }
 
-TEST_F(ServiceTest, FaultsOfImageAddressesAreNamed) {
+TEST_F(ServiceTest, ErrorsOfImageUrlsAreNamed) {
     const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
     expect_problem(ask(path + "colour.jpg"), 404);
     expect_problem(ask("/v1/surfaces/mushrooms/xyzzy/normal.jpg"), 404);

@@ -1,4 +1,4 @@
-// Small words for tests of the api room: requests, answers, JSON.
+// Helpers for tests of the api module: requests, responses, JSON.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -151,7 +151,7 @@ inline std::vector<std::string> linked_images(const Response& file, const std::s
     return found;
 }
 
-/// Expects that the three images which a file points to are those of the same file with embedded ones, kept once, immutable, and
+/// Expects that the three images which a file points to are those of the same file with embedded ones, cached once, immutable, and
 /// painted alike by a service that has never seen the file.
 ///
 /// returns  their addresses

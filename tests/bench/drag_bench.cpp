@@ -12,7 +12,7 @@ namespace {
 
 using namespace sporeprint;
 
-/// Keeps everything, and counts what the paintings were asked for.
+/// Caches everything, and counts the lookups of paintings.
 struct Everything {
     std::map<std::string, std::shared_ptr<const ImageSet>> images;
     std::map<std::string, std::shared_ptr<const RawImages>> paintings;

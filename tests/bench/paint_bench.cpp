@@ -86,7 +86,7 @@ void encode_alone(benchmark::State& state) {
 }
 BENCHMARK(encode_alone)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond);
 
-// Two cached paintings, cross-dissolved to the encoded set; and the dissolve alone.
+// Two cached paintings, blended to the encoded set; and the blend alone.
 void blend_and_encode(benchmark::State& state) {
     const RawImages a = paint_raw(fly_agaric(static_cast<int>(state.range(0))));
     const RawImages b = paint_raw(penny_bun(static_cast<int>(state.range(0))));

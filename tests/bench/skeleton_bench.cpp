@@ -63,11 +63,11 @@ void skeleton_to_glb(benchmark::State& state) {
 }
 BENCHMARK(skeleton_to_glb)->Arg(1000)->Arg(5000)->Unit(benchmark::kMillisecond);
 
-void dealt_tree(benchmark::State& state) {
+void exact_tree(benchmark::State& state) {
     const RamificationMatrix matrix = random_binary_matrix(7);
     for (auto _ : state)
         benchmark::DoNotOptimize(exact_ramification(matrix, 7, 1, 100'000).nodes.data());
 }
-BENCHMARK(dealt_tree)->Unit(benchmark::kMicrosecond);
+BENCHMARK(exact_tree)->Unit(benchmark::kMicrosecond);
 
 }  // namespace

@@ -17,7 +17,7 @@ using Sized = std::shared_ptr<const std::size_t>;
 Sized sized(std::size_t bytes) { return std::make_shared<const std::size_t>(bytes); }
 std::size_t size_of_it(const Sized& value) { return *value; }
 
-/// S3-FIFO told as plainly as possible: vectors, oldest first, searched from end to end.
+/// S3-FIFO as plainly as possible: vectors, oldest first, searched from end to end.
 class NaiveCache {
   public:
     explicit NaiveCache(std::size_t budget) : budget_(budget) {}
@@ -110,7 +110,7 @@ RC_GTEST_PROP(CacheProperty, BehavesAsTheNaiveModelAndStaysWithinItsBudget, ()) 
         400, rc::gen::pair(rc::gen::inRange(0, 120), rc::gen::inRange(0, 6000)));
     for (const auto& [number, size] : steps) {
         const std::string key = "key " + std::to_string(number * number / 120);
-        // The size belongs to the key, as with real answers.
+        // The size belongs to the key, as with real responses.
         const std::size_t bytes = hash_of(key) % 5 == 0 ? 4500 : hash_of(key) % 900;
         if (size % 3 == 0) {
             RC_ASSERT(cache.find(key).has_value() == model.find(key));
@@ -217,7 +217,7 @@ TEST(ComputingCache, SixtyFourThreadsMakeOnce) {
     EXPECT_EQ(hits, 63);
 }
 
-TEST(ComputingCache, AFailureIsNotKeptAndWaitersTryForThemselves) {
+TEST(ComputingCache, AFailureIsNotCachedAndWaitersRetry) {
     ComputingCache<Sized> cache(1'000'000, size_of_it);
     std::atomic<int> tries{0}, failures{0}, successes{0};
     std::vector<std::jthread> threads;

@@ -89,7 +89,7 @@ TEST_F(StoreTest, JobsThatWantOneNewThingAtOnceMakeItOnce) {
     EXPECT_EQ(store_.counters.painting_hits, 7u);
 }
 
-TEST_F(StoreTest, PaintingsAreKeptInTheBudgetOfTheImages) {
+TEST_F(StoreTest, PaintingsAreCachedInTheBudgetOfTheImages) {
     ServiceOptions options;
     options.image_cache_bytes = 1u << 20;
     Store small(options);
@@ -107,7 +107,7 @@ TEST_F(StoreTest, PaintingsAreKeptInTheBudgetOfTheImages) {
     EXPECT_FALSE(small.images.cache().holds("huge"));
 }
 
-TEST_F(StoreTest, WhatFailsIsNotKept) {
+TEST_F(StoreTest, FailuresAreNotCached) {
     const JobContext mine = job_context();
     EXPECT_THROW(static_cast<void>(mine.execution().caches.morphs(
                      "set", []() -> Morph { throw GenerationError("no"); })),

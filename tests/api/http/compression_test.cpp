@@ -123,7 +123,7 @@ TEST_F(GzipOfGlb, IsAVariantOfALargeMeshWithItsOwnTagAndCacheEntry) {
     EXPECT_EQ(service_.counters().glb_cache_entries, 2u);
 }
 
-TEST_F(GzipOfGlb, IsMadeWithTheFileByOneJobForWhoeverAsksFirst) {
+TEST_F(GzipOfGlb, IsCompressedWithTheFileByOneJobForTheFirstRequest) {
     auto planned = plan_here(service_, get(tree, gzip_please));
     ASSERT_TRUE(std::holds_alternative<Job>(planned));
     Job& job = std::get<Job>(planned);

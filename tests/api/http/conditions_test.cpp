@@ -97,7 +97,7 @@ TEST_F(ConditionalRequest, AFailingIfMatchIs412AndMakesNothing) {
         ask(small("&hymenium.pores_per_mm=2&hymenium.blades=20"), {{"If-Match", "\"x\""}}), 422);
 }
 
-TEST_F(ConditionalRequest, APostThatHasItsAnswerAlreadyIs412) {
+TEST_F(ConditionalRequest, APostWhoseResponseTheClientHasIs412) {
     const auto posted = [&](std::vector<Header> conditions) {
         Request one =
             post("{\"lod\":3,\"texture_size\":128,\"mix\":{\"" + first_species() + "\":1}}");
@@ -118,7 +118,7 @@ TEST_F(ConditionalRequest, APostThatHasItsAnswerAlreadyIs412) {
     EXPECT_EQ(posted({{"If-Match", "*"}}).status, 200);
 }
 
-TEST_F(ConditionalRequest, ConditionsAreAllowedAndTheirAnswersExposedToOtherOrigins) {
+TEST_F(ConditionalRequest, ConditionsAreAllowedAndTheirResponsesExposedToOtherOrigins) {
     const std::string allowed =
         header(ask(request("OPTIONS", small())), "Access-Control-Allow-Headers");
     for (const char* name : {"If-Match", "If-None-Match", "If-Range", "Range", "Content-Type"})

@@ -38,7 +38,7 @@ TEST(Target, InAbsoluteFormIsTaken) {
 
 TEST(Target, AnEmptyValueIsAValue) { EXPECT_EQ(split_well("/?a=").query, (Pairs{{"a", ""}})); }
 
-TEST(Target, FaultsAreAllNamed) {
+TEST(Target, AllErrorsAreNamed) {
     const std::pair<const char*, const char*> cases[] = {
         {"/a%2", "path"},     {"/a%GG", "path"},    {"/a%00", "path"}, {"/a%FF", "path"},
         {"/?a=%", "a"},       {"/?%zz=1", "query"}, {"/?a", "a"},      {"/?a=1&&b=2", "query"},

@@ -55,7 +55,7 @@ TEST(Routes, TheSchemaIsNoMushroom) {
               std::string("get_mushroom"));
 }
 
-TEST(Routes, AnUnknownPathIsToldTheOneProbablyMeant) {
+TEST(Routes, AnUnknownPathSuggestsTheClosestOne) {
     const std::pair<const char*, const char*> cases[] = {
         {"/v1/specis", "/v1/species"},
         {"/v1/species/", "/v1/species"},

@@ -66,8 +66,8 @@ TEST_F(ColoniesTest, TellHowManyWereMadeAndEveryControl) {
     EXPECT_EQ(description.find("canonical")->as_string(),
               "/v1/colonies/hypholoma_fasciculare.glb?count=200&habit=rooted");
     EXPECT_GT(description.at_pointer("/estimate/vertices")->as_number(), 1000.0);
-    const Value tuft_told = json_of(ask("/v1/colonies/armillaria_mellea.json"));
-    EXPECT_EQ(tuft_told.at_pointer("/effective/habit")->as_string(), "tuft");
+    const Value tuft_description = json_of(ask("/v1/colonies/armillaria_mellea.json"));
+    EXPECT_EQ(tuft_description.at_pointer("/effective/habit")->as_string(), "tuft");
 }
 
 TEST_F(ColoniesTest, OfABodyAreThoseOfTheAddress) {
@@ -94,7 +94,7 @@ TEST_F(ColoniesTest, LinkImagesThatAreThoseTheyWouldEmbed) {
         << "the very bytes of the image inside the file";
 }
 
-TEST_F(ColoniesTest, RepeatMeshesByExtensionWhenAskedTo) {
+TEST_F(ColoniesTest, RepeatMeshesByExtensionOnRequest) {
     const std::string nodes = text_of(ask(small("&textures=none")));
     const std::string gpu = text_of(ask(small("&textures=none&instancing=gpu")));
     EXPECT_EQ(nodes.find("EXT_mesh_gpu_instancing"), std::string::npos);

@@ -27,7 +27,7 @@ std::string glb(const std::string& mix, const std::string& more = "") {
 
 class CoralsTest : public test::RequestedService {};
 
-TEST_F(CoralsTest, EachAndTheirMixesAreGrownKeptAndDescribed) {
+TEST_F(CoralsTest, EachAndTheirMixesAreGrownCachedAndDescribed) {
     for (const std::string mix :
          {"ramaria_formosa", "xylaria_hypoxylon", "artomyces_pyxidatus", mixed}) {
         const Response generated = ask(glb(mix));

@@ -87,7 +87,7 @@ TEST_F(LeavesTest, HeadAgreesWithGetAndGeneratesNothing) {
         EXPECT_EQ(header(head, name), header(whole, name)) << name;
 }
 
-TEST_F(LeavesTest, AreOneResourceHoweverTheyAreAskedFor) {
+TEST_F(LeavesTest, AreOneResourceHoweverTheyAreRequested) {
     const std::string tag = header(ask(request("HEAD", small("&autumn=0.5"))), "ETag");
     const LeafShape own = leaf_preset("maple")->shape;
     // What a preset has anyway says nothing.
@@ -137,7 +137,7 @@ TEST_F(LeavesTest, LinkedImagesAreThoseEmbedded) {
     }
 }
 
-TEST_F(LeavesTest, FaultsAreAllNamed) {
+TEST_F(LeavesTest, AllErrorsAreNamed) {
     const Response two = ask(maple + "?venation.lobs=3&autumn=2");
     expect_problem(two, 400);
     EXPECT_TRUE(names(two, "venation.lobs", "did you mean 'venation.lobes'"));
@@ -170,7 +170,7 @@ TEST_F(LeavesTest, WhatIsImpossibleTogetherIs422) {
     EXPECT_EQ(generated(), 1u);
 }
 
-TEST_F(LeavesTest, FaultsOfABodyArePointersIntoIt) {
+TEST_F(LeavesTest, ErrorsOfABodyArePointersIntoIt) {
     const auto refused = [&](std::string json, int status, const char* parameter,
                              const char* words) {
         const Response response = ask(body(std::move(json)));

@@ -1,4 +1,4 @@
-// One mushroom has one address: whatever words name a mix, the answer is one resource, made once.
+// One mushroom has one URL: however a mix is written, the response is one resource, generated once.
 #include <gtest/gtest.h>
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class MixResources : public testing::Test {
         return handle(service_, get("/v1/mushrooms/" + mix + ".glb?lod=3&texture_size=128&seed=5"));
     }
 
-    /// Asks for all of `words` and expects one answer, generated once.
+    /// Requests all of `words` and expects one response, generated once.
     void expect_one_resource(const std::vector<std::string>& words, const std::string& canonical) {
         const std::uint64_t before = service_.counters().generated;
         const Response first = ask(words.front());

@@ -79,7 +79,7 @@ TEST(ReadMix, ReadsIdsAndWeightsOfTheAtlas) {
     EXPECT_TRUE(errors.empty());
 }
 
-TEST(ReadMix, NamesEveryFault) {
+TEST(ReadMix, NamesEveryError) {
     const auto atlas = built_in_atlas();
     const std::string a = atlas->entries()[0].species.id.string(),
                       b = atlas->entries()[1].species.id.string();

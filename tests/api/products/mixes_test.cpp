@@ -57,7 +57,7 @@ TEST_F(MixesTest, AMixIsGrownAndCarriesAllItsHeaders) {
     EXPECT_EQ(ask(where, {{"If-None-Match", header(response, "ETag")}}).status, 304);
 }
 
-TEST_F(MixesTest, WhatNeedsACorrespondenceToBeAnsweredHasItPrepared) {
+TEST_F(MixesTest, ResponsesThatNeedACorrespondenceHaveAWarmUpJob) {
     const std::string mix = a_ + ":0.7," + b_ + ":0.3";
     const Request head = request("HEAD", glb(mix));
     const std::vector<Request> requested = {

@@ -88,7 +88,7 @@ TEST_F(MorphsTest, ArcsRiseOnBothOutlines) {
             }
         }
     }
-    // What belongs together anyway, told as one's own arcs, is no contradiction.
+    // Arcs of the client's own that agree with the correspondence are no contradiction.
     const Response same = ask(between(small("\"arcs\":" + dump(*body.find("arcs")))));
     EXPECT_EQ(same.status, 200) << text_of(same);
 }
@@ -144,7 +144,7 @@ TEST_F(MorphsTest, ACorrespondenceIsAResourceLikeAnyOther) {
     EXPECT_TRUE(json_of(old).find("canonical")->as_string().starts_with(morph() + "?age=0.5&v="));
 }
 
-TEST_F(MorphsTest, FaultsOfAPairAreNamed) {
+TEST_F(MorphsTest, ErrorsOfAPairAreNamed) {
     const Response same = ask(morph(first, first));
     expect_problem(same, 422);
     EXPECT_TRUE(names(same, "b", "cannot be morphed into itself")) << text_of(same);
@@ -162,7 +162,7 @@ TEST_F(MorphsTest, FaultsOfAPairAreNamed) {
     expect_problem(ask(between("{}", "xyzzy")), 404);
 }
 
-TEST_F(MorphsTest, MethodsOfBothAddressesAreTold) {
+TEST_F(MorphsTest, MethodsOfBothUrlsAreListed) {
     const Response deleted = ask(request("DELETE", morph()));
     expect_problem(deleted, 405);
     EXPECT_EQ(header(deleted, "Allow"), "GET, HEAD, OPTIONS");
@@ -185,7 +185,7 @@ TEST_F(MorphsTest, PairsHaveASimpleCorrespondenceEitherWay) {
         }
 }
 
-TEST_F(MorphsTest, LimbKOfOneBushBecomesLimbKOfTheOther) {
+TEST_F(MorphsTest, SegmentKOfOneGraphBecomesSegmentKOfTheOther) {
     const Response response = ask(morph("xylaria_hypoxylon", "ramaria_formosa"));
     ASSERT_EQ(response.status, 200) << text_of(response);
     const Value body = json_of(response);
@@ -225,7 +225,7 @@ TEST_F(MorphsTest, LimbKOfOneBushBecomesLimbKOfTheOther) {
     }
 }
 
-TEST_F(MorphsTest, LimbsTakeNoArcsButAMoment) {
+TEST_F(MorphsTest, BranchedSpeciesTakeNoArcsButAMoment) {
     const char *a = "ramaria_formosa", *b = "xylaria_hypoxylon";
     const Response linked =
         ask(between(small("\"arcs\":[{\"curve\":\"cap\",\"a\":0.3,\"b\":0.4}]"), a, b));
@@ -342,7 +342,7 @@ TEST_F(MorphsTest, ArcsThatCrossAreRefusedAndNamed) {
     EXPECT_EQ(service_.counters().generated, 0u);
 }
 
-TEST_F(MorphsTest, FaultsOfABodyArePointersIntoIt) {
+TEST_F(MorphsTest, ErrorsOfABodyArePointersIntoIt) {
     std::string many = "[";
     for (std::size_t i = 0; i <= most_arcs; ++i)
         many += (i ? ",{" : "{") + std::string("\"a\":") + number_text(double(i + 1) / 100.0) +

@@ -88,7 +88,7 @@ TEST_F(TreesTest, ComeWithAllTheirHeaders) {
         << "another individual wears the same images";
 }
 
-TEST_F(TreesTest, AreOneResourceHoweverTheyAreAskedFor) {
+TEST_F(TreesTest, AreOneResourceHoweverTheyAreRequested) {
     const auto tag_of = [&](const std::string& address) {
         return header(ask(request("HEAD", address)), "ETag");
     };
@@ -165,7 +165,7 @@ TEST_F(TreesTest, LinkedImagesAreThoseEmbedded) {
     EXPECT_EQ(bark, 3);
     EXPECT_EQ(leaves, 3);
     EXPECT_EQ(service_.counters().painted, 2u);
-    // What a tree painted, its leaf alone wears.
+    // The images that a tree painted are those of its leaf alone.
     const Response leaf = ask("/v1/leaves/oak.glb?lod=3&texture_size=128&autumn=0.4");
     EXPECT_EQ(header(leaf, "Cache-Status"), "sporeprint-images; hit, sporeprint; fwd=miss; stored");
     EXPECT_NE(header(ask("/v1/surfaces/trees/birch/orm.jpg"), "Content-Disposition")
@@ -185,7 +185,7 @@ TEST_F(TreesTest, GrowFromAMatrixOfOnesOwn) {
         << "the highest that it has";
     EXPECT_EQ(inspected.at_pointer("/effective/blend")->as_number(), 0.0) << "and nothing else";
     EXPECT_TRUE(inspected.find("canonical")->is_null());
-    // The same, told at length; and with the images of its bark elsewhere.
+    // The same, written at length; and with the images of its bark elsewhere.
     const Response same =
         ask(body(R"({"preset":"broadleaf","lod":3,"texture_size":128,"matrix":"own","order":3,)"
                  R"("rows":[[0.5,0.5],[0.25,0.50,0.25]]})"));
@@ -214,7 +214,7 @@ TEST_F(TreesTest, BranchesBeyondAllBoundsAre422AndNamed) {
     EXPECT_EQ(errors_of(far).size(), 1u);
 }
 
-TEST_F(TreesTest, FaultsOfAMatrixAreNamedByRow) {
+TEST_F(TreesTest, ErrorsOfAMatrixAreNamedByRow) {
     const auto refused = [&](const std::string& more, int status, const char* parameter,
                              const char* words) {
         const Response response = ask(body(R"({"preset":"broadleaf",)" + more + "}"));
@@ -280,7 +280,7 @@ TEST_F(TreesTest, WhatIsTooMuchIs422WithItsSizeBeforeAnyWork) {
     EXPECT_EQ(handle(poor, get("/v1/trees/herb.glb?lod=3&texture_size=256")).status, 200);
 }
 
-TEST_F(TreesTest, FaultsAreAllNamed) {
+TEST_F(TreesTest, AllErrorsAreNamed) {
     const Response two = ask(oak + "?fork_dg=3&autumn=2");
     expect_problem(two, 400);
     EXPECT_TRUE(names(two, "fork_dg", "did you mean 'fork_deg'"));
@@ -297,7 +297,7 @@ TEST_F(TreesTest, FaultsAreAllNamed) {
     expect_problem(ask(request("POST", oak, {}, "{}")), 405);
 }
 
-TEST_F(TreesTest, FaultsOfABodyArePointersIntoIt) {
+TEST_F(TreesTest, ErrorsOfABodyArePointersIntoIt) {
     const auto refused = [&](std::string json, int status, const char* parameter,
                              const char* words) {
         const Response response = ask(body(std::move(json)));
