@@ -5,6 +5,7 @@
 
 namespace sporeprint::api {
 
+/// Returns the table of all routes, which is built at the first call.
 [[nodiscard]] const RouteTable& route_table();
 
 }  // namespace sporeprint::api

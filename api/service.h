@@ -27,44 +27,56 @@ class Service {
     Service& operator=(const Service&) = delete;
 
     /// Parses and checks a request, builds its canonical text, compares ETags and looks into the
-    /// caches. Never blocks, never throws.
+    /// caches. Returns the response, or the job that computes it. Never blocks, never throws.
     ///
-    /// correspondence_ready  true: a correspondence that is needed and not cached is computed here,
-    ///                       in milliseconds; false: the result is then a warm-up job
-    ///                       (Job::is_warm_up)
+    /// A correspondence (MorphSet: the mapping between the outlines of the species of a mix) may be
+    /// needed to check a request. If it is not cached, the result depends on correspondence_ready:
+    ///
+    /// correspondence_ready  true: it is computed here, which takes milliseconds; false: the result
+    ///                       is a warm-up job (Job::is_warm_up), which computes it
     [[nodiscard]] Plan plan(const Request& request, bool correspondence_ready = false);
 
-    /// Stores the response of a job in the cache. Called once per computation.
+    /// Inserts the response of a job into the response cache if its status is 200 and is_stored is
+    /// true. To be called once per computation.
+    ///
+    /// key  that of the job
     void finish(const Key& key, const Response& response);
 
-    /// Returns the shared response of a job, completed for one of the clients that waited for it
-    /// (Cache-Status, Server-Timing, request id; no body for HEAD).
+    /// Returns the response to one of the requests that waited for a job: the shared response,
+    /// completed with Cache-Status, Server-Timing and the request id, without body for HEAD. Its
+    /// gzip variant is used if it exists and the client accepts it, or if there is no other.
+    ///
+    /// delivery  that of the job
     [[nodiscard]] Response deliver(const Request& request, const Delivery& delivery,
                                    const Response& shared, Outcome outcome,
                                    const Timing& timing) const;
 
-    /// Returns problem+json for an error found outside plan() (408, 413, 414, 429, 431, 500, 503,
-    /// 504).
+    /// Returns a problem+json response for an error found outside plan() (408, 413, 414, 429, 431,
+    /// 500, 503, 504).
+    ///
+    /// extra  further headers
     [[nodiscard]] Response problem(const Request& request, int status, std::string_view detail,
                                    const std::vector<Header>& extra = {}) const;
 
     /// Returns the problem for an exception of Job::run; unknown exceptions are 500 without detail.
     [[nodiscard]] Response problem(const Request& request, std::exception_ptr error) const;
 
-    /// Generates one mushroom, for /readyz. Returns true on success.
+    /// Generates one small mushroom of the first species of the atlas. Returns true on success.
     [[nodiscard]] bool self_test();
 
     /// Returns the final response to a request whose body has not arrived, if the head alone
     /// decides it: 308, 400, 404, 405, 414, 415, or that to OPTIONS.
     [[nodiscard]] std::optional<Response> response_to_head(const Request& request) const;
 
-    /// Returns the cost of parsing the body of a request, which is charged whatever the response
-    /// is; zero for most requests.
+    /// Returns the cost of parsing the JSON body of a request, which is charged whatever the
+    /// response is; zero for requests to routes without a JSON body.
     [[nodiscard]] Cost cost_of_reading(const Request& request) const;
 
-    /// Returns the largest body that a route accepts, in bytes (413 beyond).
+    /// Returns the largest body, in bytes, that the route of a request accepts (413 beyond); 256
+    /// KiB for unknown routes.
     [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view target) const;
 
+    /// Updates the sizes of the caches among the counters and returns the counters.
     [[nodiscard]] const Counters& counters() const;
 
   private:
@@ -72,10 +84,12 @@ class Service {
     std::unique_ptr<Parts> parts_;
 };
 
-/// Calls plan() on a thread that may take milliseconds; never returns a warm-up job.
+/// Returns the plan of a request and computes a missing correspondence itself, which takes
+/// milliseconds: the result is never a warm-up job.
 [[nodiscard]] Plan plan_here(Service& service, const Request& request);
 
-/// Plans and runs a request inline, without sockets, for tests and tools.
+/// Returns the response to a request, generated on the calling thread without sockets, for tests
+/// and tools.
 [[nodiscard]] Response handle(Service& service, const Request& request);
 
 }  // namespace sporeprint::api

@@ -21,25 +21,30 @@ class StaticDocuments {
     StaticDocuments(std::shared_ptr<const Atlas> atlas, const ResponseBuilder& responses,
                     const ServiceOptions& options, const RouteTable& routes);
 
-    /// Returns an HTML file of the page; a hint in plain text if the page is not installed.
+    /// Returns an HTML file of the viewer page. If the page is not installed, returns a hint in
+    /// plain text for "index.html" and 404 for other files.
     [[nodiscard]] Response page(const Request& request, std::string_view file) const;
 
-    /// Returns a file of the page by name.
+    /// Returns a file of the viewer page by name; 404 if there is none.
     [[nodiscard]] Response asset(const Request& request, const std::string& file) const;
 
-    /// Returns the document of a route, which was computed when the service started.
+    /// Returns the document of a route, which was computed when the service started; 400 for a
+    /// query or previous `errors`.
+    ///
+    /// pre  route.document is not null
     [[nodiscard]] Response document(const Route& route, const Request& request,
                                     const Target& target, ValidationErrors& errors) const;
 
-    /// Returns the list of species that match the filters of the query.
+    /// Returns the list of species that match the filters of the query; 400 for invalid filters.
     [[nodiscard]] Response species_list(const Request& request, const Target& target,
                                         ValidationErrors& errors) const;
 
-    /// Returns the template of one species.
+    /// Returns the template of one species; 404 for an unknown id.
     [[nodiscard]] Response species(const Request& request, const Target& target,
                                    const std::string& id, ValidationErrors& errors) const;
 
-    /// Returns the page about one type of problem, to which `type` of problems links.
+    /// Returns the HTML page about one type of problem, to which the member `type` of problem+json
+    /// links; 404 for an unknown slug.
     [[nodiscard]] Response problem_type(const Request& request, const Target& target,
                                         const std::string& slug, ValidationErrors& errors) const;
 

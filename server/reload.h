@@ -14,10 +14,12 @@ struct Sources {
     std::filesystem::path keys;   ///< file of signing keys
 };
 
-/// Reads the sources again and passes the new state to the request handler. An invalid source
-/// changes nothing and is logged with the reasons. The caller has to call Transport::invalidate().
+/// Reads the sources again and passes the new state to the request handler. The sources are
+/// independent: one that is invalid, or whose templates fail Service::self_test(), is logged with
+/// the reasons and leaves its part of the state as it was, while the other is still replaced. The
+/// caller has to call Transport::invalidate() afterwards.
 ///
-/// returns  true if anything was replaced
+/// returns  true if at least one source was replaced
 bool reload(const Sources& sources, RequestHandler& request_handler, Log& log);
 
 }  // namespace sporeprint::server

@@ -57,7 +57,8 @@ class RequestHandler {
     /// Returns the callbacks of the main transport.
     [[nodiscard]] Handlers handlers();
 
-    /// Returns the callbacks of a separate port that serves /metrics and health only.
+    /// Returns the callbacks of a separate transport that serves /metrics, /livez and /readyz only;
+    /// all other paths are 404.
     [[nodiscard]] Handlers metrics_handlers();
 
     /// Returns the state that new requests use.
@@ -66,25 +67,28 @@ class RequestHandler {
     /// Uses this state for new requests; requests already begun finish with the previous one.
     void renew(AppState state);
 
-    /// Generates the resources of these targets in parallel, so that they are cached. No signatures
-    /// are required.
+    /// Generates the resources of these targets (path and query) in parallel and caches them.
+    /// Blocks until all are generated. No signatures are required.
     ///
-    /// returns  the response to each, generated or cached
+    /// returns  the response to each, in the order of the targets
     [[nodiscard]] std::vector<api::Response> warm(std::span<const std::string> targets);
 
     /// Returns the number of jobs that run in parallel.
     [[nodiscard]] std::size_t threads() const { return pool_.count(); }
 
-    /// Lets /readyz report 200.
+    /// Makes is_ready() true while the queues have capacity; initially it is false.
     void open() { ready_ = true; }
 
-    /// Lets /readyz report 503.
+    /// Makes is_ready() false. Requests are still served.
     void close() { ready_ = false; }
 
-    /// Sets the transport whose connections the metrics and /readyz count.
+    /// Sets the transport whose connections are reported in the metrics and whose queue is_ready()
+    /// tests; nullptr for none. It has to exist while these are used.
     void watch(const Transport* transport) { transport_ = transport; }
 
-    /// Returns true between open() and close() while all queues are less than 90 % full.
+    /// Returns true between open() and close() while the queues of the thread pool and of the
+    /// watched transport are less than 90 % full; /readyz responds with 200 if true, otherwise with
+    /// 503.
     [[nodiscard]] bool is_ready() const;
 
   private:
@@ -127,14 +131,17 @@ class RequestHandler {
                                     std::stop_token stop, double queue);
     /// Joins the computation of a job's key, or starts it.
     ///
+    /// then     called once when the computation completes; see SingleFlight::join()
     /// returns  nothing if the queue or the list of waiters is full
     std::optional<SharedJobs::Ticket> join(const StatePointer& state, api::Job job,
                                            SharedJobs::OnComplete then);
-    /// Charges the cost of a job to the budget of a client, unless it is in flight already, and the
-    /// cost of reading its body.
+    /// Charges the cost of reading a request's body and of its job to the budget of a client. A job
+    /// in flight already is not charged. If the budget does not suffice for both, only the reading
+    /// is charged.
     ///
-    /// reading  microseconds of work that reading the body took
-    /// work     cost of the job in microseconds; set to 0 if it is not charged
+    /// reading  cost of reading the body, microseconds of work
+    /// work     cost of the job, microseconds of work; set to 0 if the job is in flight already or
+    ///          there are no budgets
     /// returns  how long until the budget suffices; zero if it does
     [[nodiscard]] std::chrono::microseconds charge(const Address& client, const api::Key& key,
                                                    std::uint64_t reading, std::uint64_t& work);

@@ -11,13 +11,14 @@
 
 namespace sporeprint::server {
 
-/// Generates the resources of a list, which has one path and query per line (lines_of()), as many
-/// in parallel as the pool has threads. Each line that fails is logged with its number and the
-/// problem, and at the end the number of successes. No line is fatal.
+/// Generates the resources of a list, which has one path and query per line (see lines_of()), in
+/// batches of two lines per thread of the pool. A line that fails is logged with its number and the
+/// problem, and the next ones are still generated. At the end the numbers of lines that succeeded,
+/// failed and were skipped are logged.
 ///
 /// file     path of the list, for the log
 /// text     content of the list
-/// stop     polled between batches; true: skip the remaining lines
+/// stop     called before each batch; if it returns true, the remaining lines are skipped
 /// returns  the number of lines that succeeded
 std::size_t warm(const std::filesystem::path& file, std::string_view text,
                  RequestHandler& request_handler, Log& log, const std::function<bool()>& stop);

@@ -87,8 +87,8 @@ class Cache {
         return size_of_(value) + key.size() + entry_overhead;
     }
 
-    /// Returns true if insert() would accept an entry of this weight(): at most an eighth of the
-    /// whole budget.
+    /// Returns true if insert() accepts an entry of this weight(), in bytes: at most an eighth of
+    /// the whole budget.
     [[nodiscard]] bool fits(std::size_t bytes) const { return bytes <= most_; }
 
     /// Inserts a value and evicts others until it fits. Equal keys mean equal values, so an entry

@@ -57,11 +57,12 @@ class DirectoryStore {
     /// throws      InvalidInput if the folder cannot be created or written
     DirectoryStore(std::filesystem::path folder, std::uint64_t most_bytes, Report report = {});
 
-    /// Returns the body written under `key`; nothing if there is none or it is damaged.
+    /// Returns the body written under `key`, which counts as a use; nothing if there is none or it
+    /// is damaged. A damaged file is removed.
     [[nodiscard]] std::optional<Slice> find(std::string_view key);
 
-    /// Writes a body under `key`. A body that cannot be written is counted, reported and dropped:
-    /// it can be generated again.
+    /// Writes a body under `key`. A body larger than an eighth of the bound is not written. One
+    /// that cannot be written is counted, reported and dropped: it can be generated again.
     void insert(std::string_view key, const Body& body);
 
     [[nodiscard]] DirectoryStats stats() const;
@@ -75,7 +76,7 @@ class DirectoryStore {
     [[nodiscard]] std::filesystem::path path_of(const std::string& name) const;
     [[nodiscard]] std::uint64_t most_of_one() const { return most_bytes_ / 8; }
     void take_stock();
-    /// Registers a file as the most recently used.
+    /// Registers a file as the most recently used one. Reads and computes nothing.
     void get_or_compute(const std::string& name, std::uint64_t bytes);
     void forget(const std::string& name);
     void make_room();

@@ -22,7 +22,7 @@ namespace sporeprint::api {
 using CachedResponse = std::shared_ptr<const Response>;
 using Images = std::shared_ptr<const ImageSet>;
 using Painting = std::shared_ptr<const RawImages>;
-using Morph = std::shared_ptr<const MorphSet>;
+using Morph = std::shared_ptr<const MorphSet>;  ///< the correspondence of a set of species
 
 /// The values of the image cache: encoded files, and the paintings from which images of mixes are
 /// blended. Both share one budget.
@@ -34,7 +34,7 @@ using Painted = std::variant<Images, Painting>;
 struct Store {
     explicit Store(const ServiceOptions& options);
 
-    /// Reads the sizes of the caches into the counters.
+    /// Copies the statistics of the caches (bytes, entries, evictions) into the counters.
     void measure();
 
     Cache<CachedResponse> responses;
@@ -45,22 +45,23 @@ struct Store {
     std::atomic<std::uint64_t> inspections{0};  ///< number of uploads so far; part of their keys
 };
 
-/// Thrown by `cached_only` for a value that is not cached.
+/// Thrown by the Caches of cached_only() for a correspondence that is not cached.
 struct CacheMiss {
     std::string key;
     Cost cost;  ///< of computing it; set by the product that needs it
 };
 
-/// Returns a Caches for plan() that looks values up and throws CacheMiss if one would have to be
-/// computed. Does not count hits.
+/// Returns Caches for plan() that return cached correspondences and throw CacheMiss for others.
+/// Lookups are not counted as hits or misses. Images are not cached.
 [[nodiscard]] Caches cached_only(Store& store);
 
-/// Returns a Caches for plan() that computes missing correspondences, which takes milliseconds,
-/// without waiting for other threads that compute the same.
+/// Returns Caches for plan() that compute missing correspondences on the calling thread, which
+/// takes milliseconds, without waiting for other threads that compute the same. Images are not
+/// cached.
 [[nodiscard]] Caches computed_inline(Store& store);
 
-/// Returns the result of a lookup as a member of Cache-Status: "sporeprint-images; fwd=miss;
-/// stored".
+/// Returns the result of a lookup as a member of Cache-Status (RFC 9211): "sporeprint-images; hit",
+/// or for a miss "sporeprint-images; fwd=miss; stored".
 [[nodiscard]] std::string cache_member(std::string_view cache, bool hit, bool stored);
 
 /// The resources of one job: an ExecutionContext whose Caches use the store, and the results of

@@ -46,9 +46,9 @@ struct Response {
 /// count has a processor time of its own.
 struct Cost {
     std::uint64_t base = 0;             ///< microseconds that every request of its kind takes
-    std::uint64_t outlines = 0;         ///< species of a correspondence that must be computed
+    std::uint64_t outlines = 0;         ///< species of correspondences (MorphSet) to be computed
     std::uint64_t pairs = 0;            ///< pairs of these species
-    std::uint64_t individuals = 0;      ///< swept individuals to resolve, for every frame
+    std::uint64_t individuals = 0;      ///< swept individuals to resolve, one for every frame
     std::uint64_t branch_graphs = 0;    ///< branched individuals to resolve
     std::uint64_t vertices = 0;         ///< of mushrooms
     std::uint64_t placed_vertices = 0;  ///< of leaves, trees and colonies
@@ -57,7 +57,7 @@ struct Cost {
     std::uint64_t atlases = 0;          ///< of mushrooms: painted, or blended from others
     std::uint64_t texels = 0;           ///< of all images of these atlases
     std::uint64_t leaf_atlases = 0, leaf_rows = 0, leaf_texels = 0;  ///< of leaves
-    std::uint64_t leaf_row_vertices = 0;  ///< rows of these times vertices of their outlines
+    std::uint64_t leaf_row_vertices = 0;  ///< rows of images of leaves times vertices of a leaf
     std::uint64_t bark_atlases = 0, bark_texels = 0;  ///< of bark
     std::uint64_t pixels = 0;                         ///< of uploaded images that are decoded
     std::uint64_t json_bytes = 0;                     ///< JSON of the client that is parsed
@@ -65,15 +65,16 @@ struct Cost {
     std::uint64_t bytes = 0;                          ///< of the file that is written
     std::uint64_t gzip_bytes = 0;                     ///< of these, compressed by gzip
 
-    /// Returns the whole cost as one number: approximately microseconds of one processor of 2020.
-    /// message.cpp has the time of each count.
+    /// Returns the total cost: approximately the microseconds that one processor core of 2020
+    /// needs, with 50 for any request. message.cpp has the time of each count.
     [[nodiscard]] std::uint64_t work() const;
 
     Cost& operator+=(const Cost& other);
     friend Cost operator+(Cost a, const Cost& b) { return a += b; }
 };
 
-/// Returns the cost of parsing JSON, from its length and its numbers of commas and colons.
+/// Returns the estimated cost of parsing JSON: json_bytes is its length, and json_values its number
+/// of commas and colons.
 [[nodiscard]] Cost cost_of_json(std::string_view text);
 
 /// Full canonical text of a resource: equal keys mean equal bytes.

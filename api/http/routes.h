@@ -46,20 +46,20 @@ struct Route {
     const char* media_type;                              ///< of the response with status 200
     const char* body_type = "";                          ///< media type of the request body
     std::size_t most_body = 256 << 10;                   ///< bytes of the request body
-    const char* (*example)() = nullptr;                  ///< of {preset}
+    const char* (*example)() = nullptr;                  ///< returns an example of {preset}
     const char* response_schema = nullptr;               ///< name in /components/schemas
     const char* request_body = nullptr;                  ///< name in /components/requestBodies
     Value (*query_schema)() = nullptr;                   ///< nested schema of the query parameters
     Value (*document)(const DocumentInputs&) = nullptr;  ///< a document without query parameters
     Plan (*plan)(RouteCall&) = nullptr;                  ///< the handler of all other routes
-    bool may_be_elsewhere = false;                       ///< 404 if it has a port of its own
+    bool may_be_elsewhere = false;                       ///< 404 here if it has a separate port
 };
 
-/// Returns true for routes whose responses are generated on demand: they cost work, and a signature
-/// is required where URLs are signed.
+/// Returns true for products, images and uploads: their responses are generated on demand at a
+/// cost, and a signature is required where URLs are signed.
 [[nodiscard]] bool is_generated(const Route& route);
 
-/// Returns true for routes whose generated responses are cached.
+/// Returns true for products and images: their responses are cached.
 [[nodiscard]] bool is_cached(const Route& route);
 
 /// The routes of one product or service, and what they add to common documents.
@@ -85,14 +85,18 @@ class RouteTable {
 
     [[nodiscard]] std::span<const RouteGroup> groups() const { return groups_; }
 
-    /// Returns the routes of all groups, in their order.
+    /// Returns the routes of all groups, in their order, except that routes of images follow the
+    /// last product.
     [[nodiscard]] std::span<const Route* const> routes() const { return routes_; }
 
     /// Finds the route of a path and a method; HEAD counts as GET. Routes of kind `health` are not
     /// found.
+    ///
+    /// segments  percent-decoded, of the path below the base path
     [[nodiscard]] Match match(std::string_view method, std::span<const std::string> segments) const;
 
-    /// Returns the path that was most likely meant by an unknown one, or "".
+    /// Returns the path of a route that resembles an unknown path most, for suggestions; "" if none
+    /// is similar.
     [[nodiscard]] std::string closest(std::span<const std::string> segments) const;
 
   private:

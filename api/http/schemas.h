@@ -17,7 +17,7 @@ namespace sporeprint::api {
 /// Returns a JSON object.
 [[nodiscard]] Value object(std::initializer_list<Value::Member> members);
 
-/// Returns {"$ref":"#/components/..."}.
+/// Returns {"$ref":"#/components/<where>"}.
 [[nodiscard]] Value reference(std::string_view where);
 
 /// Returns {"type":...}.
@@ -32,19 +32,21 @@ namespace sporeprint::api {
 /// Returns the schema of an object with any names whose values have one schema.
 [[nodiscard]] Value map_of(Value values);
 
-/// Returns schemas that the descriptions of all products share.
+/// Return the schemas of an estimate and of a bounding box, which the JSON descriptions of all
+/// products contain.
 [[nodiscard]] Value estimate_schema();
 [[nodiscard]] Value bounds_schema();
 
-/// Returns the schema of `v` in a request body.
+/// Returns the schema of the member "v" of a request body, the version token.
 [[nodiscard]] Value version_member();
 
-/// Returns the schema of a response: every property that is never left out is required, and none
-/// has a default. Optional members without a value and uploads may be left out.
+/// Converts the schema of parameters in requests to that of the same parameters in a response: no
+/// property has a default, and all are required except those that a response may omit (optional
+/// members and uploads).
 [[nodiscard]] Value as_written(Value schema);
 
-/// Returns the schema of a template with its defaults as "x-default", since type generators treat a
-/// property with "default" as always present.
+/// Returns a schema with "default" renamed to "x-default" in it and all schemas in it, for
+/// templates of species: type generators treat a property with "default" as always present.
 [[nodiscard]] Value as_template(Value schema);
 
 /// Removes "x-default-from" from a schema and all schemas in it.
@@ -57,14 +59,16 @@ namespace sporeprint::api {
 /// mandatory; "" for none.
 [[nodiscard]] Value with_members(Value::Object first, Value schema, const char* required);
 
-/// Returns the ids of two different species for examples.
+/// Return the ids of two different species, to be used in examples.
 [[nodiscard]] std::string example_id(const Atlas& atlas);
 [[nodiscard]] std::string other_id(const Atlas& atlas);
 
-/// Marks the leaves of a schema as taken from the preset by default.
+/// Replaces the default of a schema, or of all leaf properties of an object schema, by the note
+/// "x-default-from":"preset".
 void take_from_preset(Value& leaf);
 
-/// Marks the members of Own, also of structs inlined into it, as taken from the preset by default.
+/// Calls take_from_preset() for each property that is a member of the described struct Own or of a
+/// struct inlined into it.
 template <class Own>
 void mark_members_of(Value& properties) {
     const Own* none = nullptr;
@@ -77,15 +81,16 @@ void mark_members_of(Value& properties) {
     });
 }
 
-/// Returns a schema in which the members that occur in Own... are marked as taken from the preset
-/// by default.
+/// Returns a schema whose properties that are members of the structs Own... have the value of the
+/// preset as their default, by take_from_preset().
 template <class... Own>
 Value from_preset(Value schema) {
     (mark_members_of<Own>(*schema.find("properties")), ...);
     return schema;
 }
 
-/// Calls `change` for a schema and all schemas in it, from the innermost outwards.
+/// Calls `change` for a schema and all schemas in its "properties", "items", "oneOf" and "allOf",
+/// from the innermost outwards.
 template <class Change>
 void each_schema(Value& schema, Change change) {
     if (Value* properties = schema.find("properties"))

@@ -24,7 +24,9 @@ struct Leaves {
     static std::pair<Estimate, Bounds> measure(const LeafSpec& spec,
                                                const ExecutionContext& execution);
     static Cost cost_of_growing(const LeafSpec& spec);
-    static Cost cost_of_paint(const LeafPaint& paint);  ///< of these images
+    /// Returns the cost of painting these images.
+    static Cost cost_of_paint(const LeafPaint& paint);
+    /// Returns the cost of painting the images of a leaf.
     static Cost cost_of_painting(const LeafSpec& spec);
 };
 

@@ -12,14 +12,15 @@
 
 namespace sporeprint::api {
 
-/// Plans the response to a request for a product, as GLB or as the JSON that describes it. `Kind`
-/// has static functions of a specification (`Spec`):
+/// Returns the response to a request for a product, as GLB or as the JSON that describes it, or the
+/// job that computes it. Returns a problem response if `errors` is not empty. `Kind` has these
+/// static functions of a specification (`Spec`):
 ///   version(spec, atlas)                   current version token
 ///   url(spec, product)                     canonical URL without version; "" if it has none
 ///   key(spec, product, version)            canonical text of all values
 ///   file_name(spec, product)
 ///   cost(context, spec, product, caches)   cost of generating it; throws if it is impossible
-///   search(spec, atlas)                    optional: cost of computing its correspondence
+///   search(spec, atlas)                    optional: cost of its correspondence (MorphSet)
 ///   guess(spec, product, atlas)            optional: approximate cost without the correspondence
 ///   image_urls(context, spec, version, execution)   URLs of its images with their versions
 ///   grow(context, spec, extras, depth, execution)   the GLB; depth of links to further images

@@ -55,14 +55,16 @@ const typename Kind::Preset& preset_of(std::string_view id, const char* paramete
     return Kind::presets().front();
 }
 
-/// Returns the parameters of a preset that exists.
+/// Returns the parameters of a preset without overrides.
+///
+/// pre  a preset has this id
 template <class Kind>
 typename Kind::Params own_params(std::string_view id) {
     ValidationErrors none;
     return params_of(preset_of<Kind>(id, "", none));
 }
 
-/// Reads the {preset} and the query of a URL.
+/// Reads the {preset} and the query of a URL. Problems are added to `errors`.
 template <class Kind>
 PresetRequest<Kind> read_preset(std::string_view id, Query query, ValidationErrors& errors) {
     const auto& preset = preset_of<Kind>(id, "preset", errors);
@@ -132,7 +134,7 @@ std::string key_of(const Spec& spec, Product product, const std::string& version
            canonical_text(spec.params);
 }
 
-/// Returns "maple-7.glb".
+/// Returns the name of the file to download, from preset and seed: "maple-7.glb".
 template <class Spec>
 std::string preset_file_name(const Spec& spec, Product product) {
     return spec.preset + '-' + std::to_string(spec.params.seed) + ending_of(product);
@@ -173,7 +175,7 @@ ImageUrls preset_image_urls(const std::string& preset, const Paint& paint,
     return urls;
 }
 
-/// Returns {"leaves":[{"id","name","links"}]}.
+/// Returns the document that lists all presets: {"leaves":[{"id","name","links"}]} for leaves.
 template <class Kind>
 Value preset_list() {
     const std::string root = std::string("/v1/") + Kind::all + '/';

@@ -15,21 +15,23 @@ namespace sporeprint {
 struct AtlasEntry {
     Species species;
     std::string json;        ///< the template as served: canonical JSON
-    std::uint64_t hash = 0;  ///< of `json`
+    std::uint64_t hash = 0;  ///< XXH3 of `json`, 64 bits
 };
 
 /// The species of an atlas, sorted by id.
 class Atlas {
   public:
-    /// Parses and validates the templates.
+    /// Parses and validates the templates, one JSON text per species.
     ///
-    /// throws  InvalidInput with all problems of all texts, paths prefixed by the species' id
+    /// throws  InvalidInput with the problems of all texts, repeated ids included; paths are
+    ///         prefixed by the species' id
     explicit Atlas(const std::vector<std::string>& json_texts);
 
+    /// Returns the entry of a species, or nullptr if the atlas has no species with this id.
     [[nodiscard]] const AtlasEntry* find(std::string_view id) const;
-    [[nodiscard]] const std::vector<AtlasEntry>& entries() const {
-        return entries_;
-    }  ///< sorted by id
+
+    /// Returns all entries, sorted by id.
+    [[nodiscard]] const std::vector<AtlasEntry>& entries() const { return entries_; }
 
   private:
     std::vector<AtlasEntry> entries_;
@@ -38,9 +40,10 @@ class Atlas {
 /// Returns the species that are compiled in.
 [[nodiscard]] std::shared_ptr<const Atlas> built_in_atlas();
 
-/// Reads every *.json file of a folder.
+/// Reads an atlas from the *.json files of a folder, one species each; subfolders are not read.
 ///
-/// throws  InvalidInput naming the file
+/// throws  InvalidInput if the folder cannot be read or has no such file, or with the problems of
+///         the first invalid file, paths prefixed by its name
 [[nodiscard]] std::shared_ptr<const Atlas> atlas_from(const std::filesystem::path& folder);
 
 }  // namespace sporeprint

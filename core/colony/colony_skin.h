@@ -6,37 +6,42 @@
 
 namespace sporeprint {
 
-/// Returns roots, if shown, and the stems of all members as a skeleton that still has to be
-/// cleaned.
+/// Returns the skeleton of a colony: its roots, if they are visible, and the stems of all members
+/// that have one. It is the input of colony_skin(), which cleans it.
 ///
-/// site     the places of the members
-/// lod      of the colony: coarse levels have fewer segments
-/// returns  metres at size 1. A stem has the radius of its place up to its last node, which lies
-///          inside the neck of its cap and is no thicker than the neck
+/// site      the places of the members
+/// params    its level of detail determines how many nodes of the roots remain
+/// segments  greatest number of segments of a stem; short stems have fewer
+/// returns   metres at size 1. A stem has the radius of its place up to its last node, which lies
+///           inside the neck of its cap and is no thicker than the neck
 [[nodiscard]] Skeleton colony_skeleton(const ColonySite& site,
                                        const std::vector<ColonyMember>& members,
                                        const ColonyParams& params, const ColonyTraits& traits,
                                        int segments);
 
-/// Returns the approximate share of root nodes that remain at a level of detail: at coarse levels
-/// runs without forks and stems have fewer nodes.
+/// Returns the approximate share, 0..1, of root nodes that colony_skeleton() retains at a level of
+/// detail: at coarse levels, paths without forks and stems have fewer nodes.
 [[nodiscard]] double root_share(int lod);
 
-/// Returns the number of subdivisions of a skeleton with so many nodes: two at LOD 0 (tubes of
-/// sixteen sides), one if two would exceed the largest triangle count of a mushroom.
+/// Returns the number of Catmull-Clark subdivisions, 0..2, for a skeleton of a colony with `nodes`
+/// nodes. At LOD 0 it is two (tubes of sixteen sides), or one if two would make more than about
+/// 60,000 triangles; each coarser level has one less, at least 0.
 [[nodiscard]] int skin_levels(std::size_t nodes, int lod);
 
 struct SkinOptions {
     int lod = 0;
-    double painted_length = 0.1;  ///< length of stem shown by the image, metres at size 1
-    bool textured = true;
+    double painted_length = 0.1;  ///< length of root that one image covers, metres at size 1
+    bool textured = true;         ///< makes texture coordinates and tangents
 };
 
-/// Returns the mesh of a skeleton. A stem shows the whole image of one stem, from ground to top;
-/// along a root the image is repeated at its own scale, mirrored at rings of the mesh.
+/// Cleans a skeleton and returns the mesh of its surface. The texture coordinates of a stem cover
+/// the whole image of one stem, from ground to top. Along a root the image is repeated once per
+/// painted_length with mirrored repeat; it is mirrored at the ring of vertices nearest to the end
+/// of each image.
 ///
-/// returns  closed; empty for an empty skeleton
-/// throws   InvalidInput with validation_errors()
+/// segments  result of colony_skeleton()
+/// returns   a closed mesh; empty for an empty skeleton
+/// throws    InvalidInput with validation_errors()
 [[nodiscard]] Mesh colony_skin(const Skeleton& segments, const SkinOptions& dress);
 
 }  // namespace sporeprint

@@ -17,15 +17,19 @@ namespace sporeprint {
 struct ColonyPlace {
     glm::dvec3 foot{0.0};
     glm::dvec3 rise{0.0}, swing{0.0};
-    glm::dvec3 up{0.0, 1.0, 0.0};  ///< unit: direction of growth; vertical for lateral ones
-    glm::dvec3 outwards{0.0};      ///< horizontal direction of lean: unit, or zero in the middle
-    double radius = 0.0;           ///< of its stem, metres
-    double share = 0.0;            ///< 0: oldest, 1: youngest
-    /// The key of its own random stream; in habit rooted the node of the ground that carries it.
+    /// Unit direction of growth of an individual without a stem of the colony. It is vertical for
+    /// brackets, whose front points in direction `outwards`.
+    glm::dvec3 up{0.0, 1.0, 0.0};
+    glm::dvec3 outwards{0.0};  ///< horizontal direction of lean: unit, or zero at the origin
+    double radius = 0.0;       ///< of its stem, metres
+    double share = 0.0;        ///< relative youth: 0 for the oldest, 1 for the youngest
+    /// The key of its own random stream, unique in the colony. In habit rooted it is the index of
+    /// the node of ColonySite::ground from which the stem grows.
     std::uint32_t number = 0;
 
+    /// Returns the point of the stem at t, 0 (base) to 1 (top), metres.
     [[nodiscard]] glm::dvec3 at(double t) const { return foot + t * rise + t * t * swing; }
-    /// Returns the tangent of the stem at t, not normalised.
+    /// Returns the derivative of at() with respect to t.
     [[nodiscard]] glm::dvec3 along(double t) const { return rise + 2.0 * t * swing; }
 };
 
@@ -33,23 +37,26 @@ struct ColonyPlace {
 /// of the roots, the middle of a tuft, troop or ring, or the surface of the trunk.
 struct ColonySite {
     Skeleton ground;                  ///< roots; no stems
-    std::vector<ColonyPlace> places;  ///< in order of placement
+    std::vector<ColonyPlace> places;  ///< in the order in which placed_members() fills them
 };
 
-/// Returns every control with its value: the requested one, or a default that suits the species.
+/// Returns the parameters of the root system and stems of a colony: each has the value requested in
+/// params.growth, or else a default derived from the dimensions of the species.
 ///
-/// fit  of the mature individual
+/// fit  dimensions of the mature individual, metres
 [[nodiscard]] ColonyRoots colony_growth(const ColonyParams& params, const ColonyTraits& traits,
                                         const StemFit& fit);
 
-/// Returns the radius of the trunk: the requested one, or a default that suits the species.
+/// Returns the radius of the tree trunk in metres: the requested value, or else a default derived
+/// from the radius of the cap.
 [[nodiscard]] double trunk_radius(const ColonyParams& params, const StemFit& fit);
 
-/// Returns the places of `count` individuals. In habit rooted their number is random (Bernoulli
-/// trials); of more than `count` each remains with the same probability.
+/// Returns the places of `params.count` individuals. In habit rooted their number is random (a
+/// Bernoulli trial for each node of the roots) and may be smaller; if there are more, `count` of
+/// them are selected, each with the same probability.
 ///
 /// growth  result of colony_growth()
-/// fit     of the mature individual; its cap radius is that of the mesh placed there
+/// fit     dimensions of the mature individual, metres; its cap radius determines the spacing
 /// source  [Torres] for habit rooted: places, heights and radii are those of colony_skeleton(). The
 ///         other habits are ours, from field guides: tufts are spread like a sunflower's seeds,
 ///         troops keep a distance, stems on a trunk turn upwards

@@ -11,19 +11,20 @@
 
 namespace sporeprint {
 
-/// Ends of cap and lower face by angle. A cut removes the same length from both meridians; what
-/// lies further in moves along its meridian, so that images stretch only there and gills, warts and
-/// pores follow.
+/// Computes, for each angle round the axis (radians), where the upper and the lower face end. A cut
+/// removes the same length from both meridians; the remaining surface is compressed along its
+/// meridian, so that gills, warts and pores move with it. A zone next to the axis does not move.
 ///
 /// The mesh always has evenly spaced columns; where a cut needs more, columns are inserted between
-/// them. Inserted columns are collapsed onto the chord between their neighbours, next to the left
-/// one, while no cut is open there: a species with an uncut margin then has the same surface
-/// whether or not other species of its mix can be bitten.
+/// them, whatever the amount of damage. While no cut is open there, inserted columns are collapsed
+/// onto the chord between their neighbours, close to the left one. The surface of a species with an
+/// uncut margin is then the same, whether or not other species of its mix can have cuts.
 class MarginCuts {
   public:
-    /// Position of collapsed columns on their chord, as a factor on their own share of it: next to
-    /// the left end, in order. In the middle they would divide quads, which are twisted on folded
-    /// surfaces, so that either half would bend differently from the whole.
+    /// The factor by which a collapsed column's share of its chord (0 left end, 1 right end) is
+    /// reduced: collapsed columns lie close to the left end, in their order. If they lay in the
+    /// middle, they would divide quads that are twisted on folded surfaces, and either half would
+    /// bend differently from the whole.
     static constexpr double collapsed_width = 0.02;
 
     /// cost  about 20 us; constructed once per mesh
@@ -32,26 +33,27 @@ class MarginCuts {
     /// Returns true when no cut is open.
     [[nodiscard]] bool none() const { return open_.empty() && melted_ <= 0.0; }
 
-    /// Returns true when some amount of damage could cut the margin.
+    /// Returns true when the margin would be cut at some amount of damage, whatever the present
+    /// one is.
     [[nodiscard]] bool possible() const { return possible_; }
 
-    /// Returns where a place of the upper face moves to; sigma is 0 at the apex and 1 at the
-    /// margin.
+    /// Returns the share of the upper face's meridian to which the cut at an angle moves the share
+    /// `sigma`; both are 0 at the apex and 1 at the uncut margin.
     [[nodiscard]] double cap(double sigma, double angle) const {
         return none() ? sigma : cap_to(sigma, cap_end(angle));
     }
 
-    /// Returns where a place of the lower face moves to; share is 0 at the stem and 1 at the
+    /// Returns the same for the lower face, whose shares are 0 at the stem and 1 at the uncut
     /// margin.
     [[nodiscard]] double lower(double share, double angle) const {
         return none() ? share : lower_to(share, lower_end(angle));
     }
 
-    /// Return the same for a face that ends at `end`.
+    /// Return the same as cap() and lower() for a face that ends at the share `end`.
     [[nodiscard]] static double cap_to(double sigma, double end);
     [[nodiscard]] static double lower_to(double share, double end);
 
-    /// Return where the faces end at an angle, in the same shares: 1 where nothing is cut.
+    /// Return the shares at which the faces end at an angle: 1 where nothing is cut.
     [[nodiscard]] double cap_end(double angle) const;
     [[nodiscard]] double lower_end(double angle) const;
 
@@ -59,7 +61,8 @@ class MarginCuts {
     /// mesh is.
     [[nodiscard]] double depth(double angle) const;
 
-    /// Returns the positions of the columns, in turns, increasing from 0; equal for all amounts.
+    /// Returns the positions of the columns, in turns (0..1), increasing from 0. They do not depend
+    /// on the amounts of damage.
     [[nodiscard]] const std::vector<double>& turns() const { return turns_; }
 
     /// Returns the positions of the columns after collapsing those of closed cuts, in turns,
@@ -84,8 +87,8 @@ class MarginCuts {
         return std::span(chords_).subspan(column.first, column.last - column.first);
     }
 
-    /// Returns true when some amount could cut between a column and the next, so that walls may be
-    /// needed there.
+    /// Returns true when some amount of damage could cut between a column and the next. The mesh
+    /// then has faces there for the cut surface between upper and lower face.
     [[nodiscard]] bool may_cut(std::size_t column) const { return may_cut_[column]; }
 
   private:

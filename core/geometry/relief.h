@@ -13,23 +13,28 @@
 
 namespace sporeprint {
 
-/// Height field over the outline revolved about its axis, metres: a sum of sources, each with its
-/// derivatives. Sources too fine for a level of detail are reduced, and painted instead. All depths
-/// are scaled down where they would reach another face, the axis or the centre of curvature.
+/// Height field over the outline revolved about its axis, metres, never positive: the sum of folds,
+/// pits and tiers, with its derivatives. What is too fine for a level of detail is reduced here and
+/// painted instead. All depths are scaled by one factor if any would reach another face, the axis
+/// or the centre of curvature.
 class Relief {
   public:
     Relief(const Individual& individual, const Detail& detail);
 
+    /// Height along the outline's normal, metres, and its derivatives by share and by radian.
     struct Height {
         double value = 0.0, by_share = 0.0, by_angle = 0.0;
     };
 
+    /// Returns true if the height is 0 on the whole part, as it is on all parts but the cap.
     [[nodiscard]] bool flat(Part part) const { return part != Part::cap || styles_.empty(); }
 
     /// Returns the height at a place.
     ///
-    /// share        along the part's sub-curve, base to apex
-    /// angle, turn  angle at rest, and its sine and cosine
+    /// share        share of arc length along the part's sub-curve: on the cap 0 at the margin and
+    ///              1 at the apex
+    /// angle, turn  angle round the axis before azimuthal deformation, radians, and its sine and
+    ///              cosine
     [[nodiscard]] Height at(Part part, double share, double angle, const SineCosine& turn) const;
 
   private:
@@ -50,11 +55,12 @@ class Relief {
     double meridian_;
 };
 
-/// Value of gradient_noise() in space, with its derivatives.
+/// Value of 3D gradient noise (gradient_noise()) and its gradient.
 struct NoiseSample {
     double value = 0.0;
-    std::array<double, 3> by{};
+    std::array<double, 3> by{};  ///< partial derivatives by the three coordinates
 };
+/// Returns the noise at a point; the lattice has a spacing of 1.
 [[nodiscard]] NoiseSample noise_sample(const std::array<double, 3>& at, std::uint32_t seed);
 
 /// Distance to the border of the pit at a place, in cells, with its derivatives by turn and row;
@@ -62,6 +68,10 @@ struct NoiseSample {
 struct PitSample {
     double border = 0.0, by_turn = 0.0, by_row = 0.0, deep = 1.0;
 };
+/// Returns the nearest pit of the honeycomb.
+///
+/// turn  angle round the axis in turns, 0..1
+/// row   distance from the apex along the meridian, in rows of pits: 0..style.pit_rows
 [[nodiscard]] PitSample pit_sample(const ReliefStyle& style, double turn, double row,
                                    std::uint32_t seed);
 

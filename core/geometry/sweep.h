@@ -21,21 +21,27 @@ class Deformer {
     ///         folds without a bend
     explicit Deformer(const Individual& individual);
 
-    /// Maps points that belong to one station of the axis: the stem's surface uses the station of
-    /// its height, caps and rings the rigid one where they are attached. A dent moves a point by
-    /// far less than the axis' radius of curvature, so the point keeps its station.
+    /// Maps surface points (positions and both directions) in place, all by the same station of the
+    /// axis. Points of the stem's surface need station() of their height; caps and rings need
+    /// frozen_station() of the height at which they are attached. A dent moves a point by far less
+    /// than the axis' radius of curvature, so the station of the undented point is used.
     void apply(std::span<SurfacePoint> points, const AxisStation& station) const;
+    /// Maps positions in place in the same way.
     void apply(std::span<glm::dvec3> places, const AxisStation& station) const;
 
-    /// Returns the station of a place on the surface: that of its height on the stem, and that of
-    /// the stem's top for everything the stem supports.
+    /// Returns the station for a ring of the outline: on the stem that of the ring's height, on all
+    /// other parts the rigid one at the stem's top.
     [[nodiscard]] AxisStation station(Part part, const OutlineSample& sample) const;
 
+    /// Returns the station at a height above the ground, metres.
     [[nodiscard]] AxisStation station(double height) const { return axis_.at(height); }
+    /// Returns that station as a rigid frame, so that what is attached there keeps its shape.
     [[nodiscard]] AxisStation frozen_station(double height) const {
         return axis_.frozen_at(height);
     }
+    /// Returns the height of the stem's base, metres.
     [[nodiscard]] double base() const { return base_; }
+    /// Returns the height of the stem's top, metres, greater than base().
     [[nodiscard]] double top() const { return top_; }
 
   private:
@@ -48,17 +54,19 @@ class Deformer {
 struct SweepOptions {
     /// Makes texture coordinates and tangents.
     bool textured = true;
-    /// Keeps triangles of absent parts, with zero area; then all ages have the same triangles.
+    /// Retains the triangles of parts that do not exist at this age, with zero area, so that the
+    /// meshes of all ages have the same triangles.
     bool keep_absent = false;
-    /// Rings swept in place of the stem's own, from the axis to its end (share 1); empty: its own.
+    /// Rings that replace those of the outline's stem, from the axis (r = 0) to the stem's end
+    /// (share 1); empty: the outline's own.
     std::span<const OutlineSample> stem = {};
 };
 
 /// Returns the mesh of an individual at a level of detail, 0..3.
 ///
-/// returns   closed mesh, rings base to apex, column 0 repeated bit for bit as the last. Number and
-///           order of the vertices are those of the set of species: ages and weights inside the mix
-///           do not change them
+/// returns   a closed mesh, rings from base to apex; the last column of each ring repeats the
+///           positions of column 0 bit for bit. Number and order of the vertices depend only on the
+///           set of species and the level of detail, not on ages and weights
 /// throws    Impossible for a stem that folds, and for a user-defined model so thin that its dents
 ///           turn it inside out
 /// source    [Desbenoit2004] sec. 3.2-3.4 with R(theta) about the tangent; texture coordinates by

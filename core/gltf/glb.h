@@ -42,7 +42,7 @@ struct GlbMaterial {
     const ImageSet* images = nullptr;            ///< embedded when given
     std::array<std::string, 3> image_urls = {};  ///< linked when not empty
     MaterialLook look = {};
-    bool repeats_u = false;  ///< wrap mode REPEAT in u: the images wrap horizontally
+    bool repeats_u = false;  ///< wrap mode of the samplers in u: REPEAT, otherwise CLAMP_TO_EDGE
 };
 
 /// A part of a mesh with one material: one draw call.
@@ -87,9 +87,9 @@ struct GlbScene {
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture
 /// coordinates as normalised u16, u16 indices where they fit. Texture coordinates and tangents are
-/// written exactly if the material has images; materials with the same images share their textures.
-/// Identity transforms of nodes are omitted. Targets are dense: positions and normals move nearly
-/// everywhere, so sparse accessors would be larger.
+/// written if and only if the material has images; materials with the same images share their
+/// textures. Identity transforms of nodes are omitted. Targets are dense: positions and normals
+/// move nearly everywhere, so sparse accessors would be larger.
 ///
 /// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
 ///          targets, the instances of each node that has some, the clip, then each image with its

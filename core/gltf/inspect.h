@@ -24,21 +24,25 @@ struct Inspection {
     std::uint64_t morph_targets = 0, animations = 0;
 };
 
-/// Returns the JSON chunk of a GLB, found by its headers alone, whatever its length.
+/// Returns a view of the JSON chunk of a GLB, whatever its length; only the 20 bytes of the two
+/// headers are read.
 ///
-/// throws  InvalidInput (path "") if it is no GLB or is truncated
+/// throws  InvalidInput (path "") if it is no GLB of version 2 or is truncated
 [[nodiscard]] std::string_view json_chunk(std::span<const std::uint8_t> file);
 
 /// Reads the JSON chunk of a file; buffers and images are not read, `bytes` stays 0.
 ///
 /// stop    tested before and after the chunk is read
-/// throws  InvalidInput (path "") if it is longer than most_inspected_json, is no glTF, or contains
-///         no request of Sporeprint; Cancelled
+/// throws  InvalidInput (path "") if it is longer than most_inspected_json, is no glTF, contains no
+///         request of Sporeprint or one longer than most_effective_json, or mesh_counts() throws;
+///         Cancelled
 /// cost    O(size of the chunk): about ten microseconds per kilobyte; each value takes 40 bytes
 ///         while it is read
 [[nodiscard]] Inspection inspect_json(std::string_view json, const std::stop_token& stop = {});
 
-/// Does both for a whole file.
+/// Returns inspect_json() of the JSON chunk of a GLB, with `bytes` set to the size of the file.
+///
+/// throws  InvalidInput as json_chunk() and inspect_json()
 [[nodiscard]] Inspection inspect_glb(std::span<const std::uint8_t> file);
 
 }  // namespace sporeprint

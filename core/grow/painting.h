@@ -12,7 +12,8 @@
 
 namespace sporeprint {
 
-/// Returns the quantised lengths of an individual that its painting depends on.
+/// Returns the quantised lengths of an individual that its painting depends on. For a branched
+/// individual the lengths of the cap are those of its branches, which use the chart of the cap.
 [[nodiscard]] SurfaceMetrics surface_metrics(const Individual& individual);
 
 /// The painting of one species and its weight in sixty-fourths.
@@ -35,23 +36,24 @@ using PaintSpec = std::vector<PaintShare>;
 [[nodiscard]] Mix surface_mix(const Mix& mix);
 
 /// Returns the spec at the resolution of images: age in steps of 1/64, size in steps of 2 %,
-/// surface_mix, without parameters of the shape; overrides that no species of that mix can have are
-/// dropped. Its images equal those of the original spec. A user-defined model is unchanged.
+/// surface_mix(), without parameters that affect the shape only. If species are dropped from the
+/// mix, overrides that none of the others can have are dropped too. For a user-defined model only
+/// age and size are rounded. The images of the result equal those of the original spec.
 [[nodiscard]] MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas,
                                         const Caches& caches = {});
 
 /// Returns everything that painting a spec depends on. Each species is painted as it would be
 /// alone: at this age and size, with the requested overrides and its own lengths and lightness, so
-/// that the cache finds its painting at every weight. Only its blades use the common gill layout,
-/// that of the species with the most blades at the margin; towards weight 1 they change to the
-/// species' own layout, as a second painting.
+/// that the cache finds its painting at every weight. Its gills, however, are painted in the common
+/// gill layout, that of the species with the most gills at the margin. From weight 3/4 to 1 a
+/// second painting of the species, in its own layout, replaces the first with increasing weight.
 ///
 /// throws  InvalidInput, Impossible as resolve()
 [[nodiscard]] PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas,
                                       const Caches& caches = {});
 
-/// Returns the largest number of atlases in memory while the images are made: the result, and the
-/// inputs of blending.
+/// Returns the peak number of atlases in memory while the images are painted: the result and, for
+/// a mix, the paintings that are blended.
 [[nodiscard]] int atlases_held(const MushroomSpec& spec);
 [[nodiscard]] int atlases_held(const PaintSpec& paint_spec);
 

@@ -20,14 +20,15 @@ namespace sporeprint {
 struct Estimate {
     std::uint64_t vertices = 0;  ///< including every frame of a clip, since each is built
     std::uint64_t triangles = 0;
-    /// Largest number held at once: of the images and of the inputs of blending.
+    /// Peak number of texels in memory: those of the images and, for a mix, of the images that are
+    /// blended.
     std::uint64_t texels = 0;
     std::uint64_t bytes = 0;
 };
 
 /// Returns the approximate size of a file with a mesh and images, bytes.
 ///
-/// image_bytes  of all images, where they are embedded
+/// image_bytes  size of all images; counted for Textures::embedded only
 [[nodiscard]] std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles,
                                             Textures textures, std::uint64_t image_bytes);
 
@@ -46,15 +47,16 @@ struct Grown {
     std::uint64_t triangles = 0;
 };
 
-/// Returns the JSON text of asset.extras.
+/// Returns the JSON text of asset.extras: the canonical URL, the effective parameters, the bounding
+/// box in metres and the number of triangles.
 [[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
                                       std::size_t triangles);
 [[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh);
 
-/// Sets the images of `parts` as requested: those that `paint` makes, the URLs of `extras`, or
-/// none.
+/// Sets the images of `parts` as `textures` requests: embedded images, which `paint` returns, the
+/// URLs of `extras`, or none.
 ///
-/// returns  the painted images, which must live as long as `parts` is used
+/// returns  the embedded images, which must outlive `parts`; nullptr if there are none
 /// throws   Impossible (path "/textures") for linked images without URLs; Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> attach_images(
     GlbParts& parts, Textures textures, const Extras& extras, const ExecutionContext& execution,

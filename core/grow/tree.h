@@ -13,7 +13,7 @@ namespace sporeprint {
 /// Returns slightly high estimates of vertices and triangles, texels and bytes; takes microseconds.
 /// For a sampled topology the expected numbers are used.
 ///
-/// spec    with nothing that check() reports
+/// pre     check() reports nothing for the spec
 /// throws  Impossible (path "/order") naming the expected number if it exceeds most_tips, (path
 ///         "/leaves/per_tip") if it exceeds most_leaves, (path "/twig_length") for segments too
 ///         long for their radius
@@ -29,7 +29,7 @@ struct TreeMeshes {
     [[nodiscard]] std::size_t triangles() const { return bark.triangles() + leaves.triangles(); }
 };
 
-/// Returns the meshes alone: the base of the trunk is at the origin.
+/// Returns the meshes alone, in metres; the base of the trunk is at the origin.
 ///
 /// throws  InvalidInput, Impossible
 [[nodiscard]] TreeMeshes tree_meshes(const TreeSpec& spec);
@@ -51,10 +51,10 @@ struct TreeMeshes {
 
 /// Builds a tree: one mesh of two primitives, bark and leaves, with two materials.
 ///
-/// leaf_urls  URLs of the images of its leaves, for Textures::linked; those of `extras` are of
-///                 the bark
-/// returns  the GLB as shared slices: header with JSON, geometry and images of bark and leaves
-/// throws   InvalidInput, Impossible, GenerationError, Cancelled
+/// extras     its image URLs are those of the bark
+/// leaf_urls  URLs of the images of its leaves, for Textures::linked
+/// returns    the GLB as shared slices: header with JSON, geometry and images of bark and leaves
+/// throws     InvalidInput, Impossible, GenerationError, Cancelled
 [[nodiscard]] Grown grow_tree(const TreeSpec& spec, const Extras& extras = {},
                               const ImageUrls& leaf_urls = {},
                               const ExecutionContext& execution = {});

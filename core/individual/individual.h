@@ -18,8 +18,8 @@ namespace sporeprint {
 struct SpeciesShare {
     std::string id;
     double weight = 1.0;  ///< weights of an individual sum to 1
-    Model model;          ///< of the species at this age, overrides applied; it is what is painted
-    CellRows cells;       ///< rows of its spines, independent of the age
+    Model model;          ///< of the species at this age, overrides applied: the model to paint
+    CellRows cells;       ///< layout of its spines in rows, the same at all ages
 };
 
 /// The veil and skin patches of one species. Species whose patches have equal places share a layer.
@@ -28,8 +28,9 @@ struct PatchLayer {
     PatchStyle style;           ///< determines the places, independent of the weight
     double amount = 0.0;        ///< of the veil or skin: 0..1
     double weight = 1.0;        ///< of the species in the mix: factor on the size of every patch
-    /// For patches on the stem: shares of arc length at which the segments of the mature stem
-    /// begin, and 1. A patch stays on its segment, at a constant share of it.
+    /// For patches on the stem: shares of arc length at which the spline segments of the mature
+    /// stem's outline begin, followed by 1. At all ages a patch stays on its segment, at a constant
+    /// share of the segment's length.
     std::vector<double> segments{};
     bool operator==(const PatchLayer&) const = default;
 };
@@ -41,29 +42,31 @@ struct DamageAmounts {
     double clubs = 0.0;  ///< weight of the species without a margin
     bool bites = false, splits = false, melts = false, peels = false, dew = false;
 
+    /// Returns true if any amount is not zero.
     [[nodiscard]] bool any() const { return !(amounts == WeatheringOf<Plain>{}); }
 };
 
 /// The result of `resolve`: a request with everything decided.
 struct Individual {
     Model model;  ///< all amounts and sizes, blended; its shape is empty: see `outline` and `axis`
-    MushroomParams
-        /// every optional that a species of the mix can have, set to the individual's value
-        effective;
-    /// scale of a swept individual: unit-size shapes are multiplied by it, metres
+    /// The parameters in effect: every optional that a species of the mix can have is set to the
+    /// individual's value, all others are empty.
+    MushroomParams effective;
+    /// The scale factor of a swept individual: shapes at size 1 are multiplied by it.
     double size = 0.0;
     double lightness = 1.0;           ///< factor on the linear colour of the cap
     std::vector<SpeciesShare> parts;  ///< sorted by id
-    std::shared_ptr<const MorphSet>
-        set;  ///< all control shapes of its swept species, with what is proven about them
-    BranchGraph branch_graph;  ///< of the branched family; the members after it are then empty
+    /// The control shapes of all swept species of the mix, their correspondence, and the proofs
+    /// that their blends do not self-intersect.
+    std::shared_ptr<const MorphSet> set;
+    BranchGraph branch_graph;  ///< for the branched family; the members after it are then empty
     Outline outline;           ///< metres; with the proportions and size of the individual
     double stem_base = 0.0;    ///< height of the first point of the stem, metres
     double stem_top = 0.0;     ///< height of the last point of the stem, metres
-    double radial_strain =
-        0.0;  ///< 0..1: by how much the cap has grown more in circumference than along its meridian
+    /// 0..1: how much more the cap has grown in circumference than along its meridian.
+    double radial_strain = 0.0;
     AxisCurve axis;
-    Azimuth azimuth;                   ///< the lateral (fan) part; its lobes are not used
+    Azimuth azimuth;                   ///< the fan; its members of lobes are unused, see `lobes`
     std::vector<Azimuth> lobes;        ///< one per species with lobes, depth times weight
     std::vector<ReliefStyle> reliefs;  ///< of the upper face, one per form, depth times weight
     std::vector<PatchLayer>
@@ -75,9 +78,12 @@ struct Individual {
     double waves = 0.0;     ///< of the margin, from the species with a margin only
     DamageAmounts damage;
     GillLayout gill_layout;
-    int blade_tiers = 0;     ///< solid blades are placed on gill_layout.blades << blade_tiers slots
+    /// The gills and ridges of the mesh lie on gill_layout.blades * 2^blade_tiers evenly spaced
+    /// slots round the axis.
+    int blade_tiers = 0;
     bool runs_down = false;  ///< gills of some species of the mix run down the stem at some age
 
+    /// Returns true for the branched family, false for the swept one.
     [[nodiscard]] bool is_branched() const { return !branch_graph.empty(); }
 };
 

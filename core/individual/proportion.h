@@ -15,14 +15,15 @@ struct Proportions {
     double higher = 1.0;  ///< height of the cap above its margin
 };
 
-/// Returns the outline in other proportions. Surfaces next to the stem widen with it; further out
-/// the change fades within three stem radii, so that an open cap keeps its diameter; a form without
-/// a lower face (a club) widens as a whole.
+/// Returns the outline in other proportions. Surfaces next to the stem widen with it; the widening
+/// fades to nothing from one to four stem radii from the axis, so that an open cap keeps its
+/// diameter; a form without a lower face (a club) widens as a whole.
 ///
-/// nodes   of a set; wider < 2.25, so that radii keep their order
-/// open    0..1: weight of the species with a lower face
-/// returns nodes whose velocities are transformed by the map's Jacobian, so that smooth joins of
-/// sub-curves stay smooth
+/// nodes    nodes of an outline of a MorphSet
+/// open     0..1: total weight of the species with a lower face
+/// pre      proportions.wider < 2.25, so that radii keep their order
+/// returns  nodes whose velocities are transformed by the Jacobian of the map, so that smooth joins
+///          of sub-curves stay smooth
 [[nodiscard]] OutlineNodes proportioned(OutlineNodes nodes, const Proportions& proportions,
                                         double open);
 
@@ -34,7 +35,7 @@ struct Proportions {
 /// a sub-curve that has shrunk to a point crosses nothing.
 [[nodiscard]] std::optional<CurveName> self_intersecting_curve(const Outline& outline, int lod);
 
-/// Returns the largest distance from the axis on a sub-curve, at 33 samples.
+/// Returns the largest distance from the axis at 33 evenly spaced points of a sub-curve, metres.
 [[nodiscard]] double greatest_radius(const SubCurve& curve);
 
 }  // namespace sporeprint

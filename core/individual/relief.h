@@ -9,7 +9,8 @@
 
 namespace sporeprint {
 
-/// Returns the seeds of the lattices that relief is drawn from: creases, finer creases, pits.
+/// Returns the seeds of the noise lattices of the creases, the finer creases and the pits, in this
+/// order.
 [[nodiscard]] std::array<std::uint32_t, 3> relief_seeds(std::uint32_t seed);
 
 /// Shares of the meridian at which relief fades out towards the apex and the margin, where the face
@@ -17,15 +18,17 @@ namespace sporeprint {
 inline constexpr double relief_apex = 0.02, relief_apex_end = 0.14;
 inline constexpr double relief_margin = 0.93;
 
-/// A row has max(3, `pit_columns` * min(1, first + rise * share of its middle)) pits.
+/// A row of pits has max(3, pit_columns * min(1, pit_first + pit_rise * s)) pits, where s is the
+/// share of the meridian at the middle of the row, 0 at the apex and 1 at the margin.
 inline constexpr double pit_first = 0.25, pit_rise = 1.5;
 
-/// Random offset of pit points from the middle of their cells; the distance from a border at which
-/// the floor of a pit is reached, in cells, for sharp ribs.
+/// Lengths in cells of the pits' lattice. pit_jitter: greatest random offset of a pit's centre from
+/// the middle of its cell; pit_slope: width of the slope from the rib to the floor of a pit;
+/// pit_rib: half width of the flat top of a rib at ReliefStyle::rib = 1, 0 at rib = 0.
 inline constexpr double pit_jitter = 0.38, pit_slope = 0.36, pit_rib = 0.2;
 
-/// Half width of a crease as a value of the noise whose zeros are the creases; weight of the finer
-/// creases.
+/// Creases run along the zeros of a noise. crease: absolute value of the noise at which a crease
+/// has half its depth; fine_creases: share of the depth that belongs to the finer creases.
 inline constexpr double crease = 0.2, fine_creases = 0.3;
 
 /// The share of the relief that a mesh carries, 0..1; painting shows the rest.
@@ -44,8 +47,8 @@ struct CarriedRelief {
     bool operator==(const CarriedRelief&) const = default;
 };
 
-/// Returns what the mesh carries, from the number of columns and rings of the cap per fold, pit or
-/// tier.
+/// Returns the shares of the relief that a cap with these numbers of columns and rings can show: 0
+/// below two samples per fold, pit or tier, 1 from four on.
 [[nodiscard]] CarriedRelief carried_relief(const ReliefStyle& style, int columns, int rings);
 
 }  // namespace sporeprint

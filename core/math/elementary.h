@@ -1,5 +1,5 @@
-// Elementary functions with equal bits on every machine: libm's differ between CPUs, these use + -
-// * / and sqrt only.
+// Elementary functions whose results are equal bit for bit on every machine: those of libm differ
+// between CPUs, these use + - * / and sqrt only.
 #pragma once
 
 namespace sporeprint {
@@ -12,6 +12,7 @@ struct SineCosine {
 
 /// Returns sine and cosine of an angle in radians, |angle| < 1e5; error below 2e-15.
 [[nodiscard]] SineCosine sine_cosine(double angle);
+/// Return the sine or the cosine alone, with the same bits.
 [[nodiscard]] double sine(double angle);
 [[nodiscard]] double cosine(double angle);
 
@@ -21,14 +22,17 @@ struct SineCosine {
 /// Returns the natural logarithm of x > 0 (normal numbers), error below 1e-15 relative or absolute.
 [[nodiscard]] double logarithm(double x);
 
-/// Returns base^exponent for base >= 0; 0^0 is 1.
+/// Returns base^exponent for base >= 0. 0^0 is 1; 0 to any other exponent, also a negative one,
+/// is 0.
 [[nodiscard]] double power(double base, double exponent);
 
-/// Returns the angle of the point (x, y), -pi..pi; 0 for the origin.
+/// Returns the angle from the x axis to the point (x, y), like std::atan2: radians, -pi..pi; 0 for
+/// the origin.
 [[nodiscard]] double arc_tangent(double y, double x);
 
-/// Returns the sRGB transfer function and its inverse, 0..1 to 0..1.
+/// Returns the linear light of an sRGB-encoded value, 0..1 to 0..1.
 [[nodiscard]] double srgb_to_linear(double encoded);
+/// Returns the sRGB encoding of linear light, 0..1 to 0..1.
 [[nodiscard]] double linear_to_srgb(double linear);
 
 /// Returns 0 below `from`, 1 above `to` and a cubic with zero end slopes between.

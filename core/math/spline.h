@@ -32,7 +32,8 @@ struct SplineSegment {
 };
 
 /// Returns the velocity at `here` of the centripetal curve through three points, with respect to a
-/// parameter whose step is the square root of the distance.
+/// parameter that increases from point to point by centripetal_step(). If `before` equals `here`,
+/// it points straight to `after`; it is zero if `after` equals `here`.
 ///
 /// source  [Yuksel2011] sec. 3: the tangent of the Barry-Goldman pyramid at a control point
 template <class V>
@@ -43,7 +44,7 @@ template <class V>
     return (here - before) / a - (after - before) / (a + b) + (after - here) / b;
 }
 
-/// Returns the parameter step from one point to the next.
+/// Returns the parameter step from one point to the next: the square root of their distance.
 template <class V>
 [[nodiscard]] double centripetal_step(const V& from, const V& to) {
     return std::sqrt(std::sqrt(glm::dot(to - from, to - from)));

@@ -15,10 +15,11 @@ namespace sporeprint {
 /// Returns the area in square metres.
 [[nodiscard]] double area(const Mesh& mesh);
 
-/// Returns descriptions of all violations of the contract of a mesh, empty if it is valid: finite
-/// numbers, indices in range, no index twice in a triangle, unit normals (1e-3), unit tangents
-/// perpendicular to them, texture coordinates in 0..1, equal attribute counts, every edge closed
-/// once equal positions are welded.
+/// Returns descriptions of the first violations (at most 20) of the contract of a mesh; empty if it
+/// is valid. A valid mesh has at least one triangle, finite positions, indices in range, no index
+/// twice in a triangle, unit normals (to 1e-3), unit tangents perpendicular to them, texture
+/// coordinates in 0..1, attributes of equal count, and, once equal positions are welded, no open
+/// edge.
 ///
 /// cost  O(n log n)
 [[nodiscard]] std::vector<std::string> defects(const Mesh& mesh);

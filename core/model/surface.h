@@ -1,5 +1,5 @@
-// The paper's images as painting parameters: colours and patterns of each part, and optional
-// material effects.
+// Painting parameters, from which the images of [Desbenoit2004] are generated: colours and patterns
+// of each part, and optional material effects.
 #pragma once
 
 #include <vector>
@@ -239,7 +239,7 @@ struct DamageSurface {
     bool operator==(const DamageSurface&) const = default;
 };
 
-/// The paper's images I as painting parameters.
+/// Painting parameters of all parts; they replace the images I of [Desbenoit2004].
 struct Surface {
     CapSurface cap;
     HymeniumSurface hymenium;

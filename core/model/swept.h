@@ -42,9 +42,9 @@ constexpr const char* name(Join join) {
     return nullptr;
 }
 
-/// The paper's curve C: three sub-curves of spline control points, from the base of the stem to the
-/// apex of the cap. Each sub-curve begins where the one before it ends. `hymenium` is empty for a
-/// form without a lower face (a club).
+/// The curve C of [Desbenoit2004]: three sub-curves of spline control points, from the base of the
+/// stem to the apex of the cap. Each sub-curve begins where the one before it ends. `hymenium` is
+/// empty for a form without a lower face (a club).
 struct Silhouette {
     std::vector<OutlinePoint> stem;
     std::vector<OutlinePoint> hymenium;
@@ -75,8 +75,10 @@ struct Silhouette {
               Info{.name = "margin",
                    .doc = "How hymenium and cap meet: a sharp edge, or one smooth curve."});
     }
-    void check(const std::string& path,
-               std::vector<Problem>& problems) const;  // core/silhouette/outline.cpp
+    /// Reports sub-curves with too few points, with equal successive points or that do not begin
+    /// where the one before them ends, and an outline that does not begin and end on the axis.
+    /// Defined in core/silhouette/outline.cpp.
+    void check(const std::string& path, std::vector<Problem>& problems) const;
     bool operator==(const Silhouette&) const = default;
 };
 
@@ -170,8 +172,8 @@ struct Azimuth {
 };
 
 /// Relief of the upper face, displaced from the outline along its normal: crests lie on the
-/// outline, the rest below. Depths are shares of the face's meridian. Places are drawn once per
-/// individual; depths only scale them.
+/// outline, the rest below. Depths are shares of the length of the face's meridian. The positions
+/// of creases and pits depend on the seed and on the counts, not on the depths.
 struct ReliefStyle {
     double folds = 0.0;
     int fold_count = 5;

@@ -6,8 +6,10 @@
 
 namespace sporeprint {
 
-/// Damage by age, weather, animals and handling. Its places are drawn once per individual; amounts
-/// only open, deepen and spread it.
+/// Amounts of damage by age, weather, animals and handling, 0..1. The positions of damage depend on
+/// the seed, not on the amounts; a greater amount opens, deepens and spreads the damage there.
+///
+/// M  Plain in a resolved model, Maybe (std::optional) for the overrides of a request
 template <template <class> class M>
 struct WeatheringOf {
     M<double> cracks{};
@@ -108,13 +110,14 @@ struct PaintedWeathering {
     bool operator==(const PaintedWeathering&) const = default;
 };
 
+/// Returns the amounts that painting uses.
 template <template <class> class M>
 [[nodiscard]] PaintedWeathering<M> painted_of(const WeatheringOf<M>& w) {
     return {w.cracks,        w.creases, w.peel,   w.splits, w.bites, w.bumps,
             w.deliquescence, w.fade,    w.bruise, w.dust,   w.dew,   w.wetness};
 }
 
-/// Returns the same amounts without the waves.
+/// Returns the same amounts as WeatheringOf; the waves have their default.
 template <template <class> class M>
 [[nodiscard]] WeatheringOf<M> as_weathering(const PaintedWeathering<M>& p) {
     WeatheringOf<M> w;

@@ -25,13 +25,15 @@ inline constexpr bool in_query =
 template <class T>
 inline constexpr bool in_query<std::optional<T>> = in_query<T>;
 
-/// The pairs of a query while they are read: which are known, which were taken.
+/// Reads the pairs of a query by name and records which names are known and which pairs have been
+/// read, so that all others can be reported.
 class QueryReader {
   public:
     QueryReader(QueryPairs pairs, std::vector<Problem>& problems)
         : pairs_(pairs), taken_(pairs.size(), false), problems_(problems) {}
 
-    /// Returns the text of `name`, or nullptr if it is absent or repeated (which is reported).
+    /// Returns the text of `name` and marks its pairs as read; nullptr if it is absent or repeated
+    /// (which is reported).
     const std::string* take(const std::string& name) {
         known_.push_back(name);
         const std::string* text = nullptr;
@@ -52,7 +54,7 @@ class QueryReader {
                            [&](const auto& pair) { return pair.first.starts_with(prefix); });
     }
 
-    /// Reports each pair that was not taken, once per name.
+    /// Reports the name of each pair that take() has not returned as unknown, once per name.
     void refuse_the_rest() {
         for (std::size_t i = 0; i < pairs_.size() && problems_.size() < most_problems; ++i) {
             if (taken_[i]) continue;
@@ -72,8 +74,9 @@ class QueryReader {
     std::vector<Problem>& problems_;
 };
 
-/// Returns the JSON value of a query's text for a member of type T; reports text that is not of T's
-/// kind and then returns false.
+/// Converts a query's text to the JSON value that read() expects for a member of type T. Text that
+/// is not a number is reported for a numeric member, and false is returned. For all other members
+/// unsuitable text becomes a JSON string, which read() then reports.
 template <class T>
 bool value_from_query(const std::string& text, Value& value, const std::string& name,
                       std::vector<Problem>& problems) {
@@ -100,7 +103,8 @@ bool value_from_query(const std::string& text, Value& value, const std::string& 
     return true;
 }
 
-/// Reads the members of a described struct or variant whose names begin with `prefix`.
+/// Reads the members of a described struct or variant into `out`. In the query, their names are
+/// preceded by `prefix`, such as "cap.".
 template <class T>
 void read_query_members(QueryReader& query, T& out, const std::string& prefix) {
     if constexpr (is_variant<T>) {

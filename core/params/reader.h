@@ -17,8 +17,9 @@ template <class T>
 void read(const Value& json, T& out, const Info& info, const std::string& path,
           std::vector<Problem>& problems);
 
-/// Reads the members of the object `json` into a described struct or variant and adds the keys it
-/// knows to `known`. Returns false if a form is unknown, because its keys are then unknown too.
+/// Reads the members of the object `json` into a described struct or variant and appends the keys
+/// of T to `known`. A variant is selected by its discriminator, the member "form". Returns false if
+/// that names no alternative, because the valid keys are then undetermined.
 template <class T>
 bool read_members(const Value& json, T& out, const std::string& path,
                   std::vector<std::string>& known, std::vector<Problem>& problems) {
@@ -196,7 +197,7 @@ T read_json(std::string_view text, std::vector<Problem>& problems) {
 template <class T>
 Value write(const T& value);
 
-/// Sets the members of a described struct or variant in `object`.
+/// Sets the members of `object` from a described struct or variant.
 template <class T>
 void write_members(const T& value, Value& object) {
     if constexpr (is_variant<T>) {

@@ -59,13 +59,15 @@ struct Value {
     /// Returns the value at an RFC 6901 pointer such as "/cap/3/r" ("" is this value), or nullptr.
     const Value* at_pointer(std::string_view pointer) const;
 
-    /// Sets the member `key`, appending it if it is new. Null becomes an object first.
+    /// Sets the member `key`, appending it if it is new, and returns *this. Null becomes an object
+    /// first; a value of another kind throws std::bad_variant_access.
     Value& set(std::string_view key, Value value);
 
-    /// Appends an item. Null becomes an array first.
+    /// Appends an item and returns *this. Null becomes an array first; a value of another kind
+    /// throws std::bad_variant_access.
     Value& push(Value value);
 
-    /// Removes the member `key` if there is one.
+    /// Removes the member `key` if this is an object that has one.
     void erase(std::string_view key);
 };
 
@@ -77,26 +79,31 @@ inline constexpr std::size_t deepest_json = 32;
 /// The greatest number of values in one text that `parse` accepts.
 inline constexpr std::size_t most_json_values = 200'000;
 
-/// Reads JSON (RFC 8259). Appends to `problems`, with its place, text that is malformed, not UTF-8,
-/// too deep, too long, not finite (1e999) or repeats a key; then the result is null or incomplete.
-/// Never throws on bad text.
+/// Parses JSON (RFC 8259). Text that is malformed, is not UTF-8, is nested deeper than
+/// deepest_json, has more than most_json_values values, has a number beyond the range of a double
+/// (1e999) or repeats a key is appended to `problems` with its JSON pointer; the result is then
+/// null or incomplete. Never throws on invalid text.
 Value parse(std::string_view text, std::vector<Problem>& problems);
 
 /// Reads one number in JSON's grammar and nothing else: no "+1", ".5", "1.", hexadecimal or space.
 /// Returns false if `text` is anything else or too large for a double.
 bool read_number(std::string_view text, double& out);
 
-/// Writes JSON with shortest round-trip numbers, -0 as 0, integers without ".0". `indent` < 0
-/// writes one line without spaces. Text that is not UTF-8 gets U+FFFD; not finite becomes null.
+/// Returns the JSON text of a value: numbers with the fewest digits that read back equal, -0 as 0,
+/// integers without ".0". If `indent` < 0, it is one line without spaces, otherwise each level is
+/// indented by `indent` spaces. Bytes that are not UTF-8 become U+FFFD; numbers that are not finite
+/// become null.
 std::string dump(const Value& value, int indent = -1);
 
 /// Returns `text` as a JSON string with its quotes.
 std::string json_string(std::string_view text);
 
-/// Returns the kind of a value for messages: "a number", "text", "a list", "an object", ...
+/// Returns the kind of a value for messages: "a number", "text", "a list", "an object"; "true",
+/// "false" or "null" for these values.
 const char* kind_name(const Value& value);
 
-/// Returns the value for an error message: a short one itself, otherwise its kind.
+/// Returns the value for an error message: the digits of a number, in_quotes() of a text, otherwise
+/// kind_name().
 std::string shown(const Value& value);
 
 }  // namespace sporeprint

@@ -9,7 +9,8 @@
 
 namespace sporeprint {
 
-/// The parameters of a leaf. Those of shape and colours default to those of the preset.
+/// The parameters of a leaf. In a request, parameters of shape and palette that are omitted have
+/// the values of the preset; see params_of().
 struct LeafParams {
     std::uint32_t seed = 1;
     double size = 1.0;
@@ -90,7 +91,8 @@ struct LeafSpec {
 /// Returns the part of the parameters that the images depend on.
 [[nodiscard]] LeafPaint paint_of(const LeafParams& params);
 
-/// Returns the shape of the individual that seed and variation select.
+/// Returns the shape of the individual leaf: params.shape with the random deviations that seed and
+/// variation determine.
 [[nodiscard]] LeafShape shape_of(const LeafParams& params);
 
 }  // namespace sporeprint

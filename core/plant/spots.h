@@ -21,12 +21,13 @@ struct Spot {
     std::uint32_t id = 0;              ///< of its leaf
 };
 
-/// Returns at most `count` spots at the centres of as many leaves; fewer spots are a prefix of
-/// more. Their total area is that of all leaves.
+/// Returns at most `count` spots at the centres of as many leaves. Their total area is that of all
+/// leaves. With a smaller count, the spots are those at the beginning of the longer list, each with
+/// a greater area.
 ///
 /// leaves     as placed_leaves() returns them
 /// leaf_area  of a leaf of size 1, square metres
-/// middle     distance of a leaf's centre from its root, metres for size 1
+/// middle     distance from the base of a leaf of size 1 to its centre, metres
 [[nodiscard]] std::vector<Spot> spots_of(std::span<const PlacedLeaf> leaves, double leaf_area,
                                          double middle, std::size_t count);
 
@@ -36,12 +37,15 @@ struct PointCloud {
     std::vector<float> half_sides;
     std::vector<std::uint32_t> ids;
 };
+/// Returns one point per spot; its square has the spot's area.
 [[nodiscard]] PointCloud point_cloud(std::span<const Spot> spots);
 
-/// Returns spots as thin polygons, each a closed piece visible from both sides: two triangles for 3
-/// corners, four for 4. Each is rotated about its normal by a random angle.
+/// Returns spots as flat regular polygons of their areas. Each is a closed mesh of a front and a
+/// back face in the same plane, with opposite normals: two triangles for 3 corners, four for 4. It
+/// is rotated about the spot's normal by a random angle.
 ///
 /// corners  3 or 4
+/// seed     determines the angles
 /// throws   InvalidInput for other corners
 [[nodiscard]] Mesh polygonal_spots(std::span<const Spot> spots, int corners, std::uint32_t seed);
 

@@ -12,8 +12,8 @@
 
 namespace sporeprint {
 
-/// The law of the length of an edge of the venation, by its distance d, in edges, from its start to
-/// the tip of its main vein.
+/// The law by which the length of an edge of a vein depends on d, the number of edges from its
+/// start to the tip of its main vein: constant, linear or logarithmic in d.
 enum class LengthLaw { constant, linear, logarithmic };
 
 constexpr const char* name(LengthLaw law) {
@@ -134,13 +134,18 @@ struct Venation {
 };
 static_assert(well_described<Venation>());
 
-/// Half of a lobe, on one side of its main vein. A point in it has an abscissa, the base on the
-/// main vein of the line parallel to the side veins there, and a height along that line: the
-/// affinity of the source, in which the border is a function of the abscissa.
+/// Half of a lobe, on one side of its main vein. It has oblique coordinates: the line through a
+/// point in the direction of the side veins there meets the main vein at the abscissa of the point
+/// (distance from the root along the main vein), and the height of the point is its distance from
+/// the main vein along that line. In these coordinates, the affinity of the source, the border is a
+/// function of the abscissa. Lengths are in units of the reach of the middle lobe.
 struct HalfLobe {
-    /// Angle from the main vein to the ray from the root that this half never crosses.
+    /// Angle from the main vein, radians, of the ray from the root that separates this half from
+    /// its neighbour (outermost halves: from the petiole). The half lies between main
+    /// vein and ray.
     double limit = 0.0;
-    /// Abscissa up to which it is joined to its neighbour along that ray; 0 for the two outermost.
+    /// Abscissa up to which it is joined to its neighbour along that ray; 0 for the outermost
+    /// halves.
     double joined = 0.0;
     struct SideVein {
         double abscissa = 0.0, length = 0.0;
@@ -150,6 +155,8 @@ struct HalfLobe {
     /// between the ends.
     std::vector<double> abscissas, heights;
 
+    /// Returns the height of the border at an abscissa, linear between its points; 0 beyond its
+    /// ends.
     [[nodiscard]] double height(double abscissa) const;
 };
 
@@ -163,15 +170,16 @@ struct Lobe {
     std::array<double, 2> side_angle{}, base_angle{};
     std::array<HalfLobe, 2> halves;  ///< left and right
 
-    /// Returns the angle of side veins at an abscissa, left (0) or right (1).
+    /// Returns the angle between main vein and side veins at an abscissa on a side, 0 left or 1
+    /// right, radians.
     [[nodiscard]] double angle(std::size_t side, double abscissa) const;
-    /// Returns the position in the plane of the lamina: x to the right, y along the middle main
-    /// vein.
+    /// Returns the position of a point of a half in the plane of the lamina: x to the right, y
+    /// along the middle main vein.
     [[nodiscard]] glm::dvec2 place(std::size_t side, double abscissa, double height) const;
 };
 
-/// The lamina of a leaf in its plane: root at the origin, tip of the middle lobe's border at (0,
-/// 1).
+/// The lamina of a leaf in its plane: the root is at the origin and the tip of the middle lobe's
+/// border at (0, 1).
 struct Lamina {
     std::vector<Lobe> lobes;  ///< from the rightmost to the leftmost
 };
@@ -187,9 +195,9 @@ struct Vein {
 /// Lays out veins and border. If two veins cross, the one on the outer lobe is deleted; of a main
 /// and a side vein the latter.
 ///
-/// steps    points of the border from one of its corners to the next, at least 1; from 2 on teeth
-///          are drawn, with a tip and a notch each. 1 gives the polygon of the source: no curves,
-///          no teeth
+/// steps    number of edges of the border from one of its corners to the next, at least 1. A border
+///          with teeth has two edges per tooth instead if steps is 2 or more. 1 gives the polygon
+///          of the source, without curves and teeth
 /// returns  halves that share only their main vein and the rays between lobes, so that the border
 ///          is a simple polygon
 /// throws   InvalidInput with all that check() reports
@@ -205,16 +213,18 @@ struct Vein {
 [[nodiscard]] std::vector<glm::dvec2> border_of(const Lamina& lamina);
 
 /// Coordinates of a point of the plane relative to the lamina, for colour gradations, relief and
-/// painting.
+/// painting. Lengths are in units of the reach of the middle lobe.
 struct LaminaPlace {
     bool inside = false;
     std::size_t lobe = 0, side = 0;
     double abscissa = 0.0, height = 0.0;
     double affinity = 0.0;  ///< height over that of the border: 0 on the main vein, 1 on the border
-    double homothety = 0.0;  ///< 0 at the root, 1 on the border, on the ray from the root
+    /// Distance from the root over that of the border along the same ray: 0 at the root, 1 on the
+    /// border and beyond.
+    double homothety = 0.0;
     double from_main = 0.0;  ///< distance from the main vein
-    double from_side =
-        1e9;  ///< distance from the line of the nearest side vein; 1e9 if there is none
+    /// Distance from the line of the nearest side vein of this half; 1e9 if it has none.
+    double from_side = 1e9;
     double along_side = 0.0;  ///< height divided by the length of that vein
 };
 
@@ -231,8 +241,10 @@ class LaminaSampler {
     };
 
     explicit LaminaSampler(Lamina lamina);
+    /// Returns the coordinates of a point, also of one outside of the lamina.
     [[nodiscard]] LaminaPlace at(const glm::dvec2& point) const;
-    /// Returns the same faster for points in equal steps along a line.
+    /// Returns the same, but faster for successive points in equal steps along a line. Updates
+    /// `hint`, which begins as Hint().
     [[nodiscard]] LaminaPlace at(const glm::dvec2& point, Hint& hint) const;
     [[nodiscard]] const Lamina& lamina() const { return lamina_; }
 

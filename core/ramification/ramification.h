@@ -13,9 +13,9 @@ namespace sporeprint {
 
 /// Triangular stochastic matrix of a binary tree, by Horton-Strahler orders: leaves have order 1,
 /// and a node whose children have orders i and j has order i + 1 if i = j, otherwise the greater.
-/// Row k - 2 describes nodes of order k >= 2: entry i - 1, for i < k, is the share with one child
-/// of order k and one of order i; entry k - 1, on the diagonal, the share that forks into two of
-/// order k - 1.
+/// The biorder of a node of order k >= 2 is (k, i) if it has one child of order k and one of order
+/// i < k, and (k, k) if it forks into two children of order k - 1. Row k - 2 describes nodes of
+/// order k: entry i - 1 is the share of them with biorder (k, i); the shares of a row sum to 1.
 ///
 /// source  [Viennot1989] section 3
 struct RamificationMatrix {
@@ -27,6 +27,7 @@ struct RamificationMatrix {
     [[nodiscard]] double at(int k, int i) const {
         return rows[static_cast<std::size_t>(k - 2)][static_cast<std::size_t>(i - 1)];
     }
+    /// Returns the share of nodes of order k that fork into two children of order k - 1.
     [[nodiscard]] double fork(int k) const { return at(k, k); }
     bool operator==(const RamificationMatrix&) const = default;
 };
@@ -37,13 +38,13 @@ inline constexpr double least_fork = 0.0004;
 /// Highest supported order.
 inline constexpr int most_order = 12;
 
-/// Returns why rows 2..order are no ramification matrix: missing rows, wrong lengths, negative
-/// entries, sums that differ from 1 by more than 1e-6, or no forks. Paths are those of the rows
-/// below `path`.
+/// Returns the errors of a ramification matrix: no rows or an order above most_order, rows of wrong
+/// length, entries outside 0..1, sums that differ from 1 by more than 1e-6, and shares of forks
+/// below least_fork. Their paths are `path`, '/' and the index of the row, from 0.
 [[nodiscard]] std::vector<Problem> validation_errors(const RamificationMatrix& matrix,
                                                      const std::string& path = "/matrix");
 
-/// Returns the matrix of perfect binary trees, with forks only: 2^(order - 1) leaves.
+/// Returns the matrix of perfect binary trees, which have forks only and 2^(order - 1) leaves.
 [[nodiscard]] RamificationMatrix perfect_matrix(int order);
 /// Returns the matrix of uniformly distributed binary trees of a size: r(k, i) = 2^-i, r(k, k) =
 /// 2^-(k-1).
@@ -52,12 +53,14 @@ inline constexpr int most_order = 12;
 [[nodiscard]] RamificationMatrix random_increasing_matrix(int order);
 /// Returns the matrix of long axes with single twigs: r(k, 1) = 1 - forks, r(k, k) = forks.
 [[nodiscard]] RamificationMatrix fishbone_matrix(int order, double forks);
-/// Returns the self-similar matrix with a c^(j-1) side branches per segment of an order j below.
-/// (1, 2) is the random binary matrix.
+/// Returns the self-similar matrix in which a segment (a path of nodes of one order k) has on
+/// average T(j) = a * c^(j - 1) side branches of order k - j. a = 1, c = 2 is the random binary
+/// matrix.
 ///
 /// source  [Tokunaga1978]
 [[nodiscard]] RamificationMatrix tokunaga_matrix(int order, double a, double c);
-/// Returns (1 - weight) first + weight second, up to the lower of their orders.
+/// Returns the linear interpolation (1 - weight) * first + weight * second, with the rows that both
+/// have.
 [[nodiscard]] RamificationMatrix blended(const RamificationMatrix& first,
                                          const RamificationMatrix& second, double weight);
 
@@ -79,7 +82,9 @@ struct Ramification {
     };
     std::vector<Node> nodes;
 
+    /// Returns true if a node has no children.
     [[nodiscard]] bool leaf(std::uint32_t node) const { return nodes[node].children[0] == none; }
+    /// Returns the number of leaves.
     [[nodiscard]] std::size_t leaves() const { return (nodes.size() + 1) / 2; }
 };
 
@@ -98,17 +103,20 @@ struct Ramification {
 /// order, without making one.
 [[nodiscard]] double exact_leaves(const RamificationMatrix& matrix, int order);
 
-/// Grows a tree whose numbers of biorders are exactly those of the matrix, rounded; only their
-/// arrangement is random.
+/// Grows a tree in which the number of nodes of each biorder is the one that the matrix prescribes,
+/// rounded to an integer; only their arrangement is random.
 ///
-/// throws  as grown_ramification()
+/// most    largest number of leaves
+/// throws  Impossible (path "/order") naming the exact number if the tree would have more;
+///         InvalidInput for an invalid matrix
 [[nodiscard]] Ramification exact_ramification(const RamificationMatrix& matrix, int order,
                                               std::uint32_t seed, std::size_t most);
 
 /// Replaces each leaf by a small tree of another matrix, with an order drawn uniformly from
 /// 1..tip_order, as in herbaceous plants.
 ///
-/// throws  Impossible if it would have more than `most` leaves
+/// throws  Impossible (path "/order") naming the expected number if the result would have more than
+///         `most` leaves; InvalidInput for an invalid matrix
 [[nodiscard]] Ramification with_tips(const Ramification& tree, const RamificationMatrix& tips,
                                      int tip_order, std::uint32_t seed, std::size_t most);
 
@@ -120,7 +128,10 @@ struct BiorderCounts {
     [[nodiscard]] RamificationMatrix matrix() const;
 };
 
-/// Counts the biorders of a tree. cost: O(nodes). source: [Viennot1989] section 3
+/// Counts the nodes of each biorder of a tree.
+///
+/// cost    O(nodes)
+/// source  [Viennot1989] section 3
 [[nodiscard]] BiorderCounts measured_biorders(const Ramification& tree);
 
 }  // namespace sporeprint

@@ -109,7 +109,7 @@ struct TreeTopology {
         return matrix == MatrixKind::own || (toward == MatrixKind::own && blend > 0.0) ||
                (tips == MatrixKind::own && tip_order > 1);
     }
-    /// Reports errors of the rows, missing rows, and an order that they do not reach.
+    /// Reports errors of user-defined rows, and rows that are missing for `order` or `tip_order`.
     void check(const std::string& path, std::vector<Problem>& problems) const;
 };
 static_assert(well_described<TreeTopology>());
@@ -117,22 +117,23 @@ static_assert(well_described<TreeTopology>());
 /// Largest number of leaves and twigs of a tree.
 inline constexpr std::size_t most_tips = 40'000;
 
-/// Returns the matrix of a tree, up to its order.
+/// Returns the matrix of a tree: `matrix` blended with `toward`. Its order is that of the topology,
+/// at least 2.
 ///
-/// topology  with nothing that check() reports
+/// pre  topology.check() reports nothing
 [[nodiscard]] RamificationMatrix matrix_of(const TreeTopology& topology);
 
-/// Returns the expected number of tips (the exact one for TreeGrowth::exact without small trees at
-/// the tips), before any work.
+/// Returns the expected number of tips of a tree without growing it; the exact number for
+/// TreeGrowth::exact without small trees at the tips.
 [[nodiscard]] double expected_tips(const TreeTopology& topology);
 
-/// Returns the matrix of the small trees at the tips.
+/// Returns the matrix of the small trees at the tips; its order is tip_order, at least 2.
 [[nodiscard]] RamificationMatrix tip_matrix(const TreeTopology& topology);
 
 /// Grows the branching structure that a topology describes.
 ///
-/// topology  with nothing that check() reports
-/// throws    Impossible (path "/order") naming the expected number if it exceeds `most` leaves
+/// pre     topology.check() reports nothing
+/// throws  Impossible (path "/order") naming the number of leaves if it exceeds `most`
 [[nodiscard]] Ramification ramified(const TreeTopology& topology, std::uint32_t seed,
                                     std::size_t most);
 

@@ -8,9 +8,9 @@
 
 namespace sporeprint {
 
-/// Returns a smooth ellipse, as high as the shapes are on average, with their sub-curves laid out
-/// from pole to pole and the lower face as a narrow band. No part of it occludes another, so linear
-/// interpolation to nearly every shape is free of self-intersections.
+/// Returns half an ellipse, as high as the shapes are on average: the sub-curves follow it from
+/// pole to pole, and the lower face is a narrow band of it. Since it is convex, linear
+/// interpolation between it and nearly every shape is free of self-intersections.
 ///
 /// shapes  at least one, all with equally many nodes
 [[nodiscard]] OutlineNodes intermediate_shape(const std::vector<OutlineNodes>& shapes);

@@ -76,6 +76,7 @@ class SubCurve {
     SubCurve(const std::vector<OutlineNode>& nodes, const glm::dvec2& fallback_tangent);
 
     [[nodiscard]] bool empty() const { return segments_.empty(); }
+    /// Returns the arc length, metres.
     [[nodiscard]] double length() const { return length_; }
 
     /// Returns the point at a share of the arc length, 0..1.
@@ -89,7 +90,8 @@ class SubCurve {
     /// are segments.
     [[nodiscard]] std::vector<double> segment_shares() const;
 
-    /// Returns the total absolute turning of the tangent up to a share of the arc length, radians.
+    /// Returns the total absolute turning of the tangent from the start to a share of the arc
+    /// length, approximately in radians.
     [[nodiscard]] double turning(double share) const;
 
     /// Returns `count` >= 2 points from start to end, spaced by length and by turning, so that thin
@@ -111,7 +113,7 @@ class SubCurve {
     double length_ = 0.0;
 };
 
-/// The paper's curve C as three smooth sub-curves, base to apex.
+/// The curve C of [Desbenoit2004] as three smooth sub-curves, base to apex.
 struct Outline {
     SubCurve stem, hymenium, cap;
 
@@ -128,7 +130,9 @@ struct Outline {
     /// source  [Desbenoit2004] sec. 3.1; the spline is centripetal Catmull-Rom
     explicit Outline(const Silhouette& silhouette, const std::string& path = "/model/silhouette");
 
-    /// Builds the same outline without proving that it does not cross itself.
+    /// Builds the same outline without testing whether it crosses itself.
+    ///
+    /// throws  Impossible if the curve touches the axis between its ends
     [[nodiscard]] static Outline unproven(const Silhouette& silhouette,
                                           const std::string& path = "/model/silhouette");
 

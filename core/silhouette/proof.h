@@ -17,7 +17,9 @@ namespace sporeprint {
 /// The polyline of an outline, base to apex, (r, y).
 using Polyline = std::vector<glm::dvec2>;
 
-/// The method by which an outline is known to be simple.
+/// The method by which the outlines of a morph are known to be simple. exact: all moments between
+/// two shapes, by first_intersection(); certificate: all weighted means, by first_unproven_pair();
+/// checked: not known in advance, each outline is tested when it is requested.
 enum class ProofMethod : std::uint8_t { exact, certificate, checked };
 
 constexpr const char* name(ProofMethod method) {
@@ -41,8 +43,9 @@ struct Intersection {
     bool operator==(const Intersection&) const = default;
 };
 
-/// Returns the place where a static polyline touches itself, folds back, or leaves r >= 0 (r > 0
-/// between its ends), with t = 0. Edges of zero length are skipped: a sub-curve may be a point.
+/// Returns the first intersection of a static polyline, with t = 0: where it touches itself, folds
+/// back, or leaves r >= 0 (r > 0 between its ends); none if it is simple. Edges of zero length are
+/// skipped, because a sub-curve may be a point.
 [[nodiscard]] std::optional<Intersection> static_intersection(std::span<const glm::dvec2> polyline);
 
 /// Returns the first moment at which the polyline (1 - t) a + t b touches itself, folds back, or
@@ -58,7 +61,9 @@ struct Intersection {
 [[nodiscard]] std::optional<Intersection> first_intersection(std::span<const glm::dvec2> a,
                                                              std::span<const glm::dvec2> b);
 
-/// Returns the first such moment strictly between a and b, where both are known to be simple.
+/// Returns the first intersection with 0 < t < 1, like first_intersection(); none if there is none.
+///
+/// pre  a and b are simple by static_intersection()
 [[nodiscard]] std::optional<Intersection> intersection_between(std::span<const glm::dvec2> a,
                                                                std::span<const glm::dvec2> b);
 

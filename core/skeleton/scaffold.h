@@ -22,7 +22,7 @@ struct Scaffold {
     struct Strip {
         std::uint32_t first = 0, quads = 0, tube_quads = 0;
         double length = 0.0;  ///< metres
-        double radius = 0.0;  ///< mean
+        double radius = 0.0;  ///< mean, metres
     };
     std::vector<glm::dvec3> points;
     std::vector<std::array<std::uint32_t, 4>> quads;

@@ -26,9 +26,9 @@ struct Skeleton {
 
 inline constexpr std::size_t most_skeleton_nodes = 200'000;
 
-/// Returns the errors of a skeleton that cannot be cleaned: too many nodes, a position or radius
-/// that is not finite or out of bounds, a segment to a missing node. Paths contain the index of the
-/// node or segment.
+/// Returns the errors of a skeleton that cannot be cleaned: more than most_skeleton_nodes nodes, a
+/// coordinate that is not finite or beyond 1e4 m, a radius outside 1e-6..1e3 m, a segment to a
+/// missing node. Paths contain the index of the node or segment.
 [[nodiscard]] std::vector<Problem> validation_errors(const Skeleton& skeleton);
 
 /// The limits that a skeleton must meet to be skinned without folds.
@@ -37,20 +37,26 @@ struct SkinLimits {
     double fork_deg = 50.0;
     /// Greatest bend at a node of two segments, degrees.
     double bend_deg = 100.0;
-    /// Greatest sine of the angle between three segments at a node and their common plane.
+    /// Greatest slope of a fork. The three segments at a fork make equal angles with the plane
+    /// through the tips of their unit vectors, shifted to the node; this is the sine of that angle,
+    /// 0 if they are coplanar.
     double cone = 0.58;
-    /// Least free length of a segment between its forks on both sides, in sums of its radii.
+    /// Least length of a segment that is not covered by the forks at its ends, as a multiple of the
+    /// sum of the radii of its two nodes.
     double clear = 1.0;
-    /// Nodes nearer than this are merged, in sums of their radii.
+    /// Nodes of a segment are merged if their distance is less than this multiple of the sum of
+    /// their radii.
     double merge = 0.5;
-    /// At a fork, a third segment thinner than this share of the others starts at a node of its own
-    /// inside them, and so does a segment of which the node's radius is less than this share.
+    /// Greatest ratio of thicknesses at a fork. The thinnest of three segments starts at a node of
+    /// its own inside the others if its radius is less than this share of theirs. A segment does so
+    /// too if the radius of the fork's node is less than this share of the segment's.
     double slender = 0.55;
 };
 
 /// A skeleton that meets its limits, with at most three segments per node. Segments that make no
-/// smooth fork (a fourth segment, a twig on a trunk, segments at a sharp angle, a segment too short
-/// to leave its forks) start at a node of their own inside the others and are closed separately.
+/// smooth fork (a fourth segment, a twig on a trunk, segments at a sharp angle, a segment that the
+/// forks at its ends cover) are detached: they start at a node of their own inside the others, and
+/// their surface is closed separately.
 struct CleanSkeleton {
     Skeleton skeleton;
     /// The new index of each original node.

@@ -22,7 +22,8 @@ enum class SkinPlaces { included, omitted };
 
 /// Returns the Catmull-Clark subdivision of the scaffold of a clean skeleton.
 ///
-/// levels   0..3: tubes of 4, 8, 16 or 32 sides
+/// clean    the skeleton of a result of cleaned()
+/// levels   number of subdivisions, 0..3: tubes of 4, 8, 16 or 32 sides
 /// returns  a mesh that is closed once equal positions are welded
 /// throws   Impossible with broken_limits()
 /// cost     O(nodes 4^levels)

@@ -7,6 +7,7 @@
 namespace sporeprint {
 
 /// Lengths in steps of 2 %: step n is 1.02^n metres. See quantised_length() and length_of_step().
+/// radial_strain is no length: it is in sixteenths.
 struct SurfaceMetrics {
     int cap_arc = -150;
     int cap_radius = -150;

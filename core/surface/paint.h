@@ -104,8 +104,9 @@ struct ImageSet {
     }
 };
 
-/// Runs independent tasks, possibly in parallel; returns when all are done and rethrows the
-/// exception of a failed one. Supplied by the caller.
+/// A function that runs independent tasks, possibly in parallel, returns when all are done and
+/// rethrows the exception of a failed one. The caller of core supplies it, since core has no
+/// threads of its own.
 using Parallel = std::function<void(std::span<const std::function<void()>>)>;
 
 /// Runs the tasks one after another.
@@ -113,12 +114,12 @@ void in_turn(std::span<const std::function<void()>> pieces);
 
 /// Paints and encodes an atlas.
 ///
-/// side     16..2048 texels (texture_size halved per LOD), a power of two; three RGB images with
-///          the layout of swept_charts, padded beyond every chart
+/// params   its side is 16..2048 texels, a power of two (texture_size halved per LOD). The three
+///          RGB images have the layout of swept_charts and are padded beyond every chart
 /// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 89,
 ///          4:4:4), occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
-/// throws   InvalidInput if an uploaded image cannot be read (path /surface/<part>/image);
-///          Cancelled
+/// throws   InvalidInput if an uploaded image cannot be read (path /surface/<part>/image) or the
+///          side is invalid (path /side); what `parallel` throws, such as Cancelled
 /// cost     O(side^2)
 /// source   [Desbenoit2004] sec. 3.3 for the maps; hymenium occlusion by view factors of slots
 [[nodiscard]] ImageSet paint(const PaintParams& params, const Parallel& parallel = in_turn);
@@ -135,8 +136,8 @@ struct RawImages {
 /// Encodes pixels as paint() does.
 [[nodiscard]] ImageSet encoded(const RawImages& images, const Parallel& parallel = in_turn);
 
-/// Rotation of uploaded images about the axis, in turns: a texel shows the image at its own angle
-/// plus this.
+/// Rotation of uploaded images about the axis, in turns: a texel at angle x shows the image at
+/// angle x plus this.
 struct ImageRotations {
     double cap = 0.0, hymenium = 0.0, stem = 0.0;
     bool operator==(const ImageRotations&) const = default;

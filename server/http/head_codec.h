@@ -19,7 +19,7 @@ struct Sending {
     bool closing = false;  ///< the head has "Connection: close"
 };
 
-/// Formats response heads and owns the listening socket.
+/// Formats the heads of responses and owns the listening socket.
 class HttpHeadCodec {
   public:
     explicit HttpHeadCodec(const TransportOptions& options);
@@ -32,10 +32,13 @@ class HttpHeadCodec {
     /// throws  std::runtime_error with a message for the operator
     void bind(const std::string& host, int port, int backlog);
 
-    [[nodiscard]] int socket() const;  ///< -1 after close()
+    /// Returns the descriptor of the listening socket; -1 after close().
+    [[nodiscard]] int socket() const;
+    /// Closes the listening socket.
     void close();
 
-    /// Passes one request through the library and returns the formatted response. Thread-safe.
+    /// Passes a request line through cpp-httplib (the library) and returns the response with its
+    /// formatted head. The callbacks run on the calling thread. Thread-safe.
     ///
     /// request_line  "GET /a HTTP/1.1"; a method unknown to the library is treated as GET, since
     ///               only HEAD changes the head of a response

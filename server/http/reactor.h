@@ -31,10 +31,14 @@ class Reactor {
     /// Serves until drain() has been called and the last connection is closed.
     void run();
 
-    void drain();       ///< on any thread
-    void invalidate();  ///< on any thread; see Transport::invalidate()
+    /// Starts the graceful shutdown of Transport::drain() and returns at once. Thread-safe.
+    void drain();
 
-    [[nodiscard]] Transport::Load load() const;  ///< on any thread
+    /// Invalidates the hot-response table; see Transport::invalidate(). Thread-safe.
+    void invalidate();
+
+    /// Returns the present numbers of connections, requests and bytes. Thread-safe.
+    [[nodiscard]] Transport::Load load() const;
 
   private:
     void continue_transfers(std::vector<Connection*>& turns);

@@ -15,10 +15,12 @@ struct Trace {
     std::string_view parent_id;  ///< 16 such digits: the span of the caller
 };
 
-/// Parses the value of a traceparent header; nothing if it is malformed, of version ff, or of
-/// version 00 with extra fields. Of later versions the fields common to all versions are read.
+/// Parses the value of a traceparent header. Of versions after 00 the fields that all versions have
+/// are read.
 ///
-/// source  W3C Trace Context, section 3.2
+/// returns  views into the value; nothing if it is malformed, of version ff, or of version 00 with
+///          extra fields
+/// source   W3C Trace Context, section 3.2
 [[nodiscard]] std::optional<Trace> trace_of(std::string_view traceparent);
 
 /// Returns the trace of a request; nothing if it has no traceparent header or several.

@@ -36,11 +36,11 @@ class Budgets {
     /// pre  options.rate >= 1
     explicit Budgets(const BudgetOptions& options);
 
-    /// Takes `work` from a client's bucket if it holds enough.
+    /// Takes `work` (microseconds) from a client's bucket if it holds that much or is full;
+    /// otherwise takes nothing.
     ///
     /// now      a time earlier than that of a previous call counts as the previous one
-    /// returns  zero; if the bucket holds too little, how long until it holds enough, and nothing
-    ///          is taken
+    /// returns  zero if the work was taken; otherwise how long until it can be
     [[nodiscard]] std::chrono::microseconds spend(const Address& client, std::uint64_t work,
                                                   Time now);
 
@@ -48,7 +48,7 @@ class Budgets {
     /// may become negative.
     void owe(const Address& client, std::uint64_t work, Time now);
 
-    /// Returns the cost of work that was not begun to the bucket.
+    /// Refunds work that was taken from a client's bucket but not begun, up to a full bucket.
     void give_back(const Address& client, std::uint64_t work, Time now);
 
     /// The state of a bucket.
@@ -56,6 +56,7 @@ class Budgets {
         std::uint64_t work = 0;  ///< that the client may spend at once; 0 if the level is negative
         std::chrono::microseconds until_full{0};
     };
+    /// Returns the state of a client's bucket at a time.
     [[nodiscard]] Level level(const Address& client, Time now) const;
 
     /// Returns the number of clients in the table.

@@ -36,18 +36,20 @@ class ThreadPool {
     /// returns  its ticket; nothing if the queue is full
     std::optional<Ticket> submit(std::function<void()> task);
 
-    /// Removes a task from the queue. Returns false if it has begun already.
+    /// Removes a task from the queue. Returns false if it is no longer queued, because it has begun
+    /// or was removed before.
     bool withdraw(Ticket ticket);
 
-    /// Runs subtasks of one task on the calling thread and on threads that are idle now. It never
-    /// waits for a busy thread.
+    /// Runs subtasks of one task on the calling thread and on threads that are idle at the call,
+    /// and returns when all have ended. Busy threads take no part, so it never waits for another
+    /// task.
     ///
-    /// throws  the exception of the first subtask that failed, after all have ended
+    /// throws  the exception of the subtask that failed first, after all have ended
     void share(std::span<const std::function<void()>> subtasks);
 
     [[nodiscard]] std::size_t count() const { return threads_.size(); }
     [[nodiscard]] std::size_t waiting() const;  ///< number of queued tasks
-    [[nodiscard]] std::size_t busy() const;     ///< number of threads that run tasks
+    [[nodiscard]] std::size_t busy() const;     ///< number of threads that run tasks or subtasks
     [[nodiscard]] std::size_t longest_queue() const { return longest_queue_; }
 
   private:

@@ -31,8 +31,8 @@ class Metrics {
     Metrics(const Metrics&) = delete;
     Metrics& operator=(const Metrics&) = delete;
 
-    /// Counts one request. Its label is the URL template of its route, or "UNKNOWN", so that
-    /// clients cannot increase the number of time series.
+    /// Counts one request that has ended. Its label is the URL template of its route, or "UNKNOWN",
+    /// so that clients cannot increase the number of time series.
     void served(const Served& served);
 
     /// Records the duration of each step of a computation.
@@ -41,10 +41,13 @@ class Metrics {
     /// Counts a request that joined a computation in flight.
     void collapsed();
 
-    /// Counts a rejected request: "queue", "deadline", "left", "signature" or "budget".
+    /// Counts a request that was not served.
+    ///
+    /// reason  "queue" (full), "deadline" (exceeded), "left" (the client disconnected), "signature"
+    ///         (missing or invalid) or "budget" (exhausted)
     void rejected(std::string_view reason);
 
-    /// Returns all metrics as text.
+    /// Returns all metrics in the Prometheus text format.
     [[nodiscard]] std::string text(const api::Counters& counters, const Gauges& gauges) const;
 
   private:

@@ -49,6 +49,8 @@ class Signatures {
     [[nodiscard]] static Signatures from_text(const std::string& name, std::string_view text);
 
     /// Reads keys from a file.
+    ///
+    /// throws  InvalidInput as from_text(), and if the file cannot be read
     [[nodiscard]] static Signatures from_file(const std::filesystem::path& file);
 
     /// Checks the signature and expiry of a target.
