@@ -63,8 +63,9 @@ struct CleanSkeleton {
     std::vector<std::uint32_t> node_of;
 };
 
-/// Returns a skeleton that meets the limits of skinned(). Of two conflicting segments the thinner
-/// is detached, of equal ones the later.
+/// Returns a skeleton that meets the limits of skinned(). Nodes that are too near are merged at
+/// their mean, and of several segments between the same two nodes only the first remains. Of two
+/// conflicting segments the thinner is detached, of equal ones the later.
 ///
 /// throws  InvalidInput with validation_errors()
 /// cost    O(nodes + segments), times the length of the longest run of coincident nodes
