@@ -57,7 +57,8 @@ class HttpHeadCodec {
 };
 
 /// Returns the current time as IMF-fixdate, "Sun, 06 Nov 1994 08:49:37 GMT"; formatted once per
-/// second and thread. The reference is to a variable of this thread, which the next call may change.
+/// second and thread. The reference is to a variable of this thread, which the next call may
+/// change.
 [[nodiscard]] const std::string& http_date();
 
 }  // namespace sporeprint::server

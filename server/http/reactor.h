@@ -37,8 +37,8 @@ class Reactor {
     /// Invalidates the hot-response table; see Transport::invalidate(). Thread-safe.
     void invalidate();
 
-    /// Returns the present numbers of connections, requests and bytes, and the counts of refused and
-    /// aborted ones since the start. Thread-safe.
+    /// Returns the present numbers of connections, requests and bytes, and the counts of refused
+    /// and aborted ones since the start. Thread-safe.
     [[nodiscard]] Transport::Load load() const;
 
   private:
