@@ -4,10 +4,20 @@
 
 #include <cstddef>
 #include <map>
+#include <string_view>
 
 #include "server/http/addresses.h"
 
 namespace sporeprint::server {
+
+/// Size from which malloc() maps a block of its own (set by bound_malloc()): such a block takes memory
+/// only for the pages that have been written, and none once it is freed. Bytes.
+inline constexpr std::size_t mapped_block = 4u << 20;
+
+/// The reason of a refusal, for the client.
+inline constexpr std::string_view share_exceeded =
+    "this client sends more at once than its share of the memory for bodies; send one after "
+    "another";
 
 /// Counts the bytes of request bodies. Used on one thread.
 class BodyMemory {

@@ -298,6 +298,9 @@ Connection::Step Connection::begin(Scan scan) {
         const ssize_t sent = ::send(socket_, go.data(), go.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
         if (sent >= 0 && static_cast<std::size_t>(sent) < go.size()) return Step::end;
     }
+    // Growing step by step would copy up to half of the body at once and stop all connections for tens
+    // of milliseconds. Memory is used only as bytes arrive.
+    if (body_length_ >= mapped_block) request_.body.reserve(body_length_);
     enter(Phase::body);
     body_start_ = state_.now;
     return Step::on;
@@ -539,6 +542,7 @@ Connection::Step Connection::receive(std::string* to, std::size_t most) {
     if (bytes < most && !peer_closed_) readable_ = false;
     if (to) to->append(state_.receive_buffer.data(), bytes);
     received_in_turn_ += bytes;
+    if (is_receiving()) state_.upload_bytes += bytes;
     return Step::on;
 }
 

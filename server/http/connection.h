@@ -44,6 +44,7 @@ struct ReactorState {
     BodyMemory bodies;
     std::vector<Address> over_limit;  ///< clients whose uploads wait for memory
     InFlightBuffers in_flight_buffers;
+    std::uint64_t upload_bytes = 0;  ///< of bodies so far, those of refused requests included
     std::vector<Connection*> unfinished_transfers;  ///< to be continued in the next iteration
     std::array<std::atomic<std::size_t>, Transport::phases.size()> phases{};
     std::array<char, 64 * 1024> receive_buffer;  ///< of the current recv()

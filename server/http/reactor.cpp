@@ -22,8 +22,10 @@ using std::chrono::milliseconds;
 
 constexpr std::size_t most_turned_away = 256;  ///< connections beyond a limit that get a response
 constexpr int most_accepted_per_turn = 64;
-constexpr milliseconds upload_share{1};  ///< of an iteration
-constexpr milliseconds pause{10};        ///< of accepting if the system is out of memory or buffers
+/// Request bodies are read at most at this rate together, bytes per second, so that a flood of
+/// uploads leaves the thread time for other requests; and at most so many at once after a pause.
+constexpr double upload_rate = 128e6, upload_burst = 512e3;
+constexpr milliseconds pause{10};  ///< of accepting if the system is out of memory or buffers
 
 int open_spare_descriptor() { return ::open("/dev/null", O_RDONLY | O_CLOEXEC); }
 
@@ -150,9 +152,9 @@ void Reactor::run() {
     }
 }
 
-/// Continues unfinished transfers in turn: each response once, then uploads until their share of
-/// the iteration is used up. The remaining ones come first in the next iteration, after the
-/// requests that have arrived meanwhile.
+/// Continues unfinished transfers in turn: each response once, then uploads while the common rate
+/// permits. The remaining ones come first in the next iteration, after the requests that have
+/// arrived meanwhile.
 void Reactor::continue_transfers(std::vector<Connection*>& turns) {
     turns.clear();
     turns.swap(state_.unfinished_transfers);
@@ -162,17 +164,21 @@ void Reactor::continue_transfers(std::vector<Connection*>& turns) {
     const auto uploads = std::stable_partition(
         turns.begin(), turns.end(), [](const Connection* one) { return !one->is_receiving(); });
     std::for_each(turns.begin(), uploads, [&](Connection* one) { continue_transfer(*one); });
-    const Clock::time_point end = Clock::now() + upload_share;
+    const std::chrono::duration<double> elapsed =
+        state_.now - std::exchange(upload_credit_since_, state_.now);
+    upload_credit_ = std::min(upload_credit_ + elapsed.count() * upload_rate, upload_burst);
     auto next = uploads;
-    while (next != turns.end()) {
+    while (next != turns.end() && upload_credit_ > 0.0) {
+        const std::uint64_t before = state_.upload_bytes;
         continue_transfer(**next++);
-        if (Clock::now() >= end) break;
+        upload_credit_ -= static_cast<double>(state_.upload_bytes - before);
     }
+    only_uploads_wait_ = next != turns.end() && state_.unfinished_transfers.empty();
     state_.unfinished_transfers.insert(state_.unfinished_transfers.begin(), next, turns.end());
 }
 
 int Reactor::milliseconds_to_wait() const {
-    if (!state_.unfinished_transfers.empty()) return 0;
+    if (!state_.unfinished_transfers.empty()) return only_uploads_wait_ ? 1 : 0;
     const Clock::time_point until =
         std::min({state_.deadlines.next(), shutdown_grace_end_, accepting_again_});
     if (until == Clock::time_point::max()) return -1;
@@ -287,11 +293,7 @@ void Reactor::limit_body_memory() {
     std::vector<Address> over_limit;
     over_limit.swap(state_.over_limit);
     for (const Address& client : over_limit)
-        while (bodies.is_exceeded_by(client) &&
-               abort_one_upload(&client,
-                                "this client sends more at once than its share of the "
-                                "memory for bodies; send one after another"))
-            continue;
+        while (bodies.is_exceeded_by(client) && abort_one_upload(&client, share_exceeded)) continue;
     while (bodies.is_exceeded() &&
            abort_one_upload(nullptr, "the memory for bodies is full; try again in a moment"))
         continue;

@@ -71,6 +71,9 @@ class Reactor {
     int epoll_ = -1;
     int spare_descriptor_ =
         -1;  ///< reserve, closed to accept and refuse a connection if descriptors run out
+    double upload_credit_ = 0.0;  ///< bytes that may be read now; see continue_transfers()
+    Clock::time_point upload_credit_since_ = Clock::now();
+    bool only_uploads_wait_ = false;  ///< the unfinished transfers are uploads without credit
     bool draining_ = false;
     Clock::time_point shutdown_grace_end_ = Clock::time_point::max();
     Clock::time_point accepting_again_ = Clock::time_point::max();  ///< end of a pause of accepting

@@ -12,6 +12,7 @@
 #include <sstream>
 #include <system_error>
 
+#include "server/http/body_memory.h"
 #include "server/operations/text_files.h"
 
 namespace sporeprint::server {
@@ -116,7 +117,7 @@ void raise_descriptor_limit() {
 
 void bound_malloc() {
     mallopt(M_ARENA_MAX, 2);
-    mallopt(M_MMAP_THRESHOLD, 4 << 20);
+    mallopt(M_MMAP_THRESHOLD, static_cast<int>(mapped_block));
     mallopt(M_TRIM_THRESHOLD, 64 << 20);  // a fixed limit above would set this one to 128 KiB
 }
 

@@ -143,14 +143,9 @@ void Metrics::served(const Served& served) {
 }
 
 void Metrics::generated(const api::Timing& timing) {
-    const std::array<std::pair<const char*, double>, 5> steps = {{{"queue", timing.queue},
-                                                                  {"resolve", timing.resolve},
-                                                                  {"build", timing.build},
-                                                                  {"paint", timing.paint},
-                                                                  {"pack", timing.pack}}};
-    for (const auto& [step, milliseconds] : steps)
-        if (milliseconds >= 0)
-            parts_->spans.Add({{"span", step}}, request_seconds).Observe(milliseconds / 1000);
+    timing.each([&](const char* step, double milliseconds) {
+        parts_->spans.Add({{"span", step}}, request_seconds).Observe(milliseconds / 1000);
+    });
 }
 
 void Metrics::collapsed() { parts_->collapses.Increment(); }

@@ -13,7 +13,6 @@
 #include "api/http/query.h"
 #include "core/params/messages.h"
 #include "core/params/types.h"
-#include "core/problems.h"
 #include "server/operations/text_files.h"
 
 namespace sporeprint::server {
@@ -46,17 +45,11 @@ std::optional<std::string> bytes_of(std::string_view hex) {
 
 /// Encodes 32 bytes as 43 characters.
 std::string base64url(const Digest& digest) {
-    constexpr std::string_view letters =
-        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_";
-    std::string out;
-    unsigned pending = 0;
-    int bits = 0;
-    for (const unsigned char byte : digest) {
-        pending = pending << 8 | byte;
-        for (bits += 8; bits >= 6; bits -= 6) out += letters[pending >> (bits - 6) & 63];
-    }
-    if (bits > 0) out += letters[pending << (6 - bits) & 63];
-    return out;
+    std::string text = base64_text(digest);
+    text.erase(text.find_last_not_of('=') + 1);
+    std::replace(text.begin(), text.end(), '+', '-');
+    std::replace(text.begin(), text.end(), '/', '_');
+    return text;
 }
 
 std::string signature(const SigningKey& key, std::string_view method, std::string_view target,
