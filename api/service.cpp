@@ -22,18 +22,12 @@ namespace {
 
 /// Returns "queue;dur=0.01, build;dur=2.5" for the steps that were measured.
 std::string server_timing(const Timing& timing) {
-    const std::array<std::pair<const char*, double>, 5> steps = {{{"queue", timing.queue},
-                                                                  {"resolve", timing.resolve},
-                                                                  {"build", timing.build},
-                                                                  {"paint", timing.paint},
-                                                                  {"pack", timing.pack}}};
     std::string spent;
-    for (const auto& [step, milliseconds] : steps) {
-        if (milliseconds < 0.0) continue;
+    timing.each([&](const char* step, double milliseconds) {
         if (!spent.empty()) spent += ", ";
         ((spent += step) += ";dur=") += number_text(
             static_cast<double>(static_cast<std::int64_t>(milliseconds * 1000.0 + 0.5)) / 1000.0);
-    }
+    });
     return spent;
 }
 

@@ -1,11 +1,14 @@
 // Options, counters and timings of the service, as plain data for all parts of it.
 #pragma once
 
+#include <array>
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <string>
+
+#include "core/grow/execution_context.h"
 
 namespace sporeprint::api {
 
@@ -47,7 +50,22 @@ enum class Outcome { generated, collapsed };
 
 /// Milliseconds per step, for Server-Timing; negative means not taken.
 struct Timing {
-    double queue = -1, resolve = -1, build = -1, paint = -1, pack = -1;
+    double queue = -1;
+    std::array<double, steps.size()> of_steps = filled(-1.0);  ///< in the order of `steps`
+
+    /// Calls visit(name, milliseconds) for each step that was measured.
+    void each(auto visit) const {
+        if (queue >= 0) visit("queue", queue);
+        for (std::size_t i = 0; i < steps.size(); ++i)
+            if (of_steps[i] >= 0) visit(name(steps[i]), of_steps[i]);
+    }
+
+  private:
+    static constexpr std::array<double, steps.size()> filled(double value) {
+        std::array<double, steps.size()> all{};
+        all.fill(value);
+        return all;
+    }
 };
 
 }  // namespace sporeprint::api

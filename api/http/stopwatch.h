@@ -1,7 +1,6 @@
 // Measures the steps of a job: core reports them, this class reads the clock.
 #pragma once
 
-#include <array>
 #include <chrono>
 #include <mutex>
 #include <optional>
@@ -29,7 +28,8 @@ class Stopwatch {
     [[nodiscard]] Timing timing(double queue_ms = -1.0) {
         const std::lock_guard lock(mutex_);
         close();
-        return {queue_ms, spent_[0], spent_[1], spent_[2], spent_[3]};
+        timing_.queue = queue_ms;
+        return timing_;
     }
 
   private:
@@ -38,7 +38,7 @@ class Stopwatch {
     void close() {
         const Clock::time_point now = Clock::now();
         if (current_) {
-            double& spent = spent_[static_cast<std::size_t>(*current_)];
+            double& spent = timing_.of_steps[static_cast<std::size_t>(*current_)];
             spent = (spent < 0.0 ? 0.0 : spent) +
                     std::chrono::duration<double, std::milli>(now - since_).count();
         }
@@ -49,7 +49,7 @@ class Stopwatch {
     std::mutex mutex_;
     std::optional<Step> current_;
     Clock::time_point since_;
-    std::array<double, 4> spent_ = {-1.0, -1.0, -1.0, -1.0};
+    Timing timing_;
 };
 
 }  // namespace sporeprint::api

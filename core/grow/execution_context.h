@@ -2,6 +2,7 @@
 // stop token.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <stop_token>
 
@@ -13,6 +14,7 @@
 namespace sporeprint {
 
 enum class Step { resolve, build, paint, pack };
+inline constexpr std::array steps = {Step::resolve, Step::build, Step::paint, Step::pack};
 
 constexpr const char* name(Step step) {
     switch (step) {

@@ -3,22 +3,12 @@
 #include <openssl/evp.h>
 
 #include <array>
+#include <climits>
 #include <stdexcept>
 #include <utility>
 
 namespace sporeprint {
 namespace {
-
-constexpr std::string_view base64_digits =
-    "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-
-constexpr std::array<int, 256> base64_values = [] {
-    std::array<int, 256> values{};
-    for (auto& value : values) value = -1;
-    for (std::size_t i = 0; i < base64_digits.size(); ++i)
-        values[static_cast<unsigned char>(base64_digits[i])] = static_cast<int>(i);
-    return values;
-}();
 
 int hex_value(char c) {
     if (c >= '0' && c <= '9') return c - '0';
@@ -72,42 +62,27 @@ std::string colour_text(Colour colour) {
 }
 
 bool read_base64(std::string_view text, std::vector<std::uint8_t>& out) {
-    if (text.size() % 4 != 0) return false;
-    std::size_t padding = 0;
-    while (padding < 2 && !text.empty() && text.back() == '=') {
-        text.remove_suffix(1);
-        ++padding;
-    }
-    std::vector<std::uint8_t> bytes;
-    bytes.reserve(text.size() / 4 * 3 + 3);
-    std::uint32_t bits = 0;
-    int held = 0;
-    for (const char c : text) {
-        const int value = base64_values[static_cast<unsigned char>(c)];
-        if (value < 0) return false;
-        bits = (bits << 6) | static_cast<std::uint32_t>(value);
-        held += 6;
-        if (held >= 8) {
-            held -= 8;
-            bytes.push_back(static_cast<std::uint8_t>((bits >> held) & 255u));
-        }
-    }
-    // non-zero unused bits would be a second spelling of the same value
-    if ((bits & ((1u << held) - 1u)) != 0) return false;
+    if (text.size() % 4 != 0 || text.size() > static_cast<std::size_t>(INT_MAX)) return false;
+    std::vector<std::uint8_t> bytes(text.size() / 4 * 3);
+    const int size =
+        EVP_DecodeBlock(bytes.data(), reinterpret_cast<const unsigned char*>(text.data()),
+                        static_cast<int>(text.size()));
+    if (size < 0) return false;
+    // The padding is decoded as zero bytes.
+    const std::size_t padding = text.ends_with("==") ? 2 : text.ends_with('=') ? 1 : 0;
+    bytes.resize(static_cast<std::size_t>(size) - padding);
+    // The decoder of libcrypto accepts other spellings of the same bytes: white space at both ends,
+    // '=' elsewhere, unused bits that are not zero.
+    if (base64_text(bytes) != text) return false;
     out = std::move(bytes);
     return true;
 }
 
-std::string base64_text(const std::vector<std::uint8_t>& bytes) {
-    std::string text;
-    text.reserve((bytes.size() + 2) / 3 * 4);
-    for (std::size_t i = 0; i < bytes.size(); i += 3) {
-        const std::size_t have = bytes.size() - i < 3 ? bytes.size() - i : 3;
-        std::uint32_t bits = 0;
-        for (std::size_t k = 0; k < 3; ++k) bits = (bits << 8) | (k < have ? bytes[i + k] : 0u);
-        for (std::size_t k = 0; k < 4; ++k)
-            text += k <= have ? base64_digits[(bits >> (18 - 6 * k)) & 63u] : '=';
-    }
+std::string base64_text(std::span<const std::uint8_t> bytes) {
+    std::string text((bytes.size() + 2) / 3 * 4 + 1, '\0');  // the encoder appends a zero
+    EVP_EncodeBlock(reinterpret_cast<unsigned char*>(text.data()), bytes.data(),
+                    static_cast<int>(bytes.size()));
+    text.pop_back();
     return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -93,6 +94,6 @@ std::string colour_text(Colour colour);
 bool read_base64(std::string_view text, std::vector<std::uint8_t>& out);
 
 /// Returns the base64 of `bytes`, padded.
-std::string base64_text(const std::vector<std::uint8_t>& bytes);
+std::string base64_text(std::span<const std::uint8_t> bytes);
 
 }  // namespace sporeprint
