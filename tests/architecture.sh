@@ -89,6 +89,11 @@ verdict 'no TODO comments: file an issue instead' "$(code core api server tests 
     grep -rnE '//.*\b(TODO|FIXME|HACK|XXX)\b' --include='*.h' --include='*.cpp' core api server tests 2>/dev/null)"
 verdict 'no test may be disabled or skipped' "$(code tests | grep -E '(DISABLED_[A-Za-z]|GTEST_SKIP)'
     grep -nE '\b(test|it|describe)\.(skip|todo|only)\b|skip: *true' tests/web_viewer/*.mjs 2>/dev/null)"
+verdict 'names of tests must be sentences in CamelCase' "$(
+    grep -rnE '^(TEST|TEST_F|TEST_P|RC_GTEST_PROP|RC_GTEST_FIXTURE_PROP)\( *[A-Za-z0-9_]+, *([a-z]|[A-Za-z0-9]*_)' \
+        tests --include='*.cpp')"
+verdict 'standard terms must be used instead of the private words of tests/words.txt' "$(
+    node tests/words.mjs | grep -v 'words of before$')"
 verdict 'every source of core must have a test of the same name, or a line with the reason in tests/core/unmirrored.txt' "$(
     find core -name '*.cpp' | sort | while read -r source; do
         name=${source#core/}
