@@ -205,8 +205,9 @@ void RequestHandler::respond(const StatePointer& state,
     if (!ticket) {
         if (work > 0) budgets_->give_back(client_of(pending->client()), work, Clock::now());
         metrics_.rejected("queue");
-        return pending->reply(service.problem(
-            request, 503, "too much is being made; try again in a moment", {{"Retry-After", "1"}}));
+        return pending->reply(service.problem(request, 503,
+                                              "too many jobs are waiting; try again in a moment",
+                                              {{"Retry-After", "1"}}));
     }
     pending->wait(
         [this, state, pending, checked, ticket = *ticket](PendingRequest::CancelReason reason) {
@@ -271,7 +272,8 @@ void RequestHandler::reply_over_budget(const api::Service& service,
     metrics_.rejected("budget");
     const auto seconds = std::chrono::ceil<std::chrono::seconds>(missing).count();
     api::Response refusal = service.problem(
-        request, 429, "this client has had much made; there is room for more in a while",
+        request, 429,
+        "the work budget of this client is exhausted; Retry-After says when it suffices",
         {{"Retry-After", std::to_string(seconds)}});
     set_rate_limit_headers(pending->client(), refusal);
     pending->reply(std::move(refusal));

@@ -173,11 +173,11 @@ void DirectoryStore::take_stock() {
     });
     const std::lock_guard lock(mutex_);
     stats_.evictions += evictions;
-    for (const Found& one : found) get_or_compute(one.name, one.bytes);
+    for (const Found& one : found) register_file(one.name, one.bytes);
     make_room();
 }
 
-void DirectoryStore::get_or_compute(const std::string& name, std::uint64_t bytes) {
+void DirectoryStore::register_file(const std::string& name, std::uint64_t bytes) {
     forget(name);
     used_.push_front({name, bytes});
     by_name_.emplace(name, used_.begin());
@@ -219,7 +219,7 @@ std::optional<Slice> DirectoryStore::find(std::string_view key) {
     const std::lock_guard lock(mutex_);
     if (body) {
         ++stats_.hits;
-        get_or_compute(name, file->size());
+        register_file(name, file->size());
         make_room();
     } else {
         ++stats_.misses;
@@ -252,7 +252,7 @@ void DirectoryStore::insert(std::string_view key, const Body& body) {
     {
         const std::lock_guard lock(mutex_);
         if (!error) {
-            get_or_compute(name, bytes);
+            register_file(name, bytes);
             make_room();
             return;
         }

@@ -77,7 +77,7 @@ class DirectoryStore {
     [[nodiscard]] std::uint64_t most_of_one() const { return most_bytes_ / 8; }
     void take_stock();
     /// Registers a file as the most recently used one. Reads and computes nothing.
-    void get_or_compute(const std::string& name, std::uint64_t bytes);
+    void register_file(const std::string& name, std::uint64_t bytes);
     void forget(const std::string& name);
     void make_room();
 

@@ -77,7 +77,7 @@ class MirroredRepeat {
     double length_ = 1.0;
 };
 
-void dress(SkinnedSkeleton& made, double painted_length) {
+void add_texture_coordinates(SkinnedSkeleton& made, double painted_length) {
     Mesh& mesh = made.mesh;
     const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
     mesh.texture_coordinates.resize(mesh.positions.size());
@@ -223,12 +223,12 @@ int skin_levels(std::size_t nodes, int lod) {
     return std::max((nodes <= most_near_nodes ? 2 : 1) - lod, 0);
 }
 
-Mesh colony_skin(const Skeleton& segments, const SkinOptions& wanted) {
+Mesh colony_skin(const Skeleton& segments, const SkinOptions& options) {
     if (segments.nodes.empty()) return {};
     SkinnedSkeleton made =
-        skinned(cleaned(segments).skeleton, skin_levels(segments.nodes.size(), wanted.lod),
-                wanted.textured ? SkinPlaces::included : SkinPlaces::omitted);
-    if (wanted.textured) dress(made, wanted.painted_length);
+        skinned(cleaned(segments).skeleton, skin_levels(segments.nodes.size(), options.lod),
+                options.textured ? SkinPlaces::included : SkinPlaces::omitted);
+    if (options.textured) add_texture_coordinates(made, options.painted_length);
     order_for_vertex_cache(made.mesh);
     return std::move(made.mesh);
 }

@@ -42,6 +42,6 @@ struct SkinOptions {
 /// segments  result of colony_skeleton()
 /// returns   a closed mesh; empty for an empty skeleton
 /// throws    InvalidInput with validation_errors()
-[[nodiscard]] Mesh colony_skin(const Skeleton& segments, const SkinOptions& dress);
+[[nodiscard]] Mesh colony_skin(const Skeleton& segments, const SkinOptions& options);
 
 }  // namespace sporeprint
