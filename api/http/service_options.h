@@ -51,18 +51,18 @@ enum class Outcome { generated, collapsed };
 /// Milliseconds per step, for Server-Timing; negative means not taken.
 struct Timing {
     double queue = -1;
-    std::array<double, steps.size()> of_steps = filled(-1.0);  ///< in the order of `steps`
+    std::array<double, all_steps.size()> of_steps = filled(-1.0);  ///< in the order of `all_steps`
 
     /// Calls visit(name, milliseconds) for each step that was measured.
     void each(auto visit) const {
         if (queue >= 0) visit("queue", queue);
-        for (std::size_t i = 0; i < steps.size(); ++i)
-            if (of_steps[i] >= 0) visit(name(steps[i]), of_steps[i]);
+        for (std::size_t i = 0; i < all_steps.size(); ++i)
+            if (of_steps[i] >= 0) visit(name(all_steps[i]), of_steps[i]);
     }
 
   private:
-    static constexpr std::array<double, steps.size()> filled(double value) {
-        std::array<double, steps.size()> all{};
+    static constexpr std::array<double, all_steps.size()> filled(double value) {
+        std::array<double, all_steps.size()> all{};
         all.fill(value);
         return all;
     }

@@ -14,7 +14,7 @@
 namespace sporeprint {
 
 enum class Step { resolve, build, paint, pack };
-inline constexpr std::array steps = {Step::resolve, Step::build, Step::paint, Step::pack};
+inline constexpr std::array all_steps = {Step::resolve, Step::build, Step::paint, Step::pack};
 
 constexpr const char* name(Step step) {
     switch (step) {
