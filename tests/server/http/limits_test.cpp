@@ -191,7 +191,15 @@ TEST(Limits, SlowLargeUploadsOfOneClientLeaveMemoryForOthers) {
     EXPECT_EQ(gauge("sporeprint_uploads_given_up_total"), 1);
     EXPECT_LE(gauge("sporeprint_body_bytes"), 64.0 * megabyte);
     EXPECT_TRUE(others_upload());
-    expect_problem(slow[0]->receive(), 503);
+    // The slowest of them is given up; which one that is depends on buffers of the system.
+    int given_up = 0;
+    for (auto& one : slow) {
+        const RawClient::Response response = one->receive();
+        if (response.status != 503) continue;
+        expect_problem(response, 503);
+        ++given_up;
+    }
+    EXPECT_EQ(given_up, 1);
     slow.clear();
     for (int i = 0; i < 1000 && gauge("sporeprint_body_bytes") > 0; ++i)
         std::this_thread::sleep_for(10ms);
