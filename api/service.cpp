@@ -7,7 +7,6 @@
 
 #include "api/http/compression.h"
 #include "api/http/conditions.h"
-#include "api/http/query.h"
 #include "api/http/stopwatch.h"
 #include "api/http/text.h"
 #include "api/products/context.h"
@@ -31,37 +30,34 @@ std::string server_timing(const Timing& timing) {
     return spent;
 }
 
-/// Returns 413 or 415 if a route does not accept the body of a request.
-std::optional<Response> refuse_body(const ResponseBuilder& responses, const Request& request,
-                                    const Route& route) {
+/// Returns 415 if a route does not accept the media type of a request's body.
+std::optional<Response> refuse_body_type(const ResponseBuilder& responses, const Request& request,
+                                         const Route& route) {
     if (!request.header("Content-Encoding").empty())
         return responses.problem(request, 415,
                                  "bodies with a Content-Encoding are not taken; send it plain");
     const std::string_view given = request.header("Content-Type");
     const std::string_view type = trimmed(given.substr(0, given.find(';')));
-    if (!same_word(type, route.body_type))
-        return responses.problem(request, 415,
-                                 "the body is " +
-                                     (type.empty() ? "of no stated type" : in_quotes(type)) +
-                                     "; send Content-Type: " + route.body_type);
-    if (request.body.size() > route.most_body)
-        return responses.problem(request, 413,
-                                 "the body has " + std::to_string(request.body.size()) +
-                                     " bytes; at most " + std::to_string(route.most_body) +
-                                     " are taken");
-    return std::nullopt;
+    if (same_word(type, route.body_type)) return std::nullopt;
+    return responses.problem(request, 415,
+                             "the body is " +
+                                 (type.empty() ? "of no stated type" : in_quotes(type)) +
+                                 "; send Content-Type: " + route.body_type);
 }
 
-/// The parsed head of a request, with the errors found in it.
-struct Head {
-    Target target;
-    Match match;
-    ValidationErrors errors;
-};
+/// Parses the target of a request and finds its route.
+///
+/// returns  the response if the head alone decides it
+std::optional<Response> route_head(const ResponseBuilder& responses, const Request& request,
+                                   RoutedRequest& routed) {
+    const std::string& base = responses.base_path();
+    std::vector<Problem> malformed;
+    routed.target = split_target(below(base, request.target), malformed);
+    const bool path_malformed = std::any_of(malformed.begin(), malformed.end(),
+                                            [](const Problem& one) { return one.path == "path"; });
+    routed.errors.add(400, malformed);
+    routed.match = route_table().match(request.method, routed.target.segments);
 
-/// Parses the head of a request. Returns the response if it does not depend on the body.
-std::optional<Response> read_head(const ResponseBuilder& responses, const Request& request,
-                                  Head& head) {
     if (request.target.size() > longest_target)
         return responses.problem(request, 414,
                                  "the address has " + std::to_string(request.target.size()) +
@@ -69,26 +65,19 @@ std::optional<Response> read_head(const ResponseBuilder& responses, const Reques
                                      " are taken");
     if (request.method == "OPTIONS" && request.target == "*")
         return responses.options(request, "GET, HEAD, POST, OPTIONS");
-    const std::string& base = responses.base_path();
     if (const std::string_view requested = origin_form(request.target);
         !base.empty() && requested.substr(0, requested.find('?')) == base &&
         (request.method == "GET" || request.method == "HEAD"))
         return responses.to_page(request, requested.substr(base.size()));
-    std::vector<Problem> malformed;
-    head.target = split_target(below(base, request.target), malformed);
-    const bool path_malformed = std::any_of(malformed.begin(), malformed.end(),
-                                            [](const Problem& one) { return one.path == "path"; });
-    head.errors.add(400, malformed);
-    if (path_malformed) return responses.problem(request, head.errors);
+    if (path_malformed) return responses.problem(request, routed.errors);
 
-    head.match = route_table().match(request.method, head.target.segments);
-    const Match& match = head.match;
+    const Match& match = routed.match;
     if (match.allow.empty()) {
-        const std::string meant = route_table().closest(head.target.segments);
+        const std::string meant = route_table().closest(routed.target.segments);
         const std::string detail =
-            "there is nothing at " + in_quotes(head.target.path) +
+            "there is nothing at " + in_quotes(routed.target.path) +
             (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?");
-        return responses.problem(request, 404, detail, head.errors.problems());
+        return responses.problem(request, 404, detail, routed.errors.problems());
     }
     if (request.method == "OPTIONS") return responses.options(request, match.allow);
     if (!match.route) {
@@ -98,19 +87,23 @@ std::optional<Response> read_head(const ResponseBuilder& responses, const Reques
         set_header(response, "Allow", match.allow);
         return response;
     }
-    return *match.route->body_type ? refuse_body(responses, request, *match.route) : std::nullopt;
+    return *match.route->body_type ? refuse_body_type(responses, request, *match.route)
+                                   : std::nullopt;
 }
 
 /// Returns the response to a request, or the job that computes it. Throws CacheMiss if a
 /// correspondence is needed that the caches of the context may not compute.
-Plan plan_route(Context& context, const Request& request) {
-    Head head;
-    if (std::optional<Response> response = read_head(context.responses, request, head))
-        return *std::move(response);
-    const Route& route = *head.match.route;
-    if (route.document)
-        return context.documents->document(route, request, head.target, head.errors);
-    RouteCall call{context, request, route, head.target, head.match.captured, head.errors};
+Plan plan_route(Context& context, const Request& request, const RoutedRequest& routed) {
+    if (routed.response) return *routed.response;
+    const Route& route = *routed.match.route;
+    if (*route.body_type && request.body.size() > route.most_body)
+        return context.responses.problem(request, 413,
+                                         "the body has " + std::to_string(request.body.size()) +
+                                             " bytes; at most " + std::to_string(route.most_body) +
+                                             " are taken");
+    ValidationErrors errors = routed.errors;
+    if (route.document) return context.documents->document(route, request, routed.target, errors);
+    RouteCall call{context, request, route, routed.target, routed.match.captured, errors};
     return route.plan(call);
 }
 
@@ -146,14 +139,22 @@ Service::Service(std::shared_ptr<const Atlas> atlas, const Service& other)
 
 Service::~Service() = default;
 
-Plan Service::plan(const Request& request, bool correspondence_ready) {
+RoutedRequest Service::route(const Request& request) const {
+    RoutedRequest routed;
+    routed.response = route_head(parts_->context.responses, request, routed);
+    if (routed.match.route) routed.most_body = routed.match.route->most_body;
+    return routed;
+}
+
+Plan Service::plan(const Request& request, const RoutedRequest& routed, bool correspondence_ready) {
     try {
         return plan_route(correspondence_ready ? parts_->correspondence_ready : parts_->context,
-                          request);
+                          request, routed);
     } catch (const CacheMiss& missing) {
-        auto run = [this, request](std::stop_token, const Observer& observer, const Parallel&) {
+        auto run = [this, request, routed](std::stop_token, const Observer& observer,
+                                           const Parallel&) {
             observer(Step::resolve);
-            static_cast<void>(plan(request, true));
+            static_cast<void>(plan(request, routed, true));
             return Response();
         };
         return Job{"correspondence\n" + missing.key, Cost{.base = 300} + missing.cost,
@@ -232,29 +233,13 @@ bool Service::self_test() {
     }
 }
 
-Cost Service::cost_of_reading(const Request& request) const {
-    std::vector<Problem> ignored;
-    const std::string_view target =
-        below(parts_->context.options.base_path,
-              std::string_view(request.target).substr(0, longest_target));
-    const Match match = route_table().match(request.method, split_target(target, ignored).segments);
+Cost Service::cost_of_reading(const Request& request, const RoutedRequest& routed) {
+    const Route* const route = routed.match.route;
     // Other bodies are not parsed; for an upload to /v1/inspect the job is charged.
-    if (!match.route || std::string_view(match.route->body_type) != "application/json" ||
-        request.body.size() > match.route->most_body)
+    if (!route || std::string_view(route->body_type) != "application/json" ||
+        request.body.size() > route->most_body)
         return {};
     return cost_of_json(request.body);
-}
-
-std::size_t Service::most_body(std::string_view method, std::string_view target) const {
-    std::vector<Problem> ignored;
-    target = below(parts_->context.options.base_path, target.substr(0, longest_target));
-    const Match match = route_table().match(method, split_target(target, ignored).segments);
-    return match.route ? match.route->most_body : 256u << 10;
-}
-
-std::optional<Response> Service::response_to_head(const Request& request) const {
-    Head head;
-    return read_head(parts_->context.responses, request, head);
 }
 
 const Counters& Service::counters() const {
@@ -262,14 +247,15 @@ const Counters& Service::counters() const {
     return parts_->context.store.counters;
 }
 
-std::variant<Response, Job> plan_here(Service& service, const Request& request) {
-    std::variant<Response, Job> planned = service.plan(request);
+Plan plan_here(Service& service, const Request& request) {
+    const RoutedRequest routed = service.route(request);
+    Plan planned = service.plan(request, routed);
     const Job* const job = std::get_if<Job>(&planned);
-    return job && job->is_warm_up ? service.plan(request, true) : std::move(planned);
+    return job && job->is_warm_up ? service.plan(request, routed, true) : std::move(planned);
 }
 
 Response handle(Service& service, const Request& request) {
-    std::variant<Response, Job> planned = plan_here(service, request);
+    Plan planned = plan_here(service, request);
     if (Response* response = std::get_if<Response>(&planned)) return std::move(*response);
     Job& job = std::get<Job>(planned);
     try {

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "api/http/message.h"
+#include "api/http/routed_request.h"
 #include "api/http/service_options.h"
 #include "core/atlas/atlas.h"
 
@@ -26,15 +27,22 @@ class Service {
     Service(const Service&) = delete;
     Service& operator=(const Service&) = delete;
 
-    /// Parses and checks a request, builds its canonical text, compares ETags and looks into the
-    /// caches. Returns the response, or the job that computes it. Never blocks, never throws.
+    /// Parses the target of a request and finds its route. The body is not read. Takes a few
+    /// microseconds; throws nothing but std::bad_alloc.
+    [[nodiscard]] RoutedRequest route(const Request& request) const;
+
+    /// Reads and checks the parameters of a request, builds its canonical text, compares ETags and
+    /// looks into the caches. Returns the response, or the job that computes it. Never blocks, never
+    /// throws.
     ///
     /// A correspondence (MorphSet: the mapping between the outlines of the species of a mix) may be
     /// needed to check a request. If it is not cached, the result depends on correspondence_ready:
     ///
+    /// routed                route() of the request
     /// correspondence_ready  true: it is computed here, which takes milliseconds; false: the result
     ///                       is a warm-up job (Job::is_warm_up), which computes it
-    [[nodiscard]] Plan plan(const Request& request, bool correspondence_ready = false);
+    [[nodiscard]] Plan plan(const Request& request, const RoutedRequest& routed,
+                            bool correspondence_ready = false);
 
     /// Inserts the response of a job into the response cache if its status is 200 and is_stored is
     /// true. To be called once per computation.
@@ -64,17 +72,11 @@ class Service {
     /// Generates one small mushroom of the first species of the atlas. Returns true on success.
     [[nodiscard]] bool self_test();
 
-    /// Returns the final response to a request whose body has not arrived, if the head alone
-    /// decides it: 308, 400, 404, 405, 414, 415, or that to OPTIONS.
-    [[nodiscard]] std::optional<Response> response_to_head(const Request& request) const;
-
     /// Returns the cost of parsing the JSON body of a request, which is charged whatever the
     /// response is; zero for requests to routes without a JSON body.
-    [[nodiscard]] Cost cost_of_reading(const Request& request) const;
-
-    /// Returns the largest body, in bytes, that the route of a request accepts (413 beyond); 256
-    /// KiB for unknown routes.
-    [[nodiscard]] std::size_t most_body(std::string_view method, std::string_view target) const;
+    ///
+    /// routed  route() of the request
+    [[nodiscard]] static Cost cost_of_reading(const Request& request, const RoutedRequest& routed);
 
     /// Updates the sizes of the caches among the counters and returns the counters.
     [[nodiscard]] const Counters& counters() const;

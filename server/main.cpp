@@ -79,7 +79,7 @@ std::string generator_version(api::Service& service) {
     api::Request request;
     request.method = "GET";
     request.target = "/v1";
-    const auto planned = service.plan(request);
+    const api::Plan planned = service.plan(request, service.route(request));
     const auto* response = std::get_if<api::Response>(&planned);
     if (!response || response->body.empty()) return "unknown";
     const Slice& slice = response->body.front();

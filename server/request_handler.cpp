@@ -1,7 +1,9 @@
 #include "server/request_handler.h"
 
+#include <algorithm>
 #include <chrono>
 #include <exception>
+#include <iterator>
 #include <optional>
 #include <utility>
 #include <variant>
@@ -26,30 +28,19 @@ constexpr std::uint64_t expensive_reading = 1000;
 
 constexpr std::string_view operational_paths[] = {"/livez", "/readyz", "/metrics"};
 
-/// Returns the percent-encoded path, below the base path, of a target in origin or absolute form.
-std::string_view path_of(std::string_view base, std::string_view target) {
+/// Returns the operational path of a request, whose path must not be percent-encoded; an empty text
+/// if it has none.
+std::string_view operational_path(std::string_view base, std::string_view target) {
     target = api::below(base, target);
-    return target.substr(0, target.find('?'));
-}
-
-bool is_operational(std::string_view path) {
+    const std::string_view path = target.substr(0, target.find('?'));
     for (const std::string_view operational : operational_paths)
-        if (path == operational) return true;
-    return false;
+        if (path == operational) return operational;
+    return {};
 }
 
-/// Returns the URL template of a request's route, for the metrics.
-std::string route_of(std::string_view base, std::string_view method, std::string_view target) {
-    target = api::below(base, target);
-    const std::string_view path = path_of({}, target);
-    if (is_operational(path)) return std::string(path);
-    std::vector<Problem> ignored;
-    const api::Target requested = api::split_target(target, ignored);
-    for (const std::string_view tried : {method, std::string_view("GET")})
-        if (const api::Match match = api::route_table().match(tried, requested.segments);
-            match.route)
-            return match.route->pattern;
-    return "UNKNOWN";
+bool is_operational(const api::RoutedRequest& routed) {
+    return std::find(std::begin(operational_paths), std::end(operational_paths),
+                     routed.match.pattern) != std::end(operational_paths);
 }
 
 std::string message_of(const std::exception_ptr& error) {
@@ -94,17 +85,8 @@ Handlers RequestHandler::handlers() {
         if (status == 429 || status == 503) extra.emplace_back("Retry-After", "1");
         return state()->service->problem(request, status, detail, extra);
     };
-    handlers.most_body = [this](std::string_view method, std::string_view target) {
-        return state()->service->most_body(method, target);
-    };
-    handlers.judge_head = [this](const api::Request& request) -> std::optional<api::Response> {
-        const std::string_view path = path_of(options_.base_path, request.target);
-        if (!is_operational(path)) return state()->service->response_to_head(request);
-        if (request.method == "GET" || request.method == "HEAD") return std::nullopt;
-        return operational_response(request, path, options_.metrics);
-    };
-    handlers.label = [this](std::string_view method, std::string_view target) {
-        return route_of(options_.base_path, method, target);
+    handlers.route = [this](const api::Request& request) {
+        return std::make_shared<const api::RoutedRequest>(route(request));
     };
     api::Request nobody;
     nobody.id = "standing";
@@ -118,15 +100,29 @@ Handlers RequestHandler::metrics_handlers() {
     Handlers handlers = this->handlers();
     handlers.respond = [this](const std::shared_ptr<PendingRequest>& pending) {
         const api::Request& request = pending->request();
-        const std::string_view path = path_of(options_.base_path, request.target);
-        pending->reply(is_operational(path)
-                           ? operational_response(request, path, true)
+        pending->reply(is_operational(pending->routed())
+                           ? operational_response(request, pending->routed(), true)
                            : state()->service->problem(
                                  request, 404, "only /metrics, /livez and /readyz are here"));
     };
-    handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
-    handlers.judge_head = nullptr;  // most_body accepts no body
+    handlers.route = [this](const api::Request& request) {
+        api::RoutedRequest routed = route(request);
+        if (!is_operational(routed)) routed.response.reset();
+        routed.most_body = 0;
+        return std::make_shared<const api::RoutedRequest>(std::move(routed));
+    };
     return handlers;
+}
+
+api::RoutedRequest RequestHandler::route(const api::Request& request) const {
+    const std::string_view operational = operational_path(options_.base_path, request.target);
+    if (operational.empty()) return state()->service->route(request);
+    api::RoutedRequest routed;
+    routed.match.pattern = operational;
+    if (request.method != "GET" && request.method != "HEAD")
+        routed.response = state()->service->problem(
+            request, 405, "only GET and HEAD are answered here", {{"Allow", "GET, HEAD"}});
+    return routed;
 }
 
 bool RequestHandler::is_ready() const {
@@ -140,9 +136,9 @@ bool RequestHandler::is_ready() const {
 }
 
 void RequestHandler::respond(const std::shared_ptr<PendingRequest>& pending) {
-    const std::string_view path = path_of(options_.base_path, pending->request().target);
-    if (is_operational(path))
-        return pending->reply(operational_response(pending->request(), path, options_.metrics));
+    const api::RoutedRequest& routed = pending->routed();
+    if (is_operational(routed))
+        return pending->reply(operational_response(pending->request(), routed, options_.metrics));
     const StatePointer state = this->state();
     const CheckedRequest checked = check_signature(*state, pending);
     if (!checked.refusal.empty()) {
@@ -159,15 +155,16 @@ void RequestHandler::respond(const StatePointer& state,
     const api::Request& request = *checked.request;
     // plan() has to read the body before the cost of the job is known. This work is charged even if
     // the request is refused.
-    const std::uint64_t reading = budgets_ && !correspondence_ready && !request.body.empty()
-                                      ? service.cost_of_reading(request).work()
-                                      : 0;
+    const std::uint64_t reading =
+        budgets_ && !correspondence_ready && !request.body.empty()
+            ? api::Service::cost_of_reading(request, *checked.routed).work()
+            : 0;
     if (reading > expensive_reading)
         if (const auto missing = budgets_->spend(client_of(pending->client()), 0, Clock::now());
             missing > missing.zero())
             return reply_over_budget(service, pending, request, missing);
     std::optional<SharedJobs::LookupGuard> lookup_guard(std::in_place, single_flight_);
-    std::variant<api::Response, api::Job> planned = service.plan(request, correspondence_ready);
+    api::Plan planned = service.plan(request, *checked.routed, correspondence_ready);
     if (api::Response* response = std::get_if<api::Response>(&planned)) {
         if (reading > 0) {
             budgets_->owe(client_of(pending->client()), reading, Clock::now());
@@ -282,13 +279,11 @@ void RequestHandler::reply_over_budget(const api::Service& service,
 RequestHandler::CheckedRequest RequestHandler::check_signature(
     const AppState& state, const std::shared_ptr<PendingRequest>& pending) const {
     const api::Request& original = pending->request();
-    CheckedRequest checked{{pending, &original}, std::nullopt, {}, false};
-    if (!state.signatures || original.method == "OPTIONS") return checked;
-    std::vector<Problem> ignored;
-    const api::Match match = api::route_table().match(
-        original.method,
-        api::split_target(api::below(options_.base_path, original.target), ignored).segments);
-    if (!match.route || !api::is_generated(*match.route)) return checked;
+    const api::Route* const route = pending->routed().match.route;
+    CheckedRequest checked{
+        {pending, &original}, {pending, &pending->routed()}, std::nullopt, {}, false};
+    if (!state.signatures || original.method == "OPTIONS" || !route || !api::is_generated(*route))
+        return checked;
     SignatureCheck signature = state.signatures->check(original.method, original.target,
                                                        original.body, seconds_since_1970());
     if (!signature.is_valid) {
@@ -298,6 +293,9 @@ RequestHandler::CheckedRequest RequestHandler::check_signature(
     auto unsigned_request = std::make_shared<api::Request>(original);
     unsigned_request->target = std::move(signature.target);
     checked.expires = signature.expires;
+    // The target without its signature is another one.
+    checked.routed =
+        std::make_shared<const api::RoutedRequest>(state.service->route(*unsigned_request));
     checked.request = std::move(unsigned_request);
     return checked;
 }
@@ -369,12 +367,11 @@ api::Response RequestHandler::deliver(const api::Service& service, const api::Re
 }
 
 api::Response RequestHandler::operational_response(const api::Request& request,
-                                                   std::string_view path, bool metrics) {
+                                                   const api::RoutedRequest& routed, bool metrics) {
+    if (routed.response) return *routed.response;
+    const std::string_view path = routed.match.pattern;
     const StatePointer state = this->state();
     const api::Service& service = *state->service;
-    if (request.method != "GET" && request.method != "HEAD")
-        return service.problem(request, 405, "only GET and HEAD are answered here",
-                               {{"Allow", "GET, HEAD"}});
     if (path == "/livez") return text_response(request, alive);
     if (path == "/readyz") {
         if (is_ready()) return text_response(request, "ready\n");

@@ -104,11 +104,15 @@ class RequestHandler {
 
     /// A request after the check of its signature.
     struct CheckedRequest {
-        std::shared_ptr<const api::Request> request;  ///< its target without the signature
+        std::shared_ptr<const api::Request> request;       ///< its target without the signature
+        std::shared_ptr<const api::RoutedRequest> routed;  ///< of this target
         std::optional<std::int64_t> expires;  ///< seconds since 1970 at which its signature ends
         std::string refusal;                  ///< reason of a refusal; empty if accepted
         bool is_charged = false;              ///< its work was charged to a budget
     };
+    /// Finds the route of a request; paths of operational requests are served here, all others by
+    /// the service.
+    [[nodiscard]] api::RoutedRequest route(const api::Request& request) const;
     /// Checks the signature of a request where one is required and removes it from the target.
     [[nodiscard]] CheckedRequest check_signature(
         const AppState& state, const std::shared_ptr<PendingRequest>& pending) const;
@@ -157,8 +161,8 @@ class RequestHandler {
     /// Responds to /livez, /readyz and /metrics.
     ///
     /// metrics  false: /metrics is 404 here
-    api::Response operational_response(const api::Request& request, std::string_view path,
-                                       bool metrics);
+    api::Response operational_response(const api::Request& request,
+                                       const api::RoutedRequest& routed, bool metrics);
     /// Returns the response to one of the requests that waited for a computation.
     api::Response deliver(const api::Service& service, const api::Request& request,
                           const api::Delivery& delivery, const SharedJobs::Completion& completion);

@@ -138,6 +138,15 @@ void JobContext::note(std::string& said, std::string member) {
     if (said.empty()) said = std::move(member);
 }
 
+void JobContext::count_known_morphs() {
+    {
+        const std::lock_guard lock(mutex_);
+        if (!morphs_.empty()) return;
+    }
+    ++store_.counters.morph_hits;
+    note(morphs_, cache_member("sporeprint-morph", true, false));
+}
+
 std::string JobContext::cache_status() const {
     const std::lock_guard lock(mutex_);
     return morphs_ + (morphs_.empty() || images_.empty() ? "" : ", ") + images_;

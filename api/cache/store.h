@@ -79,6 +79,10 @@ class JobContext {
     /// each: later lookups find what the job itself has inserted. Empty if none was used.
     [[nodiscard]] std::string cache_status() const;
 
+    /// Counts a correspondence that was found in its cache before the job began, unless the job has
+    /// looked one up itself.
+    void count_known_morphs();
+
   private:
     void note(std::string& said, std::string member);
 

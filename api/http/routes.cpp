@@ -55,6 +55,7 @@ Match RouteTable::match(std::string_view method, std::span<const std::string> se
             fitting = fits(segments[i], pattern[i], captured);
         if (!fitting) continue;
         const bool is_get = std::string_view(route->method) == "GET";
+        match.pattern = route->pattern;
         match.allow = is_get ? "GET, HEAD, OPTIONS" : "POST, OPTIONS";
         if (method == route->method || (method == "HEAD" && is_get)) {
             match.route = route;

@@ -75,6 +75,7 @@ struct RouteGroup {
 /// The result of a lookup.
 struct Match {
     const Route* route = nullptr;       ///< null when the path or the method is unknown
+    std::string_view pattern;           ///< of the path, whatever the method; "" if it is unknown
     std::vector<std::string> captured;  ///< in the order of the {names}
     std::string allow;  ///< every method of the path, "GET, HEAD, OPTIONS"; empty if it is unknown
 };

@@ -97,6 +97,13 @@ bool shows_roots(const ColonySpec& spec, const Atlas& atlas) {
     }
 }
 
+/// Resolves the typical individual of a request unless that is done.
+const Individual& resolved_individual(const Context& context, const ColonySpec& spec,
+                                      const Caches& caches, Colonies::Resolved& resolved) {
+    if (!resolved) resolved = typical_individual(spec, *context.atlas, caches);
+    return *resolved;
+}
+
 /// Returns an approximate estimate of a request whose individuals are not resolved yet, without
 /// roots, which cannot be estimated.
 Estimate guessed(const ColonySpec& spec) {
@@ -133,8 +140,9 @@ std::string Colonies::file_name(const ColonySpec& spec, Product product) {
 }
 
 Cost Colonies::cost(const Context& context, const ColonySpec& spec, Product product,
-                    const Caches& caches) {
-    const Estimate estimated = estimate(spec, *context.atlas, caches);
+                    const Caches& caches, Resolved& resolved) {
+    const Individual& typical = resolved_individual(context, spec, caches, resolved);
+    const Estimate estimated = estimate(spec, typical, *context.atlas);
     refuse_over_budget(context.options, estimated, spec.mix.size() > 1);
     return cost_of(spec, estimated, product, *context.atlas);
 }
@@ -159,14 +167,18 @@ ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec, c
     return mushroom_image_urls(surface, image, *context.atlas);
 }
 
-Body Colonies::grow(const Context& context, const ColonySpec& spec, const Extras& extras, int,
-                    const ExecutionContext& execution) {
-    return grow_colony(spec, *context.atlas, extras, execution).glb;
+Body Colonies::grow(const Context& context, const ColonySpec& spec, Resolved& resolved,
+                    const Extras& extras, int, const ExecutionContext& execution) {
+    execution.observer(Step::resolve);
+    const Individual& typical = resolved_individual(context, spec, execution.caches, resolved);
+    return grow_colony(spec, typical, *context.atlas, extras, execution).glb;
 }
 
-Value Colonies::describe(const Context& context, const ColonySpec& spec, const std::string& version,
-                         const ExecutionContext& execution) {
-    const Colony colony = colony_parts(spec, *context.atlas, execution);
+Value Colonies::describe(const Context& context, const ColonySpec& spec, Resolved& resolved,
+                         const std::string& version, const ExecutionContext& execution) {
+    execution.observer(Step::resolve);
+    const Individual& typical = resolved_individual(context, spec, execution.caches, resolved);
+    const Colony colony = colony_parts(spec, typical, *context.atlas, execution);
     execution.observer(Step::pack);
     Value body = Value::object();
     body.set("canonical", canonical_address(spec, Product::glb));

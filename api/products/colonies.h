@@ -10,6 +10,7 @@
 #include "api/products/product.h"
 #include "core/atlas/atlas.h"
 #include "core/colony/colony_spec.h"
+#include "core/individual/individual.h"
 
 namespace sporeprint::api {
 
@@ -41,19 +42,21 @@ struct ColonyRequest {
 
 /// The Kind of plan_product.h for colonies.
 struct Colonies {
+    using Resolved = std::optional<Individual>;  ///< the typical individual, once it is needed
+
     static std::string version(const ColonySpec& spec, const Atlas& atlas);
     static std::string url(const ColonySpec& spec, Product product);
     static std::string key(const ColonySpec& spec, Product product, const std::string& version);
     static std::string file_name(const ColonySpec& spec, Product product);
     static Cost cost(const Context& context, const ColonySpec& spec, Product product,
-                     const Caches& caches);
+                     const Caches& caches, Resolved& resolved);
     static Cost search(const ColonySpec& spec, const Atlas& atlas);
     static std::optional<Cost> guess(const ColonySpec& spec, Product product, const Atlas& atlas);
     static ImageUrls image_urls(const Context& context, const ColonySpec& spec,
                                 const std::string& version, const ExecutionContext& execution);
-    static Body grow(const Context& context, const ColonySpec& spec, const Extras& extras,
-                     int depth, const ExecutionContext& execution);
-    static Value describe(const Context& context, const ColonySpec& spec,
+    static Body grow(const Context& context, const ColonySpec& spec, Resolved& resolved,
+                     const Extras& extras, int depth, const ExecutionContext& execution);
+    static Value describe(const Context& context, const ColonySpec& spec, Resolved& resolved,
                           const std::string& version, const ExecutionContext& execution);
 };
 

@@ -102,15 +102,24 @@ std::string file_name(const MushroomSpec& spec, Product product) {
 
 namespace {
 
+/// Resolves the individual of a request unless that is done.
+const Individual& resolved_individual(const Context& context, const MushroomSpec& spec,
+                                      const Caches& caches, Mushrooms::Resolved& resolved) {
+    if (!resolved) resolved = resolve(spec, *context.atlas, caches.morphs);
+    return *resolved;
+}
+
 /// Returns the estimate of a request. Throws for well-formed values that are impossible together,
 /// as far as that is known once the individual is resolved; no mesh is built.
-Estimate weighed(const Context& context, const MushroomSpec& spec, const Caches& caches) {
+Estimate weighed(const Context& context, const MushroomSpec& spec, const Caches& caches,
+                 Mushrooms::Resolved& resolved) {
     if (spec.model && spec.params.textures == Textures::linked)
         throw Impossible(
             "/textures",
             "a model of your own has no address that images could be linked to; ask for embedded "
             "or none");
-    const Estimate cost = estimate(spec, *context.atlas, caches);
+    const Estimate cost = estimate(spec, resolved_individual(context, spec, caches, resolved));
+    if (spec.model) resolved.reset();
     refuse_over_budget(context.options, cost, spec.mix.size() > 1,
                        spec.params.animation != Animation::none);
     return cost;
@@ -130,7 +139,7 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
                                      : is_branched(spec.mix, atlas);
     Cost cost =
         cost_of_individuals(spec.mix, branches, product == Product::glb ? 1 + frames_of(spec) : 1);
-    cost.base = 300;
+    cost.base = 220;
     cost.vertices = estimated.vertices;
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;
@@ -209,8 +218,8 @@ std::string Mushrooms::file_name(const MushroomSpec& spec, Product product) {
 }
 
 Cost Mushrooms::cost(const Context& context, const MushroomSpec& spec, Product product,
-                     const Caches& caches) {
-    return cost_of(spec, weighed(context, spec, caches), product, *context.atlas);
+                     const Caches& caches, Resolved& resolved) {
+    return cost_of(spec, weighed(context, spec, caches, resolved), product, *context.atlas);
 }
 
 Cost Mushrooms::search(const MushroomSpec& spec, const Atlas& atlas) {
@@ -227,16 +236,18 @@ ImageUrls Mushrooms::image_urls(const Context& context, const MushroomSpec& spec
     return mushroom_image_urls(surface, surface_address(surface), *context.atlas);
 }
 
-Body Mushrooms::grow(const Context& context, const MushroomSpec& spec, const Extras& extras, int,
-                     const ExecutionContext& execution) {
-    return grow_mushroom(spec, *context.atlas, extras, execution).glb;
+Body Mushrooms::grow(const Context& context, const MushroomSpec& spec, Resolved& resolved,
+                     const Extras& extras, int, const ExecutionContext& execution) {
+    execution.observer(Step::resolve);
+    const Individual& individual = resolved_individual(context, spec, execution.caches, resolved);
+    return grow_mushroom(spec, individual, *context.atlas, extras, execution).glb;
 }
 
-Value Mushrooms::describe(const Context& context, const MushroomSpec& spec,
+Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Resolved& resolved,
                           const std::string& version, const ExecutionContext& execution) {
     const Atlas& atlas = *context.atlas;
     execution.observer(Step::resolve);
-    const Individual individual = resolve(spec, atlas, execution.caches.morphs);
+    const Individual& individual = resolved_individual(context, spec, execution.caches, resolved);
     execution.observer(Step::build);
     const Bounds box = bounds(mushroom_mesh(spec, individual));
     execution.observer(Step::pack);

@@ -9,6 +9,7 @@
 #include "api/products/context.h"
 #include "api/products/product.h"
 #include "core/atlas/atlas.h"
+#include "core/individual/individual.h"
 #include "core/individual/mushroom_spec.h"
 
 namespace sporeprint::api {
@@ -50,19 +51,23 @@ struct MushroomRequest {
 
 /// The Kind of plan_product.h for mushrooms.
 struct Mushrooms {
+    /// The individual, once it is needed. The job of a client's own model resolves it again: it
+    /// holds copies of uploaded images, which would take memory while the job waits.
+    using Resolved = std::optional<Individual>;
+
     static std::string version(const MushroomSpec& spec, const Atlas& atlas);
     static std::string url(const MushroomSpec& spec, Product product);
     static std::string key(const MushroomSpec& spec, Product product, const std::string& version);
     static std::string file_name(const MushroomSpec& spec, Product product);
     static Cost cost(const Context& context, const MushroomSpec& spec, Product product,
-                     const Caches& caches);
+                     const Caches& caches, Resolved& resolved);
     static Cost search(const MushroomSpec& spec, const Atlas& atlas);
     static Cost guess(const MushroomSpec& spec, Product product, const Atlas& atlas);
     static ImageUrls image_urls(const Context& context, const MushroomSpec& spec,
                                 const std::string& version, const ExecutionContext& execution);
-    static Body grow(const Context& context, const MushroomSpec& spec, const Extras& extras,
-                     int depth, const ExecutionContext& execution);
-    static Value describe(const Context& context, const MushroomSpec& spec,
+    static Body grow(const Context& context, const MushroomSpec& spec, Resolved& resolved,
+                     const Extras& extras, int depth, const ExecutionContext& execution);
+    static Value describe(const Context& context, const MushroomSpec& spec, Resolved& resolved,
                           const std::string& version, const ExecutionContext& execution);
 };
 

@@ -14,17 +14,20 @@ namespace sporeprint::api {
 
 /// Returns the response to a request for a product, as GLB or as the JSON that describes it, or the
 /// job that computes it. Returns a problem response if `errors` is not empty. `Kind` has these
-/// static functions of a specification (`Spec`):
+/// static functions of a specification (`Spec`), and a type Resolved, empty at first, in which
+/// cost() may leave what it has resolved for grow() and describe():
 ///   version(spec, atlas)                   current version token
 ///   url(spec, product)                     canonical URL without version; "" if it has none
 ///   key(spec, product, version)            canonical text of all values
 ///   file_name(spec, product)
-///   cost(context, spec, product, caches)   cost of generating it; throws if it is impossible
+///   cost(context, spec, product, caches, resolved)   cost of generating it; throws if it is
+///                                          impossible
 ///   search(spec, atlas)                    optional: cost of its correspondence (MorphSet)
 ///   guess(spec, product, atlas)            optional: approximate cost without the correspondence
 ///   image_urls(context, spec, version, execution)   URLs of its images with their versions
-///   grow(context, spec, extras, depth, execution)   the GLB; depth of links to further images
-///   describe(context, spec, version, execution)     the JSON
+///   grow(context, spec, resolved, extras, depth, execution)   the GLB; depth of links to further
+///                                          images
+///   describe(context, spec, resolved, version, execution)     the JSON
 ///
 /// requested  the specification, the product and the version token that was requested
 template <class Kind, class Requested>
@@ -34,6 +37,8 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     using Spec = decltype(requested.spec);
     const Product product = requested.product;
     const auto spec = std::make_shared<const Spec>(std::move(requested.spec));
+    // Written by the estimate before the job begins, and by the job itself.
+    const auto resolved = std::make_shared<typename Kind::Resolved>();
     Resource resource;
     resource.version = Kind::version(*spec, *context.atlas);
     resource.address = Kind::url(*spec, product);
@@ -42,18 +47,21 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     resource.file_name = Kind::file_name(*spec, product);
     resource.requested_version = std::move(requested.version);
     resource.is_linked = product == Product::glb && spec->params.textures == Textures::linked;
-    resource.estimate_cost = [&context, spec, product](const Caches& caches) {
-        return Kind::cost(context, *spec, product, caches);
+    resource.estimate_cost = [&context, spec, product, resolved](const Caches& caches) {
+        return Kind::cost(context, *spec, product, caches, *resolved);
     };
     if constexpr (requires { Kind::search(*spec, *context.atlas); })
         resource.search = Kind::search(*spec, *context.atlas);
     if constexpr (requires { Kind::guess(*spec, product, *context.atlas); })
         resource.guess = Kind::guess(*spec, product, *context.atlas);
-    resource.make = [&context, spec, product, url = resource.address,
+    resource.make = [&context, spec, product, resolved, url = resource.address,
                      depth = link_depth(context, request),
                      version = resource.version](JobContext& job) -> Body {
+        if constexpr (requires { (*resolved)->set; })
+            if (*resolved && (*resolved)->set) job.count_known_morphs();
         if (product == Product::json)
-            return {slice_of(dump(Kind::describe(context, *spec, version, job.execution())))};
+            return {slice_of(
+                dump(Kind::describe(context, *spec, *resolved, version, job.execution())))};
         Extras extras;
         extras.canonical = url;
         if (spec->params.textures == Textures::linked) {
@@ -61,7 +69,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
             for (std::size_t i = 0; i < urls.size(); ++i)
                 extras.image_urls[i] = reference_from(depth, urls[i]);
         }
-        return Kind::grow(context, *spec, extras, depth, job.execution());
+        return Kind::grow(context, *spec, *resolved, extras, depth, job.execution());
     };
     return plan_resource(context, request, std::move(resource), errors);
 }

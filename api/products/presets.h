@@ -200,6 +200,7 @@ Value preset_list() {
 template <class Kind>
 struct PresetProduct {
     using Spec = typename Kind::Spec;
+    struct Resolved {};
 
     static std::string version(const Spec& spec, const Atlas&) {
         return preset_token<Kind>(spec.preset);
@@ -214,7 +215,8 @@ struct PresetProduct {
         return preset_file_name(spec, product);
     }
 
-    static Cost cost(const Context& context, const Spec& spec, Product product, const Caches&) {
+    static Cost cost(const Context& context, const Spec& spec, Product product, const Caches&,
+                     Resolved&) {
         const Estimate estimated = estimate(spec);
         refuse_over_budget(context.options, estimated);
         Cost cost = Kind::cost_of_growing(spec);
@@ -230,12 +232,12 @@ struct PresetProduct {
         return preset_image_urls<Kind>(spec.preset, paint_of(spec.params), version);
     }
 
-    static Body grow(const Context&, const Spec& spec, const Extras& extras, int depth,
+    static Body grow(const Context&, const Spec& spec, Resolved&, const Extras& extras, int depth,
                      const ExecutionContext& execution) {
         return Kind::grow(spec, extras, depth, execution).glb;
     }
 
-    static Value describe(const Context&, const Spec& spec, const std::string& version,
+    static Value describe(const Context&, const Spec& spec, Resolved&, const std::string& version,
                           const ExecutionContext& execution) {
         const auto [cost, box] = Kind::measure(spec, execution);
         Value body = Value::object();

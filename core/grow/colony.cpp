@@ -63,13 +63,6 @@ MushroomSpec individual_spec(const ColonySpec& spec, int which) {
     return own;
 }
 
-/// Returns an individual without variation, from which the lengths of a colony follow.
-Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
-    MushroomSpec own = individual_spec(spec, 0);
-    own.params.variation = 0.0;
-    return resolve(own, atlas, caches.morphs);
-}
-
 StemFit fit_of(const Individual& individual, const ColonyTraits& traits) {
     StemFit fit = stem_fit(individual);
     // Mushrooms without a stem stand on thin threads.
@@ -189,14 +182,19 @@ void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& 
 
 }  // namespace
 
-Estimate estimate(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
+Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
+    MushroomSpec own = individual_spec(spec, 0);
+    own.params.variation = 0.0;
+    return resolve(own, atlas, caches.morphs);
+}
+
+Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas& atlas) {
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
-    const Individual individual = typical_individual(spec, atlas, caches);
-    const ColonyRoots growth = growth_of(params, traits, fit_of(individual, traits));
+    const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
     const auto count = static_cast<std::uint64_t>(params.count);
     const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
-    const MeshCount one = body_count(individual, mesh_lod(individual, params.lod));
+    const MeshCount one = body_count(typical, mesh_lod(typical, params.lod));
     double nodes = 0.0;
     if (traits.roots == RootsShown::shown)
         nodes += root_share(params.lod) * (1.2 * expected_root_nodes(growth) + 20.0);
@@ -229,12 +227,11 @@ Estimate measured(const ColonySpec& spec, const Colony& colony) {
     return e;
 }
 
-Colony colony_parts(const ColonySpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
+Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
+                    const ExecutionContext& execution) {
     const ColonyParams& params = spec.params;
-    execution.observer(Step::resolve);
     const ColonyTraits traits = colony_traits(spec, atlas);
-    const Individual individual = typical_individual(spec, atlas, execution.caches);
-    StemFit fit = fit_of(individual, traits);
+    StemFit fit = fit_of(typical, traits);
     const double painted_length = fit.length;
 
     execution.observer(Step::build);
@@ -335,10 +332,16 @@ PaintSpec paint_spec_of(const ColonySpec& spec, const Atlas& atlas, const Caches
 
 Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extras,
                   const ExecutionContext& execution) {
-    const Colony colony = colony_parts(spec, atlas, execution);
-    const Individual individual = typical_individual(spec, atlas, execution.caches);
-    const std::string name = name_of(individual);
-    GlbMaterial material{.name = name, .look = look_of(individual.model)};
+    execution.observer(Step::resolve);
+    return grow_colony(spec, typical_individual(spec, atlas, execution.caches), atlas, extras,
+                       execution);
+}
+
+Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
+                  const Extras& extras, const ExecutionContext& execution) {
+    const Colony colony = colony_parts(spec, typical, atlas, execution);
+    const std::string name = name_of(typical);
+    GlbMaterial material{.name = name, .look = look_of(typical.model)};
     const auto images = attach_images(
         material, spec.params.textures, extras.image_urls, execution,
         [&] { return painted_images(paint_spec_of(spec, atlas, execution.caches), execution); });

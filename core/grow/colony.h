@@ -12,12 +12,19 @@
 
 namespace sporeprint {
 
-/// Returns the approximate numbers of vertices and triangles in the file (seldom too low), texels
-/// and bytes. One individual is resolved, nothing is built.
+/// Returns an individual without variation, from which the lengths of a colony follow.
 ///
-/// throws  as colony_traits(); Impossible ("/branch_distance") for roots with too many nodes
-[[nodiscard]] Estimate estimate(const ColonySpec& spec, const Atlas& atlas,
-                                const Caches& caches = {});
+/// throws  InvalidInput, Impossible as resolve()
+[[nodiscard]] Individual typical_individual(const ColonySpec& spec, const Atlas& atlas,
+                                            const Caches& caches = {});
+
+/// Returns the approximate numbers of vertices and triangles in the file (seldom too low), texels
+/// and bytes. Nothing is built.
+///
+/// typical  typical_individual() of the spec
+/// throws   as colony_traits(); Impossible ("/branch_distance") for roots with too many nodes
+[[nodiscard]] Estimate estimate(const ColonySpec& spec, const Individual& typical,
+                                const Atlas& atlas);
 
 /// The parts of a colony; each mesh is stored once.
 struct Colony {
@@ -31,9 +38,10 @@ struct Colony {
 /// Builds the parts: `distinct` individuals of the mix, from the oldest to those of half its age,
 /// placed on stems or as whole mushrooms.
 ///
-/// throws  InvalidInput, Impossible, Cancelled
-[[nodiscard]] Colony colony_parts(const ColonySpec& spec, const Atlas& atlas,
-                                  const ExecutionContext& execution = {});
+/// typical  typical_individual() of the spec
+/// throws   InvalidInput, Impossible, Cancelled
+[[nodiscard]] Colony colony_parts(const ColonySpec& spec, const Individual& typical,
+                                  const Atlas& atlas, const ExecutionContext& execution = {});
 
 /// Returns the estimate of a built colony, with exact vertex and triangle counts.
 [[nodiscard]] Estimate measured(const ColonySpec& spec, const Colony& colony);
@@ -57,5 +65,10 @@ struct Colony {
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
 [[nodiscard]] Grown grow_colony(const ColonySpec& spec, const Atlas& atlas,
                                 const Extras& extras = {}, const ExecutionContext& execution = {});
+
+/// Does the same for a spec whose typical individual is resolved already.
+[[nodiscard]] Grown grow_colony(const ColonySpec& spec, const Individual& typical,
+                                const Atlas& atlas, const Extras& extras,
+                                const ExecutionContext& execution);
 
 }  // namespace sporeprint

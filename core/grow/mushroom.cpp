@@ -85,7 +85,12 @@ Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
 Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extras& extras,
                        const ExecutionContext& execution) {
     execution.observer(Step::resolve);
-    const Individual individual = resolve(spec, atlas, execution.caches.morphs);
+    return grow_mushroom(spec, resolve(spec, atlas, execution.caches.morphs), atlas, extras,
+                         execution);
+}
+
+Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, const Atlas& atlas,
+                       const Extras& extras, const ExecutionContext& execution) {
     execution.observer(Step::build);
     const Mesh mesh = mushroom_mesh(spec, individual);
     throw_if_cancelled(execution);

@@ -49,4 +49,11 @@ using Mushroom = Grown;
                                      const Extras& extras = {},
                                      const ExecutionContext& execution = {});
 
+/// Does the same for a spec that is resolved already.
+///
+/// individual  resolve() of the spec
+[[nodiscard]] Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual,
+                                     const Atlas& atlas, const Extras& extras,
+                                     const ExecutionContext& execution);
+
 }  // namespace sporeprint

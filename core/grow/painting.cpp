@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 #include <utility>
 
 #include "core/grow/mushroom.h"
@@ -58,8 +59,10 @@ struct SpeciesPaint {
     double lightness = 1.0;
 };
 
-SpeciesPaint species_paint(const MushroomSpec& stepped, const std::string& id, const Atlas& atlas,
-                           const Caches& caches) {
+/// stepped     surface_spec() of a request
+/// individual  resolve() of it
+SpeciesPaint species_paint(const MushroomSpec& stepped, const Individual& individual,
+                           const std::string& id, const Atlas& atlas, const Caches& caches) {
     MushroomSpec spec;
     spec.model = stepped.model;
     if (!spec.model) spec.mix = {{id, 1000}};
@@ -67,15 +70,26 @@ SpeciesPaint species_paint(const MushroomSpec& stepped, const std::string& id, c
     spec.params.age = stepped.params.age;
     spec.params.variation = stepped.params.variation;
     spec.params.weathering.cracks = stepped.params.weathering.cracks;  // only cracks use strain
-    const Individual individual = resolve(spec, atlas, caches.morphs);
-    SpeciesPaint found{surface_metrics(individual), individual.lightness};
+    // One species without overrides, as in most requests, is the individual that is resolved
+    // already.
+    spec.params.lod = stepped.params.lod;
+    spec.params.texture_size = stepped.params.texture_size;
+    spec.params.textures = stepped.params.textures;
+    spec.params.animation = stepped.params.animation;
+    spec.params.frames = stepped.params.frames;
+    const bool is_known = spec.mix == stepped.mix && spec.params == stepped.params;
+    std::optional<Individual> resolved;
+    if (!is_known) resolved = resolve(spec, atlas, caches.morphs);
+    const Individual& alone = is_known ? individual : *resolved;
+    SpeciesPaint found{surface_metrics(alone), alone.lightness};
+    const int strain = found.metrics.radial_strain;
     // Lengths are quantised in the same steps as size, so scaling is an addition of steps.
     const int larger = quantised_length(stepped.params.size);
     SurfaceMetrics::fields([&](auto length, const Info& info) {
         found.metrics.*length = std::clamp(found.metrics.*length + larger,
                                            static_cast<int>(info.min), static_cast<int>(info.max));
     });
-    found.metrics.radial_strain = surface_metrics(individual).radial_strain;  // not a length
+    found.metrics.radial_strain = strain;  // not a length
     return found;
 }
 
@@ -181,7 +195,8 @@ PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas, const Cach
     std::vector<std::pair<std::string, PaintShare>> shares;
     for (std::size_t i = 0; i < individual.parts.size(); ++i) {
         const Model& model = individual.parts[i].model;
-        const SpeciesPaint alone = species_paint(stepped, individual.parts[i].id, atlas, caches);
+        const SpeciesPaint alone =
+            species_paint(stepped, individual, individual.parts[i].id, atlas, caches);
         PaintShare share;
         // Parts are sorted by id, whatever the order of the mix.
         for (std::size_t k = 0; k < stepped.mix.size(); ++k)

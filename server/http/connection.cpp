@@ -259,6 +259,7 @@ Connection::Step Connection::begin(Scan scan) {
         return Step::on;
     }
     request_ = api::Request();
+    routed_ = nullptr;
     request_.method = std::move(head.method);
     request_.target = std::move(head.target);
     request_.headers = std::move(head.headers);
@@ -275,15 +276,10 @@ Connection::Step Connection::begin(Scan scan) {
 
     const std::uint64_t length = head.content_length.value_or(0);
     if (length == 0) return dispatch();
-    if (head.expects_continue && in_.size() < length) {
-        std::optional<api::Response> response = state_.shared.judge_head(request_);
-        if (response) return refuse([&] { return *response; });
-    }
-    std::size_t most = 0;
-    try {
-        most = state_.shared.handlers.most_body(method_, target_);
-    } catch (...) {  // no body is accepted
-    }
+    routed_ = state_.shared.route(request_);
+    if (routed_ && routed_->response && head.expects_continue && in_.size() < length)
+        return refuse([routed = routed_] { return *routed->response; });
+    std::size_t most = routed_ ? routed_->most_body : 0;
     body_client_ = client_of(client_);
     body_has_share_ = !state_.options.proxies.trusted.contains(client_);
     most = std::min(most, body_has_share_ ? state_.options.most_body_of_client
@@ -402,7 +398,7 @@ void Connection::release_body() {
 Connection::Step Connection::dispatch() {
     received_at_ = Clock::now();
     const auto worker_request = std::make_shared<WorkerRequest>(
-        state_.shared, *this, std::move(request_), client_, closing_);
+        state_.shared, *this, std::move(request_), routed_, client_, closing_);
     bool is_queued = false;
     try {
         is_queued = state_.shared.workers.offer([worker_request] { worker_request->start(); });
@@ -423,6 +419,7 @@ Connection::Step Connection::refuse(int status, std::string_view detail) {
     request.method = method_;
     request.target = target_;
     request.id = id_;
+    if (!routed_ && !target_.empty()) routed_ = state_.shared.route(request);
     return refuse([&] { return state_.shared.refusal(request, status, detail); });
 }
 
@@ -430,9 +427,9 @@ Connection::Step Connection::refuse(int status, std::string_view detail) {
 Connection::Step Connection::refuse(const std::function<api::Response()>& make) {
     closing_ = unread_ = true;
     received_at_ = Clock::now();
+    label_ = label_of(routed_);
     request_ = api::Request();
     release_body();
-    label_ = state_.shared.label(method_, target_);
     return send(std::make_shared<const Sending>(state_.shared.codec.send(
         method_ == "HEAD" ? "HEAD / HTTP/1.1" : "GET / HTTP/1.1", make, [&](int) { return make(); },
         [] { return true; })));

@@ -168,6 +168,7 @@ class Connection final : public Timed {
     // The current request.
     std::string method_, target_, id_, label_, trace_id_, parent_id_;
     api::Request request_;
+    std::shared_ptr<const api::RoutedRequest> routed_;  ///< null until it is needed
     std::size_t body_length_ = 0;
     std::size_t body_bytes_ = 0;       ///< counted in state_.bodies
     Address body_client_;              ///< client of that count

@@ -51,7 +51,10 @@ Reactor::Reactor(const TransportOptions& options, const Handlers& handlers, Http
         const Sending sending = codec.send(
             "GET " + target + " HTTP/1.1", [&one = response] { return one; },
             [](int) { return api::Response(); }, [] { return false; });
-        if (auto hot = hot_response(target, sending, shared_.label("GET", target)))
+        api::Request request;
+        request.method = "GET";
+        request.target = target;
+        if (auto hot = hot_response(target, sending, label_of(shared_.route(request))))
             state_.hot.insert_pinned(std::move(hot));
     }
 }

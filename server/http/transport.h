@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "api/http/message.h"
+#include "api/http/routed_request.h"
 #include "server/http/addresses.h"
 
 namespace sporeprint::server {
@@ -52,7 +53,7 @@ struct Served {
     std::string method, target, id, peer;
     std::string client;               ///< reported by a trusted proxy; empty without one
     std::string trace_id, parent_id;  ///< of a valid traceparent; empty without one
-    std::string label;                ///< from Handlers::label()
+    std::string label;                ///< RoutedRequest::label()
     int status = 0;           ///< 499: the client disconnected before the response was ready
     std::uint64_t bytes = 0;  ///< sent, of head and body
     double milliseconds = 0;  ///< from the last byte of the request to the last of the response
@@ -76,6 +77,9 @@ class PendingRequest {
     virtual ~PendingRequest() = default;
 
     [[nodiscard]] virtual const api::Request& request() const = 0;
+
+    /// Returns what Handlers::route() has returned for the request; it lives as long as this.
+    [[nodiscard]] virtual const api::RoutedRequest& routed() const = 0;
 
     /// Returns the address of the client: the peer, or the one reported by a trusted proxy.
     [[nodiscard]] virtual const Address& client() const = 0;
@@ -103,13 +107,10 @@ struct Handlers {
     /// Returns the response to an error detected by the transport. This and the following callbacks
     /// must be fast, as they run on the reactor thread.
     std::function<api::Response(const api::Request&, int status, std::string_view detail)> refuse;
-    /// Returns the greatest accepted body size of a target in bytes (413).
-    std::function<std::size_t(std::string_view method, std::string_view target)> most_body;
-    /// Returns the response to a request whose body has not arrived, if its head alone determines
-    /// it. A client that expects "100 Continue" receives it instead.
-    std::function<std::optional<api::Response>(const api::Request&)> judge_head;
-    /// Returns the name of the route of a request, for the metrics.
-    std::function<std::string(std::string_view method, std::string_view target)> label;
+    /// Finds the route of a request whose body has not arrived: the largest body that it accepts
+    /// (413), its name for the metrics, and the response if the head alone determines it, which a
+    /// client that expects "100 Continue" receives instead. Called once per request.
+    std::function<std::shared_ptr<const api::RoutedRequest>(const api::Request&)> route;
     /// Records a request that has ended.
     std::function<void(const Served&)> served;
     /// Targets with a constant response to GET, which the reactor thread sends by itself.

@@ -55,21 +55,16 @@ api::Response SharedState::refusal(const api::Request& request, int status,
     }
 }
 
-std::optional<api::Response> SharedState::judge_head(const api::Request& request) const {
-    if (!handlers.judge_head) return std::nullopt;
+std::shared_ptr<const api::RoutedRequest> SharedState::route(const api::Request& request) const {
     try {
-        return handlers.judge_head(request);
+        return handlers.route(request);
     } catch (...) {
-        return std::nullopt;
+        return nullptr;
     }
 }
 
-std::string SharedState::label(std::string_view method, std::string_view target) const {
-    try {
-        return handlers.label(method, target);
-    } catch (...) {
-        return {};
-    }
+std::string label_of(const std::shared_ptr<const api::RoutedRequest>& routed) {
+    return routed ? std::string(routed->label()) : "UNKNOWN";
 }
 
 WorkerRequest::~WorkerRequest() {
@@ -79,7 +74,7 @@ WorkerRequest::~WorkerRequest() {
 void WorkerRequest::start() {
     try {
         epoch_ = shared_.epoch;
-        label_ = shared_.label(request_.method, request_.target);
+        if (!routed_) routed_ = shared_.handlers.route(request_);
         shared_.handlers.respond(shared_from_this());
     } catch (...) {
         reply(shared_.refusal(request_, 500, {}));
@@ -113,7 +108,7 @@ void WorkerRequest::reply(api::Response response) {
     bool closing = closing_;
     Reply reply;
     reply.to = from_;
-    reply.label = std::move(label_);
+    reply.label = label_of(routed_);
     reply.epoch = epoch_;
     reply.sending = shared_.codec.send(
         request_.method + ' ' + request_.target + " HTTP/1.1", [&] { return std::move(response); },

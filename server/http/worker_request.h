@@ -66,25 +66,29 @@ struct SharedState {
     [[nodiscard]] api::Response refusal(const api::Request& request, int status,
                                         std::string_view detail) const;
 
-    /// Calls handlers.judge_head; returns nothing if it throws.
-    [[nodiscard]] std::optional<api::Response> judge_head(const api::Request& request) const;
-
-    /// Calls handlers.label; returns an empty text if it throws.
-    [[nodiscard]] std::string label(std::string_view method, std::string_view target) const;
+    /// Calls handlers.route; returns a null pointer if it throws.
+    [[nodiscard]] std::shared_ptr<const api::RoutedRequest> route(
+        const api::Request& request) const;
 };
+
+/// Returns the label of a routed request; "UNKNOWN" for a null pointer.
+[[nodiscard]] std::string label_of(const std::shared_ptr<const api::RoutedRequest>& routed);
 
 /// A pending request of one connection.
 class WorkerRequest final : public PendingRequest,
                             public std::enable_shared_from_this<WorkerRequest> {
   public:
     /// from     receives exactly one reply, unless drop() is called first
+    /// routed   route of the request; null: a worker finds it
     /// client   address of the client
     /// closing  true: the connection is closed after this response
     WorkerRequest(SharedState& shared, Connection& from, api::Request request,
-                  const Address& client, bool closing)
+                  std::shared_ptr<const api::RoutedRequest> routed, const Address& client,
+                  bool closing)
         : shared_(shared),
           from_(&from),
           request_(std::move(request)),
+          routed_(std::move(routed)),
           client_(client),
           closing_(closing) {}
     ~WorkerRequest() override;
@@ -94,6 +98,7 @@ class WorkerRequest final : public PendingRequest,
     void drop();                       ///< discards the reply
 
     [[nodiscard]] const api::Request& request() const override { return request_; }
+    [[nodiscard]] const api::RoutedRequest& routed() const override { return *routed_; }
     [[nodiscard]] const Address& client() const override { return client_; }
     [[nodiscard]] bool is_disconnected() const override { return is_disconnected_; }
     void reply(api::Response response) override;
@@ -106,10 +111,10 @@ class WorkerRequest final : public PendingRequest,
     SharedState& shared_;
     Connection* from_;
     api::Request request_;
+    std::shared_ptr<const api::RoutedRequest> routed_;
     Address client_;
     bool closing_;
     std::uint64_t epoch_ = 0;  ///< of its start
-    std::string label_;
     std::atomic<bool> is_disconnected_{false}, responded_{false};
     std::mutex mutex_;
     std::optional<CancelReason> cancelled_;

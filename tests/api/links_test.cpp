@@ -196,11 +196,12 @@ TEST_F(BasePathTest, TheBarePathLeadsToThePage) {
 }
 
 TEST_F(BasePathTest, BodiesAreAsLargeAsElsewhere) {
-    EXPECT_EQ(service_.most_body("POST", base_ + "/v1/inspect"),
-              other_.most_body("POST", "/v1/inspect"));
-    EXPECT_EQ(service_.most_body("POST", "/v1/inspect"), other_.most_body("POST", "/v1/inspect"));
-    EXPECT_GT(other_.most_body("POST", "/v1/inspect"),
-              other_.most_body("POST", base_ + "/v1/inspect"));
+    EXPECT_EQ(test::most_body(service_, "POST", base_ + "/v1/inspect"),
+              test::most_body(other_, "POST", "/v1/inspect"));
+    EXPECT_EQ(test::most_body(service_, "POST", "/v1/inspect"),
+              test::most_body(other_, "POST", "/v1/inspect"));
+    EXPECT_GT(test::most_body(other_, "POST", "/v1/inspect"),
+              test::most_body(other_, "POST", base_ + "/v1/inspect"));
 }
 
 }  // namespace

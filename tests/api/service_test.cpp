@@ -153,9 +153,9 @@ TEST_F(ServiceTest, BodiesOfAnotherTypeOrEncodingAre415AndLargeOnes413) {
     encoded.headers.emplace_back("content-encoding", "gzip");
     expect_problem(ask(encoded), 415);
     expect_problem(ask(post(std::string((4u << 20) + 1, ' '))), 413);
-    EXPECT_EQ(service_.most_body("POST", "/v1/mushrooms.glb"), 4u << 20);
-    EXPECT_EQ(service_.most_body("POST", "/v1/inspect?x=1"), 64u << 20);
-    EXPECT_EQ(service_.most_body("POST", "/nothing"), 256u << 10);
+    EXPECT_EQ(test::most_body(service_, "POST", "/v1/mushrooms.glb"), 4u << 20);
+    EXPECT_EQ(test::most_body(service_, "POST", "/v1/inspect?x=1"), 64u << 20);
+    EXPECT_EQ(test::most_body(service_, "POST", "/nothing"), 256u << 10);
 }
 
 TEST_F(ServiceTest, ErrorsOfABodyArePointersIntoIt) {
@@ -705,7 +705,7 @@ TEST_F(ServiceTest, TheDescriptionTellsWhatWouldBeMade) {
 TEST_F(ServiceTest, CollapsedRequestsSaySoAndKeepTheirOwnHeaders) {
     const Request plain = get(small());
     const Request versioned = get(header(ask(request("HEAD", small())), "Content-Location"));
-    auto first = service_.plan(plain), second = service_.plan(versioned);
+    auto first = test::plan(service_, plain), second = test::plan(service_, versioned);
     ASSERT_TRUE(std::holds_alternative<Job>(first));
     ASSERT_TRUE(std::holds_alternative<Job>(second));
     EXPECT_EQ(std::get<Job>(first).key, std::get<Job>(second).key);
@@ -737,7 +737,7 @@ TEST(ServiceCache, AResponseTooLargeToCacheIsNotReportedAsStored) {
 }
 
 TEST_F(ServiceTest, AStoppedJobIs503AndLeavesNothingBehind) {
-    auto planned = service_.plan(get(small()));
+    auto planned = test::plan(service_, get(small()));
     ASSERT_TRUE(std::holds_alternative<Job>(planned));
     std::stop_source stop;
     stop.request_stop();
@@ -829,7 +829,7 @@ Spelling random_spelling() {
 RC_GTEST_PROP(CanonicalAddressProperty, EqualMeaningHasOneKeyOneTagAndOneAddressThatIsItsOwn, ()) {
     static Service service(built_in_atlas(), ServiceOptions{});
     const auto [target, other] = random_spelling();
-    auto one = service.plan(get(target)), two = service.plan(get(other));
+    auto one = test::plan(service, get(target)), two = test::plan(service, get(other));
     RC_ASSERT(one.index() == two.index());
     if (std::holds_alternative<Job>(one))
         RC_ASSERT(std::get<Job>(one).key == std::get<Job>(two).key);
@@ -963,7 +963,7 @@ TEST_F(ServiceTest, AJsonChunkThatIsTooLongToInspectIs413BeforeItIsRead) {
     const std::string space(most_inspected_json - json_of_ours("{}").size(), ' ');
     EXPECT_EQ(ask(inspection_of(glb_of(json_of_ours("{}") + space, 8))).status, 200);
     const Request longer = inspection_of(glb_of(json_of_ours("{}") + space + "    ", 8));
-    const auto planned = service_.plan(longer);
+    const auto planned = test::plan(service_, longer);
     ASSERT_TRUE(std::holds_alternative<Response>(planned)) << "no job is made of it";
     expect_problem(std::get<Response>(planned), 413);
     const std::string detail = json_of(std::get<Response>(planned)).find("detail")->as_string();
@@ -973,7 +973,7 @@ TEST_F(ServiceTest, AJsonChunkThatIsTooLongToInspectIs413BeforeItIsRead) {
 }
 
 TEST_F(ServiceTest, AnInspectionHoldsTheJsonChunkAndNotTheUpload) {
-    auto planned = service_.plan(inspection_of(glb_of(json_of_ours("{}"), 60u << 20)));
+    auto planned = test::plan(service_, inspection_of(glb_of(json_of_ours("{}"), 60u << 20)));
     ASSERT_TRUE(std::holds_alternative<Job>(planned));
     const Job& job = std::get<Job>(planned);  // the upload is gone
     EXPECT_LT(job.cost.work(), 200u) << "nor is it charged by the length of what is not read";

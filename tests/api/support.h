@@ -59,6 +59,16 @@ inline Value json_of(const Response& response) {
     return value;
 }
 
+/// Returns the plan of a request, as the server asks for it.
+inline Plan plan(Service& service, const Request& request, bool correspondence_ready = false) {
+    return service.plan(request, service.route(request), correspondence_ready);
+}
+
+/// Returns the largest body that the route of a request accepts, bytes.
+inline std::size_t most_body(const Service& service, std::string method, std::string target) {
+    return service.route(request(std::move(method), std::move(target))).most_body;
+}
+
 /// A service with the built-in atlas, for one test.
 class RequestedService : public testing::Test {
   protected:

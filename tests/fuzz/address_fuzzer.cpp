@@ -17,7 +17,8 @@ using namespace sporeprint;
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
     static api::Service service(built_in_atlas(), api::ServiceOptions{});
     const auto ask = [](std::string method, std::string target) {
-        return service.plan({std::move(method), std::move(target), {}, {}, "fuzz"});
+        const api::Request request{std::move(method), std::move(target), {}, {}, "fuzz"};
+        return service.plan(request, service.route(request));
     };
     const std::string target = '/' + std::string(reinterpret_cast<const char*>(data), size);
     const auto plan = ask("GET", target);

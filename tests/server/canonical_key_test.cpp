@@ -199,9 +199,9 @@ std::string body_of(const RequestValues& request_values, Draws& draws) {
 /// Returns the key of a request; fails with the response if it is refused.
 Key key_of(const api::Request& request) {
     static api::Service service(built_in_atlas(), api::ServiceOptions{});
-    const auto plan = service.plan(request);
-    if (const auto* job = std::get_if<api::Job>(&plan)) return job->key;
-    const auto& response = std::get<api::Response>(plan);
+    const auto planned = api::test::plan(service, request);
+    if (const auto* job = std::get_if<api::Job>(&planned)) return job->key;
+    const auto& response = std::get<api::Response>(planned);
     RC_FAIL(request.target + ' ' + request.body + ": " + std::to_string(response.status) + ' ' +
             api::test::text_of(response));
     return {};

@@ -28,10 +28,11 @@ const std::string heavy = "/v1/mushrooms/amanita_muscaria.glb?texture_size=1024&
 /// A pending request without a transport; its creator waits for the response.
 class TestRequest final : public PendingRequest {
   public:
-    explicit TestRequest(api::Request request, const Address& client = {})
-        : request_(std::move(request)), client_(client) {}
+    TestRequest(api::Request request, const Handlers& handlers, const Address& client = {})
+        : request_(std::move(request)), routed_(handlers.route(request_)), client_(client) {}
 
     const api::Request& request() const override { return request_; }
+    const api::RoutedRequest& routed() const override { return *routed_; }
     const Address& client() const override { return client_; }
     bool is_disconnected() const override { return false; }
     void reply(api::Response response) override {
@@ -63,6 +64,7 @@ class TestRequest final : public PendingRequest {
 
   private:
     const api::Request request_;
+    const std::shared_ptr<const api::RoutedRequest> routed_;
     const Address client_;
     std::mutex mutex_;
     std::condition_variable changed_;
@@ -105,7 +107,7 @@ struct Harness {
 
     api::Response ask(api::Request request, std::chrono::milliseconds timeout,
                       PendingRequest::CancelReason reason) {
-        const auto pending = std::make_shared<TestRequest>(std::move(request));
+        const auto pending = std::make_shared<TestRequest>(std::move(request), handlers);
         handlers.respond(pending);
         return pending->response(timeout, reason);
     }
@@ -208,7 +210,7 @@ TEST(RequestHandler, ExportsPrometheusMetrics) {
     served.milliseconds = 3;
     for (const char* target :
          {"/v1/species/amanita_muscaria", "/nowhere", "/nowhere/else", "/livez"}) {
-        served.label = harness.handlers.label("GET", target);
+        served.label = harness.handlers.route(Harness::request_of("GET", target))->label();
         harness.handlers.served(served);
     }
     const api::Response response = harness.ask("/metrics");

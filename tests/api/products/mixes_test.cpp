@@ -65,36 +65,37 @@ TEST_F(MixesTest, ResponsesThatNeedACorrespondenceHaveAWarmUpJob) {
         get("/v1/surfaces/mushrooms/" + mix + "/normal.jpg?texture_size=128")};
     std::set<Key> keys;
     for (const Request& one : requested) {
-        const auto planned = service_.plan(one);
+        const auto planned = test::plan(service_, one);
         const Job* const job = std::get_if<Job>(&planned);
         ASSERT_TRUE(job && job->is_warm_up) << one.method << one.target;
         EXPECT_GT(job->cost.work(), 1000u);
         keys.insert(job->key);
     }
     EXPECT_EQ(keys.size(), 1u) << "one flight for all of them";
-    const auto whole = service_.plan(get(glb(mix)));
+    const auto whole = test::plan(service_, get(glb(mix)));
     ASSERT_TRUE(std::holds_alternative<Job>(whole));
     EXPECT_FALSE(std::get<Job>(whole).is_warm_up) << "the job that makes the file finds it";
 
     EXPECT_EQ(service_.counters().morph_misses, 0u) << "plan() has made nothing";
-    const Response nobodys = std::get<Job>(service_.plan(head))
+    const Response nobodys = std::get<Job>(test::plan(service_, head))
                                  .run(
                                      {}, [](Step) {}, in_turn);
     service_.finish(*keys.begin(), nobodys);
     EXPECT_EQ(service_.counters().morph_misses, 1u);
     const int statuses[] = {200, 304, 410};
     for (std::size_t i = 0; i < 3; ++i) {
-        const auto planned = service_.plan(requested[i], i % 2 == 0);
+        const auto planned = test::plan(service_, requested[i], i % 2 == 0);
         ASSERT_TRUE(std::holds_alternative<Response>(planned));
         EXPECT_EQ(std::get<Response>(planned).status, statuses[i]);
     }
     EXPECT_EQ(service_.counters().morph_misses, 1u);
 
-    const auto alone = service_.plan(requested[3]);  // paint needs those of each species alone, too
+    const auto alone =
+        test::plan(service_, requested[3]);  // paint needs those of each species alone, too
     EXPECT_TRUE(std::get<Job>(alone).is_warm_up);
     std::get<Job>(alone).run(
         {}, [](Step) {}, in_turn);
-    const auto image = service_.plan(requested[3]);
+    const auto image = test::plan(service_, requested[3]);
     ASSERT_TRUE(std::holds_alternative<Job>(image));
     EXPECT_FALSE(std::get<Job>(image).is_warm_up);
     EXPECT_EQ(service_.counters().morph_misses, 3u);

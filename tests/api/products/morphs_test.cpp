@@ -380,7 +380,7 @@ TEST_F(MorphsTest, ErrorsOfABodyArePointersIntoIt) {
     with_query.target += "?age=0.5";
     expect_problem(ask(with_query), 400);
     expect_problem(ask(post("{}", morph() + ".glb", "text/plain")), 415);
-    EXPECT_EQ(service_.most_body("POST", morph() + ".glb"), 256u << 10);
+    EXPECT_EQ(test::most_body(service_, "POST", morph() + ".glb"), 256u << 10);
 }
 
 RC_GTEST_PROP(MorphsProperty, EqualMeaningGivesEqualKeys, ()) {

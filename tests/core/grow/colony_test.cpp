@@ -39,8 +39,12 @@ ColonySpec colony_of(const std::string& id, int count = 12, int distinct = 4) {
     return spec;
 }
 
+Individual typical(const ColonySpec& spec) {
+    return typical_individual(spec, atlas(), with_cached_morphs().caches);
+}
+
 Colony parts_of(const ColonySpec& spec) {
-    return colony_parts(spec, atlas(), with_cached_morphs());
+    return colony_parts(spec, typical(spec), atlas(), with_cached_morphs());
 }
 Grown grown(const ColonySpec& spec) { return grow_colony(spec, atlas(), {}, with_cached_morphs()); }
 
@@ -125,7 +129,7 @@ TEST_P(EveryColony, IsEstimatedBeforeAnyWork) {
             spec.params.lod = lod;
             if (rooted && colony_traits(spec, atlas()).lateral) continue;
             if (rooted) spec.params.habit = Habit::rooted;
-            const Estimate e = estimate(spec, atlas(), with_cached_morphs().caches);
+            const Estimate e = estimate(spec, typical(spec), atlas());
             const Grown colony = grown(spec);
             const auto bytes = static_cast<double>(size_of(colony.glb));
             EXPECT_GT(static_cast<double>(e.vertices), 0.8 * static_cast<double>(colony.vertices));
@@ -395,15 +399,15 @@ TEST(ColonyBudget, IsCheckedBeforeAnyWork) {
     spec.params.habit = Habit::rooted;
     spec.params.growth.depth = 60;
     spec.params.growth.branch_distance = 0.005;
-    EXPECT_TRUE(
-        names(refusal([&] { (void)estimate(spec, atlas()); }), "/branch_distance", "nodes"));
+    EXPECT_TRUE(names(refusal([&] { (void)estimate(spec, typical(spec), atlas()); }),
+                      "/branch_distance", "nodes"));
     EXPECT_TRUE(names(refusal([&] { (void)parts_of(spec); }), "/branch_distance", "nodes"));
     ExecutionContext stopped = with_cached_morphs();
     std::stop_source source;
     source.request_stop();
     stopped.stop = source.get_token();
-    EXPECT_THROW((void)colony_parts(colony_of("hypholoma_fasciculare"), atlas(), stopped),
-                 Cancelled);
+    const ColonySpec other = colony_of("hypholoma_fasciculare");
+    EXPECT_THROW((void)colony_parts(other, typical(other), atlas(), stopped), Cancelled);
 }
 
 // Every parameter at both ends of its range makes a valid colony, or is refused for a reason.

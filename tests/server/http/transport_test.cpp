@@ -49,16 +49,16 @@ struct Fixture {
         options.port = 0;
         Handlers handlers;
         handlers.respond = std::move(response);
-        handlers.label = [](std::string_view method, std::string_view) {
-            return "some " + std::string(method);
+        handlers.route = [](const api::Request& request) {
+            auto routed = std::make_shared<api::RoutedRequest>();
+            routed->match.pattern = request.method == "GET" ? "some GET" : "some other";
+            routed->most_body = request.target == "/large" ? std::size_t{64} << 20 : 1000;
+            return routed;
         };
         handlers.refuse = [](const api::Request&, int status, std::string_view detail) {
             api::Response refusal = text_response(std::string(detail), status);
             refusal.headers[0].second = "application/problem+json";
             return refusal;
-        };
-        handlers.most_body = [](std::string_view, std::string_view target) {
-            return target == "/large" ? std::size_t{64} << 20 : std::size_t{1000};
         };
         handlers.served = [this](const Served& one) {
             const std::lock_guard lock(mutex);
@@ -322,33 +322,33 @@ TEST(Transport, ReceivesBodies) {
 TEST(Transport, SendsTheFinalStatusInsteadOf100Continue) {
     TransportOptions options = Fixture::without_timeouts();
     options.port = 0;
-    std::atomic<int> judged{0};
+    std::atomic<int> routed{0};
     Handlers handlers;
     handlers.respond = [](const std::shared_ptr<PendingRequest>& pending) {
         pending->reply(text_response(pending->request().body));
     };
-    handlers.label = [](std::string_view, std::string_view) { return std::string(); };
     handlers.refuse = [](const api::Request&, int status, std::string_view) {
         return text_response("", status);
     };
-    handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{1000}; };
     handlers.served = [](const Served&) {};
-    handlers.judge_head = [&](const api::Request& request) -> std::optional<api::Response> {
-        ++judged;
-        EXPECT_EQ(request.header("A"), "b");
-        if (request.target == "/good") return std::nullopt;
+    handlers.route = [&](const api::Request& request) {
         if (request.target == "/throws") throw std::runtime_error("secret");
-        return text_response("no", 404);
+        ++routed;
+        EXPECT_EQ(request.header("A"), "b");
+        auto found = std::make_shared<api::RoutedRequest>();
+        found->most_body = 1000;
+        if (request.target == "/bad") found->response = text_response("no", 404);
+        return found;
     };
     Transport transport(options, handlers);
     transport.start();
     const std::string rest =
         " HTTP/1.1\r\nA: b\r\nExpect: 100-continue\r\nContent-Length: 2\r\n\r\n";
     RawClient good(transport.port());
-    for (const char* target : {"/good", "/throws"}) {
-        EXPECT_EQ(good.ask("POST " + std::string(target) + rest).status, 100) << target;
-        EXPECT_EQ(good.ask("ab").body, "ab");
-    }
+    EXPECT_EQ(good.ask("POST /good" + rest).status, 100);
+    EXPECT_EQ(good.ask("ab").body, "ab");
+    RawClient thrown(transport.port());
+    EXPECT_EQ(thrown.ask("POST /throws" + rest).status, 413) << "no route accepts this body";
     RawClient bad(transport.port());
     const auto response = bad.ask("POST /bad" + rest);
     EXPECT_EQ(response.status, 404);
@@ -358,12 +358,12 @@ TEST(Transport, SendsTheFinalStatusInsteadOf100Continue) {
     RawClient head(transport.port());
     EXPECT_EQ(head.ask("HEAD /bad" + rest, true).status, 404);
     EXPECT_TRUE(head.is_closed()) << "and no body was sent";
-    EXPECT_EQ(judged, 4);
+    EXPECT_EQ(routed, 3);
     RawClient plain(transport.port());
-    EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nContent-Length: 2\r\n\r\nab").body, "ab");
-    EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nExpect: 100-continue\r\n\r\n").body, "")
+    EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nA: b\r\nContent-Length: 2\r\n\r\nab").body, "ab");
+    EXPECT_EQ(plain.ask("POST /bad HTTP/1.1\r\nA: b\r\nExpect: 100-continue\r\n\r\n").body, "")
         << "there is no body to wait for";
-    EXPECT_EQ(judged, 4);
+    EXPECT_EQ(routed, 5) << "the route of each request is found once";
 }
 
 constexpr std::size_t megabyte = 1 << 20;
@@ -562,14 +562,12 @@ TEST(Transport, SurvivesHandlersThatThrow) {
         else
             throw std::runtime_error("secret detail");
     };
-    handlers.label = [](std::string_view, std::string_view) -> std::string {
-        throw std::runtime_error("secret name");
+    handlers.route = [](const api::Request& request) {
+        if (request.method == "POST") throw std::runtime_error("secret route");
+        return std::make_shared<const api::RoutedRequest>();
     };
     handlers.refuse = [](const api::Request&, int, std::string_view) -> api::Response {
         throw std::runtime_error("secret too");
-    };
-    handlers.most_body = [](std::string_view, std::string_view) -> std::size_t {
-        throw std::runtime_error("secret as well");
     };
     handlers.served = [](const Served&) { throw std::runtime_error("and this"); };
     Transport transport(options, handlers);
@@ -912,6 +910,9 @@ TEST(Transport, SendsPinnedResponsesWhileAllWorkersAreBusy) {
         return text_response("", status);
     };
     handlers.served = [](const Served&) {};
+    handlers.route = [](const api::Request&) {
+        return std::make_shared<const api::RoutedRequest>();
+    };
     options.port = 0;
     Transport transport(options, handlers);
     transport.start();

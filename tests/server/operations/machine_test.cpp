@@ -55,7 +55,9 @@ TEST(Health, IsTheStatusOfTheResponse) {
         response.body = {slice_of("x")};
         pending->reply(std::move(response));
     };
-    handlers.most_body = [](std::string_view, std::string_view) { return std::size_t{0}; };
+    handlers.route = [](const api::Request&) {
+        return std::make_shared<const api::RoutedRequest>();
+    };
     handlers.served = [](const Served&) {};
     Transport transport(options, handlers);
     transport.start();
