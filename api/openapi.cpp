@@ -372,6 +372,17 @@ Value used_headers(const Value& document, const Value& headers) {
     return cached;
 }
 
+/// Returns the security scheme of signed URLs.
+Value signature_scheme() {
+    return object({{"type", "apiKey"},
+                   {"in", "query"},
+                   {"name", "sig"},
+                   {"description",
+                    "Addresses of what is made are signed: they end with key, expires if they do, "
+                    "and sig, in "
+                    "this order. Whoever runs the service gives them out."}});
+}
+
 }  // namespace
 
 Value openapi(const DocumentInputs& inputs, std::string_view version) {
@@ -404,17 +415,7 @@ Value openapi(const DocumentInputs& inputs, std::string_view version) {
     Value components = object({{"schemas", std::move(schemas)},
                                {"requestBodies", std::move(bodies)},
                                {"responses", component_responses(is_signed)}});
-    if (is_signed)
-        components.set(
-            "securitySchemes",
-            object({{"signature",
-                     object({{"type", "apiKey"},
-                             {"in", "query"},
-                             {"name", "sig"},
-                             {"description",
-                              "Addresses of what is made are signed: they end with key, expires if "
-                              "they do, and sig, in this order. Whoever runs the service gives "
-                              "them out."}})}}));
+    if (is_signed) components.set("securitySchemes", object({{"signature", signature_scheme()}}));
     Value document = object({
         {"openapi", "3.1.0"},
         {"info", object({{"title", "Sporeprint"},

@@ -155,15 +155,96 @@ std::string text_of_option(const std::string& flag, const std::string& file) {
     throw InvalidInput(flag, file + " cannot be read; allowed is the path of a file");
 }
 
-int serve(const Options& options, const Environment& environment) {
+/// Blocks the signals that end or reload the service in this thread and all that it creates later.
+sigset_t blocked_signals() {
     sigset_t signals;
     sigemptyset(&signals);
     sigaddset(&signals, SIGTERM);
     sigaddset(&signals, SIGINT);
     sigaddset(&signals, SIGHUP);
-    pthread_sigmask(SIG_BLOCK, &signals, nullptr);  // inherited by all threads created later
+    pthread_sigmask(SIG_BLOCK, &signals, nullptr);
     signal(SIGPIPE, SIG_IGN);
+    return signals;
+}
 
+/// Returns the options of the service. Events of its store are logged.
+///
+/// unwritten  must outlive the service, as must `log`
+api::ServiceOptions service_options_of(const Options& options, RepeatedWarning& unwritten,
+                                       Log& log) {
+    api::ServiceOptions result;
+    result.store_event = [&](const api::StoreEvent& event) {
+        Value::Object about = {{"file", Value(event.file.string())}, {"why", Value(event.why)}};
+        if (event.kind == api::StoreEvent::Kind::unwritten) return unwritten(std::move(about));
+        about.emplace_back("files", Value(static_cast<double>(event.files)));
+        log.event(LogLevel::warning,
+                  "files in the store's folder that are not its own are left alone and not counted",
+                  about);
+    };
+    result.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
+    result.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
+    result.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
+    result.assets = page_folder(options);
+    result.store = options.store.string();
+    result.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
+    result.signed_urls = !options.sign_keys.empty();
+    result.allow_origin = options.allow_origin.string();
+    result.base_path = options.base_path.string();
+    return result;
+}
+
+RequestHandlerOptions request_handler_options_of(const Options& options) {
+    RequestHandlerOptions result;
+    result.threads =
+        options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
+    result.metrics = options.metrics_port == 0;
+    result.base_path = options.base_path.string();
+    result.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
+    result.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
+    return result;
+}
+
+TransportOptions transport_options_of(const Options& options) {
+    TransportOptions result;
+    result.host = options.host.string();
+    result.port = options.port;
+    result.most_of_client = static_cast<std::size_t>(options.client_connections);
+    result.proxies = {Networks(options.trusted_proxies), options.proxy_header};
+    result.hot_bytes = static_cast<std::size_t>(options.hot_cache_mb) << 20;
+    result.workers = std::max<std::size_t>(granted_processors(), 4);
+    return result;
+}
+
+/// Returns the options of the port for metrics, which few clients use.
+TransportOptions metrics_transport_options_of(const Options& options) {
+    TransportOptions result = transport_options_of(options);
+    result.port = options.metrics_port;
+    result.workers = 2;
+    result.most_connections = 64;
+    result.most_of_client = 0;
+    return result;
+}
+
+/// Waits until both transports have sent their last responses; a second signal ends the program at
+/// once.
+void drain_transports(Transport& transport, std::optional<Transport>& metrics_transport,
+                      const sigset_t& signals) {
+    std::atomic<bool> drained{false};
+    const std::jthread drain([&] {
+        transport.drain();
+        if (metrics_transport) metrics_transport->drain();
+        drained = true;
+    });
+    while (!drained)
+        if (const int signal = next_signal(signals, std::chrono::milliseconds(20));
+            signal == SIGTERM || signal == SIGINT)
+            _exit(failed);
+}
+
+/// Runs the service until SIGTERM or SIGINT, and returns the exit code. One function, because the
+/// order in which its parts are constructed is the order in which they depend on each other.
+int serve(const Options& options, const Environment& environment) {
+    const sigset_t signals = blocked_signals();
     Log log(options.log_level);
     report_ignored(environment, log);
     std::string warm_list;
@@ -177,56 +258,20 @@ int serve(const Options& options, const Environment& environment) {
                               "finished files cannot be written to the store; they are served, and "
                               "made anew after a restart",
                               std::chrono::minutes(1));
-    api::ServiceOptions service_options;
-    service_options.store_event = [&](const api::StoreEvent& event) {
-        Value::Object about = {{"file", Value(event.file.string())}, {"why", Value(event.why)}};
-        if (event.kind == api::StoreEvent::Kind::unwritten) return unwritten(std::move(about));
-        about.emplace_back("files", Value(static_cast<double>(event.files)));
-        log.event(LogLevel::warning,
-                  "files in the store's folder that are not its own are left alone and not counted",
-                  about);
-    };
-    service_options.cache_bytes = static_cast<std::size_t>(options.cache_mb) << 20;
-    service_options.image_cache_bytes = static_cast<std::size_t>(options.image_cache_mb) << 20;
-    service_options.morph_cache_bytes = static_cast<std::size_t>(options.morph_cache_mb) << 20;
-    service_options.assets = page_folder(options);
-    service_options.store = options.store.string();
-    service_options.store_bytes = static_cast<std::uint64_t>(options.store_mb) << 20;
-    service_options.signed_urls = !options.sign_keys.empty();
-    service_options.allow_origin = options.allow_origin.string();
-    service_options.base_path = options.base_path.string();
+    const api::ServiceOptions service_options = service_options_of(options, unwritten, log);
     AppState state;
     state.service = std::make_shared<api::Service>(atlas, service_options);
-
-    RequestHandlerOptions request_handler_options;
-    request_handler_options.threads =
-        options.threads > 0 ? static_cast<std::size_t>(options.threads) : granted_processors();
-    request_handler_options.metrics = options.metrics_port == 0;
-    request_handler_options.base_path = options.base_path.string();
-    request_handler_options.budget.rate = static_cast<std::uint64_t>(options.client_work) * 1000;
-    request_handler_options.budget.burst = static_cast<std::uint64_t>(options.client_burst) * 1000;
+    const RequestHandlerOptions request_handler_options = request_handler_options_of(options);
     const Sources sources{options.atlas.string(), options.sign_keys.string()};
     if (!sources.keys.empty())
         state.signatures = std::make_shared<const Signatures>(Signatures::from_file(sources.keys));
     Metrics metrics(SPOREPRINT_VERSION, generator_version(*state.service));
     RequestHandler request_handler(state, metrics, log, request_handler_options);
-
-    TransportOptions transport_options;
-    transport_options.host = options.host.string();
-    transport_options.port = options.port;
-    transport_options.most_of_client = static_cast<std::size_t>(options.client_connections);
-    transport_options.proxies = {Networks(options.trusted_proxies), options.proxy_header};
-    transport_options.hot_bytes = static_cast<std::size_t>(options.hot_cache_mb) << 20;
-    transport_options.workers = std::max<std::size_t>(granted_processors(), 4);
-    Transport transport(transport_options, request_handler.handlers());
+    Transport transport(transport_options_of(options), request_handler.handlers());
     std::optional<Transport> metrics_transport;
-    if (options.metrics_port != 0) {
-        transport_options.port = options.metrics_port;
-        transport_options.workers = 2;
-        transport_options.most_connections = 64;
-        transport_options.most_of_client = 0;
-        metrics_transport.emplace(transport_options, request_handler.metrics_handlers());
-    }
+    if (options.metrics_port != 0)
+        metrics_transport.emplace(metrics_transport_options_of(options),
+                                  request_handler.metrics_handlers());
     request_handler.watch(&transport);
     if (!state.service->self_test())
         return complain("the first thing made for a test could not be made; not starting", failed);
@@ -250,16 +295,7 @@ int serve(const Options& options, const Environment& environment) {
     }
     log.event(LogLevel::info, "stopping: no new connections, finishing what has begun");
     request_handler.close();
-    std::atomic<bool> drained{false};
-    const std::jthread drain([&] {
-        transport.drain();
-        if (metrics_transport) metrics_transport->drain();
-        drained = true;
-    });
-    while (!drained)
-        if (const int signal = next_signal(signals, std::chrono::milliseconds(20));
-            signal == SIGTERM || signal == SIGINT)
-            _exit(failed);  // a second signal
+    drain_transports(transport, metrics_transport, signals);
     log.event(LogLevel::info, "stopped");
     return fine;
 }
@@ -315,76 +351,51 @@ int sign(const Options& options, const SigningRequest& requested) {
     return fine;
 }
 
-int run(int argc, char** argv) {
-    CLI::App app("GLB files grown on demand, over HTTP.", "sporeprint");
-    app.set_version_flag("--version", "sporeprint " SPOREPRINT_VERSION, "Print the version");
-    app.set_help_flag("--help,-h", "Print this help");
-    const std::vector<OptionLine> lines = option_lines();
-    std::vector<std::string> texts(lines.size());
-    for (std::size_t i = 0; i < lines.size(); ++i)
-        app.add_option(lines[i].flag, texts[i], lines[i].help)->type_name("");
+/// Flags that only the command line has.
+struct CommandLine {
     std::string config, health;
-    SigningRequest to_sign;
     bool print_config = false;
+    SigningRequest to_sign;
+};
+
+void add_flags(CLI::App& app, CommandLine& line) {
     app.add_option(
-           "--config", config,
+           "--config", line.config,
            "JSON file with any of these options, named like cache_mb (or SPOREPRINT_CONFIG)")
         ->type_name("FILE");
-    app.add_flag("--print-config", print_config,
+    app.add_flag("--print-config", line.print_config,
                  "Print all options as such a file, where they come to, and end");
-    app.add_option("--health", health,
+    app.add_option("--health", line.health,
                    "Ask a running server: 0 if this address answers 200, else 1")
         ->type_name("URL");
-    app.add_option("--sign", to_sign.target,
+    app.add_option("--sign", line.to_sign.target,
                    "Print this path and query with the signature of the first of --sign-keys, "
                    "and end")
         ->type_name("TARGET");
-    app.add_option("--sign-method", to_sign.method,
+    app.add_option("--sign-method", line.to_sign.method,
                    "Method that it is good for: GET, which is also good for HEAD, or POST")
         ->type_name("METHOD")
         ->check(CLI::IsMember({"GET", "POST"}));
-    app.add_option("--sign-body", to_sign.body,
+    app.add_option("--sign-body", line.to_sign.body,
                    "File with the body of the POST, byte for byte; - reads standard input")
         ->type_name("FILE");
-    app.add_option("--sign-for", to_sign.seconds,
+    app.add_option("--sign-for", line.to_sign.seconds,
                    "Seconds for which it is good; for ever by itself")
         ->type_name("SECONDS")
         ->check(CLI::Range(std::int64_t{1}, std::int64_t{1} << 40));
     app.footer(
         "Each option is also a variable, --cache-mb is SPOREPRINT_CACHE_MB; a flag wins over a "
         "variable,\na variable over the file.");
-    try {
-        app.parse(argc, argv);
-    } catch (const CLI::Success& done) {
-        return app.exit(done);
-    } catch (const CLI::ParseError& error) {
-        return complain(std::string(error.what()) + "; --help lists the options", wrong_usage);
-    }
+}
 
-    if (!health.empty()) {
-        std::string reason;
-        return is_healthy(health, reason) ? fine : complain(health + ": " + reason, failed);
-    }
-    Given flags;
-    for (std::size_t i = 0; i < lines.size(); ++i)
-        if (app.count(lines[i].flag) > 0) flags.emplace_back(lines[i].name, texts[i]);
-    const Environment environment = environment_from(variables_of_process());
-    if (config.empty()) config = environment.config;
-
-    Options options;
-    try {
-        options = options_from(config, config_text(config), environment.options, flags);
-    } catch (const InvalidInput& invalid) {
-        for (const Problem& problem : invalid.problems())
-            complain(problem.path + ": " + problem.message, wrong_usage);
-        return wrong_usage;
-    } catch (const std::runtime_error& error) {
-        return complain(error.what(), wrong_usage);
-    }
-    if (print_config || !to_sign.target.empty())
+/// Does what the command line requests, with the resulting options; returns the exit code.
+int perform(const CLI::App& app, const CommandLine& line, const Options& options,
+            const Environment& environment) {
+    const SigningRequest& to_sign = line.to_sign;
+    if (line.print_config || !to_sign.target.empty())
         for (const std::string& unknown : environment.unknown)
             complain("ignored: unknown variable " + unknown, fine);
-    if (print_config) {
+    if (line.print_config) {
         std::printf("%s\n", config_text(options).c_str());
         return fine;
     }
@@ -399,6 +410,46 @@ int run(int argc, char** argv) {
                      wrong_usage);
         return wrong_usage;
     }
+}
+
+int run(int argc, char** argv) {
+    CLI::App app("GLB files grown on demand, over HTTP.", "sporeprint");
+    app.set_version_flag("--version", "sporeprint " SPOREPRINT_VERSION, "Print the version");
+    app.set_help_flag("--help,-h", "Print this help");
+    const std::vector<OptionLine> lines = option_lines();
+    std::vector<std::string> texts(lines.size());
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        app.add_option(lines[i].flag, texts[i], lines[i].help)->type_name("");
+    CommandLine line;
+    add_flags(app, line);
+    try {
+        app.parse(argc, argv);
+    } catch (const CLI::Success& done) {
+        return app.exit(done);
+    } catch (const CLI::ParseError& error) {
+        return complain(std::string(error.what()) + "; --help lists the options", wrong_usage);
+    }
+    if (!line.health.empty()) {
+        std::string reason;
+        return is_healthy(line.health, reason) ? fine
+                                               : complain(line.health + ": " + reason, failed);
+    }
+    Given flags;
+    for (std::size_t i = 0; i < lines.size(); ++i)
+        if (app.count(lines[i].flag) > 0) flags.emplace_back(lines[i].name, texts[i]);
+    const Environment environment = environment_from(variables_of_process());
+    if (line.config.empty()) line.config = environment.config;
+    Options options;
+    try {
+        options = options_from(line.config, config_text(line.config), environment.options, flags);
+    } catch (const InvalidInput& invalid) {
+        for (const Problem& problem : invalid.problems())
+            complain(problem.path + ": " + problem.message, wrong_usage);
+        return wrong_usage;
+    } catch (const std::runtime_error& error) {
+        return complain(error.what(), wrong_usage);
+    }
+    return perform(app, line, options, environment);
 }
 
 }  // namespace

@@ -16,6 +16,8 @@ namespace sporeprint {
 
 namespace {
 
+// No source or measurement is recorded for the values down to `vein_depth`.
+
 // Rows of a blade on the face. They are equal in all but large sets, so that weight 1 reproduces
 // the single-species mesh.
 constexpr int face_segments = 6, least_segments = 3, stem_segments = 2;
@@ -44,6 +46,47 @@ constexpr double usable_gap = 0.62;
 
 // Amplitude of ripples for a species with full edge waves, in half thicknesses.
 constexpr double ripple_size = 0.275;
+
+// Waves of a ripple from stem to margin, random, and factor on them for the second wave.
+constexpr double least_ripples = 1.6, most_ripples = 3.4, second_ripple = 2.7;
+
+// Shares of the meridian at stem and margin over which ripples fade out.
+constexpr double ripple_begins = 0.15, ripple_ends = 0.2;
+
+// Height of the shoulder of gills and its decrease for ridges, in depths; thickness there and its
+// increase for ridges, in that at the base.
+constexpr double gill_shoulder = 0.92, ridge_bluntness = 0.34, gill_waist = 0.62, ridge_waist = 0.2;
+
+// The same of cross veins.
+constexpr double vein_shoulder = 0.7, vein_waist = 0.85;
+
+// Largest share of the meridian at which a blade of a mix begins, and of the stem that it covers.
+constexpr double last_begin = 0.97, most_down = 0.98;
+
+// Depth of the base of a blade on the stem: in heights of the blade, and at most in radii.
+constexpr double stem_depth = 0.3, most_stem_depth = 0.05;
+
+// Depth, in lengths of the meridian, below which a blade is extended less deep into the flesh.
+constexpr double shallow = 0.01;
+
+// How far the normals of shoulders lean to the edge.
+constexpr double shoulder_lean = 0.4;
+
+// Rise of a short blade from its beginning, relative to that of the gill layout.
+constexpr double rise_steepness = 0.85;
+
+// Share of a blade's length after which its middle lies.
+constexpr double blade_middle = 0.6;
+
+// Factor from the share of the stem that a blade covers to its relative thickness there, at most 1.
+constexpr double decurrent_thickness = 12.0;
+
+// Largest height of a decurrent blade beyond the outline: in depths, and in lengths of the part on
+// the stem, so that a hardly decurrent blade tapers.
+constexpr double protrusion = 0.55, most_protrusion = 0.3;
+
+// Length of a cross vein on the blades' image, in lengths of the meridian.
+constexpr double vein_texture_length = 0.06;
 
 // Depth of a cross vein of full height, relative to that of ridges.
 constexpr double vein_depth = 0.45;
@@ -125,11 +168,11 @@ struct Ripple {
         Random random(seed, purposes::blade_ripple, static_cast<std::uint32_t>(number));
         phase = random.uniform();
         other = random.uniform();
-        pitch = random.uniform(1.6, 3.4);
+        pitch = random.uniform(least_ripples, most_ripples);
     }
     [[nodiscard]] double at(double share) const {
-        return size *
-               (cubic_wave(pitch * share + phase) + 0.5 * cubic_wave(2.7 * pitch * share + other));
+        return size * (cubic_wave(pitch * share + phase) +
+                       0.5 * cubic_wave(second_ripple * pitch * share + other));
     }
 };
 
@@ -156,8 +199,8 @@ BladeShape blade_shape(const std::vector<SpeciesBlades>& all, double rim) {
         weight += w.weight;
     }
     const double per = weight > 0.0 ? 1.0 / weight : 0.0;
-    return {half_sum * per, 0.92 - 0.34 * blunt * per, 0.62 + 0.2 * blunt * per,
-            std::max(reaching * per, 1.0)};
+    return {half_sum * per, gill_shoulder - ridge_bluntness * blunt * per,
+            gill_waist + ridge_waist * blunt * per, std::max(reaching * per, 1.0)};
 }
 
 /// The blades of all species on one slot, combined by weight and presence.
@@ -189,8 +232,8 @@ SlotBlend blended_slot(const std::vector<SpeciesBlades>& all, int slot, int slot
         blend.protruding += here * decurrence(*w.hymenium) * w.hymenium->depth;
     }
     blend.each = blend.present > 0.0 ? 1.0 / blend.present : 0.0;
-    blend.begin = blend.present > 0.0 ? std::min(blend.begin * blend.each, 0.97) : 0.5;
-    blend.down = std::min(blend.down * blend.each, 0.98);
+    blend.begin = blend.present > 0.0 ? std::min(blend.begin * blend.each, last_begin) : 0.5;
+    blend.down = std::min(blend.down * blend.each, most_down);
     return blend;
 }
 
@@ -241,6 +284,7 @@ class Builder {
     void plan_vein(const SpeciesShare& part, const CrossVein& vein, const BladeRow& row_of);
     void place_vein(const CrossVein& vein, double most);
     void row(const Plan& plan, double embedding);
+    void append_rows(double shoulder, double waist);
     void append(double shoulder, double waist, bool drawn);
 
     const Attachment& attachment_;
@@ -259,7 +303,7 @@ void Builder::row(const Plan& plan, double embedding) {
     const SubCurve& stem = context_.outline.stem;
     if (plan.along < 0.0) {
         OutlineSample root = stem.at(1.0 + plan.along / stem.length());
-        const double deep = std::min(0.3 * plan.height, 0.05 * root.r);
+        const double deep = std::min(stem_depth * plan.height, most_stem_depth * root.r);
         row.height = plan.height + deep;
         const AxisStation station =
             context_.deformer.station(root.share == 1.0 ? context_.deformer.top() : root.y);
@@ -276,7 +320,7 @@ void Builder::row(const Plan& plan, double embedding) {
         const double deep = embedding * face_.at(share).sink;
         row.share = whole;
         row.height =
-            plan.height + deep * std::min(1.0, plan.height / (0.01 * face_.length() + 1e-12));
+            plan.height + deep * std::min(1.0, plan.height / (shallow * face_.length() + 1e-12));
         row.stray = plan.stray;
         row.root =
             attachment_.place(Part::hymenium, attachment_.at(share, embedding), plan.angle,
@@ -288,8 +332,7 @@ void Builder::row(const Plan& plan, double embedding) {
 // A row has six corners: root, shoulder and tip of one face; tip, shoulder and root of the other.
 // The first and the last row have no thickness, so that both faces meet there and the solid is
 // closed.
-void Builder::append(double shoulder, double waist, bool drawn) {
-    const auto first = static_cast<std::uint32_t>(attachment_.mesh.positions.size());
+void Builder::append_rows(double shoulder, double waist) {
     for (std::size_t j = 0; j < rows_.size(); ++j) {
         const Row& row = rows_[j];
         const glm::dvec3 &root = row.root.position, &deep = row.root.meridian,
@@ -302,8 +345,8 @@ void Builder::append(double shoulder, double waist, bool drawn) {
         const glm::dvec3 bent = root + row.stray * thick;
         const glm::dvec3 middle = bent + shoulder * row.height * deep,
                          tip = bent + row.height * deep + row.stray * thick;
-        const glm::dvec3 leaning = unit_or(side + 0.4 * down, side),
-                         other = unit_or(-side + 0.4 * down, -side);
+        const glm::dvec3 leaning = unit_or(side + shoulder_lean * down, side),
+                         other = unit_or(-side + shoulder_lean * down, -side);
         const double u = row.share;
         attachment_.add_vertex(root - half * thick, side, along, u, 0.0, -1.0F);
         attachment_.add_vertex(middle - waist * half * thick, leaning, along, u, shoulder, -1.0F);
@@ -312,8 +355,12 @@ void Builder::append(double shoulder, double waist, bool drawn) {
         attachment_.add_vertex(middle + waist * half * thick, other, along, u, shoulder, 1.0F);
         attachment_.add_vertex(root + half * thick, -side, along, u, 0.0, 1.0F);
     }
+}
+
+// Returns the triangles of a blade of some rows, whose vertices begin at `first`.
+std::vector<std::array<std::uint32_t, 3>> blade_faces(std::uint32_t first, std::size_t rows) {
     std::vector<std::array<std::uint32_t, 3>> faces;
-    const auto last = static_cast<std::uint32_t>(rows_.size()) - 2;
+    const auto last = static_cast<std::uint32_t>(rows) - 2;
     for (std::uint32_t j = 0; j <= last; ++j) {
         const auto here = first + static_cast<std::uint32_t>(row_corners) * j;
         const auto next = here + static_cast<std::uint32_t>(row_corners);
@@ -324,23 +371,37 @@ void Builder::append(double shoulder, double waist, bool drawn) {
         if (j > 0) faces.push_back({here + 5, next, here});
         if (j < last) faces.push_back({here + 5, next + 5, next});
     }
-    // Where a fan turns back to its substrate, a blade may run round the axis against its thickness
-    // direction; then both sides are swapped.
-    Mesh& mesh = attachment_.mesh;
+    return faces;
+}
+
+// Swaps both sides of a blade, whose vertices are the last of the mesh and begin at `first`, if its
+// faces point inwards. Where a fan turns back to its substrate, a blade may run round the axis
+// against its thickness direction.
+void orient_blade(Mesh& mesh, std::uint32_t first,
+                  const std::vector<std::array<std::uint32_t, 3>>& faces) {
     double volume = 0.0;
     const glm::dvec3 origin(mesh.positions[first]);
     for (const auto& [a, b, c] : faces)
         volume += glm::dot(glm::dvec3(mesh.positions[a]) - origin,
                            glm::cross(glm::dvec3(mesh.positions[b]) - origin,
                                       glm::dvec3(mesh.positions[c]) - origin));
-    if (volume < 0.0)
-        for (std::uint32_t row = first; row < mesh.positions.size(); row += row_corners)
-            for (std::uint32_t k = 0; k < row_corners / 2; ++k) {
-                std::swap(mesh.positions[row + k], mesh.positions[row + row_corners - 1 - k]);
-                std::swap(mesh.normals[row + k], mesh.normals[row + row_corners - 1 - k]);
-                if (!mesh.tangents.empty())
-                    std::swap(mesh.tangents[row + k], mesh.tangents[row + row_corners - 1 - k]);
-            }
+    if (!(volume < 0.0)) return;
+    for (std::uint32_t row = first; row < mesh.positions.size(); row += row_corners)
+        for (std::uint32_t k = 0; k < row_corners / 2; ++k) {
+            std::swap(mesh.positions[row + k], mesh.positions[row + row_corners - 1 - k]);
+            std::swap(mesh.normals[row + k], mesh.normals[row + row_corners - 1 - k]);
+            if (!mesh.tangents.empty())
+                std::swap(mesh.tangents[row + k], mesh.tangents[row + row_corners - 1 - k]);
+        }
+}
+
+// Appends the placed rows as a blade; without `drawn` only its vertices.
+void Builder::append(double shoulder, double waist, bool drawn) {
+    Mesh& mesh = attachment_.mesh;
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    append_rows(shoulder, waist);
+    const auto faces = blade_faces(first, rows_.size());
+    orient_blade(mesh, first, faces);
     if (drawn)
         for (const auto& face : faces)
             mesh.indices.insert(mesh.indices.end(), face.begin(), face.end());
@@ -378,7 +439,9 @@ void Builder::plan_face_rows(const std::vector<SpeciesBlades>& all, const BladeB
             const Blade& blade = w.on(blend.slot);
             if (blade.presence <= 0.0) continue;
             const double rise =
-                blade.rise > 0.0 ? smooth_step(0.0, 1.0, 0.85 * (share - begin) / blade.rise) : 1.0;
+                blade.rise > 0.0
+                    ? smooth_step(0.0, 1.0, rise_steepness * (share - begin) / blade.rise)
+                    : 1.0;
             plan.height += w.weight * blade.presence * rise * w.hymenium->depth *
                            attached_depth(*w.hymenium, share) * depth_envelope(*w.hymenium, share);
         }
@@ -396,7 +459,7 @@ void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudg
     const double length = face_.length();
     const SubCurve& stem = context_.outline.stem;
     const auto left = [&](double full) { return std::min(1.0, most / (full * length + 1e-12)); };
-    const double own_middle = 0.4 * blend.begin + 0.6;
+    const double own_middle = (1.0 - blade_middle) * blend.begin + blade_middle;
     const Attachment::FacePoint rest =
         attachment_.nearest_vertex(own_middle, angle_at(all, blend, own_middle));
     const double middle = length * (rest.share + left(vanishing_place) * (own_middle - rest.share));
@@ -414,11 +477,12 @@ void Builder::place_blade(const std::vector<SpeciesBlades>& all, const BladeBudg
         plan.half = left(vanishing_width) * std::min(shape.half, available);
         // A blade that is not decurrent begins on the face as sharp as in a set without decurrent
         // species.
-        if (&plan - plans_.data() <= budget.below) plan.half *= std::min(1.0, 12.0 * blend.down);
+        if (&plan - plans_.data() <= budget.below)
+            plan.half *= std::min(1.0, decurrent_thickness * blend.down);
         plan.stray = left(vanishing_width) * ripple_size * blend.each *
                      std::min(available, 3.0 * shape.half) * ripple *
-                     smooth_step(0.0, 1.0, share / 0.15) *
-                     smooth_step(0.0, 1.0, (1.0 - share) / 0.2);
+                     smooth_step(0.0, 1.0, share / ripple_begins) *
+                     smooth_step(0.0, 1.0, (1.0 - share) / ripple_ends);
         row(plan, left(vanishing_embedding));
     }
 }
@@ -432,9 +496,10 @@ void Builder::blades(const BladeBudget& budget) {
     for_each_blade(individual_, budget, [&](int slot) {
         const SlotBlend blend = blended_slot(all, slot, slots, individual_.effective.seed);
         // The height of a slightly decurrent blade is limited to that of a taper.
-        const double beyond = budget.below > 0 ? std::min(0.55 * length * blend.protruding,
-                                                          0.3 * blend.down * stem.length())
-                                               : 0.0;
+        const double beyond = budget.below > 0
+                                  ? std::min(protrusion * length * blend.protruding,
+                                             most_protrusion * blend.down * stem.length())
+                                  : 0.0;
         plans_.clear();
         plan_stem_rows(budget, blend, beyond);
         plan_face_rows(all, budget, blend, beyond);
@@ -483,7 +548,8 @@ void Builder::place_vein(const CrossVein& vein, double most) {
         const glm::dvec3 along = rows_[std::min(j + 1, rows_.size() - 1)].root.position -
                                  rows_[j == 0 ? 0 : j - 1].root.position;
         // A vein is thick along the meridian; its texture runs along its length.
-        rows_[j].share = vein.share + 0.06 * (static_cast<double>(j) / vein_segments - 0.5);
+        rows_[j].share =
+            vein.share + vein_texture_length * (static_cast<double>(j) / vein_segments - 0.5);
         rows_[j].root.azimuth =
             unit_or(glm::cross(rows_[j].root.meridian, along), rows_[j].root.azimuth);
     }
@@ -504,7 +570,7 @@ void Builder::veins(const BladeBudget& budget) {
             double most = 0.0;
             for (const Plan& plan : plans_) most = std::max(most, plan.height);
             place_vein(vein, most);
-            append(0.7, 0.85, most > 0.0 || context_.keep_absent);
+            append(vein_shoulder, vein_waist, most > 0.0 || context_.keep_absent);
         }
     }
 }

@@ -32,6 +32,39 @@ constexpr double most_fold = 0.75;
 /// Exponent by which a tube that represents dropped ones is widened: width is a power of the number
 /// of tips.
 constexpr double width_exponent = 0.7;
+
+// No source or measurement is recorded for the values down to `foot_depth`, except `round_end`.
+
+/// Share of a segment after which it no longer has the shape of the fork at its beginning, and from
+/// which on it has that of the fork at its end.
+constexpr double fork_ends = 0.6, fork_begins = 0.5;
+
+/// How far a segment's radius has begun to change before its beginning and ends to do so after its
+/// end, in lengths of the segment: tubes are not conical at forks.
+constexpr double radius_overlap = 0.15;
+
+/// Longest round end of a branch in its lengths; position at which a single ring begins at the
+/// latest; area that an end loses by being round, seen from the side, in squares of its radius:
+/// 2 - pi / 2; how much denser rings are towards the end.
+constexpr double longest_round = 0.8, latest_ring = 0.6, round_end = 0.43, ring_density = 0.25;
+
+/// Radius of a tube at its beginning, in that of its parent, so that it stays inside; how deep it
+/// begins in its parent, in radii of that and at most in distances from the ground.
+constexpr double inside_parent = 0.97, root_depth = 1.1, most_root_depth = 0.7;
+
+/// Depth of the foot of a trunk under the ground, in its radii.
+constexpr double foot_depth = 0.2;
+
+/// Share of the largest bend that is suggested when a bend is refused.
+constexpr double suggested_bend = 0.97;
+
+/// Dents of a graph for `imperfection` 1: number, least height of their centres, sizes in reaches
+/// and least reach in heights of the graph, distance of their centres from the axis in reaches, and
+/// depth, reach and vertical part of their displacement in sizes.
+constexpr std::uint32_t dent_count = 9;
+constexpr double lowest_dent = 0.35, least_dent = 0.7, most_dent = 1.2, least_reach = 0.3,
+                 dent_distance = 0.7, dent_depth = 0.08, dent_reach = 1.6, dent_slope = 0.7;
+
 /// Least number of sides of a tube that goes round the disc of the chart; fewer sides would cut its
 /// rings short.
 constexpr int round_sides = 6;
@@ -52,36 +85,53 @@ glm::dmat3 square_of(const glm::dvec3& v) { return glm::outerProduct(v, v); }
 /// it, over all directions.
 double polygon_scale(int sides) { return pi / (sides * sine(pi / sides)); }
 
-/// Returns the branch graph of an individual after deformation.
-BranchGraph deformed(const Individual& individual) {
-    BranchGraph graph = individual.branch_graph;
-    const DeformationOf<Plain>& deformation = individual.model.deformation;
-    Random random(individual.effective.seed, purposes::axis_angles);
+/// Returns the bent and leaning axis of a branch graph.
+///
+/// throws  Impossible if the graph would be bent through itself
+Axis bent_axis(const BranchGraph& graph, const DeformationOf<Plain>& deformation,
+               std::uint32_t seed) {
+    Random random(seed, purposes::axis_angles);
     const double bend = random.uniform(0.0, 2.0 * pi);
     const double lean = random.uniform(0.0, 2.0 * pi);
-    const Axis axis(AxisCurve(), deformation, {bend, lean}, 0.0, graph.height);
+    Axis axis(AxisCurve(), deformation, {bend, lean}, 0.0, graph.height);
     const double fold = axis.greatest_curvature() * graph.reach;
     if (fold >= most_fold)
         throw Impossible(
             "/deformation/bend_deg",
             number_text(deformation.bend_deg) + " bends this bush through itself; about " +
-                number_text(std::floor(0.97 * most_fold * deformation.bend_deg / fold * 10.0) /
-                            10.0) +
+                number_text(
+                    std::floor(suggested_bend * most_fold * deformation.bend_deg / fold * 10.0) /
+                    10.0) +
                 " is the most over this zone");
+    return axis;
+}
+
+std::vector<FreeForm> dents_of(const BranchGraph& graph, double imperfection, std::uint32_t seed) {
     std::vector<FreeForm> dents;
-    if (deformation.imperfection > 0.0)
-        for (std::uint32_t i = 0; i < 9; ++i) {
-            Random place(individual.effective.seed, purposes::dents, i);
-            const double angle = place.uniform(0.0, 2.0 * pi), high = place.uniform(0.35, 1.0);
-            const double strength = place.symmetric(), width = place.uniform(0.7, 1.2);
-            const double down = place.symmetric();
-            const auto [s, c] = sine_cosine(angle);
-            const double size = width * std::max(graph.reach, 0.3 * graph.height);
-            const glm::dvec3 out(c, 0.7 * down, s);
-            dents.push_back(dent(
-                glm::dvec3(0.7 * graph.reach * c, high * graph.height, 0.7 * graph.reach * s),
-                glm::dvec3(1.6 * size), 0.08 * deformation.imperfection * strength * size * out));
-        }
+    if (!(imperfection > 0.0)) return dents;
+    for (std::uint32_t i = 0; i < dent_count; ++i) {
+        Random place(seed, purposes::dents, i);
+        const double angle = place.uniform(0.0, 2.0 * pi), high = place.uniform(lowest_dent, 1.0);
+        const double strength = place.symmetric(), width = place.uniform(least_dent, most_dent);
+        const double down = place.symmetric();
+        const auto [s, c] = sine_cosine(angle);
+        const double size = width * std::max(graph.reach, least_reach * graph.height);
+        const glm::dvec3 out(c, dent_slope * down, s);
+        dents.push_back(dent(glm::dvec3(dent_distance * graph.reach * c, high * graph.height,
+                                        dent_distance * graph.reach * s),
+                             glm::dvec3(dent_reach * size),
+                             dent_depth * imperfection * strength * size * out));
+    }
+    return dents;
+}
+
+/// Returns the branch graph of an individual after deformation.
+BranchGraph deformed(const Individual& individual) {
+    BranchGraph graph = individual.branch_graph;
+    const DeformationOf<Plain>& deformation = individual.model.deformation;
+    const Axis axis = bent_axis(graph, deformation, individual.effective.seed);
+    const std::vector<FreeForm> dents =
+        dents_of(graph, deformation.imperfection, individual.effective.seed);
     const auto moved = [&](SurfacePoint& point) {
         for (const FreeForm& one : dents) one.apply(point.position, point.meridian, point.azimuth);
         const AxisStation station = axis.at(point.position.y);
@@ -311,7 +361,7 @@ class TubeBuilder {
         // bent.
         s.along = unit_or((1.0 - t) * from.along + t * arriving, end.heading);
         s.flat = (1.0 - t) * from.flat + t * flat;
-        shape(s, near_end + from.at_fork * (1.0 - smooth_step(0.0, 0.6, t)), 1.0);
+        shape(s, near_end + from.at_fork * (1.0 - smooth_step(0.0, fork_ends, t)), 1.0);
         s.colour = from.colour + t * (end.from_tip - from.colour);
         s.few = end.few;
         return s;
@@ -325,8 +375,10 @@ class TubeBuilder {
         std::vector<Station> stations;
         for (int k = 1; k <= steps; ++k) {
             const double t = static_cast<double>(k) / steps;
-            Station s = station_on_path(from, i, arriving, flat, t, smooth_step(0.5, 1.0, t));
-            s.radius = from.radius + smooth_step(-0.15, 1.15, t) * (radius_at(i) - from.radius);
+            Station s =
+                station_on_path(from, i, arriving, flat, t, smooth_step(fork_begins, 1.0, t));
+            s.radius = from.radius + smooth_step(-radius_overlap, 1.0 + radius_overlap, t) *
+                                         (radius_at(i) - from.radius);
             stations.push_back(s);
         }
         return stations;
@@ -344,15 +396,15 @@ class TubeBuilder {
         const double bluntness = 1.0 - (1.0 - graph_.bluntness) / represented_[i];
         const double blunt = bluntness + end.eaten * (1.0 - bluntness);
         const double length = std::max(glm::distance(from.at, end.place), 1e-12);
-        const double round = std::min(0.8, blunt * tip_radius / length);
+        const double round = std::min(longest_round, blunt * tip_radius / length);
         std::vector<Station> stations;
         for (int k = 1; k <= rings; ++k) {
             // Rings are denser towards the end.
             const double share = static_cast<double>(k) / (rings + 1);
-            double t = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - 0.25 * share);
+            double t = 1.0 - (1.0 - share) * (1.0 - share) * (1.0 - ring_density * share);
             // A single ring is placed so that cylinder and cone have the area of cylinder and round
-            // end seen from the side: 2 - pi / 2.
-            if (rings == 1) t = std::max(0.6, 1.0 - 0.43 * round);
+            // end seen from the side.
+            if (rings == 1) t = std::max(latest_ring, 1.0 - round_end * round);
             Station s = station_on_path(from, i, arriving, from.flat, t, 0.0);
             s.radius = from.radius + t * (tip_radius - from.radius);
             const double taper = (1.0 - t) * (1.0 - bluntness) + bluntness;
@@ -396,12 +448,13 @@ class TubeBuilder {
             const double wide =
                 fork.radius +
                 graph_.ends(parent) * (std::min(fork.radius, radius_at(parent)) - fork.radius);
-            begin.radius = 0.97 * equal * wide;
+            begin.radius = inside_parent * equal * wide;
             shape(begin, 0.0, 1.0);
             begin.colour = fork.colour;
             begin.few = node(first).few;
             Station inside = begin;
-            const double deep = std::min(1.1 * fork.radius, 0.7 * glm::length(fork.at));
+            const double deep =
+                std::min(root_depth * fork.radius, most_root_depth * glm::length(fork.at));
             inside.at = fork.at - deep * fork.along;
             inside.along = fork.along;
             inside.radius = 0.0;
@@ -423,7 +476,7 @@ class TubeBuilder {
     std::vector<Station> trunk_stations(std::uint32_t root, int own, std::size_t rings) const {
         const Node& top = node(root);
         const double radius = radius_at(root);
-        const glm::dvec3 foot(0.0, -0.2 * graph_.foot * radius, 0.0);
+        const glm::dvec3 foot(0.0, -foot_depth * graph_.foot * radius, 0.0);
         const glm::dvec3 rise = unit_or(top.heading + glm::dvec3(0.0, 1.0, 0.0), top.heading);
         const auto curve = hermite_path(foot, rise, top.place, fork_tangent(root));
         const double low = graph_.foot * widened_radius(root);
@@ -435,7 +488,7 @@ class TubeBuilder {
             station.along = unit_or(sample.derivative, top.heading);
             station.radius = low + smooth_step(0.0, 1.0, t) * (radius - low);
             station.colour = t;
-            shape(station, smooth_step(0.5, 1.0, t), 0.5 + 0.5 * t);
+            shape(station, smooth_step(fork_begins, 1.0, t), 0.5 + 0.5 * t);
             return station;
         };
         const Station ground = at(0.0);

@@ -29,21 +29,6 @@ MeshCount body_count(const Individual& individual, int lod) {
             2 * (rings - (lower_face ? 4 : 3)) * weathered.columns + weathered.triangles};
 }
 
-MeshCount ornament_count(const Individual& individual, const Detail& detail) {
-    MeshCount count;
-    const auto loop = static_cast<std::uint64_t>(shell_rings(individual, detail)),
-               columns = static_cast<std::uint64_t>(detail.columns);
-    count += {loop * (columns + 1), 2 * loop * columns};
-    std::uint64_t pieces = 0;
-    for (const PatchLayer& layer : individual.layers)
-        pieces += static_cast<std::uint64_t>(piece_count(layer, detail));
-    if (pieces == 0) return count;
-    const auto sides = static_cast<std::uint64_t>(detail.patch_sides),
-               rows = static_cast<std::uint64_t>(detail.patch_rings) + 2;
-    count += {pieces * (rows * (sides + 1) + sides), pieces * (2 * (rows - 1) * sides - 2)};
-    return count;
-}
-
 /// Makes the detail one step coarser; returns false when no step is left.
 bool coarsen(Detail& detail, int lod) {
     struct Step {

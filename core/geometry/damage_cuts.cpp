@@ -109,12 +109,17 @@ MarginCuts::MarginCuts(const Individual& individual, int lod) {
     }
 }
 
-void MarginCuts::place_columns(const std::vector<Notch>& notches,
-                               const WeatheringOf<Plain>& amounts, int inside, int even) {
-    struct Own {
-        double turn, open;
-    };
-    std::vector<Own> own;
+namespace {
+
+// A column that a cut needs: its turn, and how far the cut is open.
+struct CutColumn {
+    double turn, open;
+};
+
+// Returns the columns of all notches in the order of their turns.
+std::vector<CutColumn> columns_of(const std::vector<Notch>& notches,
+                                  const WeatheringOf<Plain>& amounts, int inside) {
+    std::vector<CutColumn> own;
     for (const Notch& notch : notches) {
         const double open = smooth_step(0.0, open_at, share_of(notch, amounts));
         const auto add = [&](double angle) {
@@ -129,7 +134,15 @@ void MarginCuts::place_columns(const std::vector<Notch>& notches,
         }
     }
     std::stable_sort(own.begin(), own.end(),
-                     [](const Own& a, const Own& b) { return a.turn < b.turn; });
+                     [](const CutColumn& a, const CutColumn& b) { return a.turn < b.turn; });
+    return own;
+}
+
+}  // namespace
+
+void MarginCuts::place_columns(const std::vector<Notch>& notches,
+                               const WeatheringOf<Plain>& amounts, int inside, int even) {
+    const std::vector<CutColumn> own = columns_of(notches, amounts, inside);
     auto next = own.begin();
     std::vector<double> open;  // per column from an even one to the next
     for (int j = 0; j < even; ++j) {
@@ -153,25 +166,32 @@ void MarginCuts::place_columns(const std::vector<Notch>& notches,
                        notch.half_width + pi * (to - from) + 1e-9;
             });
         may_cut_.insert(may_cut_.end(), turns_.size() - left, reached);
-        const auto turn_of = [&](std::size_t k) {
-            return k + 1 == open.size() ? to : turns_[left + k];
-        };
-        for (std::size_t k = 1; k + 1 < open.size(); ++k) {
-            InsertedColumn column{left + k, open[k], chords_.size(), 0};
-            double before = 1.0;  // weight of the columns further left
-            for (std::size_t l = k; l-- > 0 && before > 0.0; before *= 1.0 - open[l]) {
-                double after = before * open[l];
-                for (std::size_t r = k + 1; r < open.size() && after > 0.0; ++r) {
-                    if (open[r] > 0.0)
-                        chords_.push_back({left + l, left + r,
-                                           (turn_of(k) - turn_of(l)) / (turn_of(r) - turn_of(l)),
-                                           after * open[r]});
-                    after *= 1.0 - open[r];
-                }
+        insert_columns(left, to, open);
+    }
+}
+
+// Lists the chords on which each column from the even column `left` to the next, at the turn `to`,
+// lies while its cut is closed. `open` says how far each of these columns is open, both even ones
+// included.
+void MarginCuts::insert_columns(std::size_t left, double to, const std::vector<double>& open) {
+    const auto turn_of = [&](std::size_t k) {
+        return k + 1 == open.size() ? to : turns_[left + k];
+    };
+    for (std::size_t k = 1; k + 1 < open.size(); ++k) {
+        InsertedColumn column{left + k, open[k], chords_.size(), 0};
+        double before = 1.0;  // weight of the columns further left
+        for (std::size_t l = k; l-- > 0 && before > 0.0; before *= 1.0 - open[l]) {
+            double after = before * open[l];
+            for (std::size_t r = k + 1; r < open.size() && after > 0.0; ++r) {
+                if (open[r] > 0.0)
+                    chords_.push_back({left + l, left + r,
+                                       (turn_of(k) - turn_of(l)) / (turn_of(r) - turn_of(l)),
+                                       after * open[r]});
+                after *= 1.0 - open[r];
             }
-            column.last = chords_.size();
-            inserted_.push_back(column);
         }
+        column.last = chords_.size();
+        inserted_.push_back(column);
     }
 }
 

@@ -99,6 +99,7 @@ class MarginCuts {
     [[nodiscard]] double cut_at(double angle) const;
     void place_columns(const std::vector<Notch>& notches, const WeatheringOf<Plain>& amounts,
                        int inside, int even);
+    void insert_columns(std::size_t left, double to, const std::vector<double>& open);
 
     std::vector<Open> open_;
     std::vector<double> turns_, placed_turns_;

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cassert>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <span>
@@ -18,14 +19,101 @@ namespace {
 
 constexpr const Chart& veil = swept_charts[static_cast<std::size_t>(Part::veil)];
 
-/// A closed solid made of a grid of corners: rows from its base to its tip, columns round it, the
-/// first column repeated.
-struct Solid {
+// No source or measurement is recorded for the values down to `most_sac_bend`.
+
+/// Radii of a patch's seven corners, random; and its tip: deviation from the middle and
+/// displacement for `lift` 1, all in radii.
+constexpr double least_corner = 0.78, most_corner = 1.12, tip_deviation = 0.25, tip_lift = 1.1;
+
+/// Heights of a style, in radii, between which patches change from cushions to spines; how much
+/// wider than a cone the middle of a cushion is, and how much narrower, in that, that of a spine.
+constexpr double cushion_height = 0.9, spine_height = 1.5, bulge = 0.55, spine_hollow = 2.2;
+
+/// Depth of a patch's base under the surface, in radii.
+constexpr double patch_depth = 0.25;
+
+/// Least slope of a stem along which heights are measured; size of a shell, in radii of the stem,
+/// from which on it spans the dents of the stem.
+constexpr double least_rise = 0.2, spanning_size = 0.3;
+
+/// Weights of the large tears of an edge, of their unevenness and of fine raggedness; their sum
+/// is 1.
+constexpr double tear_weight = 0.62, uneven_weight = 0.23, fine_weight = 0.15;
+
+/// Depth at which a shell begins under the stem's surface: in radii of the stem, and at most in
+/// widths of the shell.
+constexpr double shell_depth = 0.02, most_shell_depth = 0.25;
+
+/// Largest thickness of ring and sac, in their widths, and largest depth of their tears.
+constexpr double ring_thickness = 0.3, ring_tear = 0.8, sac_thickness = 0.2, sac_tear = 0.62;
+
+/// Amplitudes of a full ruffle and of full grooves, in widths of the ring.
+constexpr double ruffle_size = 0.16, groove_size = 0.04;
+
+/// Thickness of a ring at the stem, its increase up to the edge, and that of a double edge for
+/// `edge` 1, which begins at a share of the width; in thicknesses of the style.
+constexpr double ring_at_stem = 0.6, ring_widening = 0.8, double_edge = 5.0, edge_begins = 0.45;
+
+/// Shares of a sac's meridian at which its wall begins: at fine levels, and where it has a single
+/// band of quads.
+constexpr double sac_begins = 0.01, single_band_begins = 0.6;
+
+/// Thickness of a sac's wall at its base and its decrease up to the edge, in that of the style.
+constexpr double sac_at_base = 1.2, sac_thinning = 0.6;
+
+/// Distance of a sac's wall from the stem, in thicknesses, and the share of its meridian over which
+/// it comes out of the stem.
+constexpr double sac_distance = 0.75, sac_emerges = 0.16;
+
+/// Amplitude of folds, displacement of lobes to the inside, and largest displacement to the stem,
+/// in distances of the loose wall from it.
+constexpr double sac_fold = 0.5, sac_bend = 0.12, most_sac_bend = 0.8;
+
+/// The grid of a closed solid: rows from its base to its tip, columns round it, without the first
+/// one repeated.
+struct SolidGrid {
+    int rows = 0, columns = 0;
+    /// True if the last row meets the first (a ring); otherwise it is one point, and a polygon
+    /// closes the base.
+    bool loops = false;
+
+    /// Returns the exact counts of what append() appends.
+    [[nodiscard]] MeshCount count() const {
+        const auto high = static_cast<std::uint64_t>(rows),
+                   wide = static_cast<std::uint64_t>(columns);
+        if (high == 0 || wide == 0) return {};
+        if (loops) return {high * (wide + 1), 2 * high * wide};
+        return {high * (wide + 1) + wide, 2 * (high - 1) * wide - 2};
+    }
+};
+
+SolidGrid patch_grid(const Detail& detail) {
+    return {detail.patch_rings + 2, detail.patch_sides, false};
+}
+
+/// Returns the grid of a thin shell with `rings` rings of quads on each side; empty without any.
+SolidGrid shell_grid(bool is_built, int rings, const Detail& detail) {
+    return {is_built && rings > 0 ? 2 * (rings + 1) : 0, detail.columns, true};
+}
+SolidGrid ring_grid(const Individual& individual, const Detail& detail) {
+    return shell_grid(individual.has_ring, detail.veil_rings, detail);
+}
+SolidGrid sac_grid(const Individual& individual, const Detail& detail) {
+    return shell_grid(individual.has_sac, detail.sac_rings, detail);
+}
+
+/// Returns the number of pieces of a layer, absent ones included, so that no amount changes the
+/// number of vertices.
+int piece_count(const PatchLayer& layer, const Detail& detail) {
+    if (detail.patch_sides == 0 || std::abs(layer.style.to - layer.style.from) < least_window)
+        return 0;
+    return static_cast<int>(std::ceil(detail.patches * layer.style.count));
+}
+
+/// A closed solid made of a grid of corners, the first column repeated.
+struct Solid : SolidGrid {
     std::vector<glm::dvec3> corners;  ///< [row][column]
     std::vector<glm::dvec3> normals;  ///< computed by append()
-    int rows = 0, columns = 0;        ///< columns without the repeated one
-    /// True if the last row meets the first (a ring); otherwise a polygon closes the base.
-    bool loops = false;
 };
 
 /// Appends the triangles of a solid's grid, whose vertices begin at `first`, and computes its
@@ -122,10 +210,13 @@ void append_base(Mesh& mesh, const Solid& solid, const glm::dvec3& fallback, boo
 /// Appends a solid. Without `drawn` only its vertices are appended.
 void append(Mesh& mesh, Solid& solid, const glm::dvec3& fallback, bool textured, bool drawn) {
     const std::size_t indices = mesh.indices.size();
+    [[maybe_unused]] const std::size_t vertices = mesh.positions.size();
     append_grid_triangles(mesh, solid, static_cast<std::uint32_t>(mesh.positions.size()));
     append_grid_vertices(mesh, solid, fallback, textured);
     if (!drawn) mesh.indices.resize(indices);
     if (!solid.loops) append_base(mesh, solid, fallback, textured, drawn);
+    assert(mesh.positions.size() - vertices == solid.count().vertices);
+    assert(!drawn || mesh.indices.size() - indices == 3 * solid.count().triangles);
 }
 
 /// Returns the share of the current stem's arc length that corresponds to a share of the mature
@@ -196,19 +287,17 @@ PatchFrame frame_of(const Patch& patch, const PatchLayer& layer, const LayerPlac
 void build_patch(Solid& solid, const Patch& patch, const PatchLayer& layer, double radius,
                  const PatchFrame& frame, double wider, const OrnamentContext& context) {
     const PatchStyle& style = layer.style;
-    const int sides = context.detail.patch_sides;
+    const int sides = solid.columns;
     // Low pieces are cushions, tall ones spines.
-    const double pointed = smooth_step(0.9, 1.5, style.height);
+    const double pointed = smooth_step(cushion_height, spine_height, style.height);
     const double height = patch.height * radius;
-    solid.rows = context.detail.patch_rings + 2;
-    solid.columns = sides;
     solid.corners.clear();
     Random random(context.seed, purposes::corners + layer.purpose - purposes::warts, patch.id);
     // Seven numbers are drawn at every level of detail; a coarser outline uses some of them.
     std::array<double, 7> reach{};
-    for (double& r : reach) r = random.uniform(0.78, 1.12);
-    const double tip_round = 0.25 * random.symmetric();
-    const double tip_outward = 0.25 * random.symmetric() + 1.1 * style.lift;
+    for (double& r : reach) r = random.uniform(least_corner, most_corner);
+    const double tip_round = tip_deviation * random.symmetric();
+    const double tip_outward = tip_deviation * random.symmetric() + tip_lift * style.lift;
     std::array<glm::dvec3, 7> rim{};
     for (int j = 0; j < sides; ++j) {
         const auto turn = sine_cosine(patch.spin + 2.0 * pi * j / sides);
@@ -220,9 +309,9 @@ void build_patch(Solid& solid, const Patch& patch, const PatchLayer& layer, doub
         radius * (tip_round * frame.round + tip_outward * style.elongation * frame.outward);
     for (int i = 0; i < solid.rows; ++i) {
         const double up = static_cast<double>(i) / (solid.rows - 1);
-        const double narrowing = (1.0 - up) * (1.0 + 0.55 * up * (1.0 - 2.2 * pointed));
+        const double narrowing = (1.0 - up) * (1.0 + bulge * up * (1.0 - spine_hollow * pointed));
         const glm::dvec3 middle =
-            frame.centre + up * tip + (i == 0 ? -0.25 * radius : height * up) * frame.normal;
+            frame.centre + up * tip + (i == 0 ? -patch_depth * radius : height * up) * frame.normal;
         for (int j = 0; j < sides; ++j)
             solid.corners.push_back(middle + narrowing * rim[static_cast<std::size_t>(j)]);
         solid.corners.push_back(
@@ -247,7 +336,7 @@ void add_layer(Mesh& mesh, const PatchLayer& layer, const OrnamentContext& conte
     if (context.detail.patch_sides == 0) return;
     const LayerPlace place = place_of(layer, context);
     const double length = context.outline.cap.length();
-    Solid solid;
+    Solid solid{patch_grid(context.detail), {}, {}};
     for (const Patch& patch : built_patches(layer, context)) {
         const double scale = layer.weight * patch_scale(patch, layer.amount);
         const double radius = patch.radius * scale * length;
@@ -294,8 +383,10 @@ class Rise {
 };
 
 /// Returns how far a shell of a size follows the dents of the stem inside it: fully when vanishing,
-/// not at all from 0.3 of the stem's radius on.
-double conforming(double size, double radius) { return 1.0 - smooth_step(0.0, 0.3 * radius, size); }
+/// not at all from `spanning_size` on.
+double conforming(double size, double radius) {
+    return 1.0 - smooth_step(0.0, spanning_size * radius, size);
+}
 
 /// Depth of the tears of an edge at an angle, 0..1: `count` tears between lobes, and a finer
 /// raggedness.
@@ -310,7 +401,7 @@ class Rents {
         const double rent = 0.5 + 0.5 * sine(count_ * angle + phases_[0]);
         const double uneven = 0.5 + 0.5 * sine(angle + phases_[1]);
         const double fine = 0.5 + 0.5 * sine((2 * count_ + 3) * angle + phases_[2]);
-        return 0.62 * rent * rent * rent + 0.23 * uneven + 0.15 * fine;
+        return tear_weight * rent * rent * rent + uneven_weight * uneven + fine_weight * fine;
     }
 
   private:
@@ -334,7 +425,7 @@ std::vector<RingStation> ring_line(const RingStyle& style, const OutlineSample& 
                                    double thickness, int rings) {
     const double width = style.width;
     // The ring begins slightly inside the stem; a vanishing ring no deeper than it is wide.
-    const double sunk = std::min(0.02 * attachment.r, 0.25 * width);
+    const double sunk = std::min(shell_depth * attachment.r, most_shell_depth * width);
     const double clear = style.gap * std::min(attachment.r, width);
     double r = std::max(attachment.r + clear - 0.5 * thickness - sunk, thickness), y = attachment.y;
     std::vector<RingStation> line;
@@ -377,14 +468,11 @@ std::vector<RingColumn> ring_columns(const RingStyle& style, const OutlineSample
             {sine_cosine(angle),
              sine(waves * angle + phase) + 0.6 * sine((2 * waves + 1) * angle + other),
              3 * groove_count > count ? 0.0 : sine(groove_count * angle + other),
-             1.0 - 0.8 * style.tear * rents.at(angle),
+             1.0 - ring_tear * style.tear * rents.at(angle),
              conforms > 0.0 ? conforms * context.dents.stem(attachment.share, angle) : 0.0});
     }
     return columns;
 }
-
-/// Factors on the width of a ring: amplitudes of a full ruffle and of full grooves.
-constexpr double ruffle_size = 0.16, groove_size = 0.04;
 
 /// Profile of a sac: along the stem up to its widest place, and freely upwards from there.
 class SacProfile {
@@ -403,7 +491,7 @@ class SacProfile {
         // extend under a flat base faster than it grows.
         const double level = std::min(std::max(base, 0.0), std::max(base, stem.at(1.0).y));
         const double buried = std::min(std::max(level - base, 0.0), 0.6 * height);
-        const Rise stem_rise(stem, 0.2);
+        const Rise stem_rise(stem, least_rise);
         for (int i = 0; i <= samples; ++i) {
             // Rows are denser under the bulb, where the stem turns.
             const double share = static_cast<double>(i) / samples;
@@ -480,16 +568,18 @@ class SacFolds {
 
 }  // namespace
 
-int shell_rings(const Individual& individual, const Detail& detail) {
-    const bool ring = individual.has_ring && detail.veil_rings > 0;
-    const bool sac = individual.has_sac && detail.sac_rings > 0;
-    return (ring ? 2 * (detail.veil_rings + 1) : 0) + (sac ? 2 * (detail.sac_rings + 1) : 0);
-}
-
-int piece_count(const PatchLayer& layer, const Detail& detail) {
-    if (detail.patch_sides == 0 || std::abs(layer.style.to - layer.style.from) < least_window)
-        return 0;
-    return static_cast<int>(std::ceil(detail.patches * layer.style.count));
+MeshCount ornament_count(const Individual& individual, const Detail& detail) {
+    MeshCount sum;
+    const auto add = [&](const SolidGrid& grid, int times) {
+        const MeshCount one = grid.count();
+        sum.vertices += static_cast<std::uint64_t>(times) * one.vertices;
+        sum.triangles += static_cast<std::uint64_t>(times) * one.triangles;
+    };
+    add(ring_grid(individual, detail), 1);
+    add(sac_grid(individual, detail), 1);
+    for (const PatchLayer& layer : individual.layers)
+        add(patch_grid(detail), piece_count(layer, detail));
+    return sum;
 }
 
 void add_patches(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
@@ -498,25 +588,25 @@ void add_patches(Mesh& mesh, const Individual& individual, const OrnamentContext
 
 void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
     const RingStyle& style = individual.ring;
+    Solid solid{ring_grid(individual, context.detail), {}, {}};
+    if (solid.rows == 0) return;
     const int rings = context.detail.veil_rings;
-    if (rings == 0 || !individual.has_ring) return;
-    const Rise stem_rise(context.outline.stem, 0.2);
+    const Rise stem_rise(context.outline.stem, least_rise);
     const OutlineSample attachment = stem_rise.at(style.height * stem_rise.whole());
     const double width = style.width;
-    const double thickness = std::min(style.thickness, 0.3 * width);
+    const double thickness = std::min(style.thickness, ring_thickness * width);
     const AxisStation station = context.deformer.frozen_station(attachment.y);
     const std::vector<RingStation> line = ring_line(style, attachment, thickness, rings);
     const std::vector<RingColumn> columns = ring_columns(style, attachment, context);
     // The tears end level with the edge, which is thicker.
-    Solid solid{{}, {}, 2 * (rings + 1), context.detail.columns, true};
     for (int i = 0; i < solid.rows; ++i) {
         const bool lower = i <= rings;
         const int row = lower ? i : solid.rows - 1 - i;
         const double whole_share = static_cast<double>(row) / rings;
         // A double edge has two lips that stand off from each other.
-        const double half =
-            (lower ? -0.5 : 0.5) * thickness *
-            (0.6 + 0.8 * whole_share + 5.0 * style.edge * smooth_step(0.45, 1.0, whole_share));
+        const double half = (lower ? -0.5 : 0.5) * thickness *
+                            (ring_at_stem + ring_widening * whole_share +
+                             double_edge * style.edge * smooth_step(edge_begins, 1.0, whole_share));
         for (const RingColumn& column : columns) {
             // Where the edge is torn, the line ends sooner.
             const double place = row * column.reach;
@@ -540,35 +630,37 @@ void add_ring(Mesh& mesh, const Individual& individual, const OrnamentContext& c
 
 void add_sac(Mesh& mesh, const Individual& individual, const OrnamentContext& context) {
     const SacStyle& style = individual.sac;
+    Solid solid{sac_grid(individual, context.detail), {}, {}};
+    if (solid.rows == 0) return;
     const int rings = context.detail.sac_rings;
-    if (rings == 0 || !individual.has_sac) return;
     const double height = style.height;
-    const double thickness = std::min(style.thickness, 0.2 * height);
-    const int count = context.detail.columns;
+    const double thickness = std::min(style.thickness, sac_thickness * height);
+    const int count = solid.columns;
     Random random(context.seed, purposes::sac);
     const Rents rents(random, 3, 5);
     const SacFolds folds(context.seed, count);
     const SacProfile profile(style, context.outline.stem, context.deformer.base());
     const double conforms = conforming(height, profile.widest());
     // The sac begins inside the stem and comes out of it soon after.
-    const double sunk = std::min(0.02 * profile.widest(), 0.25 * height);
+    const double sunk = std::min(shell_depth * profile.widest(), most_shell_depth * height);
     // A single band would cut through the bulb; at coarse levels only the wall is built.
-    const double first = rings > 1 ? 0.01 : 0.6;
-    Solid solid{{}, {}, 2 * (rings + 1), count, true};
+    const double first = rings > 1 ? sac_begins : single_band_begins;
     for (int i = 0; i < solid.rows; ++i) {
         const bool outside = i <= rings;
         const double share = static_cast<double>(outside ? i : solid.rows - 1 - i) / rings;
         for (int j = 0; j <= count; ++j) {
             const double angle = -2.0 * pi * (j % count) / count;  // as for rings
             const double up =
-                first + (1.0 - first) * share * (1.0 - 0.62 * style.tear * rents.at(angle));
+                first + (1.0 - first) * share * (1.0 - sac_tear * style.tear * rents.at(angle));
             const SacProfile::Point at = profile.at(up);
             // The wall thins towards its edge and is folded where it is loose; its lobes bend
             // outwards or inwards.
-            const double half = (outside ? 0.5 : -0.5) * thickness * (1.2 - 0.6 * share);
-            const double loose = at.clear * (0.5 * folds.at(angle, up) - 0.12 * at.above);
-            const double rise = (sunk + 0.75 * thickness) * smooth_step(0.0, 0.16, share) - sunk;
-            const double off = half + rise + std::max(loose, -0.8 * at.clear);
+            const double half =
+                (outside ? 0.5 : -0.5) * thickness * (sac_at_base - sac_thinning * share);
+            const double loose = at.clear * (sac_fold * folds.at(angle, up) - sac_bend * at.above);
+            const double rise =
+                (sunk + sac_distance * thickness) * smooth_step(0.0, sac_emerges, share) - sunk;
+            const double off = half + rise + std::max(loose, -most_sac_bend * at.clear);
             double r = std::max(at.r + off * at.normal_r, thickness + half);
             if (conforms > 0.0)
                 r = std::max(r + conforms * context.dents.stem(at.share, angle), 0.0);

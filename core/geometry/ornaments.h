@@ -25,17 +25,13 @@ struct OrnamentContext {
     const Individual& individual;
 };
 
-/// Returns the number of pieces of a layer, absent ones included, so that no amount changes the
-/// number of vertices.
-[[nodiscard]] int piece_count(const PatchLayer& layer, const Detail& detail);
+/// Returns the exact counts of all that add_patches(), add_ring() and add_sac() append, absent
+/// ornaments included: they depend on the set of species only, not on amounts.
+[[nodiscard]] MeshCount ornament_count(const Individual& individual, const Detail& detail);
 
 /// Appends warts, scales and bulb scales, each a closed solid sunk a little into the surface. A
 /// piece of size 0 is a point on the surface, with unit normals.
 void add_patches(Mesh& mesh, const Individual& individual, const OrnamentContext& context);
-
-/// Returns the number of rings of vertices of ring and sac. It depends on the set of species only,
-/// not on amounts.
-[[nodiscard]] int shell_rings(const Individual& individual, const Detail& detail);
 
 /// Appends the ring, a closed thin shell attached to the stem; at size 0 it is a circle round the
 /// stem.

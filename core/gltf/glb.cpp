@@ -441,12 +441,8 @@ Slice head_of(std::string json, std::size_t binary) {
     return Slice(std::move(head));
 }
 
-}  // namespace
-
-Body glb(const GlbScene& scene) {
-    if (scene.nodes.empty()) throw GenerationError("a scene without nodes shows nothing");
-    Tables tables;
-    Body geometries;
+/// Returns the JSON of all meshes, and appends their buffers to `geometries`.
+std::string meshes_json(const GlbScene& scene, Tables& tables, Body& geometries) {
     std::string meshes;
     for (const GlbMesh& mesh : scene.meshes) {
         std::string primitives;
@@ -468,8 +464,16 @@ Body glb(const GlbScene& scene) {
         append_quoted((meshes += separator(meshes)) += "{\"name\":", mesh.name);
         meshes += ",\"primitives\":[" + primitives + "]" + target_weights_json(mesh) + "}";
     }
+    return meshes;
+}
+
+/// JSON of all nodes, and their indices, all of which are roots of the scene.
+struct NodeData {
     std::string nodes, roots;
-    Extensions used;
+};
+
+NodeData node_data(const GlbScene& scene, Tables& tables, Extensions& used, Body& geometries) {
+    NodeData data;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         InstanceData instances;
         if (!scene.nodes[i].instances.empty()) {
@@ -477,10 +481,33 @@ Body glb(const GlbScene& scene) {
             geometries.emplace_back(std::move(instances.bytes));
             used.use(instancing);
         }
-        (nodes += separator(nodes)) +=
+        (data.nodes += separator(data.nodes)) +=
             node_json(scene.nodes[i], scene.meshes.size(), instances.attributes);
-        append(roots += separator(roots), i);
+        append(data.roots += separator(data.roots), i);
     }
+    return data;
+}
+
+/// Appends the image files of all textures, padded.
+void append_images(const TextureTables& texture_tables, Body& body) {
+    for (const GlbMaterial* material : texture_tables.sources)
+        if (material->images)
+            for (const Slice& file : material->images->files) {
+                body.push_back(file);
+                if (const std::size_t pad = padded(file.size) - file.size)
+                    body.push_back(Slice(zeros(), 0, pad));
+            }
+}
+
+}  // namespace
+
+Body glb(const GlbScene& scene) {
+    if (scene.nodes.empty()) throw GenerationError("a scene without nodes shows nothing");
+    Tables tables;
+    Body geometries;
+    Extensions used;
+    const std::string meshes = meshes_json(scene, tables, geometries);
+    const NodeData nodes = node_data(scene, tables, used, geometries);
     AnimationData clip;
     if (scene.clip) {
         const GlbMesh& shown = scene.meshes[scene.nodes.front().mesh];
@@ -497,8 +524,8 @@ Body glb(const GlbScene& scene) {
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
                        std::to_string(generator_version) + "\"";
     if (!scene.extras_json.empty()) (json += ",\"extras\":") += scene.extras_json;
-    json += "}" + used.json() + ",\"scene\":0,\"scenes\":[{\"nodes\":[" + roots +
-            "]}],\"nodes\":[" + nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" +
+    json += "}" + used.json() + ",\"scene\":0,\"scenes\":[{\"nodes\":[" + nodes.roots +
+            "]}],\"nodes\":[" + nodes.nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" +
             materials + "]";
     if (!texture_tables.textures.empty())
         json += ",\"textures\":[" + texture_tables.textures + "],\"samplers\":[" +
@@ -509,13 +536,7 @@ Body glb(const GlbScene& scene) {
 
     Body body{head_of(std::move(json), tables.binary)};
     body.insert(body.end(), geometries.begin(), geometries.end());
-    for (const GlbMaterial* material : texture_tables.sources)
-        if (material->images)
-            for (const Slice& file : material->images->files) {
-                body.push_back(file);
-                if (const std::size_t pad = padded(file.size) - file.size)
-                    body.push_back(Slice(zeros(), 0, pad));
-            }
+    append_images(texture_tables, body);
     return body;
 }
 

@@ -45,12 +45,12 @@ bool has_blades(const Model& model) { return is_bladed(model.surface.hymenium.pa
 
 // Returns how many of a species' sixty-fourths in a mix are painted with its own gill layout: none
 // up to three quarters, all at weight 1, continuously between.
-int own_layout_share(int part) {
+int own_layout_share(int sixty_fourths) {
     constexpr int from = 48, span = whole - from;
-    const int over = std::max(0, part - from);
-    // part * smooth_step in integers, rounded.
+    const int over = std::max(0, sixty_fourths - from);
+    // sixty_fourths * smooth_step in integers, rounded.
     const int share = over * over * (3 * span - 2 * over);
-    return (part * share + span * span * span / 2) / (span * span * span);
+    return (sixty_fourths * share + span * span * span / 2) / (span * span * span);
 }
 
 // Lengths and lightness of one species alone, at the age and variation of a spec.
@@ -186,61 +186,40 @@ MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Ca
     return stepped;
 }
 
-PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {
-    const MushroomSpec stepped = surface_spec(spec, atlas, caches);
-    const Individual individual = resolve(stepped, atlas, caches.morphs);
-    std::vector<int> parts = {whole};
-    if (!spec.model) parts = apportioned(weights_of(stepped.mix), whole);
-    const int gill_layout = individual.gill_layout.blades;
-    std::vector<std::pair<std::string, PaintShare>> shares;
-    for (std::size_t i = 0; i < individual.parts.size(); ++i) {
-        const Model& model = individual.parts[i].model;
-        const SpeciesPaint alone =
-            species_paint(stepped, individual, individual.parts[i].id, atlas, caches);
-        PaintShare share;
-        // Parts are sorted by id, whatever the order of the mix.
-        for (std::size_t k = 0; k < stepped.mix.size(); ++k)
-            if (stepped.mix[k].id == individual.parts[i].id) share.sixty_fourths = parts[k];
-        PaintParams& painting = share.painting;
-        painting.seed = spec.params.seed;
-        painting.lightness = alone.lightness;
-        painting.side = spec.params.texture_size >> spec.params.lod;
-        painting.metrics = alone.metrics;
-        painting.surface = model.surface;
-        painting.hymenium = model.hymenium;
-        // Parameters that shape blades but show in no image are reset, so that they cause no other
-        // key.
-        const HymeniumOf<Plain> unshaped;
-        painting.hymenium.inner_depth = unshaped.inner_depth;
-        painting.hymenium.notch = unshaped.notch;
-        painting.hymenium.edge_waves = unshaped.edge_waves;
-        painting.cells = individual.parts[i].cells;
-        painting.warts = model.warts;
-        painting.scales = model.scales;
-        if (const auto* swept = std::get_if<Swept>(&model.shape)) painting.relief = swept->relief;
-        const Detail& detail = detail_of(spec.params.lod);
-        painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
-        painting.ornaments = {model.ornaments.warts, model.ornaments.scales};
-        painting.slime = model.material.slime;
-        // Velvet is rough: its shine is in the material.
-        double& roughness = painting.surface.cap.roughness;
-        roughness += model.material.velvet * (0.95 - roughness);
-        painting.weathering = painted_of(model.weathering);
-        // A species with the common gill layout is painted as if it were alone.
-        const bool on_common_layout = has_blades(model) && model.hymenium.blades != gill_layout;
-        const int own =
-            on_common_layout ? own_layout_share(share.sixty_fourths) : share.sixty_fourths;
-        const int common = share.sixty_fourths - own;
-        if (own > 0) {
-            share.sixty_fourths = own;
-            shares.emplace_back(canonical_text(painting), share);
-        }
-        if (common > 0) {
-            share.sixty_fourths = common;
-            painting.gill_layout = gill_layout;
-            shares.emplace_back(canonical_text(painting), std::move(share));
-        }
-    }
+namespace {
+
+// Sets what is painted of one species of an individual, with its own gill layout. `painting` has
+// the defaults before.
+void set_painting(const MushroomParams& params, const SpeciesShare& part, const SpeciesPaint& alone,
+                  PaintParams& painting) {
+    const Model& model = part.model;
+    painting.seed = params.seed;
+    painting.lightness = alone.lightness;
+    painting.side = params.texture_size >> params.lod;
+    painting.metrics = alone.metrics;
+    painting.surface = model.surface;
+    painting.hymenium = model.hymenium;
+    // Parameters that shape blades but show in no image are reset, so that they cause no other key.
+    const HymeniumOf<Plain> unshaped;
+    painting.hymenium.inner_depth = unshaped.inner_depth;
+    painting.hymenium.notch = unshaped.notch;
+    painting.hymenium.edge_waves = unshaped.edge_waves;
+    painting.cells = part.cells;
+    painting.warts = model.warts;
+    painting.scales = model.scales;
+    if (const auto* swept = std::get_if<Swept>(&model.shape)) painting.relief = swept->relief;
+    const Detail& detail = detail_of(params.lod);
+    painting.carried = carried_relief(painting.relief, detail.columns, detail.cap_rings);
+    painting.ornaments = {model.ornaments.warts, model.ornaments.scales};
+    painting.slime = model.material.slime;
+    // Velvet is rough: its shine is in the material.
+    double& roughness = painting.surface.cap.roughness;
+    roughness += model.material.velvet * (0.95 - roughness);
+    painting.weathering = painted_of(model.weathering);
+}
+
+// Returns the sum of equal paintings, in the order of their keys.
+PaintSpec merged(std::vector<std::pair<std::string, PaintShare>> shares) {
     std::sort(shares.begin(), shares.end(),
               [](const auto& a, const auto& b) { return a.first < b.first; });
     PaintSpec paint_spec;
@@ -250,6 +229,41 @@ PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas, const Cach
         else
             paint_spec.push_back(std::move(shares[i].second));
     return paint_spec;
+}
+
+}  // namespace
+
+PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas, const Caches& caches) {
+    const MushroomSpec stepped = surface_spec(spec, atlas, caches);
+    const Individual individual = resolve(stepped, atlas, caches.morphs);
+    std::vector<int> parts = {whole};
+    if (!spec.model) parts = apportioned(weights_of(stepped.mix), whole);
+    const int gill_layout = individual.gill_layout.blades;
+    std::vector<std::pair<std::string, PaintShare>> shares;
+    for (const SpeciesShare& part : individual.parts) {
+        PaintShare share;
+        // Parts are sorted by id, whatever the order of the mix.
+        for (std::size_t k = 0; k < stepped.mix.size(); ++k)
+            if (stepped.mix[k].id == part.id) share.sixty_fourths = parts[k];
+        set_painting(spec.params, part, species_paint(stepped, individual, part.id, atlas, caches),
+                     share.painting);
+        // A species with the common gill layout is painted as if it were alone.
+        const bool on_common_layout =
+            has_blades(part.model) && part.model.hymenium.blades != gill_layout;
+        const int own =
+            on_common_layout ? own_layout_share(share.sixty_fourths) : share.sixty_fourths;
+        const int common = share.sixty_fourths - own;
+        if (own > 0) {
+            share.sixty_fourths = own;
+            shares.emplace_back(canonical_text(share.painting), share);
+        }
+        if (common > 0) {
+            share.sixty_fourths = common;
+            share.painting.gill_layout = gill_layout;
+            shares.emplace_back(canonical_text(share.painting), std::move(share));
+        }
+    }
+    return merged(std::move(shares));
 }
 
 int atlases_held(const MushroomSpec& spec) {

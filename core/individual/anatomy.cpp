@@ -35,9 +35,9 @@ std::string carries_instead(const Source& s, const std::string& wanted) {
                : s.label + " is smooth all over; it has no lower face that could carry " + wanted;
 }
 
-}  // namespace
-
-void check_anatomy(const MushroomParams& requested, const std::vector<Source>& sources) {
+/// Returns the rules, one for each override that some species cannot have. One function, because
+/// it is a table: a row is a rule.
+std::vector<AnatomyRule> anatomy_rules(const MushroomParams& requested) {
     using S = const Source&;
     using Pattern = HymeniumPattern;
     const HymeniumOf<Maybe>& h = requested.hymenium;
@@ -45,7 +45,7 @@ void check_anatomy(const MushroomParams& requested, const std::vector<Source>& s
     const auto no_gills = [](S s) { return carries_instead(s, "gills"); };
     const auto carrying = [](S s) { return s.pattern() != Pattern::smooth; };
     const auto nothing_deep = [](S s) { return carries_instead(s, "gills, pores or teeth"); };
-    const AnatomyRule rules[] = {
+    return {
         {"/hymenium/blades", h.blades.has_value(), bladed, "carries gills or ridges", no_gills},
         {"/hymenium/tiers", h.tiers.has_value(), bladed, "carries gills or ridges", no_gills},
         {"/hymenium/edge_waves", is_requested(h.edge_waves), bladed, "carries gills or ridges",
@@ -111,8 +111,13 @@ void check_anatomy(const MushroomParams& requested, const std::vector<Source>& s
                                               : " has no margin from which a skin could peel off");
          }},
     };
+}
+
+}  // namespace
+
+void check_anatomy(const MushroomParams& requested, const std::vector<Source>& sources) {
     std::vector<Problem> problems;
-    for (const AnatomyRule& rule : rules)
+    for (const AnatomyRule& rule : anatomy_rules(requested))
         if (rule.requested && std::none_of(sources.begin(), sources.end(), rule.can))
             report(problems, rule.path,
                    sources.size() > 1 ? std::string("no species of this mix ") + rule.wants

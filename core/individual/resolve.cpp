@@ -383,25 +383,32 @@ void resolve_ornaments(Individual& individual, const MushroomParams& requested,
     }
 }
 
-}  // namespace
-
-Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
-                   const GetOrCompute<MorphSet>& morphs) {
-    const MushroomParams& requested = spec.params;
+// Returns the sources of a specification, all of whose parameters they can have.
+//
+// throws  InvalidInput, Impossible
+std::vector<Source> checked_sources(const MushroomSpec& spec, const Atlas& atlas) {
     std::vector<Problem> problems;
-    check(requested, Info{.name = ""}, "", problems);
+    check(spec.params, Info{.name = ""}, "", problems);
     if (spec.model) check(*spec.model, Info{.name = ""}, "/model", problems);
     if (!problems.empty()) throw InvalidInput(std::move(problems));
-    if (spec.model && requested.animation == Animation::growth)
+    if (spec.model && spec.params.animation == Animation::growth)
         throw Impossible("/animation", "a model of your own has no stages to grow through");
-
     std::vector<Source> sources = sources_of(spec, atlas);
     if (!spec.arcs.empty() && sources.size() != 2)
         throw InvalidInput("/arcs",
                            "arcs link two species; this mix has " + std::to_string(sources.size()));
     if (!spec.arcs.empty() && sources.front().is_branched())
         throw Impossible("/arcs", "limbs that branch have no outlines that arcs could link");
-    check_anatomy(requested, sources);
+    check_anatomy(spec.params, sources);
+    return sources;
+}
+
+}  // namespace
+
+Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
+                   const GetOrCompute<MorphSet>& morphs) {
+    const MushroomParams& requested = spec.params;
+    std::vector<Source> sources = checked_sources(spec, atlas);
     // Arcs name the species in the order of the mix; from here on species are sorted by id.
     std::vector<Arc> arcs = spec.arcs;
     if (!arcs.empty() && spec.mix[0].id != sources[0].id)
@@ -436,6 +443,7 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
     for (Source& source : sources) overlay_all(requested, source.now);
     blend_amounts(model, sources);
     overlay_all(requested, model);
+    std::vector<Problem> problems;
     model.deformation.check("/deformation", problems);
     if (!problems.empty()) throw Impossible(std::move(problems));
 

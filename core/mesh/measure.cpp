@@ -53,76 +53,109 @@ double area(const Mesh& mesh) {
     return 0.5 * sum;
 }
 
-std::vector<std::string> defects(const Mesh& mesh) {
-    std::vector<std::string> found;
-    const auto add_defect = [&](std::string text) {
-        if (found.size() < 20) found.push_back(std::move(text));
-    };
-    const std::size_t n = mesh.positions.size();
-    if (n == 0 || mesh.indices.empty()) add_defect("the mesh is empty");
-    if (mesh.normals.size() != n) add_defect("normals and positions differ in number");
-    if (!mesh.tangents.empty() && mesh.tangents.size() != n)
-        add_defect("tangents and positions differ in number");
-    if (!mesh.texture_coordinates.empty() && mesh.texture_coordinates.size() != n)
-        add_defect("texture coordinates and positions differ in number");
-    if (mesh.indices.size() % 3 != 0) add_defect("the number of indices is no multiple of three");
-    if (!found.empty()) return found;
-    for (std::size_t i = 0; i < n; ++i) {
-        const glm::vec3 &p = mesh.positions[i], &m = mesh.normals[i];
+namespace {
+
+constexpr std::size_t most_defects = 20;  // reported of one mesh
+
+// Largest deviation of the square of a unit vector's length from 1, and of the cosine of a right
+// angle from 0.
+constexpr float unit_tolerance = 2e-3F;
+
+/// Collects the defects of one mesh.
+class Inspection {
+  public:
+    explicit Inspection(const Mesh& mesh) : mesh_(mesh) {}
+
+    std::vector<std::string> defects() && {
+        check_sizes();
+        if (!found_.empty()) return std::move(found_);
+        for (std::size_t i = 0; i < mesh_.positions.size(); ++i) check_vertex(i);
+        check_surface();
+        return std::move(found_);
+    }
+
+  private:
+    void add(std::string text) {
+        if (found_.size() < most_defects) found_.push_back(std::move(text));
+    }
+
+    void check_sizes() {
+        const std::size_t n = mesh_.positions.size();
+        if (n == 0 || mesh_.indices.empty()) add("the mesh is empty");
+        if (mesh_.normals.size() != n) add("normals and positions differ in number");
+        if (!mesh_.tangents.empty() && mesh_.tangents.size() != n)
+            add("tangents and positions differ in number");
+        if (!mesh_.texture_coordinates.empty() && mesh_.texture_coordinates.size() != n)
+            add("texture coordinates and positions differ in number");
+        if (mesh_.indices.size() % 3 != 0) add("the number of indices is no multiple of three");
+    }
+
+    void check_vertex(std::size_t i) {
+        const glm::vec3 &p = mesh_.positions[i], &m = mesh_.normals[i];
         const std::string at = " at vertex " + std::to_string(i);
         if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z))
-            add_defect("position is not finite" + at);
-        if (!(std::abs(glm::dot(m, m) - 1.0F) < 2e-3F)) add_defect("normal is not unit" + at);
-        if (!mesh.tangents.empty()) {
-            const glm::vec3 t(mesh.tangents[i]);
-            if (!(std::abs(glm::dot(t, t) - 1.0F) < 2e-3F)) add_defect("tangent is not unit" + at);
-            if (!(std::abs(glm::dot(t, m)) < 2e-3F))
-                add_defect("tangent is not square to the normal" + at);
-            if (std::abs(mesh.tangents[i].w) != 1.0F) add_defect("handedness is not 1 or -1" + at);
+            add("position is not finite" + at);
+        if (!(std::abs(glm::dot(m, m) - 1.0F) < unit_tolerance)) add("normal is not unit" + at);
+        if (!mesh_.tangents.empty()) {
+            const glm::vec3 t(mesh_.tangents[i]);
+            if (!(std::abs(glm::dot(t, t) - 1.0F) < unit_tolerance))
+                add("tangent is not unit" + at);
+            if (!(std::abs(glm::dot(t, m)) < unit_tolerance))
+                add("tangent is not square to the normal" + at);
+            if (std::abs(mesh_.tangents[i].w) != 1.0F) add("handedness is not 1 or -1" + at);
         }
-        if (!mesh.texture_coordinates.empty()) {
-            const glm::vec2& u = mesh.texture_coordinates[i];
+        if (!mesh_.texture_coordinates.empty()) {
+            const glm::vec2& u = mesh_.texture_coordinates[i];
             if (!(u.x >= 0.0F && u.x <= 1.0F && u.y >= 0.0F && u.y <= 1.0F))
-                add_defect("texture coordinate is outside 0..1" + at);
+                add("texture coordinate is outside 0..1" + at);
         }
     }
-    const auto weld = welded(mesh);
+
     struct Edge {
         std::uint32_t from, to;
         int times;  // 1 in the direction of its triangle, -1 in that of its neighbour
         // NOLINTNEXTLINE(modernize-use-nullptr): wrong for defaulted comparisons
         auto operator<=>(const Edge&) const = default;
     };
-    std::vector<Edge> edges;
-    edges.reserve(2 * mesh.indices.size());
-    for (std::size_t i = 0; i < mesh.indices.size(); i += 3) {
-        std::array<std::uint32_t, 3> t{};
-        for (std::size_t k = 0; k < 3; ++k) {
-            t[k] = mesh.indices[i + k];
-            if (t[k] >= n) {
-                add_defect("index out of range in triangle " + std::to_string(i / 3));
-                return found;
+
+    // Reports triangles with wrong indices, and edges that are not closed by a neighbour.
+    void check_surface() {
+        const auto weld = welded(mesh_);
+        std::vector<Edge> edges;
+        edges.reserve(2 * mesh_.indices.size());
+        for (std::size_t i = 0; i < mesh_.indices.size(); i += 3) {
+            std::array<std::uint32_t, 3> t{};
+            for (std::size_t k = 0; k < 3; ++k) {
+                t[k] = mesh_.indices[i + k];
+                if (t[k] >= mesh_.positions.size())
+                    return add("index out of range in triangle " + std::to_string(i / 3));
+            }
+            if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
+                add("repeated index in triangle " + std::to_string(i / 3));
+            for (std::size_t k = 0; k < 3; ++k) {
+                const auto a = weld[t[k]], b = weld[t[(k + 1) % 3]];
+                if (a == b) continue;
+                edges.push_back({a, b, 1});
+                edges.push_back({b, a, -1});
             }
         }
-        if (t[0] == t[1] || t[1] == t[2] || t[2] == t[0])
-            add_defect("repeated index in triangle " + std::to_string(i / 3));
-        for (std::size_t k = 0; k < 3; ++k) {
-            const auto a = weld[t[k]], b = weld[t[(k + 1) % 3]];
-            if (a == b) continue;
-            edges.push_back({a, b, 1});
-            edges.push_back({b, a, -1});
+        std::sort(edges.begin(), edges.end());
+        for (std::size_t i = 0; i < edges.size();) {
+            const Edge edge = edges[i];
+            int count = 0;
+            for (; i < edges.size() && edges[i].from == edge.from && edges[i].to == edge.to; ++i)
+                count += edges[i].times;
+            if (count > 0)
+                add("open edge " + std::to_string(edge.from) + "-" + std::to_string(edge.to));
         }
     }
-    std::sort(edges.begin(), edges.end());
-    for (std::size_t i = 0; i < edges.size();) {
-        const Edge edge = edges[i];
-        int count = 0;
-        for (; i < edges.size() && edges[i].from == edge.from && edges[i].to == edge.to; ++i)
-            count += edges[i].times;
-        if (count > 0)
-            add_defect("open edge " + std::to_string(edge.from) + "-" + std::to_string(edge.to));
-    }
-    return found;
-}
+
+    const Mesh& mesh_;
+    std::vector<std::string> found_;
+};
+
+}  // namespace
+
+std::vector<std::string> defects(const Mesh& mesh) { return Inspection(mesh).defects(); }
 
 }  // namespace sporeprint

@@ -1,6 +1,70 @@
 #include "core/model/species.h"
 
+#include <utility>
+
 namespace sporeprint {
+
+namespace {
+
+/// Reports the differences of a stage from the first that could not be interpolated.
+class StageCheck {
+  public:
+    StageCheck(std::string path, std::vector<Problem>& problems)
+        : path_(std::move(path)), problems_(problems) {}
+
+    void operator()(const Model& first, const Model& model) {
+        if (model.shape.index() != first.shape.index())
+            return add("/form", "every stage has the form of the first");
+        if (const auto* branched = std::get_if<Branched>(&model.shape))
+            check_branched(std::get<Branched>(first.shape), *branched);
+        if (const auto* swept = std::get_if<Swept>(&model.shape))
+            check_swept(std::get<Swept>(first.shape), *swept);
+        if (first.surface.cap.ramp.size() != model.surface.cap.ramp.size())
+            add("/surface/cap/ramp", "every stage has as many colours as the first");
+        if (first.surface.hymenium.pattern != model.surface.hymenium.pattern)
+            add("/surface/hymenium/pattern", "every stage has the pattern of the first");
+        check_places(first.warts, model.warts, "/warts");
+        check_places(first.scales, model.scales, "/scales");
+        check_places(first.volva, model.volva, "/volva");
+    }
+
+  private:
+    void add(const char* member, std::string message) {
+        report(problems_, path_ + member, std::move(message));
+    }
+
+    void check_branched(const Branched& first, const Branched& stage) {
+        if (!(stage.ramification == first.ramification))
+            add("/ramification", "every stage branches as the first; how far is limbs.unfolding");
+        if (stage.segments.trunks != first.segments.trunks)
+            add("/limbs/trunks", "every stage has as many trunks as the first");
+    }
+
+    void check_swept(const Swept& first, const Swept& stage) {
+        const auto same = [&](std::size_t one, std::size_t other, const char* member) {
+            if (one != other)
+                add(member, std::to_string(other) + " control points; the first stage has " +
+                                std::to_string(one));
+        };
+        same(first.silhouette.stem.size(), stage.silhouette.stem.size(), "/silhouette/stem");
+        same(first.silhouette.hymenium.size(), stage.silhouette.hymenium.size(),
+             "/silhouette/hymenium");
+        same(first.silhouette.cap.size(), stage.silhouette.cap.size(), "/silhouette/cap");
+        same(first.axis.size(), stage.axis.size(), "/axis");
+    }
+
+    // Places are drawn once per individual, so their parameters must be equal in all stages.
+    void check_places(const PatchStyle& first, const PatchStyle& stage, const char* member) {
+        if (first.count != stage.count || first.from != stage.from || first.to != stage.to ||
+            first.elongation != stage.elongation)
+            add(member, "count, from, to and elongation are those of the first stage");
+    }
+
+    std::string path_;  ///< of the model
+    std::vector<Problem>& problems_;
+};
+
+}  // namespace
 
 void Species::check(const std::string& path, std::vector<Problem>& problems) const {
     if (id.empty()) report(problems, path + "/id", "is missing");
@@ -11,57 +75,11 @@ void Species::check(const std::string& path, std::vector<Problem>& problems) con
             break;
         }
     if (stages.empty()) return report(problems, path + "/stages", "0 stages; at least 1 is needed");
-    const auto at = [&](std::size_t i, const char* what) {
-        return path + "/stages/" + std::to_string(i) + what;
-    };
-    const Model& first = stages.front().model;
     for (std::size_t i = 1; i < stages.size(); ++i) {
-        const Model& model = stages[i].model;
+        const std::string stage = path + "/stages/" + std::to_string(i);
         if (stages[i].age <= stages[i - 1].age)
-            report(problems, at(i, "/age"), "stages stand in ascending order of age");
-        if (model.shape.index() != first.shape.index()) {
-            report(problems, at(i, "/model/form"), "every stage has the form of the first");
-            continue;
-        }
-        if (const auto* branched = std::get_if<Branched>(&model.shape)) {
-            const auto& before = std::get<Branched>(first.shape);
-            if (!(branched->ramification == before.ramification))
-                report(problems, at(i, "/model/ramification"),
-                       "every stage branches as the first; how far is limbs.unfolding");
-            if (branched->segments.trunks != before.segments.trunks)
-                report(problems, at(i, "/model/limbs/trunks"),
-                       "every stage has as many trunks as the first");
-        }
-        const auto* const swept = std::get_if<Swept>(&model.shape);
-        const Swept none, &a = swept ? std::get<Swept>(first.shape) : none,
-                          &b = swept ? *swept : none;
-        const auto same = [&](std::size_t one, std::size_t other, const char* what) {
-            if (one != other)
-                report(problems, at(i, what),
-                       std::to_string(other) + " control points; the first stage has " +
-                           std::to_string(one));
-        };
-        same(a.silhouette.stem.size(), b.silhouette.stem.size(), "/model/silhouette/stem");
-        same(a.silhouette.hymenium.size(), b.silhouette.hymenium.size(),
-             "/model/silhouette/hymenium");
-        same(a.silhouette.cap.size(), b.silhouette.cap.size(), "/model/silhouette/cap");
-        same(a.axis.size(), b.axis.size(), "/model/axis");
-        if (first.surface.cap.ramp.size() != model.surface.cap.ramp.size())
-            report(problems, at(i, "/model/surface/cap/ramp"),
-                   "every stage has as many colours as the first");
-        if (first.surface.hymenium.pattern != model.surface.hymenium.pattern)
-            report(problems, at(i, "/model/surface/hymenium/pattern"),
-                   "every stage has the pattern of the first");
-        // Places are drawn once per individual, so their parameters must be equal in all stages.
-        const auto placed = [&](const PatchStyle& one, const PatchStyle& other, const char* what) {
-            if (one.count != other.count || one.from != other.from || one.to != other.to ||
-                one.elongation != other.elongation)
-                report(problems, at(i, what),
-                       "count, from, to and elongation are those of the first stage");
-        };
-        placed(first.warts, model.warts, "/model/warts");
-        placed(first.scales, model.scales, "/model/scales");
-        placed(first.volva, model.volva, "/model/volva");
+            report(problems, stage + "/age", "stages stand in ascending order of age");
+        StageCheck(stage + "/model", problems)(stages.front().model, stages[i].model);
     }
 }
 

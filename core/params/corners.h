@@ -12,7 +12,8 @@ namespace sporeprint {
 /// Sets every leaf of `value` in turn to each of its extremes, calls `use(path)` with the changed
 /// `value`, and restores the leaf: numbers at both ends, ranges at both and at their widest,
 /// booleans, enums and choices at each value, colours black and white, empty optionals set, each
-/// alternative of a variant with its defaults, lists unchanged, item by item.
+/// alternative of a variant with its defaults, lists unchanged, item by item. One function, because
+/// it is a table: each branch is the rule of one kind of member.
 template <class T, class Use>
 void walk_corners(T& value, const Info& info, const std::string& path, const Use& use) {
     const auto each = [&](std::initializer_list<T> extremes) {

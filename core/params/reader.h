@@ -61,7 +61,8 @@ bool read_members(const Value& json, T& out, const std::string& path,
 
 /// Reads `json` over the values already in `out`; absent members keep their value, a list is
 /// replaced as a whole, a variant keeps its alternative unless "form" selects another. Appends
-/// every problem with its JSON pointer, unknown keys included; a faulty leaf keeps its value.
+/// every problem with its JSON pointer, unknown keys included; a faulty leaf keeps its value. One
+/// function, because it is a table: each branch is the rule of one kind of member.
 template <class T>
 void read(const Value& json, T& out, const Info& info, const std::string& path,
           std::vector<Problem>& problems) {

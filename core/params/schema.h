@@ -94,7 +94,8 @@ void schema_members(const T& fallback, Value& properties, Value& choices) {
 
 /// Returns the schema of T with the defaults of `fallback`. Leaves carry type, range or enum,
 /// default, title, description, "x-unit", "x-group" and "x-step"; an empty optional has no default
-/// but "x-default-from": "species". Unknown properties are refused.
+/// but "x-default-from": "species". Unknown properties are refused. One function, because it is a
+/// table: each branch is the rule of one kind of member.
 template <class T>
 Value schema(const T& fallback, const Info& info) {
     Value out = Value::object();

@@ -51,26 +51,75 @@ void throw_too_thin(double nodes) {
                          std::to_string(most_skeleton_nodes) + " are made");
 }
 
+// Returns true if a node can be removed between two others: it is nearly on their line, has nearly
+// their radius, and they are less than `gap` radii apart.
+bool is_dispensable(const Skeleton::Node& here, const Skeleton::Node& before,
+                    const Skeleton::Node& after, double tolerance, double gap) {
+    const glm::dvec3 way = after.place - before.place;
+    const double whole = glm::dot(way, way);
+    if (!(whole > 0.0)) return false;
+    const double t = glm::dot(here.place - before.place, way) / whole;
+    const double aside = glm::length(here.place - before.place - t * way);
+    const double wanted = before.radius + t * (after.radius - before.radius);
+    return whole < gap * gap * here.radius * here.radius && aside < tolerance * here.radius &&
+           std::abs(wanted - here.radius) < 0.5 * tolerance * here.radius;
+}
+
+// Copies segments of a tree to a skeleton of their own.
+class PartBuilder {
+  public:
+    explicit PartBuilder(double gap) : gap_(gap) {}
+
+    std::uint32_t add(const Skeleton::Node& node) {
+        part_.nodes.push_back(node);
+        return static_cast<std::uint32_t>(part_.nodes.size() - 1);
+    }
+
+    // Adds a segment to a new node, with nodes in between where it is longer than `gap` radii;
+    // returns the index of the new node.
+    std::uint32_t add_segment(std::uint32_t from, const Skeleton::Node& to) {
+        const Skeleton::Node start = part_.nodes[from];
+        const double length = glm::distance(start.place, to.place);
+        const double steps = std::floor(length / (gap_ * std::max(start.radius, to.radius)));
+        if (static_cast<double>(part_.nodes.size()) + steps >
+            static_cast<double>(most_skeleton_nodes))
+            throw_too_thin(static_cast<double>(part_.nodes.size()) + steps);
+        for (double step = 1.0; step <= steps; step += 1.0) {
+            const double t = step / (steps + 1.0);
+            const std::uint32_t between = add({start.place + t * (to.place - start.place),
+                                               start.radius + t * (to.radius - start.radius)});
+            part_.segments.push_back({from, between});
+            from = between;
+        }
+        const std::uint32_t end = add(to);
+        part_.segments.push_back({from, end});
+        return end;
+    }
+
+    [[nodiscard]] const Skeleton::Node& node(std::uint32_t i) const { return part_.nodes[i]; }
+    Skeleton take() && { return std::move(part_); }
+
+  private:
+    double gap_;
+    Skeleton part_;
+};
+
 // Returns the segments of orders low..high as a skeleton of their own. Nodes nearly on the line
 // between their neighbours are removed, and distances longer than `gap` radii get nodes, because an
 // image that is mirrored between two rings would appear stretched.
-Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double gap) {
+Skeleton part_of(const Tree& tree, const Group& group, double tolerance) {
     const Ramification& grown = tree.ramification;
     const std::size_t count = grown.nodes.size();
     const auto within = [&](std::uint32_t i) {
-        return grown.nodes[i].order >= low && grown.nodes[i].order <= high;
+        return grown.nodes[i].order >= group.low && grown.nodes[i].order <= group.high;
     };
     std::vector<std::uint32_t> children(count, 0);
     for (std::uint32_t i = 1; i < count; ++i)
         if (within(i)) ++children[grown.nodes[i].parent];
-    Skeleton part;
+    PartBuilder part(group.gap);
     // The index of each node in the part; of a removed node that of the last one before it that
     // remains.
     std::vector<std::uint32_t> place(count, Ramification::none);
-    const auto add = [&](const Skeleton::Node& node) {
-        part.nodes.push_back(node);
-        return static_cast<std::uint32_t>(part.nodes.size() - 1);
-    };
     for (std::uint32_t i = 0; i < count; ++i) {
         if (!within(i)) continue;
         const Skeleton::Node& here = tree.skeleton.nodes[i + 1];
@@ -82,45 +131,21 @@ Skeleton part_of(const Tree& tree, int low, int high, double tolerance, double g
             // A part that starts on a thicker one starts inside it, with its own radius.
             Skeleton::Node root = tree.skeleton.nodes[tree.skeleton.segments[i].from];
             if (parent != Ramification::none) root.radius = std::min(root.radius, here.radius);
-            from = add(root);
+            from = part.add(root);
         }
-        const Skeleton::Node& before = part.nodes[from];
         if (children[i] == 1) {
             const std::uint32_t next = within(grown.nodes[i].children[0])
                                            ? grown.nodes[i].children[0]
                                            : grown.nodes[i].children[1];
-            const Skeleton::Node& after = tree.skeleton.nodes[next + 1];
-            const glm::dvec3 way = after.place - before.place;
-            const double whole = glm::dot(way, way);
-            if (whole > 0.0) {
-                const double t = glm::dot(here.place - before.place, way) / whole;
-                const double aside = glm::length(here.place - before.place - t * way);
-                const double wanted = before.radius + t * (after.radius - before.radius);
-                if (whole < gap * gap * here.radius * here.radius &&
-                    aside < tolerance * here.radius &&
-                    std::abs(wanted - here.radius) < 0.5 * tolerance * here.radius) {
-                    place[i] = from;
-                    continue;
-                }
+            if (is_dispensable(here, part.node(from), tree.skeleton.nodes[next + 1], tolerance,
+                               group.gap)) {
+                place[i] = from;
+                continue;
             }
         }
-        const Skeleton::Node start = part.nodes[from];
-        const double length = glm::distance(start.place, here.place);
-        const double steps = std::floor(length / (gap * std::max(start.radius, here.radius)));
-        if (static_cast<double>(part.nodes.size()) + steps >
-            static_cast<double>(most_skeleton_nodes))
-            throw_too_thin(static_cast<double>(part.nodes.size()) + steps);
-        for (double step = 1.0; step <= steps; step += 1.0) {
-            const double t = step / (steps + 1.0);
-            const std::uint32_t between = add({start.place + t * (here.place - start.place),
-                                               start.radius + t * (here.radius - start.radius)});
-            part.segments.push_back({from, between});
-            from = between;
-        }
-        place[i] = add(here);
-        part.segments.push_back({from, place[i]});
+        place[i] = part.add_segment(from, here);
     }
-    return part;
+    return std::move(part).take();
 }
 
 }  // namespace
@@ -131,7 +156,7 @@ Mesh bark_of(const Tree& tree, int lod) {
                            std::to_string(lod) + " is outside 0.." + std::to_string(tree_lods - 1));
     Mesh bark;
     for (const Group& group : groups_of(tree.ramification.nodes[0].order, lod)) {
-        const Skeleton part = part_of(tree, group.low, group.high, 0.25 * (1 + lod), group.gap);
+        const Skeleton part = part_of(tree, group, 0.25 * (1 + lod));
         if (part.segments.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
         append(bark, skin.mesh);

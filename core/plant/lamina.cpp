@@ -142,12 +142,38 @@ class LaminaMesher {
         const Lobe& one = lamina_.lobes[lobe];
         const HalfLobe& half = one.halves[side];
         const std::vector<double>& abscissas = abscissas_[2 * lobe + side];
-        const bool mirrored = side == 1;
         const Line* seam = nullptr;
         if (half.joined > 0.0) seam = &seams_[side == 0 ? lobe : lobe - 1];
-        // The vertices of each abscissa, from the first row off the main vein to the border.
+        const Grid grid = half_grid(lobe, side, seam);
+        for (std::size_t i = 0; i + 1 < abscissas.size(); ++i) {
+            Column column{side == 1, i == 0,      i + 2 == abscissas.size(), {}, {},
+                          grid[i],   grid[i + 1], middle.vertices.back()};
+            column.inner = middle.between(abscissas[i], abscissas[i + 1]);
+            if (seam != nullptr && abscissas[i + 1] <= half.joined)
+                column.outer = seam->between(distance(one, side, abscissas[i]),
+                                             distance(one, side, abscissas[i + 1]));
+            else
+                column.outer = {column.first ? root_ : grid[i].back(),
+                                column.last ? column.tip : grid[i + 1].back()};
+            if (rows_.size() == 2)
+                fill_low_column(column);
+            else
+                fill_column(column);
+        }
+    }
+
+    // A grid lists the vertices of each abscissa, from the first row off the main vein to the
+    // border.
+    using Grid = std::vector<std::vector<std::uint32_t>>;
+
+    // Adds the vertices of a half between its main vein and its border, which is `seam` where the
+    // half is joined to its neighbour.
+    Grid half_grid(std::size_t lobe, std::size_t side, const Line* seam) {
+        const Lobe& one = lamina_.lobes[lobe];
+        const HalfLobe& half = one.halves[side];
+        const std::vector<double>& abscissas = abscissas_[2 * lobe + side];
         const std::size_t rows = rows_.size();
-        std::vector<std::vector<std::uint32_t>> grid(abscissas.size());
+        Grid grid(abscissas.size());
         for (std::size_t i = 1; i + 1 < abscissas.size(); ++i)
             for (std::size_t k = 1; k < rows; ++k) {
                 if (k + 1 == rows && seam != nullptr && abscissas[i] <= half.joined) {
@@ -162,45 +188,52 @@ class LaminaMesher {
                 relief(half, abscissas[i], rows_[k] * half.height(abscissas[i]), vertex);
                 grid[i].push_back(add(vertex));
             }
-        for (std::size_t i = 0; i + 1 < abscissas.size(); ++i) {
-            const bool first = i == 0, last = i + 2 == abscissas.size();
-            const std::vector<std::uint32_t> inner = middle.between(abscissas[i], abscissas[i + 1]);
-            std::vector<std::uint32_t> outer;
-            if (seam != nullptr && abscissas[i + 1] <= half.joined)
-                outer = seam->between(distance(one, side, abscissas[i]),
-                                      distance(one, side, abscissas[i + 1]));
-            else
-                outer = {first ? root_ : grid[i].back(),
-                         last ? middle.vertices.back() : grid[i + 1].back()};
-            if (rows == 2) {
-                const std::uint32_t apex = outer[first ? 1 : 0];
-                for (std::size_t k = 1; k < inner.size(); ++k)
-                    triangle(mirrored, inner[k - 1], inner[k], apex);
-                if (last) continue;
-                for (std::size_t k = first ? 2 : 1; k < outer.size(); ++k)
-                    triangle(mirrored, inner.back(), outer[k], outer[k - 1]);
-                continue;
-            }
-            const std::uint32_t low_apex = first ? grid[i + 1].front() : grid[i].front();
-            for (std::size_t k = 1; k < inner.size(); ++k)
-                triangle(mirrored, inner[k - 1], inner[k], low_apex);
-            if (!first && !last)
-                triangle(mirrored, inner.back(), grid[i + 1].front(), grid[i].front());
-            for (std::size_t k = 1; k + 2 < rows; ++k) {
-                const std::uint32_t a0 = first ? root_ : grid[i][k - 1];
-                const std::uint32_t b0 = first ? root_ : grid[i][k];
-                const std::uint32_t a1 = last ? middle.vertices.back() : grid[i + 1][k - 1];
-                const std::uint32_t b1 = last ? middle.vertices.back() : grid[i + 1][k];
-                if (!last) triangle(mirrored, a0, a1, b1);
-                if (!first) triangle(mirrored, a0, b1, b0);
-            }
-            const std::uint32_t near_root = first ? root_ : grid[i][rows - 3];
-            const std::uint32_t near_tip = last ? middle.vertices.back() : grid[i + 1][rows - 3];
-            const std::uint32_t high_apex = first ? near_tip : near_root;
-            for (std::size_t k = 1; k < outer.size(); ++k)
-                triangle(mirrored, high_apex, outer[k], outer[k - 1]);
-            if (!first && !last) triangle(mirrored, near_root, near_tip, outer.back());
+        return grid;
+    }
+
+    // A column of a half, from one abscissa to the next. The first starts at the root and the last
+    // ends at the tip of the main vein, where all rows meet.
+    struct Column {
+        bool mirrored, first, last;
+        std::vector<std::uint32_t> inner, outer;          ///< on the main vein and on the border
+        const std::vector<std::uint32_t>&before, &after;  ///< of the grid, at either abscissa
+        std::uint32_t tip;                                ///< of the main vein
+    };
+
+    // Adds the triangles of a column that has no row between main vein and border.
+    void fill_low_column(const Column& column) {
+        const auto& [mirrored, first, last, inner, outer, before, after, tip] = column;
+        const std::uint32_t apex = outer[first ? 1 : 0];
+        for (std::size_t k = 1; k < inner.size(); ++k)
+            triangle(mirrored, inner[k - 1], inner[k], apex);
+        if (last) return;
+        for (std::size_t k = first ? 2 : 1; k < outer.size(); ++k)
+            triangle(mirrored, inner.back(), outer[k], outer[k - 1]);
+    }
+
+    // Adds the triangles of a column: a fan at the main vein, quads between rows, a fan at the
+    // border.
+    void fill_column(const Column& column) {
+        const auto& [mirrored, first, last, inner, outer, before, after, tip] = column;
+        const std::size_t rows = rows_.size();
+        const std::uint32_t low_apex = first ? after.front() : before.front();
+        for (std::size_t k = 1; k < inner.size(); ++k)
+            triangle(mirrored, inner[k - 1], inner[k], low_apex);
+        if (!first && !last) triangle(mirrored, inner.back(), after.front(), before.front());
+        for (std::size_t k = 1; k + 2 < rows; ++k) {
+            const std::uint32_t a0 = first ? root_ : before[k - 1];
+            const std::uint32_t b0 = first ? root_ : before[k];
+            const std::uint32_t a1 = last ? tip : after[k - 1];
+            const std::uint32_t b1 = last ? tip : after[k];
+            if (!last) triangle(mirrored, a0, a1, b1);
+            if (!first) triangle(mirrored, a0, b1, b0);
         }
+        const std::uint32_t near_root = first ? root_ : before[rows - 3];
+        const std::uint32_t near_tip = last ? tip : after[rows - 3];
+        const std::uint32_t high_apex = first ? near_tip : near_root;
+        for (std::size_t k = 1; k < outer.size(); ++k)
+            triangle(mirrored, high_apex, outer[k], outer[k - 1]);
+        if (!first && !last) triangle(mirrored, near_root, near_tip, outer.back());
     }
 
     // Adds grooves along side veins and swellings between them; nothing at the border.

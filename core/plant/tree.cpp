@@ -17,6 +17,38 @@ namespace {
 
 constexpr glm::dvec3 upwards(0.0, 1.0, 0.0);
 
+// No source or measurement is recorded for the values down to `leaf_tilt`, except the golden angle.
+
+// Limits of the factor on the length of an axis for `evenness` 1: no branch is stretched to a bare
+// stick.
+constexpr double most_stretch = 3.0;
+
+// Largest deviations for `variation` 1: of lengths and of angles of forks, as shares of them, and
+// of the phyllotaxis, degrees.
+constexpr double length_variation = 0.6, angle_variation = 0.35, azimuth_variation_deg = 25.0;
+
+// Radius at the end of a twig, as a share of that at its beginning.
+constexpr double tip_radius = 0.7;
+
+// Length of a sum of normals below which its direction is undetermined.
+constexpr double least_normal = 1e-6;
+
+// Random streams of nodes follow those of axes.
+constexpr std::uint32_t first_node_stream = 0x80000000U;
+
+// Turn about the twig from one leaf to the next: the golden angle, 360 (1 - 1 / golden ratio).
+constexpr double golden_deg = 137.5;
+
+// Largest deviation of that turn, radians; share of `leaf_deg` of the last leaf of a twig, which
+// continues its direction; weight of the downward direction for `droop` 1; largest tilt of a blade.
+constexpr double leaf_turn = 0.3, last_leaf_share = 0.4, droop_weight = 0.9, leaf_tilt = 0.35;
+
+// Length of a sum of directions below which a leaf stands square to its twig.
+constexpr double least_direction = 1e-3;
+
+// Ids of leaves from one twig to the next, more than `per_tip` can be.
+constexpr std::uint32_t ids_per_tip = 64;
+
 double by_order(OrderLaw law, double rise, int order, double leaves) {
     switch (law) {
         case OrderLaw::constant:
@@ -56,7 +88,7 @@ Axes axes_of(const Ramification& tree) {
 }
 
 // Returns the factors on the lengths of each node's edges that make all axes of its order equally
-// long; between 1/3 and 3, so that no branch is stretched to a bare stick.
+// long; between 1 / most_stretch and most_stretch.
 std::vector<double> evenness_factors(const Ramification& tree, const Axes& axes, double evenness) {
     std::vector<double> edges(most_order + 5, 0.0), begun = edges, factors;
     for (std::uint32_t i = 0; i < tree.nodes.size(); ++i) {
@@ -69,7 +101,8 @@ std::vector<double> evenness_factors(const Ramification& tree, const Axes& axes,
         const auto order = static_cast<std::size_t>(tree.nodes[i].order);
         const double mean = edges[order] / begun[order];
         const auto own = static_cast<double>(axes.length[axes.first[i]]);
-        factors.push_back(power(std::clamp(mean / own, 1.0 / 3.0, 3.0), evenness));
+        factors.push_back(
+            power(std::clamp(mean / own, 1.0 / most_stretch, most_stretch), evenness));
     }
     return factors;
 }
@@ -145,113 +178,174 @@ std::vector<ExpectedOrder> expected_orders(const TreeShape& shape) {
     return orders;
 }
 
-Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
-    std::vector<Problem> problems;
-    check(shape, Info{.name = ""}, "", problems);
-    if (!problems.empty()) throw InvalidInput(std::move(problems));
-    Tree tree;
-    tree.ramification = ramified(shape.topology, seed, most_tips);
-    const Ramification& grown = tree.ramification;
+namespace {
 
-    const std::size_t count = grown.nodes.size();
-    const Axes axes = axes_of(grown);
-    const std::vector<double> leaves = leaves_of(grown);
-    const std::vector<double> even = evenness_factors(grown, axes, shape.evenness);
-    const int highest = grown.nodes[0].order;
-    const auto radius_of = [&](int order, double borne) {
-        return shape.twig_radius * by_order(shape.width_law, shape.width_rise, order, borne);
+// Grows a tree edge by edge. Parents precede their children in the ramification, so the direction
+// of each edge is known when its node is reached.
+class TreeBuilder {
+  public:
+    TreeBuilder(const TreeShape& shape, std::uint32_t seed)
+        : shape_(shape), seed_(seed), grown_(tree_.ramification) {
+        tree_.ramification = ramified(shape.topology, seed, most_tips);
+        const std::size_t count = grown_.nodes.size();
+        axes_ = axes_of(grown_);
+        leaves_ = leaves_of(grown_);
+        evenness_ = evenness_factors(grown_, axes_, shape.evenness);
+        highest_ = grown_.nodes[0].order;
+        const SineCosine height = sine_cosine(radians(shape.light_deg));
+        const SineCosine side = sine_cosine(radians(shape.light_azimuth_deg));
+        light_ = {height.cosine * side.sine, height.sine, height.cosine * side.cosine};
+        tree_.skeleton.nodes.resize(count + 1);
+        tree_.skeleton.segments.resize(count);
+        tree_.headings.assign(count, upwards);
+        tree_.across.assign(count, glm::dvec3(0.0, 0.0, 1.0));
+        scale_.assign(count, 1.0);
+        tree_.skeleton.nodes[0] = {glm::dvec3(0.0), radius_of(highest_, leaves_[0])};
+    }
+
+    Tree grown() && {
+        for (std::uint32_t i = 0; i < grown_.nodes.size(); ++i) {
+            const Draws draws = draws_of(i);
+            apply_tropisms(i);
+            place_edge(i, draws);
+            if (grown_.leaf(i)) continue;
+            turn_fork(i, draws);
+            direct_children(i, draws);
+        }
+        return std::move(tree_);
+    }
+
+  private:
+    // Random numbers of one edge, -1..1, `start` 0..1.
+    struct Draws {
+        double length, angle, start, azimuth;
     };
-    const SineCosine height = sine_cosine(radians(shape.light_deg));
-    const SineCosine side = sine_cosine(radians(shape.light_azimuth_deg));
-    const glm::dvec3 light(height.cosine * side.sine, height.sine, height.cosine * side.cosine);
 
-    tree.skeleton.nodes.resize(count + 1);
-    tree.skeleton.segments.resize(count);
-    tree.headings.assign(count, upwards);
-    tree.across.assign(count, glm::dvec3(0.0, 0.0, 1.0));
-    std::vector<double> scale(count, 1.0);
-    tree.skeleton.nodes[0] = {glm::dvec3(0.0), radius_of(highest, leaves[0])};
-    // Parents precede their children: the direction of each edge is known when its node is reached.
-    for (std::uint32_t i = 0; i < count; ++i) {
-        const Ramification::Node& node = grown.nodes[i];
-        const std::uint32_t first = axes.first[i];
-        const std::uint32_t from = node.parent == Ramification::none ? 0 : node.parent + 1;
-        const auto along = static_cast<double>(axes.length[first]);
-        const double passed = (axes.position[i] + 1.0) / along;
+    // Lengths and angles vary between axes, not between edges of one axis.
+    [[nodiscard]] Draws draws_of(std::uint32_t i) const {
+        Draws draws{};
+        Random by_axis(seed_, purposes::tree_axes, axes_.first[i]);
+        draws.length = by_axis.symmetric();
+        draws.angle = by_axis.symmetric();
+        draws.start = by_axis.uniform();
+        Random by_node(seed_, purposes::tree_axes, i + first_node_stream);
+        draws.azimuth = by_node.symmetric();
+        return draws;
+    }
 
-        // Lengths vary between axes, not between edges of one axis.
-        Random by_axis(seed, purposes::tree_axes, first);
-        const double drawn_length = by_axis.symmetric(), drawn_angle = by_axis.symmetric();
-        const double drawn_start = by_axis.uniform();
-        Random by_node(seed, purposes::tree_axes, i + 0x80000000U);
-        const double drawn_azimuth = by_node.symmetric();
+    [[nodiscard]] double radius_of(int order, double borne) const {
+        return shape_.twig_radius * by_order(shape_.width_law, shape_.width_rise, order, borne);
+    }
 
-        glm::dvec3 heading = tree.headings[i];
+    // Returns the share of its axis that an edge and those before it cover.
+    [[nodiscard]] double passed(std::uint32_t i) const {
+        const auto along = static_cast<double>(axes_.length[axes_.first[i]]);
+        return (axes_.position[i] + 1.0) / along;
+    }
+
+    // Turns the heading of an edge upwards and to the light, and its fork's direction with it.
+    void apply_tropisms(std::uint32_t i) {
+        glm::dvec3 heading = tree_.headings[i];
         const glm::dvec3 before = heading;
-        heading += shape.gravitropism * (upwards - glm::dot(upwards, heading) * heading);
-        heading += shape.phototropism * (light - glm::dot(light, heading) * heading);
+        heading += shape_.gravitropism * (upwards - glm::dot(upwards, heading) * heading);
+        heading += shape_.phototropism * (light_ - glm::dot(light_, heading) * heading);
         heading = glm::normalize(heading);
-        tree.headings[i] = heading;
-        glm::dvec3 across = square_to(heading, carried(tree.across[i], before, heading));
+        tree_.headings[i] = heading;
+        tree_.across[i] = square_to(heading, carried(tree_.across[i], before, heading));
+    }
 
-        double length = scale[i] * even[i] * (1.0 + 0.6 * shape.variation * drawn_length) *
-                        shape.twig_length *
-                        by_order(shape.length_law, shape.length_rise, node.order, leaves[i]);
-        if (i == 0) length += shape.trunk;
-        const double thick = radius_of(node.order, leaves[i]);
+    // Sets the end of an edge, its radius there and its segment.
+    void place_edge(std::uint32_t i, const Draws& draws) {
+        const Ramification::Node& node = grown_.nodes[i];
+        const std::uint32_t from = node.parent == Ramification::none ? 0 : node.parent + 1;
+        double length = scale_[i] * evenness_[i] *
+                        (1.0 + length_variation * shape_.variation * draws.length) *
+                        shape_.twig_length *
+                        by_order(shape_.length_law, shape_.length_rise, node.order, leaves_[i]);
+        if (i == 0) length += shape_.trunk;
+        const double thick = radius_of(node.order, leaves_[i]);
         // Between two orders the radius changes linearly along the axis; with pipes it does so by
         // itself.
-        const double thin = node.order == 1 ? 0.7 * thick
-                            : shape.width_law == OrderLaw::pipe
+        const double thin = node.order == 1 ? tip_radius * thick
+                            : shape_.width_law == OrderLaw::pipe
                                 ? thick
-                                : radius_of(node.order - 1, leaves[i]);
-        tree.skeleton.nodes[i + 1] = {tree.skeleton.nodes[from].place + length * heading,
-                                      thick + passed * (thin - thick)};
-        tree.skeleton.segments[i] = {from, i + 1};
+                                : radius_of(node.order - 1, leaves_[i]);
+        tree_.skeleton.nodes[i + 1] = {
+            tree_.skeleton.nodes[from].place + length * tree_.headings[i],
+            thick + passed(i) * (thin - thick)};
+        tree_.skeleton.segments[i] = {from, i + 1};
+    }
 
-        if (grown.leaf(i)) {
-            tree.across[i] = across;
-            continue;
-        }
-        double azimuth = radians(shape.azimuth_deg + 25.0 * shape.variation * drawn_azimuth);
-        if (axes.position[i] == 0) azimuth = 2.0 * pi * drawn_start * shape.variation;
-        across = turned_square(across, heading, azimuth);
+    // Sets the direction across an edge in which its fork spreads: turned by the phyllotaxis, then
+    // levelled.
+    void turn_fork(std::uint32_t i, const Draws& draws) {
+        const glm::dvec3& heading = tree_.headings[i];
+        double azimuth =
+            radians(shape_.azimuth_deg + azimuth_variation_deg * shape_.variation * draws.azimuth);
+        if (axes_.position[i] == 0) azimuth = 2.0 * pi * draws.start * shape_.variation;
+        glm::dvec3 across = turned_square(tree_.across[i], heading, azimuth);
         // The branches of a fork lie in a plane; for low orders it is turned towards the
         // horizontal.
         const double level =
-            highest > 1
-                ? shape.plagiotropy * (1.0 - (node.order - 1.0) / static_cast<double>(highest))
-                : 0.0;
+            highest_ > 1 ? shape_.plagiotropy *
+                               (1.0 - (grown_.nodes[i].order - 1.0) / static_cast<double>(highest_))
+                         : 0.0;
         if (level > 0.0) {
             const glm::dvec3 normal = glm::cross(heading, across);
             const glm::dvec3 vertical = upwards - glm::dot(upwards, heading) * heading;
             const double sign = glm::dot(normal, vertical) < 0.0 ? -1.0 : 1.0;
             const glm::dvec3 mended = (1.0 - level) * normal + sign * level * vertical;
-            if (glm::length(mended) > 1e-6) across = glm::cross(glm::normalize(mended), heading);
+            if (glm::length(mended) > least_normal)
+                across = glm::cross(glm::normalize(mended), heading);
         }
-        tree.across[i] = across;
+        tree_.across[i] = across;
+    }
+
+    // Sets the headings and the scale of the two children of a node.
+    void direct_children(std::uint32_t i, const Draws& draws) {
+        const Ramification::Node& node = grown_.nodes[i];
+        const glm::dvec3 heading = tree_.headings[i], across = tree_.across[i];
         const std::uint32_t main = node.children[0], other = node.children[1];
-        const int lesser = grown.nodes[other].order;
+        const int lesser = grown_.nodes[other].order;
         double main_turn = 0.0, other_turn = 0.0;
-        if (grown.nodes[main].order < node.order) {
-            main_turn = other_turn = shape.fork_deg;
+        if (grown_.nodes[main].order < node.order) {
+            main_turn = other_turn = shape_.fork_deg;
         } else {
             const double share = static_cast<double>(lesser) / (node.order - 1.0);
-            main_turn = shape.main_deg * share;
-            other_turn = shape.side_deg * (node.order - lesser) / (node.order - 1.0);
+            main_turn = shape_.main_deg * share;
+            other_turn = shape_.side_deg * (node.order - lesser) / (node.order - 1.0);
         }
-        const double varied = 1.0 + 0.35 * shape.variation * drawn_angle;
+        const double varied = 1.0 + angle_variation * shape_.variation * draws.angle;
         const SineCosine of_main = sine_cosine(radians(main_turn * varied));
         const SineCosine of_other = sine_cosine(radians(other_turn * varied));
-        tree.headings[main] = of_main.cosine * heading - of_main.sine * across;
-        tree.headings[other] = of_other.cosine * heading + of_other.sine * across;
-        tree.across[main] = carried(across, heading, tree.headings[main]);
-        tree.across[other] = carried(glm::cross(heading, across), heading, tree.headings[other]);
-        const double shorter = scale[i] * (1.0 - shape.shortening * passed);
-        scale[main] = grown.nodes[main].order == node.order ? scale[i] : shorter;
-        scale[other] = shorter;
+        tree_.headings[main] = of_main.cosine * heading - of_main.sine * across;
+        tree_.headings[other] = of_other.cosine * heading + of_other.sine * across;
+        tree_.across[main] = carried(across, heading, tree_.headings[main]);
+        tree_.across[other] = carried(glm::cross(heading, across), heading, tree_.headings[other]);
+        const double shorter = scale_[i] * (1.0 - shape_.shortening * passed(i));
+        scale_[main] = grown_.nodes[main].order == node.order ? scale_[i] : shorter;
+        scale_[other] = shorter;
     }
-    return tree;
+
+    const TreeShape& shape_;
+    std::uint32_t seed_;
+    Tree tree_;
+    const Ramification& grown_;  ///< that of the tree
+    Axes axes_;
+    std::vector<double> leaves_;    ///< in the subtree of each node
+    std::vector<double> evenness_;  ///< factors on lengths
+    std::vector<double> scale_;     ///< factors on lengths by the place on the parent's axis
+    int highest_ = 0;               ///< order of the trunk
+    glm::dvec3 light_{0.0};         ///< unit, to the light
+};
+
+}  // namespace
+
+Tree grown_tree(const TreeShape& shape, std::uint32_t seed) {
+    std::vector<Problem> problems;
+    check(shape, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    return TreeBuilder(shape, seed).grown();
 }
 
 std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
@@ -279,17 +373,17 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
             PlacedLeaf leaf;
             const double t = 1.0 - static_cast<double>(k) / style.per_tip;
             leaf.place = from.place + t * (to.place - from.place);
-            const double azimuth = 2.0 * pi * start + radians(137.5) * k + 0.3 * turn_drawn;
+            const double azimuth =
+                2.0 * pi * start + radians(golden_deg) * k + leaf_turn * turn_drawn;
             const glm::dvec3 out = turned_square(tree.across[i], heading, azimuth);
-            // The last leaf continues the direction of the twig.
-            const double open = k == 0 ? 0.4 : 1.0;
+            const double open = k == 0 ? last_leaf_share : 1.0;
             glm::dvec3 along = off.cosine * heading + open * off.sine * out;
-            along -= 0.9 * style.droop * upwards;
-            if (glm::length(along) < 1e-3) along = out;
+            along -= droop_weight * style.droop * upwards;
+            if (glm::length(along) < least_direction) along = out;
             leaf.along = glm::normalize(along);
-            leaf.up = square_to(leaf.along, upwards + 0.35 * glm::dvec3(tilt_x, 0.0, tilt_z));
+            leaf.up = square_to(leaf.along, upwards + leaf_tilt * glm::dvec3(tilt_x, 0.0, tilt_z));
             leaf.size = style.leaf_size * (1.0 + style.size_spread * size_drawn);
-            leaf.id = i * 64U + static_cast<std::uint32_t>(k);
+            leaf.id = i * ids_per_tip + static_cast<std::uint32_t>(k);
             leaves.push_back(leaf);
         }
     }

@@ -12,6 +12,7 @@ namespace sporeprint {
 
 namespace {
 
+// No source or measurement is recorded for these values down to `tooth_tip`.
 constexpr double most_turn_deg = 165.0;                // angle of the outermost main vein
 constexpr double behind_deg = 177.0, clear_deg = 3.0;  // minimum distance to the petiole's line
 constexpr double least_reach_deg = 5.0;    // least angle of side veins to the ray to the neighbour
@@ -19,6 +20,20 @@ constexpr double least_join = 0.08;        // least abscissa up to which neighbo
 constexpr double least_half_width = 0.02;  // least half width of a lobe
 constexpr double clearance = 0.97;         // parts not joined reach this share of the ray's height
 constexpr double least_gap = 1e-3;         // between two abscissas of a border
+constexpr double slope_run = 0.6;          // of the slope beside a joined part, in its heights
+constexpr double least_share = 0.3;        // of the angle between two main veins for either lobe
+constexpr int limit_halvings = 40;         // of that angle: its error is below 1e-12 radians
+constexpr double least_angle = 1e-6;       // radians, below which lines count as parallel
+constexpr double unlimited = 1e9;          // height where no ray limits a border
+
+// Tangents of a smooth border, in chords: at the root across and along the chord's axes, steep so
+// that the base is round; at the tip along the side veins.
+constexpr double root_tangent_x = 0.25, root_tangent_y = 1.25;
+constexpr double tip_tangent_y = 1.2, tip_tangent_x = 0.2;
+
+// Position of the tip of a tooth in its two steps: beyond the middle, so that a tooth leans to the
+// tip of the lobe, rises slowly and falls steeply.
+constexpr double tooth_tip = 1.55;
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
 
@@ -94,10 +109,10 @@ std::vector<BorderPoint> border_curve(const Venation& venation, const Lobe& lobe
         const auto tangent = [&](std::size_t k) {
             BorderPoint turned = chord;
             if (k == 0) {
-                turned = {0.25 * chord.x, 1.25 * chord.y};
+                turned = {root_tangent_x * chord.x, root_tangent_y * chord.y};
             } else if (k + 1 == corners.size()) {
                 const SineCosine side = sine_cosine(lobe.side_angle[which]);
-                const double size = 1.2 * std::abs(chord.y) + 0.2 * chord.x;
+                const double size = tip_tangent_y * std::abs(chord.y) + tip_tangent_x * chord.x;
                 turned = {size * std::max(0.0, side.cosine), -size};
             } else {
                 turned = 0.5 * (corners[k + 1].at - corners[k - 1].at);
@@ -108,13 +123,12 @@ std::vector<BorderPoint> border_curve(const Venation& venation, const Lobe& lobe
         const BorderPoint leaving = bounded_handle(from, tangent(i), 1.0, to);
         const BorderPoint arriving = bounded_handle(to, tangent(i + 1), -1.0, from);
         const double tooth = teeth == 0 ? 0.0 : venation.teeth * 0.5 * glm::length(chord) / teeth;
-        // A tooth leans to the tip: it rises slowly and falls steeply.
         const int count = teeth > 0 ? 2 * teeth : steps;
         for (int step = 1; step <= count; ++step) {
             double t = static_cast<double>(step) / count;
             double lift = 0.0;
             if (teeth > 0 && step % 2 == 1) {
-                t = (step - 1 + 1.55) / count;
+                t = (step - 1 + tooth_tip) / count;
                 lift = tooth;
             }
             const double s = 1.0 - t;
@@ -128,10 +142,10 @@ std::vector<BorderPoint> border_curve(const Venation& venation, const Lobe& lobe
 }
 
 // Returns the height at which the line parallel to the side veins from an abscissa meets the ray
-// from the root at `limit`; 1e9 if it never does.
+// from the root at `limit`; `unlimited` if it never does.
 double limit_at(const Lobe& lobe, std::size_t side, double limit, double abscissa) {
     const double between = lobe.angle(side, abscissa) - limit;
-    return between <= 1e-6 ? 1e9 : abscissa * sine(limit) / sine(between);
+    return between <= least_angle ? unlimited : abscissa * sine(limit) / sine(between);
 }
 
 // Returns the abscissa at which a border crosses the ray at `limit` for the last time; 0 if it
@@ -170,12 +184,12 @@ void join_border(const Lobe& lobe, std::size_t side, double joined, double own,
     if (joined > 0.0) {
         half.abscissas.push_back(joined);
         half.heights.push_back(limit_at(lobe, side, half.limit, joined));
-        put(own, 1e9, 1.0);
+        put(own, unlimited, 1.0);
     }
     const double last = half.abscissas.back(), high = half.heights.back();
     std::vector<BorderPoint> places = border;
     // Where the joined part is wider than the border, a slope leads down to it.
-    const double run = 0.6 * high;
+    const double run = slope_run * high;
     const auto over = [&](double abscissa) {
         return joined > 0.0 ? high - (abscissa - last) * (high / run) : 0.0;
     };
@@ -285,106 +299,142 @@ glm::dvec2 Lobe::place(std::size_t side, double abscissa, double height) const {
             turned.cosine * along - turned.sine * left};
 }
 
-Lamina lamina_of(const Venation& venation, int steps) {
-    std::vector<Problem> problems;
-    sporeprint::check(venation, Info{.name = ""}, "", problems);
-    if (!problems.empty()) throw InvalidInput(std::move(problems));
+namespace {
+
+// Returns a lobe with straight main vein, `outwards` places from the middle one, turned to the
+// left; in the unit of the law of lengths until scale().
+Lobe planned_lobe(const Venation& venation, int outwards) {
+    Lobe lobe;
+    const int nodes = std::max(
+        2, venation.nodes - static_cast<int>(std::floor(venation.node_loss * outwards + 0.5)));
+    double along = 0.0, edge = 0.0;
+    std::vector<HalfLobe::SideVein> side_veins;
+    for (int q = 0; q < nodes; ++q) {
+        edge = edge_length(venation, nodes - q);
+        if (q > 0) {
+            const double on = static_cast<double>(q) / nodes, back = 1.0 - on;
+            side_veins.push_back(
+                {along, edge * venation.side_length * (1.0 - venation.narrow_base * back * back) *
+                            (1.0 - venation.narrow_tip * on * on)});
+        }
+        along += edge;
+        lobe.nodes.push_back(along);
+    }
+    lobe.reach = along + (venation.border - 1.0) * edge;
+    for (HalfLobe& half : lobe.halves) half.side_veins = side_veins;
+    return lobe;
+}
+
+// Multiplies all lengths of a planned lobe by `unit`.
+void scale(Lobe& lobe, double unit) {
+    for (double& node : lobe.nodes) node *= unit;
+    for (HalfLobe& half : lobe.halves)
+        for (HalfLobe::SideVein& vein : half.side_veins)
+            vein = {vein.abscissa * unit, vein.length * unit};
+    lobe.reach *= unit;
+}
+
+// Sets the angles of a lobe's side veins; those of an outermost one on the side of the petiole keep
+// clear of its line.
+void set_angles(const Venation& venation, bool is_outermost, bool is_single, Lobe& lobe) {
+    const double side = radians(venation.side_deg);
+    lobe.side_angle = {side, side};
+    if (is_outermost) {
+        // Lines that stay in front of the petiole's line never meet it.
+        const double largest_angle = radians(behind_deg) - lobe.turn - radians(clear_deg);
+        lobe.side_angle[0] = std::min(side, largest_angle);
+        lobe.base_angle[0] = std::min(side + radians(venation.base_deg), largest_angle);
+        if (!is_single) lobe.base_angle[1] = side;
+    } else {
+        lobe.base_angle = lobe.side_angle;
+    }
+    if (is_single) {
+        lobe.side_angle[1] = lobe.side_angle[0];
+        lobe.base_angle[1] = lobe.base_angle[0];
+    }
+}
+
+// Returns the lobes with their veins, from the rightmost to the leftmost, without borders.
+std::vector<Lobe> planned_lobes(const Venation& venation) {
     const int pairs = venation.lobes.value / 2;
-    const double between = radians(venation.vein_deg), rim = radians(behind_deg);
-    Lamina lamina;
+    const double between = radians(venation.vein_deg);
+    std::vector<Lobe> lobes;
     double unit = 1.0;
     // The middle lobe is laid out first, because its reach is the unit of length.
     for (int j = 0; j <= pairs; ++j) {
-        Lobe lobe;
-        const int nodes = std::max(
-            2, venation.nodes - static_cast<int>(std::floor(venation.node_loss * j + 0.5)));
-        double along = 0.0, edge = 0.0;
-        std::vector<HalfLobe::SideVein> side_veins;
-        for (int q = 0; q < nodes; ++q) {
-            edge = edge_length(venation, nodes - q);
-            if (q > 0) {
-                const double on = static_cast<double>(q) / nodes, back = 1.0 - on;
-                side_veins.push_back({along, edge * venation.side_length *
-                                                 (1.0 - venation.narrow_base * back * back) *
-                                                 (1.0 - venation.narrow_tip * on * on)});
-            }
-            along += edge;
-            lobe.nodes.push_back(along);
-        }
-        lobe.reach = along + (venation.border - 1.0) * edge;
+        Lobe lobe = planned_lobe(venation, j);
         if (j == 0) unit = 1.0 / lobe.reach;
-        for (double& node : lobe.nodes) node *= unit;
-        for (HalfLobe::SideVein& vein : side_veins)
-            vein = {vein.abscissa * unit, vein.length * unit};
-        lobe.reach *= unit;
+        scale(lobe, unit);
         lobe.turn = j * between;
-        const double side = radians(venation.side_deg);
-        lobe.side_angle = {side, side};
-        if (j == pairs) {
-            // Lines that stay in front of the petiole's line never meet it.
-            const double largest_angle = rim - lobe.turn - radians(clear_deg);
-            lobe.side_angle[0] = std::min(side, largest_angle);
-            lobe.base_angle[0] = std::min(side + radians(venation.base_deg), largest_angle);
-            if (pairs > 0) lobe.base_angle[1] = side;
-        } else {
-            lobe.base_angle = lobe.side_angle;
-        }
-        if (pairs == 0) {
-            lobe.side_angle[1] = lobe.side_angle[0];
-            lobe.base_angle[1] = lobe.base_angle[0];
-        }
-        for (HalfLobe& half : lobe.halves) half.side_veins = side_veins;
-        lamina.lobes.push_back(lobe);
+        set_angles(venation, j == pairs, pairs == 0, lobe);
+        lobes.push_back(lobe);
         if (j == 0) continue;
         std::swap(lobe.side_angle[0], lobe.side_angle[1]);
         std::swap(lobe.base_angle[0], lobe.base_angle[1]);
         lobe.turn = -lobe.turn;
-        lamina.lobes.insert(lamina.lobes.begin(), lobe);
+        lobes.insert(lobes.begin(), lobe);
     }
-    delete_crossings(lamina);
+    return lobes;
+}
 
+// Divides the wedge between two neighbouring lobes by a ray from the root and joins their borders
+// along it. The borders meet where both have their last crossing of the ray at the same distance
+// from the root.
+//
+// right_border, left_border  the facing borders before clipping
+void join_neighbours(const Venation& venation, const std::vector<BorderPoint>& right_border,
+                     const std::vector<BorderPoint>& left_border, Lobe& right, Lobe& left) {
+    const double between = radians(venation.vein_deg);
+    const auto reach = [&](const Lobe& lobe, std::size_t side, double limit,
+                           const std::vector<BorderPoint>& border) {
+        return last_crossing(lobe, side, limit, border) * along_limit(lobe, side, limit);
+    };
+    const double flat = radians(venation.side_deg - clear_deg);
+    double low = std::max(least_share * between, between - flat),
+           high = std::min((1.0 - least_share) * between, flat);
+    for (int halving = 0; halving < limit_halvings; ++halving) {
+        const double limit = 0.5 * (low + high);
+        const double gap =
+            reach(right, 0, limit, right_border) - reach(left, 1, between - limit, left_border);
+        (gap > 0.0 ? low : high) = limit;
+    }
+    const double limit = 0.5 * (low + high);
+    right.halves[0].limit = limit;
+    left.halves[1].limit = between - limit;
+    const double from_right = reach(right, 0, limit, right_border);
+    const double from_left = reach(left, 1, between - limit, left_border);
+    const double least = least_join * std::min(right.reach, left.reach);
+    const double shared = std::max(std::min(from_right, from_left), least);
+    const double scale_right = along_limit(right, 0, limit);
+    const double scale_left = along_limit(left, 1, between - limit);
+    join_border(right, 0, shared / scale_right, std::max(shared, from_right) / scale_right,
+                right_border, right.halves[0]);
+    join_border(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left, left_border,
+                left.halves[1]);
+}
+
+}  // namespace
+
+Lamina lamina_of(const Venation& venation, int steps) {
+    std::vector<Problem> problems;
+    sporeprint::check(venation, Info{.name = ""}, "", problems);
+    if (!problems.empty()) throw InvalidInput(std::move(problems));
+    Lamina lamina{planned_lobes(venation)};
+    delete_crossings(lamina);
     const std::size_t count = lamina.lobes.size();
-    std::vector<std::array<std::vector<BorderPoint>, 2>> drawn(count);
+    std::vector<std::array<std::vector<BorderPoint>, 2>> borders(count);
     for (std::size_t i = 0; i < count; ++i)
         for (std::size_t side = 0; side < 2; ++side)
-            drawn[i][side] = border_curve(venation, lamina.lobes[i], side, steps);
+            borders[i][side] = border_curve(venation, lamina.lobes[i], side, steps);
     Lobe& first = lamina.lobes.front();
     Lobe& last = lamina.lobes.back();
-    first.halves[1].limit = rim + first.turn;
-    last.halves[0].limit = rim - last.turn;
-    join_border(first, 1, 0.0, 0.0, drawn.front()[1], first.halves[1]);
-    join_border(last, 0, 0.0, 0.0, drawn.back()[0], last.halves[0]);
-    for (std::size_t i = 0; i + 1 < count; ++i) {
-        Lobe& right = lamina.lobes[i];
-        Lobe& left = lamina.lobes[i + 1];
-        // The borders meet where both have their last crossing of the ray at the same distance from
-        // the root.
-        const auto reach = [&](const Lobe& lobe, std::size_t side, double limit,
-                               const std::vector<BorderPoint>& border) {
-            return last_crossing(lobe, side, limit, border) * along_limit(lobe, side, limit);
-        };
-        const double flat = radians(venation.side_deg - clear_deg);
-        double low = std::max(0.3 * between, between - flat), high = std::min(0.7 * between, flat);
-        for (int halving = 0; halving < 40; ++halving) {
-            const double limit = 0.5 * (low + high);
-            const double gap = reach(right, 0, limit, drawn[i][0]) -
-                               reach(left, 1, between - limit, drawn[i + 1][1]);
-            (gap > 0.0 ? low : high) = limit;
-        }
-        const double limit = 0.5 * (low + high);
-        right.halves[0].limit = limit;
-        left.halves[1].limit = between - limit;
-        const double from_right = reach(right, 0, limit, drawn[i][0]);
-        const double from_left = reach(left, 1, between - limit, drawn[i + 1][1]);
-        const double least = least_join * std::min(right.reach, left.reach);
-        const double shared = std::max(std::min(from_right, from_left), least);
-        const double scale_right = along_limit(right, 0, limit);
-        const double scale_left = along_limit(left, 1, between - limit);
-        join_border(right, 0, shared / scale_right, std::max(shared, from_right) / scale_right,
-                    drawn[i][0], right.halves[0]);
-        join_border(left, 1, shared / scale_left, std::max(shared, from_left) / scale_left,
-                    drawn[i + 1][1], left.halves[1]);
-    }
+    first.halves[1].limit = radians(behind_deg) + first.turn;
+    last.halves[0].limit = radians(behind_deg) - last.turn;
+    join_border(first, 1, 0.0, 0.0, borders.front()[1], first.halves[1]);
+    join_border(last, 0, 0.0, 0.0, borders.back()[0], last.halves[0]);
+    for (std::size_t i = 0; i + 1 < count; ++i)
+        join_neighbours(venation, borders[i][0], borders[i + 1][1], lamina.lobes[i],
+                        lamina.lobes[i + 1]);
     for (Lobe& lobe : lamina.lobes)
         for (HalfLobe& half : lobe.halves)
             for (HalfLobe::SideVein& vein : half.side_veins)
@@ -425,6 +475,11 @@ constexpr double per_radian = static_cast<double>(directions) / (2.0 * pi);
 
 constexpr double near_sine =
     0.0125;  // of a point to the direction of the last one: four directions
+
+// Largest number of steps of Newton's method, after which bisection alone would leave 4e-15 of the
+// bracket, and the last step at which it ends.
+constexpr int most_newton_steps = 48;
+constexpr double abscissa_tolerance = 1e-7;
 
 // Returns the index of a direction, counted from straight back to the left.
 double direction_of(const glm::dvec2& p) { return (arc_tangent(-p.x, p.y) + pi) * per_radian; }
@@ -507,6 +562,92 @@ LaminaPlace LaminaSampler::at(const glm::dvec2& point) const {
     return at(point, hint);
 }
 
+namespace {
+
+// Returns a starting abscissa for Newton's method, extrapolated from those of the previous points
+// on the same half, newest first.
+double extrapolated(const std::array<double, 3>& f, std::size_t known) {
+    return known == 1 ? f[0] : known == 2 ? 2.0 * f[0] - f[1] : 3.0 * (f[0] - f[1]) + f[2];
+}
+
+// Finds the abscissa at which the line through a point inside a half meets the main vein, from the
+// starting value in `place` or `at`: by Newton's method. The function is monotonic, so steps that
+// leave the bracket are replaced by bisection.
+//
+// at  the direction of the line at the abscissa, before and after
+void solve_abscissa(const Lobe& lobe, double along, LaminaPlace& place, SineCosine& at) {
+    double low = 0.0, high = lobe.reach;
+    const double bend =
+        2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) / lobe.reach;
+    for (int step = 0; step < most_newton_steps; ++step) {
+        const double value = place.abscissa + place.from_main * at.cosine / at.sine - along;
+        (value < 0.0 ? low : high) = place.abscissa;
+        const double slope = 1.0 + place.from_main * bend * (1.0 - place.abscissa / lobe.reach) /
+                                       (at.sine * at.sine);
+        const double next = place.abscissa - value / slope, before = place.abscissa;
+        place.abscissa = next >= low && next <= high ? next : 0.5 * (low + high);
+        const double moved = place.abscissa - before;
+        const double turning =
+            lobe.angle(place.side, place.abscissa) - lobe.angle(place.side, before);
+        if (std::abs(moved) < abscissa_tolerance) {
+            // The rotation to second order: its error is of the order of that of the abscissas.
+            at = {at.sine + turning * (at.cosine - 0.5 * turning * at.sine),
+                  at.cosine - turning * (at.sine + 0.5 * turning * at.cosine)};
+            return;
+        }
+        at = sine_cosine(lobe.angle(place.side, place.abscissa));
+    }
+}
+
+}  // namespace
+
+// Sets the abscissa of a point and returns the direction of the line of side veins through it.
+// Lines diverge, so there is at most one through a point.
+SineCosine LaminaSampler::line_through(const Lobe& lobe, const Half& known, double along,
+                                       double at_root, Hint& hint, LaminaPlace& place) {
+    if (known.parallel) {
+        place.abscissa = -at_root;
+        return known.root;
+    }
+    if (lobe.reach + place.from_main * known.tip.cosine / known.tip.sine <= along) {
+        // Beyond the tip.
+        place.abscissa = lobe.reach;
+        hint.known = 0;
+        return known.tip;
+    }
+    if (!(at_root < 0.0)) {
+        hint.known = 0;
+        return known.root;
+    }
+    SineCosine at = known.root;
+    if (hint.known > 0) {
+        place.abscissa = std::clamp(extrapolated(hint.abscissas, hint.known), 0.0, lobe.reach);
+        at = sine_cosine(lobe.angle(place.side, place.abscissa));
+    }
+    solve_abscissa(lobe, along, place, at);
+    hint.abscissas = {place.abscissa, hint.abscissas[0], hint.abscissas[1]};
+    hint.known = std::min(hint.known + 1, hint.abscissas.size());
+    return at;
+}
+
+// Sets the distance from the nearest side vein, one of the two whose abscissas enclose that of the
+// point.
+void LaminaSampler::measure_side_vein(const HalfLobe& half, const SineCosine& at, Hint& hint,
+                                      LaminaPlace& place) {
+    const std::vector<HalfLobe::SideVein>& veins = half.side_veins;
+    if (veins.empty()) return;
+    std::size_t next = std::min(hint.vein, veins.size());
+    while (next > 0 && place.abscissa < veins[next - 1].abscissa) --next;
+    while (next < veins.size() && place.abscissa >= veins[next].abscissa) ++next;
+    hint.vein = next;
+    const bool above =
+        next == veins.size() || (next > 0 && place.abscissa - veins[next - 1].abscissa <=
+                                                 veins[next].abscissa - place.abscissa);
+    const HalfLobe::SideVein& vein = veins[above ? next - 1 : next];
+    place.from_side = std::abs(place.abscissa - vein.abscissa) * at.sine;
+    place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
+}
+
 LaminaPlace LaminaSampler::at(const glm::dvec2& point, Hint& hint) const {
     LaminaPlace place;
     const double distance = glm::length(point);
@@ -527,73 +668,15 @@ LaminaPlace LaminaSampler::at(const glm::dvec2& point, Hint& hint) const {
         hint.known = 0;
     }
     place.from_main = std::abs(left);
-    // The abscissa whose line goes through the point: lines diverge, so there is at most one.
     const double at_root = place.from_main * known.cotangent - along;
-    SineCosine at = known.root;
-    if (known.parallel) {
-        place.abscissa = -at_root;
-    } else if (lobe.reach + place.from_main * known.tip.cosine / known.tip.sine <= along) {
-        // Beyond the tip.
-        place.abscissa = lobe.reach;
-        at = known.tip;
-        hint.known = 0;
-    } else if (at_root < 0.0) {
-        // Newton's method, started from the extrapolated previous abscissas or the steep end. The
-        // function is monotonic, so steps that leave the bracket are replaced by bisection.
-        double low = 0.0, high = lobe.reach;
-        if (hint.known > 0) {
-            const std::array<double, 3>& f = hint.abscissas;
-            const double next = hint.known == 1   ? f[0]
-                                : hint.known == 2 ? 2.0 * f[0] - f[1]
-                                                  : 3.0 * (f[0] - f[1]) + f[2];
-            place.abscissa = std::clamp(next, low, high);
-            at = sine_cosine(lobe.angle(place.side, place.abscissa));
-        }
-        const double bend =
-            2.0 * (lobe.base_angle[place.side] - lobe.side_angle[place.side]) / lobe.reach;
-        for (int step = 0; step < 48; ++step) {
-            const double value = place.abscissa + place.from_main * at.cosine / at.sine - along;
-            (value < 0.0 ? low : high) = place.abscissa;
-            const double slope = 1.0 + place.from_main * bend *
-                                           (1.0 - place.abscissa / lobe.reach) /
-                                           (at.sine * at.sine);
-            const double next = place.abscissa - value / slope, before = place.abscissa;
-            place.abscissa = next >= low && next <= high ? next : 0.5 * (low + high);
-            const double moved = place.abscissa - before;
-            const double turning =
-                lobe.angle(place.side, place.abscissa) - lobe.angle(place.side, before);
-            if (std::abs(moved) < 1e-7) {
-                // The rotation to second order: its error is of the order of that of the abscissas.
-                at = {at.sine + turning * (at.cosine - 0.5 * turning * at.sine),
-                      at.cosine - turning * (at.sine + 0.5 * turning * at.cosine)};
-                break;
-            }
-            at = sine_cosine(lobe.angle(place.side, place.abscissa));
-        }
-        hint.abscissas = {place.abscissa, hint.abscissas[0], hint.abscissas[1]};
-        hint.known = std::min(hint.known + 1, hint.abscissas.size());
-    } else {
-        hint.known = 0;
-    }
+    const SineCosine at = line_through(lobe, known, along, at_root, hint, place);
     place.height = place.from_main / at.sine;
     const double border = border_over(half, place.abscissa, hint);
     place.inside = place.abscissa >= 0.0 && place.abscissa <= lobe.reach &&
                    place.height <= border && at_root <= 0.0;
     place.affinity = border > 0.0 ? place.height / border : 1.0;
     place.homothety = reach > 0.0 ? std::min(distance / reach, 1.0) : 1.0;
-    if (half.side_veins.empty()) return place;
-    // The nearest side vein is one of the two whose abscissas enclose this one.
-    const std::vector<HalfLobe::SideVein>& veins = half.side_veins;
-    std::size_t next = std::min(hint.vein, veins.size());
-    while (next > 0 && place.abscissa < veins[next - 1].abscissa) --next;
-    while (next < veins.size() && place.abscissa >= veins[next].abscissa) ++next;
-    hint.vein = next;
-    const bool above =
-        next == veins.size() || (next > 0 && place.abscissa - veins[next - 1].abscissa <=
-                                                 veins[next].abscissa - place.abscissa);
-    const HalfLobe::SideVein& vein = veins[above ? next - 1 : next];
-    place.from_side = std::abs(place.abscissa - vein.abscissa) * at.sine;
-    place.along_side = vein.length > 0.0 ? place.height / vein.length : 1.0;
+    measure_side_vein(half, at, hint, place);
     return place;
 }
 

@@ -260,6 +260,10 @@ class LaminaSampler {
     [[nodiscard]] double turn_of(const glm::dvec2& point, double distance, Hint& hint,
                                  double& reach) const;
     [[nodiscard]] double border_over(const HalfLobe& half, double abscissa, Hint& hint) const;
+    static SineCosine line_through(const Lobe& lobe, const Half& known, double along,
+                                   double at_root, Hint& hint, LaminaPlace& place);
+    static void measure_side_vein(const HalfLobe& half, const SineCosine& at, Hint& hint,
+                                  LaminaPlace& place);
 
     Lamina lamina_;
     std::vector<SineCosine> turns_;  ///< direction of each lobe

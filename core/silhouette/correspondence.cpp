@@ -174,13 +174,16 @@ double BlendWork::step(const Edges& a, const Edges& b, std::size_t at_a, std::si
     return work.stretched + work.bend * bent;
 }
 
-std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWork& work) {
-    assert(a.directions.size() == b.directions.size() && !a.directions.empty());
-    if (!comes_before(a, b)) {
-        std::vector<Link> links = least_work_links(b, a, work);
-        for (Link& link : links) std::swap(link.a, link.b);
-        return links;
-    }
+namespace {
+
+// The last step of the path of least work to each pair of vertices.
+struct StepTable {
+    std::size_t row;                  ///< length of a row: one pair of vertices for each of b
+    std::vector<std::uint8_t> steps;  ///< indices into link_steps, row by row of vertices of a
+};
+
+// Returns the table of two outlines with the same number of edges, by dynamic programming.
+StepTable step_table(const Edges& a, const Edges& b, const BlendWork& work) {
     const std::size_t n = a.directions.size(), row = n + 1;
     std::vector<double> squared_distances(n * n);
     for (std::size_t i = 0; i < n; ++i)
@@ -226,11 +229,26 @@ std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWo
             best_steps[i * row + j] = static_cast<std::uint8_t>(best_step);
         }
     }
-    std::vector<Link> links{{static_cast<int>(n), static_cast<int>(n)}};
+    return {row, std::move(best_steps)};
+}
+
+}  // namespace
+
+std::vector<Link> least_work_links(const Edges& a, const Edges& b, const BlendWork& work) {
+    assert(a.directions.size() == b.directions.size() && !a.directions.empty());
+    if (!comes_before(a, b)) {
+        std::vector<Link> links = least_work_links(b, a, work);
+        for (Link& link : links) std::swap(link.a, link.b);
+        return links;
+    }
+    const StepTable table = step_table(a, b, work);
+    const auto last = static_cast<int>(a.directions.size());
+    std::vector<Link> links{{last, last}};
     while (links.back().a > 0) {
         const Link end = links.back();
-        const auto cell = static_cast<std::size_t>(end.a) * row + static_cast<std::size_t>(end.b);
-        const Link step = link_steps[best_steps[cell]];
+        const auto cell =
+            static_cast<std::size_t>(end.a) * table.row + static_cast<std::size_t>(end.b);
+        const Link step = link_steps[table.steps[cell]];
         links.push_back({end.a - step.a, end.b - step.b});
     }
     std::reverse(links.begin(), links.end());

@@ -232,74 +232,72 @@ class Builder {
         add_rings(strip, steps, stations, closed);
     }
 
+    // The angle by which a frame that is transported along a strip misses its last ring: quarter
+    // turns, by which corners are shifted, and the rest, radians, which is spread over the strip.
+    struct Twist {
+        double rest = 0.0;
+        std::size_t quarters = 0;
+    };
+
+    // Returns the twist of the frame `side` about `along` at the begin of a strip against the frame
+    // `target` about `arriving` at its end.
+    static Twist twist_between(const std::vector<Station>& stations, glm::dvec3 along,
+                               glm::dvec3 side, const glm::dvec3& arriving,
+                               const glm::dvec3& target) {
+        for (const Station& station : stations) {
+            side = transport(side, along, station.along);
+            along = station.along;
+        }
+        side = transport(side, along, arriving);
+        const glm::dvec3 third = glm::cross(arriving, side);
+        const double angle = arc_tangent(glm::dot(target, third), glm::dot(target, side));
+        const double turns = std::floor(angle / (0.5 * pi) + 0.5);
+        return {angle - turns * 0.5 * pi,
+                static_cast<std::size_t>(static_cast<int>(turns) + 4) % 4};
+    }
+
     void add_rings(Scaffold::Strip& strip, const std::vector<Step>& steps,
                    const std::vector<Station>& stations, bool closed) {
         const std::uint32_t start = steps.front().from, end = steps.back().to;
-        glm::dvec3 along = direction(start, steps.front().to);
-        std::array<std::uint32_t, 4> ring{};
-        glm::dvec3 side;
-        double at = 0.0;
-        const bool from_fork = forks_[start] != none;
+        const bool from_fork = forks_[start] != none, to_fork = forks_[end] != none;
+        glm::dvec3 along = direction(start, steps.front().to), side;
+        std::array<std::uint32_t, 4> ring{}, first{}, last{};
         if (from_fork) {
             ring = fork_ring(start, steps.front().segment, false, side);
         } else {
             along = stations.front().along;
             side = any_side(along);
         }
-        // The frame is transported once to find the angle by which it misses the last ring.
-        glm::dvec3 transported = side, before = along;
-        for (const Station& station : stations) {
-            transported = transport(transported, before, station.along);
-            before = station.along;
-        }
-        glm::dvec3 target_side;
-        std::array<std::uint32_t, 4> last{};
-        const bool to_fork = forks_[end] != none;
-        double twist = 0.0;
-        std::size_t quarter = 0;
+        Twist twist;
         if (to_fork) {
-            last = fork_ring(end, steps.back().segment, true, target_side);
-            const glm::dvec3 arriving = direction(steps.back().from, end);
-            transported = transport(transported, before, arriving);
-            before = arriving;
+            glm::dvec3 target;
+            last = fork_ring(end, steps.back().segment, true, target);
+            twist = twist_between(stations, along, side, direction(steps.back().from, end), target);
         } else if (closed) {
-            transported = transport(transported, before, stations.front().along);
-            before = stations.front().along;
-            target_side = side;
+            twist = twist_between(stations, along, side, stations.front().along, side);
         }
-        if (to_fork || closed) {
-            const glm::dvec3 third = glm::cross(before, transported);
-            const double angle =
-                arc_tangent(glm::dot(target_side, third), glm::dot(target_side, transported));
-            const double turns = std::floor(angle / (0.5 * pi) + 0.5);
-            twist = angle - turns * 0.5 * pi;
-            quarter = static_cast<std::size_t>(static_cast<int>(turns) + 4) % 4;
-        }
-
-        std::array<std::uint32_t, 4> first_of_all{};
-        before = along;
-        transported = side;
+        double at = 0.0;
         for (std::size_t i = 0; i < stations.size(); ++i) {
             const Station& station = stations[i];
-            transported = transport(transported, before, station.along);
-            before = station.along;
+            side = transport(side, along, station.along);
+            along = station.along;
             const std::array<std::uint32_t, 4> next =
-                ring_at(station, transported, twist * station.at / strip.length);
+                ring_at(station, side, twist.rest * station.at / strip.length);
             if (i > 0 || from_fork)
                 join(ring, next, at, station.at);
             else
-                first_of_all = next;
+                first = next;
             ring = next;
             at = station.at;
         }
         if (to_fork || closed) {
-            const std::array<std::uint32_t, 4>& target = to_fork ? last : first_of_all;
+            const std::array<std::uint32_t, 4>& target = to_fork ? last : first;
             std::array<std::uint32_t, 4> turned{};
-            for (std::size_t k = 0; k < 4; ++k) turned[k] = target[(k + 4 - quarter) % 4];
+            for (std::size_t k = 0; k < 4; ++k) turned[k] = target[(k + 4 - twist.quarters) % 4];
             join(ring, turned, at, strip.length);
         }
         const auto tube = static_cast<std::uint32_t>(result_.quads.size()) - strip.first;
-        if (!from_fork && !closed) close(stations.front(), first_of_all, -1.0);
+        if (!from_fork && !closed) close(stations.front(), first, -1.0);
         if (!to_fork && !closed) close(stations.back(), ring, 1.0);
         finish(strip, tube);
     }

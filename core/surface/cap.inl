@@ -74,18 +74,9 @@ HWY_INLINE void cap_fields(const CapPlan& plan, const DiscPoint& p, VF* fields) 
     }
 }
 
-/// Returns a texel of the cap. fields: values of cap_fields() at this texel
-HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
-    const VF one = set(1.0F);
-    const VF zero = set(0.0F);
-    Texel out;
-    const VF uneven = fields[cap_uneven];
-    const VF mottle = fields[cap_mottle];
-    const VF middle = fields[cap_middle];
-
-    // Fine bumps of the cuticle.
-    VF fine = zero;
-    VF height = zero;
+/// Returns the fine bumps of the cuticle and sets `height` to theirs.
+HWY_INLINE VF cap_bumps(const CapPlan& plan, const DiscPoint& p, const VF* fields, VF& height) {
+    VF fine = set(0.0F);
     if ((plan.fields & (1U << cap_bump)) != 0) {
         fine = fields[cap_bump];
         height = fine * set(0.16F / cap_bump_frequency[0]);
@@ -99,74 +90,100 @@ HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fi
         fine = fine + n;
         height = height + n * set(0.16F / cap_bump_frequency[octave]);
     }
+    return fine;
+}
 
+HWY_INLINE void add_cap_zones(const CapPlan& plan, const DiscPoint& p, const VF* fields,
+                              Layers& texel) {
+    const VF t = (p.rho + fields[cap_uneven] * set(0.035F) + fields[cap_mottle] * set(0.012F)) *
+                 set(plan.zone_count);
+    const VF band = set(0.5F) - set(0.5F) * wave(t);
+    const VF soft = band * shown(set(1.0F / (plan.zone_count * plan.disc.per_texel)), 4.0F);
+    texel.shade = texel.shade * (set(1.0F) - set(0.42F * plan.zones) * soft *
+                                                 (set(0.8F) + set(0.4F) * fields[cap_middle]));
+    texel.height = texel.height - soft * set(0.02F * plan.zones / plan.zone_count);
+}
+
+/// Adds fibres along the meridians. round_texels: circumference in texels
+HWY_INLINE void add_cap_fibrils(const CapPlan& plan, const DiscPoint& p, const VF* fields, VF turn,
+                                VF round_texels, Layers& texel) {
+    const float n = 2.0F * static_cast<float>(plan.fibril_count);
+    const VF b = periodic_noise2(turn * set(n) + fields[cap_middle] * set(0.5F), p.rho * set(8.0F),
+                                 2 * plan.fibril_count, plan.seed[8]);
+    const VF fibre = fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) * set(0.55F);
+    texel.shade = texel.shade * (set(1.0F) + set(0.42F * plan.fibrils) * fibre);
+    texel.height = texel.height + fibre * p.radius * set(0.44F * 6.2831853F * plan.fibrils / n);
+    texel.occlusion = texel.occlusion + hn::Min(fibre, set(0.0F)) * set(0.3F * plan.fibrils);
+    texel.roughness = texel.roughness + fibre * set(0.04F * plan.fibrils);
+}
+
+/// Adds the grooves at the margin that show the gills through a thin cap.
+HWY_INLINE void add_cap_striae(const CapPlan& plan, const DiscPoint& p, VF middle, VF turn,
+                               VF round_texels, Layers& texel) {
+    const VF one = set(1.0F);
+    const float n = static_cast<float>(plan.striae_count);
+    const VF reach = (p.rho - set(1.0F - plan.striae)) *
+                         set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) +
+                     middle * set(0.16F);
+    const VF strength = smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
+    const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + middle * set(0.14F));
+    const VF deep = groove * strength;
+    texel.height = texel.height - deep * p.radius * set(0.17F * 6.2831853F / n);
+    texel.shade = texel.shade * (one - set(0.26F) * deep);
+    texel.occlusion = texel.occlusion * (one - set(0.20F) * deep);
+}
+
+HWY_INLINE void add_cap_veins(const CapPlan& plan, const DiscPoint& p, const VF* fields,
+                              Layers& texel) {
+    const VF one = set(1.0F);
+    const VF strength =
+        set(plan.veins) * (one - smooth(p.rho + fields[cap_mottle] * set(0.12F), 0.30F, 1.55F));
+    const VF cup = fields[cap_vein] * strength;
+    texel.height = texel.height - cup * set(0.30F / plan.vein_rows);
+    texel.occlusion = texel.occlusion * (one - set(0.45F) * cup);
+    texel.shade = texel.shade * (one + set(0.10F) * strength - set(0.40F) * cup);
+}
+
+/// Returns a texel of the cap. fields: values of cap_fields() at this texel
+HWY_INLINE Texel cap_texel(const CapPlan& plan, const DiscPoint& p, const VF* fields) {
+    const VF one = set(1.0F);
+    const VF uneven = fields[cap_uneven];
+    const VF mottle = fields[cap_mottle];
+    const VF middle = fields[cap_middle];
+    Layers texel;
+    texel.height = set(0.0F);
+    const VF fine = cap_bumps(plan, p, fields, texel.height);
     const VF along = p.rho + set(plan.ramp_noise) * (uneven * set(0.20F) + mottle * set(0.06F));
-    Rgb colour = ramp_colour(plan, unit(along));
-    VF shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
-               set(0.10F) * fine;
-    VF occlusion = one + hn::Min(fine, zero) * set(0.25F);
-    VF rough = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
-
+    texel.colour = ramp_colour(plan, unit(along));
+    texel.shade = one + set(0.10F * plan.ramp_noise + 0.02F) * (mottle + middle * set(0.6F)) +
+                  set(0.10F) * fine;
+    texel.occlusion = one + hn::Min(fine, set(0.0F)) * set(0.25F);
+    texel.roughness = set(plan.roughness) + fine * set(0.05F) + mottle * set(0.03F);
     if (plan.patches > 0.0F) {
         const VF patch = smooth(fields[cap_patch] + set(0.14F) * middle + set(0.05F) * fine,
                                 plan.patch_threshold - 0.09F, 5.5F) *
                          set(plan.patch_weight);
-        colour = mix(colour, rgb(plan.patch_colour), patch);
-        rough = rough + patch * set(0.05F);
-        height = height + patch * set(0.0012F);
+        texel.colour = mix(texel.colour, rgb(plan.patch_colour), patch);
+        texel.roughness = texel.roughness + patch * set(0.05F);
+        texel.height = texel.height + patch * set(0.0012F);
     }
-    if (plan.zones > 0.0F) {
-        const VF t = (p.rho + uneven * set(0.035F) + mottle * set(0.012F)) * set(plan.zone_count);
-        const VF band = set(0.5F) - set(0.5F) * wave(t);
-        const VF soft = band * shown(set(1.0F / (plan.zone_count * plan.disc.per_texel)), 4.0F);
-        shade = shade * (one - set(0.42F * plan.zones) * soft * (set(0.8F) + set(0.4F) * middle));
-        height = height - soft * set(0.02F * plan.zones / plan.zone_count);
-    }
+    if (plan.zones > 0.0F) add_cap_zones(plan, p, fields, texel);
     if (plan.streaks > 0.0F) {
-        shade = shade * (one - set(0.55F * plan.streaks) * fields[cap_streak]);
-        height = height - fields[cap_streak] * set(0.0015F * plan.streaks);
+        texel.shade = texel.shade * (one - set(0.55F * plan.streaks) * fields[cap_streak]);
+        texel.height = texel.height - fields[cap_streak] * set(0.0015F * plan.streaks);
     }
     if (plan.fibrils > 0.0F || plan.striae > 0.0F) {
         const VF turn = turn_of(p.cosine, p.sine);
         const VF round_texels = p.rho * set(6.2831853F / plan.disc.per_texel);
-        if (plan.fibrils > 0.0F) {
-            const float n = 2.0F * static_cast<float>(plan.fibril_count);
-            const VF b = periodic_noise2(turn * set(n) + middle * set(0.5F), p.rho * set(8.0F),
-                                         2 * plan.fibril_count, plan.seed[8]);
-            const VF fibre =
-                fields[cap_fibre] + b * shown(round_texels * set(1.0F / n), 4.5F) * set(0.55F);
-            shade = shade * (one + set(0.42F * plan.fibrils) * fibre);
-            height = height + fibre * p.radius * set(0.44F * 6.2831853F * plan.fibrils / n);
-            occlusion = occlusion + hn::Min(fibre, zero) * set(0.3F * plan.fibrils);
-            rough = rough + fibre * set(0.04F * plan.fibrils);
-        }
-        if (plan.striae > 0.0F) {
-            const float n = static_cast<float>(plan.striae_count);
-            const VF reach = (p.rho - set(1.0F - plan.striae)) *
-                                 set(1.0F / (plan.striae > 0.01F ? plan.striae : 0.01F)) +
-                             middle * set(0.16F);
-            const VF strength =
-                smooth(reach, 0.0F, 1.7F) * shown(round_texels * set(1.0F / n), 4.0F);
-            const VF groove = set(0.5F) - set(0.5F) * wave(turn * set(n) + middle * set(0.14F));
-            const VF deep = groove * strength;
-            height = height - deep * p.radius * set(0.17F * 6.2831853F / n);
-            shade = shade * (one - set(0.26F) * deep);
-            occlusion = occlusion * (one - set(0.20F) * deep);
-        }
+        if (plan.fibrils > 0.0F) add_cap_fibrils(plan, p, fields, turn, round_texels, texel);
+        if (plan.striae > 0.0F) add_cap_striae(plan, p, middle, turn, round_texels, texel);
     }
-    if (plan.veins > 0.0F) {
-        const VF strength =
-            set(plan.veins) * (one - smooth(p.rho + mottle * set(0.12F), 0.30F, 1.55F));
-        const VF cup = fields[cap_vein] * strength;
-        height = height - cup * set(0.30F / plan.vein_rows);
-        occlusion = occlusion * (one - set(0.45F) * cup);
-        shade = shade * (one + set(0.10F) * strength - set(0.40F) * cup);
-    }
-
-    out.colour = shaded(colour, hn::Max(shade, set(0.05F)) * set(plan.lightness));
-    out.height = height;
-    out.roughness = rough;
-    out.occlusion = occlusion;
+    if (plan.veins > 0.0F) add_cap_veins(plan, p, fields, texel);
+    Texel out;
+    out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)) * set(plan.lightness));
+    out.height = texel.height;
+    out.roughness = texel.roughness;
+    out.occlusion = texel.occlusion;
     if (plan.relief.any()) add_relief(plan.relief, p, out);
     return out;
 }

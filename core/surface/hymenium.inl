@@ -71,6 +71,33 @@ HWY_INLINE Slot gills(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF
     return slot;
 }
 
+/// Returns the height of cross veins, low and thin folds between two ridges, 0..1; those of the
+/// rows above and below may overlap. x: position round the axis in gaps
+HWY_INLINE VF cross_veins(const HymeniumPlan& plan, VF x, VF share) {
+    const VF ridge = hn::Floor(x);
+    const VF within = x - ridge - set(0.5F);
+    const VF along = share * set(static_cast<float>(plan.vein_rows));
+    VF cross = set(0.0F);
+    for (int j = -1; j <= 1; ++j) {
+        const VF row = hn::Floor(along) + set(static_cast<float>(j));
+        const VF whole = wrapped(ridge, static_cast<float>(plan.layout.blades)) +
+                         row * set(static_cast<float>(vein_rows_apart));
+        const VF middle = row + set(0.5F) +
+                          signed_hash(whole, plan.seed[4]) * set(static_cast<float>(vein_stray));
+        const VF tilt = signed_hash(whole, plan.seed[4] + 1U) * set(static_cast<float>(vein_tilt));
+        const VF there =
+            unit((set(plan.veins_there) - signed_hash(whole, plan.seed[4] + 2U) * set(0.5F)) *
+                 set(static_cast<float>(vein_steepness)));
+        const VF far = hn::Abs(along - middle - tilt * within);
+        const VF vein = set(1.0F) - smooth(far, 0.3F * static_cast<float>(vein_width),
+                                           0.6F / static_cast<float>(vein_width));
+        const auto inside =
+            hn::And(row >= set(0.0F), row < set(static_cast<float>(plan.vein_rows)));
+        cross = hn::Max(cross, hn::IfThenElseZero(inside, vein * there));
+    }
+    return cross;
+}
+
 /// Returns the slot among ridges: blunt folds. From each a fork swings out to the middle of the
 /// gap, and another from each half.
 HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, VF turn, VF wander) {
@@ -105,32 +132,8 @@ HWY_INLINE Slot ridges(const HymeniumPlan& plan, const DiscPoint& p, VF share, V
     const VF half = gap * clear_width * set(0.5F);
     Slot slot;
     slot.depth = smooth(distance * gap / hn::Max(half, set(1e-4F)), 0.12F, 1.15F);
-    // Low and thin cross veins; those of the rows above and below may overlap.
-    if (plan.vein_rows > 0) {
-        const VF ridge = hn::Floor(x);
-        const VF within = x - ridge - set(0.5F);
-        const VF along = share * set(static_cast<float>(plan.vein_rows));
-        VF cross = set(0.0F);
-        for (int j = -1; j <= 1; ++j) {
-            const VF row = hn::Floor(along) + set(static_cast<float>(j));
-            const VF whole = wrapped(ridge, n) + row * set(static_cast<float>(vein_rows_apart));
-            const VF middle =
-                row + set(0.5F) +
-                signed_hash(whole, plan.seed[4]) * set(static_cast<float>(vein_stray));
-            const VF tilt =
-                signed_hash(whole, plan.seed[4] + 1U) * set(static_cast<float>(vein_tilt));
-            const VF there =
-                unit((set(plan.veins_there) - signed_hash(whole, plan.seed[4] + 2U) * set(0.5F)) *
-                     set(static_cast<float>(vein_steepness)));
-            const VF far = hn::Abs(along - middle - tilt * within);
-            const VF vein = one - smooth(far, 0.3F * static_cast<float>(vein_width),
-                                         0.6F / static_cast<float>(vein_width));
-            const auto inside =
-                hn::And(row >= set(0.0F), row < set(static_cast<float>(plan.vein_rows)));
-            cross = hn::Max(cross, hn::IfThenElseZero(inside, vein * there));
-        }
-        slot.depth = slot.depth * (one - set(0.45F) * cross);
-    }
+    if (plan.vein_rows > 0)
+        slot.depth = slot.depth * (one - set(0.45F) * cross_veins(plan, x, share));
     slot.visible = shown(gap_texels * clear_width, 4.0F);
     return slot;
 }
@@ -166,71 +169,79 @@ HWY_INLINE void hymenium_fields(const HymeniumPlan& plan, const DiscPoint& p, VF
     fields[hymenium_bump] = noise2(p.x * f, p.y * f, plan.seed[0]) * set(plan.bumps[0]);
 }
 
+/// Adds gills, ridges, pores or spines to a texel. share: 0 at the inner edge, 1 at the rim
+HWY_INLINE void add_slots(const HymeniumPlan& plan, const DiscPoint& p, VF share, Layers& texel) {
+    const VF one = set(1.0F);
+    const VF turn = turn_of(p.cosine, p.sine);
+    const Slot slot =
+        plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan.layout, turn, share))
+        : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan.layout, turn, share))
+        : plan.pattern == 3 ? pores(plan, share, turn)
+                            : teeth(plan, share, turn);
+    const float mean_depth = plan.pattern >= 3 ? 0.5F : 0.45F;
+    VF depth = mix(set(mean_depth), slot.depth, slot.visible);
+    // Ridges fade out towards the stem.
+    if (plan.pattern == 2) depth = depth * smooth(share, 0.0F, 4.5F);
+    // Free gills leave a bare ring of flesh round the stem.
+    const VF carried = one - (one - smooth(share, 0.55F * plan.inner_gap, plan.bare_slope)) *
+                                 set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
+    depth = depth * carried;
+    const VF deep = depth * depth;
+    // Edge, face and bottom of the slot; the bottom is darkened by the relief.
+    const VF on_edge =
+        (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +
+        (one - slot.visible) * set(0.2F) - (one - carried);
+    texel.colour = mix(texel.colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
+    texel.colour = mix(texel.colour, rgb(plan.edge), unit(on_edge));
+    texel.occlusion = texel.occlusion *
+                      mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
+    const VF period = plan.pattern >= 3
+                          ? set(1.0F / plan.pore_rows)
+                          : p.radius * set(6.2831853F / static_cast<float>(plan.layout.blades));
+    const VF rise = (one - deep) * slot.visible * period * carried;
+    texel.height =
+        texel.height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
+}
+
 /// Returns a texel of the lower face. fields: values of hymenium_fields() at this texel
 HWY_INLINE Texel hymenium_texel(const HymeniumPlan& plan, const DiscPoint& p, const VF* fields) {
     const VF one = set(1.0F);
-    Texel out;
-    const VF uneven = fields[hymenium_uneven];
     const VF middle = fields[hymenium_middle];
     const VF share =
         hn::Max(p.rho - set(plan.disc.inner), set(0.0F)) * set(1.0F / (1.0F - plan.disc.inner));
     VF fine = set(0.0F);
-    VF height = set(0.0F);
+    Layers texel;
+    texel.height = set(0.0F);
     if ((plan.fields & (1U << hymenium_bump)) != 0) {
         fine = fields[hymenium_bump];
-        height = fine * set(0.14F / hymenium_bump_frequency[0]);
+        texel.height = fine * set(0.14F / hymenium_bump_frequency[0]);
     }
     // Gills and pores have their own fine detail.
     if (plan.pattern == 0 && plan.bumps[1] > 0.0F) {
         const VF f = set(hymenium_bump_frequency[1]);
         const VF n = noise2(p.x * f, p.y * f, plan.seed[6]) * set(plan.bumps[1]);
         fine = fine + n;
-        height = height + n * set(0.14F / hymenium_bump_frequency[1]);
+        texel.height = texel.height + n * set(0.14F / hymenium_bump_frequency[1]);
     }
-    const VF cloud = uneven * set(0.7F) + middle * set(0.5F) + fine * set(0.35F);
-    VF occlusion = one + hn::Min(fine, set(0.0F)) * set(0.2F);
-    Rgb colour = rgb(plan.colour);
+    const VF cloud = fields[hymenium_uneven] * set(0.7F) + middle * set(0.5F) + fine * set(0.35F);
+    texel.occlusion = one + hn::Min(fine, set(0.0F)) * set(0.2F);
+    texel.colour = rgb(plan.colour);
     if (plan.pattern == 0) {
         // A smooth face has clouds between its colours, and the finest grain.
-        colour = mix(colour, rgb(plan.depth),
-                     unit(cloud * set(0.55F * plan.mottle) + set(0.08F * plan.mottle)));
-        colour = mix(colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
-        height = height * set(0.35F + plan.relief);
+        texel.colour = mix(texel.colour, rgb(plan.depth),
+                           unit(cloud * set(0.55F * plan.mottle) + set(0.08F * plan.mottle)));
+        texel.colour =
+            mix(texel.colour, rgb(plan.edge), unit(set(0.0F) - cloud * set(0.45F * plan.mottle)));
+        texel.height = texel.height * set(0.35F + plan.relief);
     } else {
-        const VF turn = turn_of(p.cosine, p.sine);
-        const Slot slot =
-            plan.pattern == 1   ? gills(plan, p, share, turn, wander_at(plan.layout, turn, share))
-            : plan.pattern == 2 ? ridges(plan, p, share, turn, wander_at(plan.layout, turn, share))
-            : plan.pattern == 3 ? pores(plan, share, turn)
-                                : teeth(plan, share, turn);
-        const float mean_depth = plan.pattern >= 3 ? 0.5F : 0.45F;
-        VF depth = mix(set(mean_depth), slot.depth, slot.visible);
-        // Ridges fade out towards the stem.
-        if (plan.pattern == 2) depth = depth * smooth(share, 0.0F, 4.5F);
-        // Free gills leave a bare ring of flesh round the stem.
-        const VF carried = one - (one - smooth(share, 0.55F * plan.inner_gap, plan.bare_slope)) *
-                                     set(plan.inner_gap > 0.0F ? 1.0F : 0.0F);
-        depth = depth * carried;
-        const VF deep = depth * depth;
-        // Edge, face and bottom of the slot; the bottom is darkened by the relief.
-        const VF on_edge =
-            (one - smooth(slot.depth, 0.0F, plan.pattern == 1 ? 6.5F : 2.6F)) * slot.visible +
-            (one - slot.visible) * set(0.2F) - (one - carried);
-        colour = mix(colour, rgb(plan.depth), deep * set(0.35F + 0.65F * plan.relief));
-        colour = mix(colour, rgb(plan.edge), unit(on_edge));
-        occlusion =
-            occlusion * mix(one, set(plan.slot_occlusion), deep * (set(0.5F) + set(0.5F) * depth));
-        const VF period = plan.pattern >= 3
-                              ? set(1.0F / plan.pore_rows)
-                              : p.radius * set(6.2831853F / static_cast<float>(plan.layout.blades));
-        const VF rise = (one - deep) * slot.visible * period * carried;
-        height = height * set(0.5F) + rise * set((plan.pattern == 2 ? 0.27F : 0.22F) * plan.relief);
+        add_slots(plan, p, share, texel);
     }
     const VF shade = one + cloud * set(0.20F * plan.mottle) + fine * set(0.05F);
-    out.colour = shaded(colour, hn::Max(shade, set(0.05F)));
-    out.height = height;
+    Texel out;
+    out.colour = shaded(texel.colour, hn::Max(shade, set(0.05F)));
+    out.height = texel.height;
     out.roughness = set(plan.roughness) + fine * set(0.03F) + middle * set(0.03F * plan.mottle);
-    out.occlusion = occlusion;
+    out.occlusion = texel.occlusion;
     return out;
 }
 

@@ -121,11 +121,8 @@ void add_patches_to_blend(const PaintPlan& patches, int y, Row* const* rows,
     const Floats f;
     const Frame& frame = patches.frames[0];
     const std::size_t width = static_cast<std::size_t>(frame.width);
-    const VF one = set(1.0F);
-    const VF half = set(0.5F);
     patch_heights(patches, y, *rows[1]);
-    const float film = 1.0F - 0.25F * patches.wetness;
-    const VF per_step = set(film * 0.5F / patches.cap.disc.per_texel);
+    const VF per_step = set(film_factor(patches) * 0.5F / patches.cap.disc.per_texel);
     const VF down_place = disc_place(frame, set(static_cast<float>(y)));
     for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
         const Texel texel = load_texel(*rows[1], x);
@@ -141,15 +138,43 @@ void add_patches_to_blend(const PaintPlan& patches, int y, Row* const* rows,
                       disc_slope_x(p.cosine, p.sine, p.widening, right, down);
         const VF ny = hn::Load(f, buffers.slope[1] + x) +
                       disc_slope_y(p.cosine, p.sine, p.widening, right, down);
-        const VF length = half / hn::Sqrt(one + nx * nx + ny * ny);
-        store_byte(srgb(texel.colour.r), buffers.to[0] + x);
-        store_byte(srgb(texel.colour.g), buffers.to[1] + x);
-        store_byte(srgb(texel.colour.b), buffers.to[2] + x);
-        store_byte(half + nx * length, buffers.to[3] + x);
-        store_byte(half + ny * length, buffers.to[4] + x);
-        store_byte(half + length, buffers.to[5] + x);
+        store_colour(texel.colour, buffers.to, x);
+        store_normal(nx, ny, buffers.to, x);
         store_byte(texel.occlusion, buffers.to[6] + x);
         store_byte(hn::Max(texel.roughness, set(0.04F)), buffers.to[7] + x);
+    }
+}
+
+/// Blends a vector of texels of a row, which begins at x, into `out`: weighted means with the lost
+/// contrast restored.
+///
+/// cell  side of the cells of local means, texels
+HWY_INLINE void blend_texels(const BlendPlan& plan, const ChartBlend& chart, std::size_t cell,
+                             std::size_t x, const BlendBuffers& buffers, VF* out) {
+    const Floats f;
+    const VF one = set(1.0F);
+    BlendedChannel texel[blended_channels];
+    for (BlendedChannel& channel : texel) channel.begin();
+    for (std::size_t i = 0; i < plan.paintings; ++i) {
+        const std::uint8_t(*const bytes)[padded] = buffers.from[i];
+        const VF weight = set(plan.weights[i]);
+        for (std::size_t c = 0; c < 3; ++c)
+            texel[c].add(hn::GatherIndex(f, plan.linear, whole(bytes[c] + x)), weight);
+        const VF nz = number(bytes[5] + x) * set(1.0F / 127.5F) - one;
+        const VF per_z = one / hn::Max(nz, set(flattest_normal));
+        for (std::size_t c = 3; c < 5; ++c)
+            texel[c].add((number(bytes[c] + x) * set(1.0F / 127.5F) - one) * per_z, weight);
+        for (std::size_t c = 5; c < 7; ++c)
+            texel[c].add(number(bytes[c + 1] + x) * set(1.0F / 255.0F), weight);
+    }
+    // Between the centres of two cells; all lanes lie between the same two.
+    const std::size_t left = (x + cell / 2) / cell;
+    const VF share = (lane_numbers() + set(static_cast<float>(x + cell / 2 - left * cell) + 0.5F)) *
+                     set(1.0F / static_cast<float>(cell));
+    for (std::size_t c = 0; c < blended_channels; ++c) {
+        const float a = buffers.mean[c][left];
+        const float b = buffers.mean[c][left + 1];
+        out[c] = texel[c].restored(set(a) + set(b - a) * share, chart.surplus[c]);
     }
 }
 
@@ -162,8 +187,6 @@ void blend_rows(const BlendPlan& plan, Part part, int from, int to, void* memory
     const ChartBlend& chart = plan.charts[index_of(part)];
     const std::size_t width = static_cast<std::size_t>(frame.width);
     const std::size_t cell = static_cast<std::size_t>(blend_cell(plan.side));
-    const VF one = set(1.0F);
-    const VF half = set(0.5F);
     Row* rows[3] = {&buffers.rows[0], &buffers.rows[1], &buffers.rows[2]};
     const PaintPlan* const patches = part == Part::cap ? plan.patches : nullptr;
     if (patches) {
@@ -182,42 +205,17 @@ void blend_rows(const BlendPlan& plan, Part part, int from, int to, void* memory
                 split(plan.images[i][image] + at, width, buffers.from[i] + 3 * image);
         mean_row(chart, static_cast<int>(cell), y, buffers);
         for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
-            BlendedChannel texel[blended_channels];
-            for (BlendedChannel& channel : texel) channel.begin();
-            for (std::size_t i = 0; i < plan.paintings; ++i) {
-                const std::uint8_t(*const bytes)[padded] = buffers.from[i];
-                const VF weight = set(plan.weights[i]);
-                for (std::size_t c = 0; c < 3; ++c)
-                    texel[c].add(hn::GatherIndex(f, plan.linear, whole(bytes[c] + x)), weight);
-                const VF nz = number(bytes[5] + x) * set(1.0F / 127.5F) - one;
-                const VF per_z = one / hn::Max(nz, set(flattest_normal));
-                for (std::size_t c = 3; c < 5; ++c)
-                    texel[c].add((number(bytes[c] + x) * set(1.0F / 127.5F) - one) * per_z, weight);
-                for (std::size_t c = 5; c < 7; ++c)
-                    texel[c].add(number(bytes[c + 1] + x) * set(1.0F / 255.0F), weight);
-            }
-            // Between the centres of two cells; all lanes lie between the same two.
-            const std::size_t left = (x + cell / 2) / cell;
-            const VF share =
-                (lane_numbers() + set(static_cast<float>(x + cell / 2 - left * cell) + 0.5F)) *
-                set(1.0F / static_cast<float>(cell));
             VF out[blended_channels];
-            for (std::size_t c = 0; c < blended_channels; ++c) {
-                const float a = buffers.mean[c][left];
-                const float b = buffers.mean[c][left + 1];
-                out[c] = texel[c].restored(set(a) + set(b - a) * share, chart.surplus[c]);
-            }
+            blend_texels(plan, chart, cell, x, buffers, out);
+            const Rgb colour = {out[0], out[1], out[2]};
             if (has_patches) {
-                store_texel({{out[0], out[1], out[2]}, set(0.0F), out[6], out[5]}, *rows[1], x);
+                store_texel({colour, set(0.0F), out[6], out[5]}, *rows[1], x);
                 hn::Store(out[3], f, buffers.slope[0] + x);
                 hn::Store(out[4], f, buffers.slope[1] + x);
                 continue;
             }
-            const VF length = half / hn::Sqrt(one + out[3] * out[3] + out[4] * out[4]);
-            for (std::size_t c = 0; c < 3; ++c) store_byte(srgb(out[c]), buffers.to[c] + x);
-            store_byte(half + out[3] * length, buffers.to[3] + x);
-            store_byte(half + out[4] * length, buffers.to[4] + x);
-            store_byte(half + length, buffers.to[5] + x);
+            store_colour(colour, buffers.to, x);
+            store_normal(out[3], out[4], buffers.to, x);
             store_byte(out[5], buffers.to[6] + x);
             store_byte(out[6], buffers.to[7] + x);
         }

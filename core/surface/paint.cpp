@@ -136,6 +136,43 @@ ImageSet paint(const PaintParams& params, const Parallel& parallel) {
     return encoded(canvas, parallel);
 }
 
+namespace {
+
+// Adds the patches of one kind of all paintings to a plan. Those with equal places are merged: they
+// have the mean size, height, lift and amount of veil.
+void add_merged_patches(std::span<const PaintParams* const> paintings,
+                        std::span<const double> weights, int kind, PatchStyle PaintParams::*style,
+                        double PaintedOrnaments::*amount, PaintPlan& plan) {
+    std::vector<bool> done(paintings.size(), false);
+    for (std::size_t i = 0; i < paintings.size(); ++i) {
+        const PatchStyle& one = paintings[i]->*style;
+        if (one.count == 0 || done[i]) continue;
+        PatchStyle all = one;
+        all.size = all.height = all.lift = 0.0;
+        double left = 0.0, weight = 0.0;
+        for (std::size_t j = i; j < paintings.size(); ++j) {
+            const PatchStyle& two = paintings[j]->*style;
+            if (two.count != one.count || two.from != one.from || two.to != one.to ||
+                two.elongation != one.elongation)
+                continue;
+            done[j] = true;
+            if (!paintings[j]->surface.cap.image.empty()) continue;  // uploaded, not painted
+            weight += weights[j];
+            all.size += weights[j] * two.size;
+            all.height += weights[j] * two.height;
+            all.lift += weights[j] * two.lift;
+            left += weights[j] * paintings[j]->ornaments.*amount;
+        }
+        if (!(weight > 0.0)) continue;
+        all.size /= weight;
+        all.height /= weight;
+        all.lift /= weight;
+        add_patches(all, kind, left / weight, paintings[i]->seed, weight, plan);
+    }
+}
+
+}  // namespace
+
 PaintPlan patch_blend_plan(std::span<const PaintParams* const> paintings,
                            std::span<const double> weights) {
     PaintPlan plan;
@@ -167,37 +204,9 @@ PaintPlan patch_blend_plan(std::span<const PaintParams* const> paintings,
     roughness = plan.veil.roughness;
     HWY_DYNAMIC_DISPATCH(weathered_light)(plan, plan.veil.tip, roughness);
     plan.veil.roughness = roughness;
-    const auto lay = [&](int kind, PatchStyle PaintParams::*style,
-                         double PaintedOrnaments::*amount) {
-        std::vector<bool> done(paintings.size(), false);
-        for (std::size_t i = 0; i < paintings.size(); ++i) {
-            const PatchStyle& one = paintings[i]->*style;
-            if (one.count == 0 || done[i]) continue;
-            PatchStyle all = one;
-            all.size = all.height = all.lift = 0.0;
-            double left = 0.0, weight = 0.0;
-            for (std::size_t j = i; j < paintings.size(); ++j) {
-                const PatchStyle& two = paintings[j]->*style;
-                if (two.count != one.count || two.from != one.from || two.to != one.to ||
-                    two.elongation != one.elongation)
-                    continue;
-                done[j] = true;
-                if (!paintings[j]->surface.cap.image.empty()) continue;  // uploaded, not painted
-                weight += weights[j];
-                all.size += weights[j] * two.size;
-                all.height += weights[j] * two.height;
-                all.lift += weights[j] * two.lift;
-                left += weights[j] * paintings[j]->ornaments.*amount;
-            }
-            if (!(weight > 0.0)) continue;
-            all.size /= weight;
-            all.height /= weight;
-            all.lift /= weight;
-            add_patches(all, kind, left / weight, paintings[i]->seed, weight, plan);
-        }
-    };
-    lay(1, &PaintParams::scales, &PaintedOrnaments::scales);
-    lay(0, &PaintParams::warts, &PaintedOrnaments::warts);
+    add_merged_patches(paintings, weights, 1, &PaintParams::scales, &PaintedOrnaments::scales,
+                       plan);
+    add_merged_patches(paintings, weights, 0, &PaintParams::warts, &PaintedOrnaments::warts, plan);
     sort_patches_into_rows(plan);
     return plan;
 }

@@ -228,22 +228,95 @@ HWY_INLINE void clear(VF* fields) {
     for (std::size_t k = 0; k < most_fields; ++k) fields[k] = set(0.0F);
 }
 
+// A kernel says how one part is painted: its plan, which fields it uses, and its texels. Kernels of
+// discs also name the fields that come from coarse grids.
+struct CapKernel {
+    static constexpr Part part = Part::cap;
+    static const CapPlan& plan(const PaintPlan& all) { return all.cap; }
+    static std::span<const CoarseField> grids(const PaintPlan& all) { return all.cap_fields; }
+    static HWY_INLINE void fields(const PaintPlan& all, const DiscPoint& p, VF* fields) {
+        cap_fields(all.cap, p, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, const DiscPoint& p, const VF* fields) {
+        return cap_texel(all.cap, p, fields);
+    }
+};
+struct HymeniumKernel {
+    static constexpr Part part = Part::hymenium;
+    static const HymeniumPlan& plan(const PaintPlan& all) { return all.hymenium; }
+    static std::span<const CoarseField> grids(const PaintPlan& all) { return all.hymenium_fields; }
+    static HWY_INLINE void fields(const PaintPlan& all, const DiscPoint& p, VF* fields) {
+        hymenium_fields(all.hymenium, p, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, const DiscPoint& p, const VF* fields) {
+        return hymenium_texel(all.hymenium, p, fields);
+    }
+};
+
+// Kernels of strips also say at which distance, in texels, their fields are sampled, and whether v
+// runs once round the part.
+struct StemKernel {
+    static constexpr Part part = Part::stem;
+    static constexpr bool is_round = true;
+    static unsigned used(const PaintPlan& all) { return all.stem.fields; }
+    static int step(const PaintPlan& all) { return all.strip_step; }
+    static HWY_INLINE void fields(const PaintPlan& all, VF along, VF across, VF* fields) {
+        stem_fields(all.stem, unit(along), across, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, VF along, VF across, const VF* fields) {
+        return stem_texel(all.stem, unit(along), across, fields);
+    }
+};
+struct FlatStrip {
+    static constexpr bool is_round = false;
+    static unsigned used(const PaintPlan&) { return 3U; }  // both fields
+    static int step(const PaintPlan& all) { return all.strip_step > 1 ? 2 : 1; }
+};
+struct VeilKernel : FlatStrip {
+    static constexpr Part part = Part::veil;
+    static HWY_INLINE void fields(const PaintPlan& all, VF along, VF across, VF* fields) {
+        veil_fields(all.veil, along, across, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, VF along, VF across, const VF* fields) {
+        return veil_texel(all.veil, along, across, fields);
+    }
+};
+struct BladeKernel : FlatStrip {
+    static constexpr Part part = Part::blade;
+    static HWY_INLINE void fields(const PaintPlan& all, VF along, VF across, VF* fields) {
+        blade_fields(all.blade, along, across, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, VF along, VF across, const VF* fields) {
+        return blade_texel(all.blade, along, across, fields);
+    }
+};
+struct FleshKernel : FlatStrip {
+    static constexpr Part part = Part::flesh;
+    static HWY_INLINE void fields(const PaintPlan& all, VF along, VF across, VF* fields) {
+        flesh_fields(all.flesh, along, across, fields);
+    }
+    static HWY_INLINE Texel texel(const PaintPlan& all, VF along, VF across, const VF* fields) {
+        return flesh_texel(all.flesh, along, across, fields);
+    }
+};
+
 // Samples the fields of a disc along one row, at every disc_step-th texel.
-const SparseRow& sparse_row(const PaintPlan& plan, Part part, int y, RowBuffers& buffers) {
+template <class Kernel>
+const SparseRow& sparse_row(const PaintPlan& plan, int y, RowBuffers& buffers) {
     SparseRow& row = buffers.sparse[y & 1];
     if (row.y == y) return row;
     row.y = y;
     const Floats f;
-    const Frame& frame = plan.frames[index_of(part)];
+    const Frame& frame = plan.frames[index_of(Kernel::part)];
     const int step = plan.disc_step;
     const int count = frame.width / step + 1;
-    const unsigned used = part == Part::cap ? plan.cap.fields : plan.hymenium.fields;
-    const std::size_t grids = part == Part::cap ? 3 : 2;
+    const unsigned used = Kernel::plan(plan).fields;
+    const std::span<const CoarseField> coarse = Kernel::grids(plan);
+    const std::size_t grids = coarse.size();
     for (std::size_t i = 0; i < grids; ++i)
-        expand(part == Part::cap ? plan.cap_fields[i] : plan.hymenium_fields[i], plan.coarse_cells,
-               frame, y * step, step, count, row.field[i]);
+        expand(coarse[i], plan.coarse_cells, frame, y * step, step, count, row.field[i]);
     if (used >> grids == 0) return row;
-    const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
+    const DiscPlan& disc = Kernel::plan(plan).disc;
     const VF down = disc_place(frame, set(static_cast<float>(y * step)));
     for (std::size_t i = 0; i < static_cast<std::size_t>(count); i += hn::Lanes(f)) {
         VF fields[most_fields];
@@ -251,11 +324,7 @@ const SparseRow& sparse_row(const PaintPlan& plan, Part part, int y, RowBuffers&
         for (std::size_t k = 0; k < grids; ++k) fields[k] = hn::Load(f, row.field[k] + i);
         const VF texel =
             (lane_numbers() + set(static_cast<float>(i))) * set(static_cast<float>(step));
-        const DiscPoint p = disc_point_of(disc, disc_place(frame, texel), down);
-        if (part == Part::cap)
-            cap_fields(plan.cap, p, fields);
-        else
-            hymenium_fields(plan.hymenium, p, fields);
+        Kernel::fields(plan, disc_point_of(disc, disc_place(frame, texel), down), fields);
         for (std::size_t k = grids; k < most_fields; ++k)
             if ((used >> k & 1U) != 0) hn::Store(fields[k], f, row.field[k] + i);
     }
@@ -263,14 +332,15 @@ const SparseRow& sparse_row(const PaintPlan& plan, Part part, int y, RowBuffers&
 }
 
 // Interpolates the fields of a disc at every texel of a row, into buffers.field.
-void disc_fields(const PaintPlan& plan, Part part, int y, RowBuffers& buffers) {
+template <class Kernel>
+void disc_fields(const PaintPlan& plan, int y, RowBuffers& buffers) {
     const Floats f;
-    const std::size_t width = static_cast<std::size_t>(plan.frames[index_of(part)].width);
-    const unsigned used = part == Part::cap ? plan.cap.fields : plan.hymenium.fields;
+    const std::size_t width = static_cast<std::size_t>(plan.frames[index_of(Kernel::part)].width);
+    const unsigned used = Kernel::plan(plan).fields;
     const int half = (y + 2) / 2 - 1;  // floor, for y >= -2
     const bool between = plan.disc_step == 2 && y != 2 * half;
-    const SparseRow& above = sparse_row(plan, part, plan.disc_step == 2 ? half : y, buffers);
-    const SparseRow& below = between ? sparse_row(plan, part, half + 1, buffers) : above;
+    const SparseRow& above = sparse_row<Kernel>(plan, plan.disc_step == 2 ? half : y, buffers);
+    const SparseRow& below = between ? sparse_row<Kernel>(plan, half + 1, buffers) : above;
     for (std::size_t k = 0; k < most_fields; ++k) {
         if ((used >> k & 1U) == 0) continue;
         const float* from = above.field[k];
@@ -291,12 +361,13 @@ void disc_fields(const PaintPlan& plan, Part part, int y, RowBuffers& buffers) {
 }
 
 // Computes the fields of a strip at every texel of a row, into buffers.field: sampled at every
-// strip_step-th texel, then doubled.
-void strip_fields(const PaintPlan& plan, Part part, VF across, RowBuffers& buffers) {
+// step-th texel of the kernel, then doubled.
+template <class Kernel>
+void strip_fields(const PaintPlan& plan, VF across, RowBuffers& buffers) {
     const Floats f;
-    const Frame& frame = plan.frames[index_of(part)];
-    const int step = part == Part::stem ? plan.strip_step : plan.strip_step > 1 ? 2 : 1;
-    const unsigned used = part == Part::stem ? plan.stem.fields : 3U;
+    const Frame& frame = plan.frames[index_of(Kernel::part)];
+    const int step = Kernel::step(plan);
+    const unsigned used = Kernel::used(plan);
     const std::size_t count = static_cast<std::size_t>(frame.width / step) + 1;
     const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
     for (std::size_t i = 0; i < count; i += hn::Lanes(f)) {
@@ -307,14 +378,7 @@ void strip_fields(const PaintPlan& plan, Part part, VF across, RowBuffers& buffe
             set(0.5F);
         const VF along =
             (texel * set(1.0F / static_cast<float>(frame.width)) - set(frame.inset)) * set(inner);
-        if (part == Part::stem)
-            stem_fields(plan.stem, unit(along), across, fields);
-        else if (part == Part::veil)
-            veil_fields(plan.veil, along, across, fields);
-        else if (part == Part::blade)
-            blade_fields(plan.blade, along, across, fields);
-        else
-            flesh_fields(plan.flesh, along, across, fields);
+        Kernel::fields(plan, along, across, fields);
         for (std::size_t k = 0; k < most_fields; ++k)
             if ((used >> k & 1U) != 0) hn::Store(fields[k], f, buffers.field[k] + i);
     }
@@ -553,77 +617,99 @@ void apply_damage(const PaintPlan& plan, Part part, int y, Row& row, RowBuffers&
     add_ink_and_dust(plan, part, y, row);
 }
 
-// Paints the texels of one row; y may lie one row outside of the chart.
-void paint_row(const PaintPlan& plan, Part part, int y, Row& row, RowBuffers& buffers) {
+// Paints the texels of one row of a disc, without damage.
+template <class Kernel>
+void paint_disc_row(const PaintPlan& plan, int y, Row& row, RowBuffers& buffers) {
     const Floats f;
-    const std::size_t lanes = hn::Lanes(f);
-    const Frame& frame = plan.frames[index_of(part)];
-    const std::size_t width = static_cast<std::size_t>(frame.width);
+    const Frame& frame = plan.frames[index_of(Kernel::part)];
+    const DiscPlan& disc = Kernel::plan(plan).disc;
+    const unsigned used = Kernel::plan(plan).fields;
+    const VF down = disc_place(frame, set(static_cast<float>(y)));
+    disc_fields<Kernel>(plan, y, buffers);
     VF fields[most_fields];
     clear(fields);
-    if (is_disc(part)) {
-        const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
-        const unsigned used = part == Part::cap ? plan.cap.fields : plan.hymenium.fields;
-        const VF down = disc_place(frame, set(static_cast<float>(y)));
-        disc_fields(plan, part, y, buffers);
-        const UploadedImage& upload = plan.uploads[index_of(part)];
-        const TexelRange range = painted_range(plan, part, y);
-        for (std::size_t x = range.from; x < range.until; x += lanes) {
-            const DiscPoint p = disc_point_of(
-                disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
-            for (std::size_t k = 0; k < most_fields; ++k)
-                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
-            Texel texel = part == Part::cap ? cap_texel(plan.cap, p, fields)
-                                            : hymenium_texel(plan.hymenium, p, fields);
-            if (!upload.empty()) {
-                const VF reach = set(0.5F) * p.rho;
-                const VF c = set(upload.cosine), s = set(upload.sine);
-                texel.colour = sampled(upload, set(0.5F) + reach * (p.cosine * c - p.sine * s),
-                                       set(0.5F) + reach * (p.sine * c + p.cosine * s));
-            }
-            store_texel(texel, row, x);
-            hn::Store(p.cosine, f, row.cosine + x);
-            hn::Store(p.sine, f, row.sine + x);
-            hn::Store(p.widening, f, row.widening + x);
-            hn::Store(fields[1], f, row.uneven + x);
+    const UploadedImage& upload = plan.uploads[index_of(Kernel::part)];
+    const TexelRange range = painted_range(plan, Kernel::part, y);
+    for (std::size_t x = range.from; x < range.until; x += hn::Lanes(f)) {
+        const DiscPoint p = disc_point_of(
+            disc, disc_place(frame, lane_numbers() + set(static_cast<float>(x))), down);
+        for (std::size_t k = 0; k < most_fields; ++k)
+            if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
+        Texel texel = Kernel::texel(plan, p, fields);
+        if (!upload.empty()) {
+            const VF reach = set(0.5F) * p.rho;
+            const VF c = set(upload.cosine), s = set(upload.sine);
+            texel.colour = sampled(upload, set(0.5F) + reach * (p.cosine * c - p.sine * s),
+                                   set(0.5F) + reach * (p.sine * c + p.cosine * s));
         }
-        if (part == Part::cap && y >= 0 && y < frame.height) {
-            HWY_ALIGN float place[8];
-            hn::Store(down, f, place);
-            add_patches_to_row(plan, y, down, place[0], row);
-        }
-    } else {
-        const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
-        const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
-        const float down = (v - frame.inset) * inner;
-        const float turned = down < 0.0F ? down + 1.0F : down >= 1.0F ? down - 1.0F : down;
-        const float edge = down < 0.0F ? 0.0F : down > 1.0F ? 1.0F : down;
-        const VF across = set(part == Part::stem ? turned : edge);
-        strip_fields(plan, part, across, buffers);
-        const unsigned used = part == Part::stem ? plan.stem.fields : 3U;
-        const UploadedImage& upload = plan.uploads[2];
-        const float per_x = 1.0F / static_cast<float>(frame.width);
-        const float shown_turn = turned + upload.turn;
-        const VF image_across = set(shown_turn >= 1.0F ? shown_turn - 1.0F : shown_turn);
-        for (std::size_t x = 0; x < width; x += lanes) {
-            const VF along = ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) -
-                              set(frame.inset)) *
-                             set(inner);
-            for (std::size_t k = 0; k < most_fields; ++k)
-                if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
-            Texel texel;
-            if (part == Part::stem) {
-                texel = stem_texel(plan.stem, unit(along), across, fields);
-                if (!upload.empty()) texel.colour = sampled(upload, along, image_across);
-            } else {
-                texel = part == Part::veil    ? veil_texel(plan.veil, along, across, fields)
-                        : part == Part::blade ? blade_texel(plan.blade, along, across, fields)
-                                              : flesh_texel(plan.flesh, along, across, fields);
-            }
-            store_texel(texel, row, x);
-            hn::Store(fields[1], f, row.uneven + x);
-        }
+        store_texel(texel, row, x);
+        hn::Store(p.cosine, f, row.cosine + x);
+        hn::Store(p.sine, f, row.sine + x);
+        hn::Store(p.widening, f, row.widening + x);
+        hn::Store(fields[1], f, row.uneven + x);
     }
+    if (Kernel::part == Part::cap && y >= 0 && y < frame.height) {
+        HWY_ALIGN float place[8];
+        hn::Store(down, f, place);
+        add_patches_to_row(plan, y, down, place[0], row);
+    }
+}
+
+// Paints the texels of one row of a strip, without damage. Rows outside of a round part continue
+// on its other side; other parts repeat their first or last row.
+template <class Kernel>
+void paint_strip_row(const PaintPlan& plan, int y, Row& row, RowBuffers& buffers) {
+    const Floats f;
+    const Frame& frame = plan.frames[index_of(Kernel::part)];
+    const std::size_t width = static_cast<std::size_t>(frame.width);
+    const float inner = 1.0F / (1.0F - 2.0F * frame.inset);
+    const float v = (static_cast<float>(y) + 0.5F) / static_cast<float>(frame.height);
+    const float down = (v - frame.inset) * inner;
+    const float turned = down < 0.0F ? down + 1.0F : down >= 1.0F ? down - 1.0F : down;
+    const float edge = down < 0.0F ? 0.0F : down > 1.0F ? 1.0F : down;
+    const VF across = set(Kernel::is_round ? turned : edge);
+    strip_fields<Kernel>(plan, across, buffers);
+    VF fields[most_fields];
+    clear(fields);
+    const unsigned used = Kernel::used(plan);
+    const float per_x = 1.0F / static_cast<float>(frame.width);
+    for (std::size_t x = 0; x < width; x += hn::Lanes(f)) {
+        const VF along =
+            ((lane_numbers() + set(static_cast<float>(x) + 0.5F)) * set(per_x) - set(frame.inset)) *
+            set(inner);
+        for (std::size_t k = 0; k < most_fields; ++k)
+            if ((used >> k & 1U) != 0) fields[k] = hn::Load(f, buffers.field[k] + x);
+        Texel texel = Kernel::texel(plan, along, across, fields);
+        if constexpr (Kernel::part == Part::stem) {
+            const UploadedImage& upload = plan.uploads[index_of(Part::stem)];
+            const float shown_turn = turned + upload.turn;
+            if (!upload.empty())
+                texel.colour = sampled(upload, along,
+                                       set(shown_turn >= 1.0F ? shown_turn - 1.0F : shown_turn));
+        }
+        store_texel(texel, row, x);
+        hn::Store(fields[1], f, row.uneven + x);
+    }
+}
+
+/// Returns true if kernels are in the order of their parts and none is missing.
+template <class... Kernels>
+constexpr bool are_all_parts() {
+    std::size_t place = 0;
+    return (... && (index_of(Kernels::part) == place++)) && place == part_count;
+}
+static_assert(
+    are_all_parts<CapKernel, HymeniumKernel, StemKernel, VeilKernel, BladeKernel, FleshKernel>());
+
+/// Painters of one row, by part.
+using RowPainter = void (*)(const PaintPlan&, int, Row&, RowBuffers&);
+inline constexpr RowPainter row_painters[part_count] = {
+    paint_disc_row<CapKernel>,   paint_disc_row<HymeniumKernel>, paint_strip_row<StemKernel>,
+    paint_strip_row<VeilKernel>, paint_strip_row<BladeKernel>,   paint_strip_row<FleshKernel>};
+
+// Paints the texels of one row; y may lie one row outside of the chart.
+void paint_row(const PaintPlan& plan, Part part, int y, Row& row, RowBuffers& buffers) {
+    row_painters[index_of(part)](plan, y, row, buffers);
     apply_damage(plan, part, y, row, buffers);
     // Slopes at the ends of the painted range use one more texel.
     const TexelRange painted = painted_range(plan, part, y);
@@ -696,19 +782,38 @@ HWY_INLINE VF disc_slope_y(VF cosine, VF sine, VF widening, VF right, VF down) {
     return (ks * k * meridian + cosine * round) * inverse;
 }
 
-// Converts a row of texels, and the heights above and below it, to bytes.
-void resolve_row(const PaintPlan& plan, Part part, int y, const Row& above, const Row& row,
-                 const Row& below, RowBuffers& buffers, const PaintTarget& target) {
-    const Floats f;
-    const std::size_t lanes = hn::Lanes(f);
-    const Frame& frame = plan.frames[index_of(part)];
-    const std::size_t width = static_cast<std::size_t>(frame.width);
-    const VF one = set(1.0F);
+/// Stores a colour in linear light as three bytes.
+HWY_INLINE void store_colour(const Rgb& colour, std::uint8_t (*bytes)[padded], std::size_t x) {
+    store_byte(srgb(colour.r), bytes[0] + x);
+    store_byte(srgb(colour.g), bytes[1] + x);
+    store_byte(srgb(colour.b), bytes[2] + x);
+}
+
+/// Stores the normal with the slopes nx and ny as the bytes after those of the colour.
+HWY_INLINE void store_normal(VF nx, VF ny, std::uint8_t (*bytes)[padded], std::size_t x) {
     const VF half = set(0.5F);
-    const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F};
-    const float film = 1.0F - 0.25F * plan.wetness;  // a film of water flattens the relief
-    const bool on_disc = is_disc(part);
-    const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
+    const VF length = half / hn::Sqrt(set(1.0F) + nx * nx + ny * ny);
+    store_byte(half + nx * length, bytes[3] + x);
+    store_byte(half + ny * length, bytes[4] + x);
+    store_byte(half + length, bytes[5] + x);
+}
+
+/// Returns the factor on heights of a wet surface: a film of water flattens the relief.
+inline float film_factor(const PaintPlan& plan) { return 1.0F - 0.25F * plan.wetness; }
+
+/// Factors from differences of heights over two texels to slopes.
+struct SlopeScale {
+    VF x, y;
+};
+
+HWY_INLINE SlopeScale slope_scale(const PaintPlan& plan, Part part) {
+    const float film = film_factor(plan);
+    if (is_disc(part)) {
+        // Lengths on a disc are relative to its meridian, which begins at `inner`.
+        const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
+        const VF both = set(film * (0.5F * (1.0F - disc.inner) / disc.per_texel));
+        return {both, both};
+    }
     const float steps_x[part_count] = {0.0F,
                                        0.0F,
                                        plan.stem.texel_along,
@@ -721,25 +826,38 @@ void resolve_row(const PaintPlan& plan, Part part, int y, const Row& above, cons
                                        plan.veil.texel,
                                        plan.blade.texel_across,
                                        plan.flesh.texel_across};
-    const float step_x = steps_x[index_of(part)];
-    const float step_y = steps_y[index_of(part)];
-    // Lengths on a disc are relative to its meridian, which begins at `inner`.
-    const VF per_x =
-        set(film * (on_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_x));
-    const VF per_y =
-        set(film * (on_disc ? 0.5F * (1.0F - disc.inner) / disc.per_texel : 0.5F / step_y));
-    // The rows above and below may have a shorter painted range: only painted neighbours count.
+    return {set(film * (0.5F / steps_x[index_of(part)])),
+            set(film * (0.5F / steps_y[index_of(part)]))};
+}
+
+// Returns the texels of a row whose neighbours above and below are painted too: their rows may have
+// a shorter painted range.
+TexelRange resolved_range(const PaintPlan& plan, Part part, int y) {
     const TexelRange here = painted_range(plan, part, y);
     const TexelRange over = painted_range(plan, part, y - 1);
     const TexelRange under = painted_range(plan, part, y + 1);
     const std::size_t first = std::max(here.from, std::max(over.from, under.from));
-    const TexelRange range = {first, on_disc ? width - first : width};
-    for (std::size_t x = range.from; x < range.until; x += lanes) {
+    const std::size_t width = static_cast<std::size_t>(plan.frames[index_of(part)].width);
+    return {first, is_disc(part) ? width - first : width};
+}
+
+// Converts a row of texels, and the heights above and below it, to bytes.
+void resolve_row(const PaintPlan& plan, Part part, int y, const Row& above, const Row& row,
+                 const Row& below, RowBuffers& buffers, const PaintTarget& target) {
+    const Floats f;
+    const Frame& frame = plan.frames[index_of(part)];
+    const std::size_t width = static_cast<std::size_t>(frame.width);
+    const float exposure[part_count] = {1.0F, 0.35F, 0.45F, 0.6F, 0.35F, 0.35F};
+    const bool on_disc = is_disc(part);
+    const DiscPlan& disc = part == Part::cap ? plan.cap.disc : plan.hymenium.disc;
+    const SlopeScale scale = slope_scale(plan, part);
+    const TexelRange range = resolved_range(plan, part, y);
+    for (std::size_t x = range.from; x < range.until; x += hn::Lanes(f)) {
         const float* at = row.height + margin + x;
-        const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * per_x;
+        const VF right = (hn::LoadU(f, at + 1) - hn::LoadU(f, at - 1)) * scale.x;
         const VF down =
             (hn::Load(f, below.height + margin + x) - hn::Load(f, above.height + margin + x)) *
-            per_y;
+            scale.y;
         VF nx, ny;
         if (on_disc) {
             const VF cosine = hn::Load(f, row.cosine + x);
@@ -751,17 +869,12 @@ void resolve_row(const PaintPlan& plan, Part part, int y, const Row& above, cons
             nx = set(0.0F) - right;
             ny = down;
         }
-        const VF length = half / hn::Sqrt(one + nx * nx + ny * ny);
         Rgb colour = {hn::Load(f, row.red + x), hn::Load(f, row.green + x),
                       hn::Load(f, row.blue + x)};
         VF roughness = hn::Load(f, row.roughness + x);
         weather(plan, exposure[index_of(part)], hn::Load(f, row.uneven + x), colour, roughness);
-        store_byte(srgb(colour.r), buffers.bytes[0] + x);
-        store_byte(srgb(colour.g), buffers.bytes[1] + x);
-        store_byte(srgb(colour.b), buffers.bytes[2] + x);
-        store_byte(half + nx * length, buffers.bytes[3] + x);
-        store_byte(half + ny * length, buffers.bytes[4] + x);
-        store_byte(half + length, buffers.bytes[5] + x);
+        store_colour(colour, buffers.bytes, x);
+        store_normal(nx, ny, buffers.bytes, x);
         store_byte(hn::Load(f, row.occlusion + x), buffers.bytes[6] + x);
         store_byte(hn::Max(roughness, set(0.04F)), buffers.bytes[7] + x);
     }

@@ -47,20 +47,90 @@ HWY_INLINE void stem_fields(const StemPlan& plan, VF along, VF turn, VF* fields)
     }
 }
 
+/// Adds a snakeskin pattern: the cuticle has torn into zigzag belts.
+HWY_INLINE void add_stem_bands(const StemPlan& plan, VF along, VF turn, const VF* fields, VF fine,
+                               Layers& texel) {
+    const VF zigzag =
+        hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) - set(0.5F);
+    const VF phase = along * set(8.0F) + zigzag * set(0.42F) + fields[stem_broad] * set(0.35F) +
+                     fields[stem_middle] * set(0.22F);
+    const VF belt =
+        smooth(wave(phase) + fine * set(0.3F) + fields[stem_middle] * set(0.35F), -0.15F, 2.2F);
+    texel.colour = mix(texel.colour, rgb(plan.band_colour), belt * set(plan.bands));
+    texel.height = texel.height + belt * set(0.003F * plan.bands);
+}
+
+/// Adds the net of a bolete, which fades out downwards.
+HWY_INLINE void add_stem_net(const StemPlan& plan, VF along, VF turn, const VF* fields,
+                             Layers& texel) {
+    const VF one = set(1.0F);
+    const VF zero = set(0.0F);
+    const VF middle = fields[stem_middle];
+    const VF strength =
+        set(plan.net) *
+        smooth(along + fields[stem_broad] * set(0.10F) + middle * set(0.05F), 0.16F, 1.5F);
+    const VF length = along * set(plan.aspect);
+    const VF y = length * set(net_columns / net_stretch) + middle * set(0.30F);
+    VF thread = zero;
+    if (plan.net_shown > 0.0F && !hn::AllTrue(Floats(), strength <= zero)) {
+        const Cells mesh =
+            ring_cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch, 0.34F, plan.seed[8]);
+        thread = one - smooth(mesh.border, 0.02F, 3.6F);
+    }
+    // Where texels are too coarse for its threads, the net is their mean.
+    thread = mix(set(0.35F), thread, set(plan.net_shown));
+    const VF up = thread * strength;
+    texel.colour = mix(texel.colour, rgb(plan.net_colour), up * set(0.9F));
+    texel.height = texel.height + up * set(0.15F / net_columns);
+    texel.occlusion = texel.occlusion * (one - set(0.22F) * strength * (one - thread));
+    texel.shade = texel.shade * (one - set(0.08F) * strength * (one - thread));
+}
+
+/// Adds decurrent gills, whose height decreases downwards, like that of solid gills.
+HWY_INLINE void add_stem_gills(const StemPlan& plan, VF along, VF turn, Layers& texel) {
+    const VF one = set(1.0F);
+    const VF up = smooth(along, 1.0F - plan.gills, 1.0F / plan.gills);
+    const VF x = blades_at(plan.layout, turn, wander_at(plan.layout, turn, set(0.0F))).x;
+    const VF far = hn::Abs(x - hn::Floor(x + set(0.5F)));
+    const VF deep =
+        mix(set(0.45F), unit((far - set(plan.gill_half)) * set(1.0F / (0.5F - plan.gill_half))),
+            set(plan.gill_shown));
+    const VF bottom = deep * deep;
+    Rgb gill = mix(rgb(plan.gill_colour), rgb(plan.gill_depth), bottom);
+    gill = mix(gill, rgb(plan.gill_edge), one - smooth(deep, 0.0F, 4.0F));
+    texel.colour = mix(texel.colour, gill, up);
+    texel.height = texel.height + (one - bottom) * up * set(plan.gill_relief * plan.gill_shown);
+    texel.occlusion = texel.occlusion * (one - (one - set(plan.gill_occlusion)) * bottom * up);
+}
+
+/// Adds the stain of the base.
+HWY_INLINE void add_stem_stain(const StemPlan& plan, VF along, const VF* fields, VF fine,
+                               Layers& texel) {
+    const VF one = set(1.0F);
+    const VF middle = fields[stem_middle];
+    const VF ragged =
+        along + (fields[stem_broad] + middle * set(0.6F) + fine * set(0.3F)) * set(plan.ragged);
+    const VF stain = (one - smooth(ragged, plan.base_stain * 0.55F - 0.06F,
+                                   1.0F / (0.45F * plan.base_stain + 0.12F))) *
+                     set(plan.base_stain < 0.1F ? plan.base_stain * 10.0F : 1.0F);
+    texel.colour =
+        mix(texel.colour, rgb(plan.stain), stain * unit(set(0.86F) + middle * set(0.5F)));
+    texel.occlusion = texel.occlusion * (one - stain * set(0.12F));
+}
+
 /// Returns a texel of the stem. along: 0 at the ground, 1 at the top; turn: 0..1. Heights are in
 /// circumferences.
 HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* fields) {
     const VF one = set(1.0F);
     const VF zero = set(0.0F);
-    Texel out;
     const VF length = along * set(plan.aspect);
-    const VF broad = fields[stem_broad];
     const VF middle = fields[stem_middle];
     VF fine = zero;
-    VF height = zero;
+    Layers texel;
+    texel.height = zero;
     if ((plan.fields & (1U << stem_bump)) != 0) {
         fine = fields[stem_bump];
-        height = fine * set(0.16F / static_cast<float>(stem_bump_cells[0]));
+        texel.height = fine * set(0.16F / static_cast<float>(stem_bump_cells[0]));
     }
     for (std::size_t octave = 1; octave < 3; ++octave) {
         if (plan.bumps[octave] <= 0.0F) continue;
@@ -69,75 +139,27 @@ HWY_INLINE Texel stem_texel(const StemPlan& plan, VF along, VF turn, const VF* f
                                      stem_bump_cells[octave], plan.seed[2 + octave]) *
                      set(plan.bumps[octave]);
         fine = fine + v;
-        height = height + v * set(0.16F / n);
+        texel.height = texel.height + v * set(0.16F / n);
     }
-    Rgb colour = mix(rgb(plan.base), rgb(plan.top), smooth(along + broad * set(0.07F), 0.0F, 1.0F));
-    VF shade = one + middle * set(0.05F) + fine * set(0.06F);
-    VF occlusion = one + hn::Min(fine, zero) * set(0.25F);
-
+    texel.colour = mix(rgb(plan.base), rgb(plan.top),
+                       smooth(along + fields[stem_broad] * set(0.07F), 0.0F, 1.0F));
+    texel.shade = one + middle * set(0.05F) + fine * set(0.06F);
+    texel.occlusion = one + hn::Min(fine, zero) * set(0.25F);
     if (plan.fibrils > 0.0F) {
         const VF fibre = fields[stem_fibre];
-        height = height + fields[stem_furrow] * set(plan.fibrils);
-        shade = shade * (one + fibre * set(0.30F * plan.fibrils));
-        occlusion = occlusion + hn::Min(fibre, zero) * set(0.25F * plan.fibrils);
+        texel.height = texel.height + fields[stem_furrow] * set(plan.fibrils);
+        texel.shade = texel.shade * (one + fibre * set(0.30F * plan.fibrils));
+        texel.occlusion = texel.occlusion + hn::Min(fibre, zero) * set(0.25F * plan.fibrils);
     }
-    if (plan.bands > 0.0F) {
-        // Snakeskin pattern: the cuticle has torn into zigzag belts.
-        const VF zigzag =
-            hn::Abs(turn * set(9.0F) - hn::Floor(turn * set(9.0F)) - set(0.5F)) * set(2.0F) -
-            set(0.5F);
-        const VF phase =
-            along * set(8.0F) + zigzag * set(0.42F) + broad * set(0.35F) + middle * set(0.22F);
-        const VF belt = smooth(wave(phase) + fine * set(0.3F) + middle * set(0.35F), -0.15F, 2.2F);
-        colour = mix(colour, rgb(plan.band_colour), belt * set(plan.bands));
-        height = height + belt * set(0.003F * plan.bands);
-    }
-    if (plan.net > 0.0F) {
-        const VF strength =
-            set(plan.net) * smooth(along + broad * set(0.10F) + middle * set(0.05F), 0.16F, 1.5F);
-        const VF y = length * set(net_columns / net_stretch) + middle * set(0.30F);
-        VF thread = zero;
-        if (plan.net_shown > 0.0F && !hn::AllTrue(Floats(), strength <= zero)) {
-            const Cells mesh = ring_cells(turn, hn::Max(y, zero), net_columns, 0.0F, net_stretch,
-                                          0.34F, plan.seed[8]);
-            thread = one - smooth(mesh.border, 0.02F, 3.6F);
-        }
-        // Where texels are too coarse for its threads, the net is their mean.
-        thread = mix(set(0.35F), thread, set(plan.net_shown));
-        const VF up = thread * strength;
-        colour = mix(colour, rgb(plan.net_colour), up * set(0.9F));
-        height = height + up * set(0.15F / net_columns);
-        occlusion = occlusion * (one - set(0.22F) * strength * (one - thread));
-        shade = shade * (one - set(0.08F) * strength * (one - thread));
-    }
-    if (plan.gills > 0.0F) {
-        // The height decreases downwards, like that of solid gills.
-        const VF up = smooth(along, 1.0F - plan.gills, 1.0F / plan.gills);
-        const VF x = blades_at(plan.layout, turn, wander_at(plan.layout, turn, zero)).x;
-        const VF far = hn::Abs(x - hn::Floor(x + set(0.5F)));
-        const VF deep =
-            mix(set(0.45F), unit((far - set(plan.gill_half)) * set(1.0F / (0.5F - plan.gill_half))),
-                set(plan.gill_shown));
-        const VF bottom = deep * deep;
-        Rgb gill = mix(rgb(plan.gill_colour), rgb(plan.gill_depth), bottom);
-        gill = mix(gill, rgb(plan.gill_edge), one - smooth(deep, 0.0F, 4.0F));
-        colour = mix(colour, gill, up);
-        height = height + (one - bottom) * up * set(plan.gill_relief * plan.gill_shown);
-        occlusion = occlusion * (one - (one - set(plan.gill_occlusion)) * bottom * up);
-    }
-    if (plan.base_stain > 0.0F) {
-        const VF ragged =
-            along + (broad + middle * set(0.6F) + fine * set(0.3F)) * set(plan.ragged);
-        const VF stain = (one - smooth(ragged, plan.base_stain * 0.55F - 0.06F,
-                                       1.0F / (0.45F * plan.base_stain + 0.12F))) *
-                         set(plan.base_stain < 0.1F ? plan.base_stain * 10.0F : 1.0F);
-        colour = mix(colour, rgb(plan.stain), stain * unit(set(0.86F) + middle * set(0.5F)));
-        occlusion = occlusion * (one - stain * set(0.12F));
-    }
-    out.colour = shaded(colour, hn::Max(shade, set(0.05F)));
-    out.height = height;
+    if (plan.bands > 0.0F) add_stem_bands(plan, along, turn, fields, fine, texel);
+    if (plan.net > 0.0F) add_stem_net(plan, along, turn, fields, texel);
+    if (plan.gills > 0.0F) add_stem_gills(plan, along, turn, texel);
+    if (plan.base_stain > 0.0F) add_stem_stain(plan, along, fields, fine, texel);
+    Texel out;
+    out.colour = shaded(texel.colour, hn::Max(texel.shade, set(0.05F)));
+    out.height = texel.height;
     out.roughness = set(plan.roughness) + fine * set(0.04F) + middle * set(0.03F);
-    out.occlusion = occlusion;
+    out.occlusion = texel.occlusion;
     return out;
 }
 

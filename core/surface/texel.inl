@@ -36,6 +36,12 @@ struct Texel {
     VF height, roughness, occlusion;
 };
 
+/// A texel to which one feature after the other is added; `shade` multiplies the colour at the end.
+struct Layers {
+    Rgb colour;
+    VF shade, height, roughness, occlusion;
+};
+
 /// Position of a texel on a disc.
 struct DiscPoint {
     VF x, y;          ///< on the disc, in disc radii

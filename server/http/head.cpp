@@ -69,10 +69,31 @@ std::string_view split_request_line(std::string_view line, Head& head) {
     return line.substr(second + 1);
 }
 
+/// Status and message of a refusal; status 0 if there is none.
+using Refusal = std::pair<int, std::string>;
+
+/// Reads the header lines, each of which ends in CR LF.
+Refusal read_fields(std::string_view lines, Head& head) {
+    while (!lines.empty()) {
+        const std::size_t stop = lines.find("\r\n");
+        const std::string_view field = lines.substr(0, stop);
+        lines.remove_prefix(stop + 2);
+        const std::size_t colon = field.find(':');
+        if (colon == std::string_view::npos || !is_token(field.substr(0, colon)))
+            return {400, "a header line is malformed"};
+        const std::string_view value = trimmed(field.substr(colon + 1));
+        if (!is_field_value(value)) return {400, "a header holds control characters"};
+        if (head.headers.size() == most_headers)
+            return {431, "more than " + std::to_string(most_headers) + " header lines"};
+        head.headers.emplace_back(field.substr(0, colon), value);
+    }
+    return {0, {}};
+}
+
 /// Reads the headers that frame the body and the connection.
 ///
 /// returns  status and message if they are contradictory or unsupported; otherwise status 0
-std::pair<int, std::string> read_framing(Head& head) {
+Refusal read_framing(Head& head) {
     for (const auto& [name, value] : head.headers) {
         if (same_token(name, "Transfer-Encoding"))
             return {411, "send Content-Length instead of Transfer-Encoding"};
@@ -161,21 +182,8 @@ Scan scan_head(std::string_view bytes) {
     scan.head.keep_alive = version == "HTTP/1.1";
 
     rest.remove_prefix(line_end + 2);
-    while (!rest.empty()) {
-        const std::size_t stop = rest.find("\r\n");
-        const std::string_view field = rest.substr(0, stop);
-        rest.remove_prefix(stop + 2);
-        const std::size_t colon = field.find(':');
-        if (colon == std::string_view::npos || !is_token(field.substr(0, colon)))
-            return refused(std::move(scan), 400, "a header line is malformed");
-        const std::string_view value = trimmed(field.substr(colon + 1));
-        if (!is_field_value(value))
-            return refused(std::move(scan), 400, "a header holds control characters");
-        if (scan.head.headers.size() == most_headers)
-            return refused(std::move(scan), 431,
-                           "more than " + std::to_string(most_headers) + " header lines");
-        scan.head.headers.emplace_back(field.substr(0, colon), value);
-    }
+    if (auto [status, detail] = read_fields(rest, scan.head); status != 0)
+        return refused(std::move(scan), status, std::move(detail));
     if (auto [status, detail] = read_framing(scan.head); status != 0)
         return refused(std::move(scan), status, std::move(detail));
     scan.used = end + 4;

@@ -61,6 +61,92 @@ class Snapshot {
     std::vector<MetricFamily>& families_;
 };
 
+constexpr MetricType counter = MetricType::Counter, gauge = MetricType::Gauge;
+
+void add_cache_families(const api::Counters& counters, const Gauges& gauges, Snapshot& now) {
+    now.family("sporeprint_generated_total", "Answers made", counter).count(counters.generated);
+    now.family("sporeprint_painted_total", "Image sets painted", counter).count(counters.painted);
+    now.family("sporeprint_cache_requests_total", "Look-ups in the caches", counter)
+        .count(gauges.connections.hot_hits, {{"cache", "hot"}, {"result", "hit"}})
+        .count(gauges.connections.hot_not_modified, {{"cache", "hot"}, {"result", "not_modified"}})
+        .count(counters.glb_hits, {{"cache", "glb"}, {"result", "hit"}})
+        .count(counters.glb_misses, {{"cache", "glb"}, {"result", "miss"}})
+        .count(counters.glb_not_modified, {{"cache", "glb"}, {"result", "not_modified"}})
+        .count(counters.image_hits, {{"cache", "images"}, {"result", "hit"}})
+        .count(counters.image_misses, {{"cache", "images"}, {"result", "miss"}})
+        .count(counters.painting_hits, {{"cache", "paintings"}, {"result", "hit"}})
+        .count(counters.painting_misses, {{"cache", "paintings"}, {"result", "miss"}})
+        .count(counters.morph_hits, {{"cache", "morphs"}, {"result", "hit"}})
+        .count(counters.morph_misses, {{"cache", "morphs"}, {"result", "miss"}})
+        .count(counters.store_hits, {{"cache", "store"}, {"result", "hit"}})
+        .count(counters.store_misses, {{"cache", "store"}, {"result", "miss"}});
+    now.family("sporeprint_cache_bytes", "Bytes kept", gauge)
+        .count(gauges.connections.hot_bytes, {{"cache", "hot"}})
+        .count(counters.glb_cache_bytes, {{"cache", "glb"}})
+        .count(counters.image_cache_bytes, {{"cache", "images"}})
+        .count(counters.morph_cache_bytes, {{"cache", "morphs"}})
+        .count(counters.store_bytes, {{"cache", "store"}});
+    now.family("sporeprint_cache_entries", "Entries kept", gauge)
+        .count(gauges.connections.hot_entries, {{"cache", "hot"}})
+        .count(counters.glb_cache_entries, {{"cache", "glb"}})
+        .count(counters.image_cache_entries, {{"cache", "images"}})
+        .count(counters.morph_cache_entries, {{"cache", "morphs"}})
+        .count(counters.store_entries, {{"cache", "store"}});
+    now.family("sporeprint_cache_evictions_total", "Entries given up for others", counter)
+        .count(gauges.connections.hot_evictions, {{"cache", "hot"}})
+        .count(counters.glb_evictions, {{"cache", "glb"}})
+        .count(counters.image_evictions, {{"cache", "images"}})
+        .count(counters.morph_evictions, {{"cache", "morphs"}})
+        .count(counters.store_evictions, {{"cache", "store"}});
+    now.family("sporeprint_store_faults_total", "Kept files lost: damaged, or not written", counter)
+        .count(counters.store_damaged, {{"fault", "damaged"}})
+        .count(counters.store_unwritten, {{"fault", "unwritten"}});
+}
+
+void add_work_families(const Gauges& gauges, Snapshot& now) {
+    now.family("sporeprint_workers", "Compute slots", gauge).count(gauges.workers);
+    now.family("sporeprint_workers_busy", "Compute slots at work", gauge)
+        .count(gauges.busy_workers);
+    now.family("sporeprint_generate_in_progress", "Keys queued or being made", gauge)
+        .count(gauges.in_flight);
+    now.family("sporeprint_waiters", "Requests that wait for one of them", gauge)
+        .count(gauges.waiters);
+    now.family("sporeprint_queue_depth", "Work waiting for a slot", gauge).count(gauges.queue);
+    now.family("sporeprint_queue_limit", "Work that may wait for a slot", gauge)
+        .count(gauges.queue_limit);
+}
+
+void add_connection_families(const Gauges& gauges, Snapshot& now) {
+    now.family("sporeprint_connections", "Connections, by what they do", gauge);
+    for (std::size_t i = 0; i < Transport::phases.size(); ++i)
+        now.count(gauges.connections.connections[i], {{"state", Transport::phases[i]}});
+    now.family("sporeprint_requests_waiting", "Requests that wait for a worker", gauge)
+        .count(gauges.connections.queue);
+    now.family("sporeprint_connections_refused_total", "Connections turned away", counter)
+        .count(gauges.connections.refused);
+    now.family("sporeprint_connections_limited_total", "Connections beyond the limit of a client",
+               counter)
+        .count(gauges.connections.limited);
+    now.family("sporeprint_pinned_bytes", "Bytes of answers that wait for slow clients", gauge)
+        .count(gauges.connections.pinned);
+    now.family("sporeprint_given_up_total", "Answers not waited for, to spare memory", counter)
+        .count(gauges.connections.aborted_responses);
+    now.family("sporeprint_body_bytes", "Bytes of request bodies that have arrived", gauge)
+        .count(gauges.connections.body_bytes);
+    now.family("sporeprint_uploads_given_up_total", "Bodies refused midway, to spare memory",
+               counter)
+        .count(gauges.connections.aborted_uploads);
+}
+
+void add_process_families(Snapshot& now) {
+    const Usage used = usage();
+    now.family("process_resident_memory_bytes", "Resident memory", gauge)
+        .count(used.resident_bytes);
+    now.family("process_cpu_seconds_total", "Processor time", counter).value(used.cpu_seconds);
+    now.family("process_start_time_seconds", "Start, since 1970", gauge).value(used.started);
+    now.family("process_open_fds", "Open files", gauge).count(used.open_files);
+}
+
 }  // namespace
 
 struct Metrics::Parts {
@@ -157,87 +243,15 @@ void Metrics::rejected(std::string_view reason) {
 std::string Metrics::text(const api::Counters& counters, const Gauges& gauges) const {
     std::vector<MetricFamily> families = parts_->registry.Collect();
     Snapshot now(families);
-    constexpr MetricType counter = MetricType::Counter, gauge = MetricType::Gauge;
-
-    now.family("sporeprint_generated_total", "Answers made", counter).count(counters.generated);
-    now.family("sporeprint_painted_total", "Image sets painted", counter).count(counters.painted);
-    now.family("sporeprint_cache_requests_total", "Look-ups in the caches", counter)
-        .count(gauges.connections.hot_hits, {{"cache", "hot"}, {"result", "hit"}})
-        .count(gauges.connections.hot_not_modified, {{"cache", "hot"}, {"result", "not_modified"}})
-        .count(counters.glb_hits, {{"cache", "glb"}, {"result", "hit"}})
-        .count(counters.glb_misses, {{"cache", "glb"}, {"result", "miss"}})
-        .count(counters.glb_not_modified, {{"cache", "glb"}, {"result", "not_modified"}})
-        .count(counters.image_hits, {{"cache", "images"}, {"result", "hit"}})
-        .count(counters.image_misses, {{"cache", "images"}, {"result", "miss"}})
-        .count(counters.painting_hits, {{"cache", "paintings"}, {"result", "hit"}})
-        .count(counters.painting_misses, {{"cache", "paintings"}, {"result", "miss"}})
-        .count(counters.morph_hits, {{"cache", "morphs"}, {"result", "hit"}})
-        .count(counters.morph_misses, {{"cache", "morphs"}, {"result", "miss"}})
-        .count(counters.store_hits, {{"cache", "store"}, {"result", "hit"}})
-        .count(counters.store_misses, {{"cache", "store"}, {"result", "miss"}});
-    now.family("sporeprint_cache_bytes", "Bytes kept", gauge)
-        .count(gauges.connections.hot_bytes, {{"cache", "hot"}})
-        .count(counters.glb_cache_bytes, {{"cache", "glb"}})
-        .count(counters.image_cache_bytes, {{"cache", "images"}})
-        .count(counters.morph_cache_bytes, {{"cache", "morphs"}})
-        .count(counters.store_bytes, {{"cache", "store"}});
-    now.family("sporeprint_cache_entries", "Entries kept", gauge)
-        .count(gauges.connections.hot_entries, {{"cache", "hot"}})
-        .count(counters.glb_cache_entries, {{"cache", "glb"}})
-        .count(counters.image_cache_entries, {{"cache", "images"}})
-        .count(counters.morph_cache_entries, {{"cache", "morphs"}})
-        .count(counters.store_entries, {{"cache", "store"}});
-    now.family("sporeprint_cache_evictions_total", "Entries given up for others", counter)
-        .count(gauges.connections.hot_evictions, {{"cache", "hot"}})
-        .count(counters.glb_evictions, {{"cache", "glb"}})
-        .count(counters.image_evictions, {{"cache", "images"}})
-        .count(counters.morph_evictions, {{"cache", "morphs"}})
-        .count(counters.store_evictions, {{"cache", "store"}});
-    now.family("sporeprint_store_faults_total", "Kept files lost: damaged, or not written", counter)
-        .count(counters.store_damaged, {{"fault", "damaged"}})
-        .count(counters.store_unwritten, {{"fault", "unwritten"}});
-
-    now.family("sporeprint_workers", "Compute slots", gauge).count(gauges.workers);
-    now.family("sporeprint_workers_busy", "Compute slots at work", gauge)
-        .count(gauges.busy_workers);
-    now.family("sporeprint_generate_in_progress", "Keys queued or being made", gauge)
-        .count(gauges.in_flight);
-    now.family("sporeprint_waiters", "Requests that wait for one of them", gauge)
-        .count(gauges.waiters);
-    now.family("sporeprint_queue_depth", "Work waiting for a slot", gauge).count(gauges.queue);
-    now.family("sporeprint_queue_limit", "Work that may wait for a slot", gauge)
-        .count(gauges.queue_limit);
-    now.family("sporeprint_connections", "Connections, by what they do", gauge);
-    for (std::size_t i = 0; i < Transport::phases.size(); ++i)
-        now.count(gauges.connections.connections[i], {{"state", Transport::phases[i]}});
-    now.family("sporeprint_requests_waiting", "Requests that wait for a worker", gauge)
-        .count(gauges.connections.queue);
-    now.family("sporeprint_connections_refused_total", "Connections turned away", counter)
-        .count(gauges.connections.refused);
-    now.family("sporeprint_connections_limited_total", "Connections beyond the limit of a client",
-               counter)
-        .count(gauges.connections.limited);
-    now.family("sporeprint_pinned_bytes", "Bytes of answers that wait for slow clients", gauge)
-        .count(gauges.connections.pinned);
-    now.family("sporeprint_given_up_total", "Answers not waited for, to spare memory", counter)
-        .count(gauges.connections.aborted_responses);
-    now.family("sporeprint_body_bytes", "Bytes of request bodies that have arrived", gauge)
-        .count(gauges.connections.body_bytes);
-    now.family("sporeprint_uploads_given_up_total", "Bodies refused midway, to spare memory",
-               counter)
-        .count(gauges.connections.aborted_uploads);
+    add_cache_families(counters, gauges, now);
+    add_work_families(gauges, now);
+    add_connection_families(gauges, now);
     now.family("sporeprint_clients", "Clients whose budgets are remembered", gauge)
         .count(gauges.clients);
     now.family("sporeprint_ready", "Whether /readyz says so", gauge).count(gauges.ready ? 1u : 0u);
     now.family("sporeprint_build_info", "What runs here", gauge)
         .value(1, {{"version", parts_->version}, {"generator_version", parts_->generator_version}});
-
-    const Usage used = usage();
-    now.family("process_resident_memory_bytes", "Resident memory", gauge)
-        .count(used.resident_bytes);
-    now.family("process_cpu_seconds_total", "Processor time", counter).value(used.cpu_seconds);
-    now.family("process_start_time_seconds", "Start, since 1970", gauge).value(used.started);
-    now.family("process_open_fds", "Open files", gauge).count(used.open_files);
+    add_process_families(now);
     return prometheus::TextSerializer().Serialize(families);
 }
 
