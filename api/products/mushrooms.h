@@ -51,7 +51,7 @@ struct MushroomRequest {
 /// The Kind of plan_product.h for mushrooms.
 struct Mushrooms {
     static std::string version(const MushroomSpec& spec, const Atlas& atlas);
-    static std::string url(const MushroomSpec& spec, Product product);
+    static std::string url(const MushroomSpec& spec, Product product, const Atlas& atlas);
     static std::string key(const MushroomSpec& spec, Product product, const std::string& version);
     static std::string file_name(const MushroomSpec& spec, Product product);
     static Cost cost(const Context& context, const MushroomSpec& spec, Product product,

@@ -16,7 +16,7 @@ namespace sporeprint::api {
 /// job that computes it. Returns a problem response if `errors` is not empty. `Kind` has these
 /// static functions of a specification (`Spec`):
 ///   version(spec, atlas)                   current version token
-///   url(spec, product)                     canonical URL without version; "" if it has none
+///   url(spec, product, atlas)              canonical URL without version; "" if it has none
 ///   key(spec, product, version)            canonical text of all values
 ///   file_name(spec, product)
 ///   cost(context, spec, product, caches)   cost of generating it; throws if it is impossible
@@ -36,7 +36,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     const auto spec = std::make_shared<const Spec>(std::move(requested.spec));
     Resource resource;
     resource.version = Kind::version(*spec, *context.atlas);
-    resource.address = Kind::url(*spec, product);
+    resource.address = Kind::url(*spec, product, *context.atlas);
     resource.key = Kind::key(*spec, product, resource.version);
     resource.type = type_of(product);
     resource.file_name = Kind::file_name(*spec, product);
