@@ -80,7 +80,7 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
                                        text, example));
     if (has("{id}")) parameters.push(path_parameter("id", "A species id.", text, example));
     if (has("{preset}"))
-        parameters.push(path_parameter("preset", "A preset's id.", text, route.example()));
+        parameters.push(path_parameter("preset", "A preset's id.", text, route.example(atlas)));
     if (has("{a}")) {
         parameters.push(path_parameter("a", "Id of the first species.", text, example));
         parameters.push(path_parameter("b", "Id of the second species.", text, other_id(atlas)));
@@ -97,7 +97,7 @@ Value parameters_of(const Route& route, const Atlas& atlas, bool is_signed) {
                                        object({{"type", "string"}, {"enum", names}}),
                                        "base_color"));
     }
-    if (route.query_schema) add_query_parameters(route.query_schema(), "", parameters);
+    if (route.query_schema) add_query_parameters(route.query_schema(atlas), "", parameters);
     if (is_generated(route) && is_get(route))
         parameters.push(query_parameter(
             "v", false,
@@ -397,7 +397,7 @@ Value openapi(const DocumentInputs& inputs, std::string_view version) {
     };
     for (const RouteGroup& group : inputs.routes.groups()) {
         for (const Route& route : group.routes) group_of.emplace(&route, &group);
-        if (group.add_schemas) group.add_schemas(schemas);
+        if (group.add_schemas) group.add_schemas(schemas, inputs.atlas);
         if (group.add_bodies) group.add_bodies(bodies, inputs.atlas);
         if (is_product(group)) add_tag(group.tag, group.description);
     }

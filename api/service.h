@@ -17,6 +17,9 @@ namespace sporeprint::api {
 
 class Service {
   public:
+    /// Creates a service.
+    ///
+    /// pre  the atlas has a leaf and a tree, as those of built_in_atlas() and atlas_from() have
     Service(std::shared_ptr<const Atlas> atlas, const ServiceOptions& options);
 
     /// Creates a service with other templates that replaces `other`: both share options, counters

@@ -214,7 +214,7 @@ constexpr Route species[] = {
      .media_type = json,
      .response_schema = "species_list",
      // A filter has no preset to take defaults from.
-     .query_schema = [] { return without_default_source(schema<SpeciesFilter>()); },
+     .query_schema = [](const Atlas&) { return without_default_source(schema<SpeciesFilter>()); },
      .plan = [](RouteCall& call) -> Plan {
          return call.context.documents->species_list(call.request, call.target, call.errors);
      }},
@@ -274,7 +274,7 @@ constexpr Route health[] = {
      .may_be_elsewhere = true},
 };
 
-void add_species_schemas(Value& schemas) {
+void add_species_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string"), whole = typed("integer");
     const Value pair =
         object({{"type", "array"}, {"items", typed("number")}, {"minItems", 2}, {"maxItems", 2}});
@@ -294,7 +294,7 @@ void add_species_schemas(Value& schemas) {
                                                                    {"links", map_of(text)}}))}}));
 }
 
-void add_service_schemas(Value& schemas) {
+void add_service_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string"), whole = typed("integer");
     Value problem = objects(
         {{"type", text}, {"title", text}, {"status", whole}, {"detail", text}, {"instance", text}});

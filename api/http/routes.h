@@ -46,10 +46,10 @@ struct Route {
     const char* media_type;                              ///< of the response with status 200
     const char* body_type = "";                          ///< media type of the request body
     std::size_t most_body = 256 << 10;                   ///< bytes of the request body
-    const char* (*example)() = nullptr;                  ///< returns an example of {preset}
+    std::string (*example)(const Atlas&) = nullptr;      ///< returns an example of {preset}
     const char* response_schema = nullptr;               ///< name in /components/schemas
     const char* request_body = nullptr;                  ///< name in /components/requestBodies
-    Value (*query_schema)() = nullptr;                   ///< nested schema of the query parameters
+    Value (*query_schema)(const Atlas&) = nullptr;       ///< nested schema of the query parameters
     Value (*document)(const DocumentInputs&) = nullptr;  ///< a document without query parameters
     Plan (*plan)(RouteCall&) = nullptr;                  ///< the handler of all other routes
     bool may_be_elsewhere = false;                       ///< 404 here if it has a separate port
@@ -67,9 +67,9 @@ struct RouteGroup {
     const char* tag;          ///< of the OpenAPI document, also the first segment after /v1/
     const char* description;  ///< of that tag
     std::span<const Route> routes;
-    void (*add_links)(Value& links, const Atlas& atlas) = nullptr;    ///< to GET /v1
-    void (*add_schemas)(Value& schemas) = nullptr;                    ///< /components/schemas
-    void (*add_bodies)(Value& bodies, const Atlas& atlas) = nullptr;  ///< requestBodies
+    void (*add_links)(Value& links, const Atlas& atlas) = nullptr;      ///< to GET /v1
+    void (*add_schemas)(Value& schemas, const Atlas& atlas) = nullptr;  ///< /components/schemas
+    void (*add_bodies)(Value& bodies, const Atlas& atlas) = nullptr;    ///< requestBodies
 };
 
 /// The result of a lookup.

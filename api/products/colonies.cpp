@@ -127,7 +127,7 @@ std::string Colonies::version(const ColonySpec& spec, const Atlas& atlas) {
     return version_token(spec.mix, atlas);
 }
 
-std::string Colonies::url(const ColonySpec& spec, Product product) {
+std::string Colonies::url(const ColonySpec& spec, Product product, const Atlas&) {
     return canonical_address(spec, product);
 }
 
@@ -236,7 +236,7 @@ constexpr Route routes[] = {
      .id = "get_colony",
      .summary = "Grows a colony: roots, stems and caps, each cap stored once.",
      .media_type = glb,
-     .query_schema = [] { return schema<ColonyParams>(); },
+     .query_schema = [](const Atlas&) { return schema<ColonyParams>(); },
      .plan = plan_from_url<Product::glb>},
     {.kind = RouteKind::product,
      .method = "GET",
@@ -246,7 +246,7 @@ constexpr Route routes[] = {
                 "parameters, cost and bounds.",
      .media_type = json,
      .response_schema = "colony_description",
-     .query_schema = [] { return schema<ColonyParams>(); },
+     .query_schema = [](const Atlas&) { return schema<ColonyParams>(); },
      .plan = plan_from_url<Product::json>},
     {.kind = RouteKind::product,
      .method = "POST",
@@ -263,7 +263,7 @@ void add_links(Value& links, const Atlas&) {
     links.set("colonies", "/v1/colonies").set("colony_schema", "/v1/colonies/schema");
 }
 
-void add_schemas(Value& schemas) {
+void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string");
     schemas.set("colony_params", as_written(schema<ColonyParams>()))
         .set("colony_list", objects({{"colonies", product_list_schema()}}))

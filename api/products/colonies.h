@@ -45,7 +45,7 @@ struct Colonies {
     using Resolved = std::optional<Individual>;  ///< the typical individual, once it is needed
 
     static std::string version(const ColonySpec& spec, const Atlas& atlas);
-    static std::string url(const ColonySpec& spec, Product product);
+    static std::string url(const ColonySpec& spec, Product product, const Atlas& atlas);
     static std::string key(const ColonySpec& spec, Product product, const std::string& version);
     static std::string file_name(const ColonySpec& spec, Product product);
     static Cost cost(const Context& context, const ColonySpec& spec, Product product,

@@ -84,7 +84,7 @@ constexpr Route routes[] = {{.kind = RouteKind::upload,
                              .response_schema = "inspection",
                              .plan = plan_inspection}};
 
-void add_schemas(Value& schemas) {
+void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string");
     const Value text_or_null =
         object({{"type", Value(Value::Array{"string", "null"})},

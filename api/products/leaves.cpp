@@ -4,12 +4,12 @@
 
 namespace sporeprint::api {
 
-Grown Leaves::grow(const LeafSpec& spec, const Extras& extras, int,
+Grown Leaves::grow(const LeafSpec& spec, const Atlas&, const Extras& extras, int,
                    const ExecutionContext& execution) {
     return grow_leaf(spec, extras, execution);
 }
 
-std::pair<Estimate, Bounds> Leaves::measure(const LeafSpec& spec,
+std::pair<Estimate, Bounds> Leaves::measure(const LeafSpec& spec, const Atlas&,
                                             const ExecutionContext& execution) {
     execution.observer(Step::build);
     const Mesh mesh = leaf_mesh(spec);
@@ -19,7 +19,9 @@ std::pair<Estimate, Bounds> Leaves::measure(const LeafSpec& spec,
 
 Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }
 
-Cost Leaves::cost_of_painting(const LeafSpec& spec) { return cost_of_paint(paint_of(spec.params)); }
+Cost Leaves::cost_of_painting(const LeafSpec& spec, const Atlas&) {
+    return cost_of_paint(paint_of(spec.params));
+}
 
 Cost Leaves::cost_of_paint(const LeafPaint& paint) {
     const auto side = static_cast<std::uint64_t>(paint.texture_size.value);
@@ -32,11 +34,13 @@ Cost Leaves::cost_of_paint(const LeafPaint& paint) {
 
 namespace {
 
-Value params_schema() { return from_preset<LeafShape, LeafPalette>(schema<LeafParams>()); }
+Value params_schema(const Atlas&) {
+    return from_preset<LeafShape, LeafPalette>(schema<LeafParams>());
+}
 
 constexpr const char *json = "application/json", *glb = "model/gltf-binary";
 
-const char* example_preset() { return Leaves::presets().front().id; }
+std::string example_preset(const Atlas& atlas) { return atlas.leaves().front().id.string(); }
 
 constexpr Route routes[] = {
     {.kind = RouteKind::document,
@@ -46,7 +50,7 @@ constexpr Route routes[] = {
      .summary = "The leaves to begin with.",
      .media_type = json,
      .response_schema = "leaf_list",
-     .document = [](const DocumentInputs&) { return preset_list<Leaves>(); }},
+     .document = [](const DocumentInputs& inputs) { return preset_list<Leaves>(inputs.atlas); }},
     {.kind = RouteKind::document,
      .method = "GET",
      .pattern = "/v1/leaves/schema",
@@ -93,7 +97,8 @@ constexpr Route routes[] = {
      .summary = "One image of a leaf's atlas; what textures=linked points to.",
      .media_type = "image/jpeg",
      .example = example_preset,
-     .query_schema = [] { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
+     .query_schema =
+         [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
      .plan = plan_preset_image<Leaves>},
 };
 
@@ -101,7 +106,7 @@ void add_links(Value& links, const Atlas&) {
     links.set("leaves", "/v1/leaves").set("leaf_schema", "/v1/leaves/schema");
 }
 
-void add_schemas(Value& schemas) {
+void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string");
     schemas.set("leaf_params", as_written(schema<LeafParams>()))
         .set("leaf_list",
@@ -110,11 +115,11 @@ void add_schemas(Value& schemas) {
         .set("leaf_description", preset_description_schema("leaf_params"));
 }
 
-void add_bodies(Value& bodies, const Atlas&) {
+void add_bodies(Value& bodies, const Atlas& atlas) {
     bodies.set("leaf_order",
                json_body("A preset and what is to differ from it.",
-                         preset_body_schema<Leaves>(params_schema()),
-                         object({{"preset", Leaves::presets().front().id},
+                         preset_body_schema<Leaves>(atlas, params_schema(atlas)),
+                         object({{"preset", example_preset(atlas)},
                                  {"autumn", 0.5},
                                  {"venation", object({{"lobes", 7}, {"vein_deg", 40}})}})));
 }

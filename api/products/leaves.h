@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string_view>
 #include <utility>
 
 #include "api/products/presets.h"
@@ -17,17 +18,20 @@ struct Leaves {
     using Params = LeafParams;
     using Paint = LeafPaint;
     static constexpr const char *one = "leaf", *all = "leaves";
-    static std::span<const Preset> presets() { return leaf_presets(); }
+    static std::span<const Preset> presets(const Atlas& atlas) { return atlas.leaves(); }
+    static const Preset* find(const Atlas& atlas, std::string_view id) {
+        return atlas.find_leaf(id);
+    }
 
-    static Grown grow(const LeafSpec& spec, const Extras& extras, int depth,
+    static Grown grow(const LeafSpec& spec, const Atlas& atlas, const Extras& extras, int depth,
                       const ExecutionContext& execution);
-    static std::pair<Estimate, Bounds> measure(const LeafSpec& spec,
+    static std::pair<Estimate, Bounds> measure(const LeafSpec& spec, const Atlas& atlas,
                                                const ExecutionContext& execution);
     static Cost cost_of_growing(const LeafSpec& spec);
     /// Returns the cost of painting these images.
     static Cost cost_of_paint(const LeafPaint& paint);
     /// Returns the cost of painting the images of a leaf.
-    static Cost cost_of_painting(const LeafSpec& spec);
+    static Cost cost_of_painting(const LeafSpec& spec, const Atlas& atlas);
 };
 
 extern const RouteGroup leaf_routes;

@@ -238,7 +238,7 @@ constexpr Route routes[] = {
                 "limbs of both, fork on fork.",
      .media_type = json,
      .response_schema = "morph",
-     .query_schema = [] { return schema<MorphParams>(); },
+     .query_schema = [](const Atlas&) { return schema<MorphParams>(); },
      .plan = plan_from_url},
 };
 
@@ -287,7 +287,7 @@ Value morph_schema() {
                         {"certificate", as_written(schema<SegmentCertificate>())}})})}});
 }
 
-void add_schemas(Value& schemas) { schemas.set("morph", morph_schema()); }
+void add_schemas(Value& schemas, const Atlas&) { schemas.set("morph", morph_schema()); }
 
 void add_bodies(Value& bodies, const Atlas&) {
     Value spec = schema<MorphSpec>();

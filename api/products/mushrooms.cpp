@@ -204,7 +204,7 @@ std::string Mushrooms::version(const MushroomSpec& spec, const Atlas& atlas) {
     return version_token(spec.mix, atlas);
 }
 
-std::string Mushrooms::url(const MushroomSpec& spec, Product product) {
+std::string Mushrooms::url(const MushroomSpec& spec, Product product, const Atlas&) {
     // A custom model and arcs have no URL.
     return spec.model || !spec.arcs.empty() ? std::string() : canonical_address(spec, product);
 }
@@ -308,7 +308,7 @@ constexpr Route routes[] = {
      .id = "get_mushroom",
      .summary = "Grows a mushroom and answers with a GLB file.",
      .media_type = glb,
-     .query_schema = [] { return schema<MushroomParams>(); },
+     .query_schema = [](const Atlas&) { return schema<MushroomParams>(); },
      .plan = plan_from_url<Product::glb>},
     {.kind = RouteKind::product,
      .method = "GET",
@@ -317,7 +317,7 @@ constexpr Route routes[] = {
      .summary = "What would be grown: canonical address, effective parameters, cost and bounds.",
      .media_type = json,
      .response_schema = "mushroom_description",
-     .query_schema = [] { return schema<MushroomParams>(); },
+     .query_schema = [](const Atlas&) { return schema<MushroomParams>(); },
      .plan = plan_from_url<Product::json>},
     {.kind = RouteKind::product,
      .method = "POST",
@@ -335,7 +335,7 @@ constexpr Route routes[] = {
      .id = "get_surface",
      .summary = "One image of a mushroom's atlas; what textures=linked points to.",
      .media_type = "image/jpeg",
-     .query_schema = [] { return schema<SurfaceAddress>(); },
+     .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
      .plan = plan_mushroom_image},
 };
 
@@ -343,7 +343,7 @@ void add_links(Value& links, const Atlas&) {
     links.set("mushrooms", "/v1/mushrooms").set("mushroom_schema", "/v1/mushrooms/schema");
 }
 
-void add_schemas(Value& schemas) {
+void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string");
     schemas.set("mushroom_params", as_written(schema<MushroomParams>()))
         .set("mushroom_list", objects({{"mushrooms", product_list_schema()}}))

@@ -56,7 +56,7 @@ struct Mushrooms {
     using Resolved = std::optional<Individual>;
 
     static std::string version(const MushroomSpec& spec, const Atlas& atlas);
-    static std::string url(const MushroomSpec& spec, Product product);
+    static std::string url(const MushroomSpec& spec, Product product, const Atlas& atlas);
     static std::string key(const MushroomSpec& spec, Product product, const std::string& version);
     static std::string file_name(const MushroomSpec& spec, Product product);
     static Cost cost(const Context& context, const MushroomSpec& spec, Product product,

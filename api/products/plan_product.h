@@ -17,7 +17,7 @@ namespace sporeprint::api {
 /// static functions of a specification (`Spec`), and a type Resolved, empty at first, in which
 /// cost() may leave what it has resolved for grow() and describe():
 ///   version(spec, atlas)                   current version token
-///   url(spec, product)                     canonical URL without version; "" if it has none
+///   url(spec, product, atlas)              canonical URL without version; "" if it has none
 ///   key(spec, product, version)            canonical text of all values
 ///   file_name(spec, product)
 ///   cost(context, spec, product, caches, resolved)   cost of generating it; throws if it is
@@ -41,7 +41,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     const auto resolved = std::make_shared<typename Kind::Resolved>();
     Resource resource;
     resource.version = Kind::version(*spec, *context.atlas);
-    resource.address = Kind::url(*spec, product);
+    resource.address = Kind::url(*spec, product, *context.atlas);
     resource.key = Kind::key(*spec, product, resource.version);
     resource.type = type_of(product);
     resource.file_name = Kind::file_name(*spec, product);

@@ -14,6 +14,7 @@
 #include "api/products/images.h"
 #include "api/products/plan_product.h"
 #include "api/products/product.h"
+#include "core/atlas/atlas.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -41,34 +42,32 @@ struct PresetSurface {
 /// Returns the preset with an id. If there is none, adds 404 for `parameter` and returns the first
 /// preset.
 template <class Kind>
-const typename Kind::Preset& preset_of(std::string_view id, const char* parameter,
-                                       ValidationErrors& errors) {
+const typename Kind::Preset& preset_of(const Atlas& atlas, std::string_view id,
+                                       const char* parameter, ValidationErrors& errors) {
+    if (const auto* preset = Kind::find(atlas, id)) return *preset;
     std::vector<std::string> ids;
-    for (const auto& preset : Kind::presets()) {
-        if (id == preset.id) return preset;
-        ids.emplace_back(preset.id);
-    }
+    for (const auto& preset : Kind::presets(atlas)) ids.push_back(preset.id.string());
     const std::string_view meant = closest(id, ids);
     errors.add(404, parameter,
                std::string("unknown ") + Kind::one + ' ' + in_quotes(id) +
                    (meant.empty() ? "" : "; did you mean " + in_quotes(meant) + "?"));
-    return Kind::presets().front();
+    return Kind::presets(atlas).front();
 }
 
 /// Returns the parameters of a preset without overrides.
 ///
 /// pre  a preset has this id
 template <class Kind>
-typename Kind::Params own_params(std::string_view id) {
-    ValidationErrors none;
-    return params_of(preset_of<Kind>(id, "", none));
+typename Kind::Params own_params(const Atlas& atlas, std::string_view id) {
+    return params_of(*Kind::find(atlas, id));
 }
 
 /// Reads the {preset} and the query of a URL. Problems are added to `errors`.
 template <class Kind>
-PresetRequest<Kind> read_preset(std::string_view id, Query query, ValidationErrors& errors) {
-    const auto& preset = preset_of<Kind>(id, "preset", errors);
-    PresetRequest<Kind> request{{preset.id, params_of(preset)}, {}, {}};
+PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view id, Query query,
+                                ValidationErrors& errors) {
+    const auto& preset = preset_of<Kind>(atlas, id, "preset", errors);
+    PresetRequest<Kind> request{{preset.id.string(), params_of(preset)}, {}, {}};
     std::vector<std::pair<std::string, std::string>> rest;
     request.version = take_version(query, rest, errors);
     std::vector<Problem> problems;
@@ -82,25 +81,27 @@ PresetRequest<Kind> read_preset(std::string_view id, Query query, ValidationErro
 
 /// Reads a body: {"preset":id} beside the nested query parameters ("venation":{"lobes":7}).
 template <class Kind>
-PresetRequest<Kind> read_preset(std::string_view body, ValidationErrors& errors) {
+PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view body,
+                                ValidationErrors& errors) {
     PresetRequest<Kind> request;
     std::optional<Value> json = read_body(body, errors);
     if (!json) return request;
     std::vector<Problem> problems;
     request.version = take_version(*json, problems);
     const Value* given = json->find("preset");
-    const auto& first = Kind::presets().front();
+    const auto& first = Kind::presets(atlas).front();
     if (!given)
         report(problems, "/preset",
-               std::string("is missing; give {\"preset\":\"") + first.id + "\"}");
+               std::string("is missing; give {\"preset\":\"") + first.id.string() + "\"}");
     else if (!given->is_string())
         report(problems, "/preset", "expected text, got " + shown(*given));
     const bool named = given && given->is_string();
-    const auto& preset = named ? preset_of<Kind>(given->as_string(), "/preset", errors) : first;
+    const auto& preset =
+        named ? preset_of<Kind>(atlas, given->as_string(), "/preset", errors) : first;
     json->erase("preset");
     if constexpr (requires { Kind::take_from_body(*json, errors); })
         Kind::take_from_body(*json, errors);
-    request.spec = {preset.id, params_of(preset)};
+    request.spec = {preset.id.string(), params_of(preset)};
     read(*json, request.spec.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
@@ -111,20 +112,21 @@ PresetRequest<Kind> read_preset(std::string_view body, ValidationErrors& errors)
 
 /// Returns the current version token of a preset.
 template <class Kind>
-std::string preset_token(const std::string& preset) {
-    std::string templates = preset + ' ' + canonical_text(own_params<Kind>(preset));
-    if constexpr (requires { Kind::more_templates(); }) templates += Kind::more_templates();
+std::string preset_token(const Atlas& atlas, const std::string& preset) {
+    std::string templates = preset + ' ' + canonical_text(own_params<Kind>(atlas, preset));
+    if constexpr (requires { Kind::more_templates(atlas); })
+        templates += Kind::more_templates(atlas);
     return token_of(templates);
 }
 
 /// Returns the canonical URL without version: the preset, then parameters that differ from it, in
 /// schema order; empty if no URL can express the specification.
 template <class Kind, class Spec>
-std::string canonical_address(const Spec& spec, Product product) {
-    if constexpr (requires { Kind::has_address(spec); })
-        if (!Kind::has_address(spec)) return {};
+std::string canonical_address(const Atlas& atlas, const Spec& spec, Product product) {
+    if constexpr (requires { Kind::has_address(spec, atlas); })
+        if (!Kind::has_address(spec, atlas)) return {};
     return with_query(std::string("/v1/") + Kind::all + '/' + spec.preset + ending_of(product),
-                      query_text(spec.params, own_params<Kind>(spec.preset)));
+                      query_text(spec.params, own_params<Kind>(atlas, spec.preset)));
 }
 
 /// Returns the canonical text of all values: equal keys mean equal bytes.
@@ -142,11 +144,12 @@ std::string preset_file_name(const Spec& spec, Product product) {
 
 /// Reads {preset}, {image} and query of a URL under /v1/surfaces.
 template <class Kind>
-PresetSurface<Kind> read_preset_surface(std::string_view id, std::string_view image, Query query,
+PresetSurface<Kind> read_preset_surface(const Atlas& atlas, std::string_view id,
+                                        std::string_view image, Query query,
                                         ValidationErrors& errors) {
-    const auto& preset = preset_of<Kind>(id, "preset", errors);
+    const auto& preset = preset_of<Kind>(atlas, id, "preset", errors);
     PresetSurface<Kind> requested{
-        preset.id, read_image(image, errors), paint_of(params_of(preset)), {}};
+        preset.id.string(), read_image(image, errors), paint_of(params_of(preset)), {}};
     std::vector<std::pair<std::string, std::string>> rest;
     requested.version = take_version(query, rest, errors);
     std::vector<Problem> problems;
@@ -158,33 +161,36 @@ PresetSurface<Kind> read_preset_surface(std::string_view id, std::string_view im
 
 /// Returns the canonical URL of an image without version.
 template <class Kind, class Paint>
-std::string canonical_image_address(const std::string& preset, ImageKind kind, const Paint& paint) {
+std::string canonical_image_address(const Atlas& atlas, const std::string& preset, ImageKind kind,
+                                    const Paint& paint) {
     return with_query(
         std::string("/v1/surfaces/") + Kind::all + '/' + preset + '/' + name(kind) + ".jpg",
-        query_text(paint, paint_of(own_params<Kind>(preset))));
+        query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
 }
 
 /// Returns the URLs of the three images of an atlas, with a version token.
 template <class Kind, class Paint>
-ImageUrls preset_image_urls(const std::string& preset, const Paint& paint,
+ImageUrls preset_image_urls(const Atlas& atlas, const std::string& preset, const Paint& paint,
                             const std::string& version) {
     ImageUrls urls;
     for (std::size_t i = 0; i < urls.size(); ++i)
         urls[i] = with_version(
-            canonical_image_address<Kind>(preset, static_cast<ImageKind>(i), paint), version);
+            canonical_image_address<Kind>(atlas, preset, static_cast<ImageKind>(i), paint),
+            version);
     return urls;
 }
 
 /// Returns the document that lists all presets: {"leaves":[{"id","name","links"}]} for leaves.
 template <class Kind>
-Value preset_list() {
+Value preset_list(const Atlas& atlas) {
     const std::string root = std::string("/v1/") + Kind::all + '/';
     Value list = Value::array();
-    for (const auto& preset : Kind::presets()) {
+    for (const auto& preset : Kind::presets(atlas)) {
+        const std::string id = preset.id.string();
         Value links = Value::object();
-        links.set("self", root + preset.id + ".json").set("model", root + preset.id + ".glb");
+        links.set("self", root + id + ".json").set("model", root + id + ".glb");
         links.set("schema", root + "schema");
-        Value item = Value::object().set("id", preset.id).set("name", preset.name);
+        Value item = Value::object().set("id", id).set("name", preset.name.view());
         if constexpr (requires { Kind::tell(preset, item); }) Kind::tell(preset, item);
         list.push(std::move(item.set("links", std::move(links))));
     }
@@ -192,21 +198,21 @@ Value preset_list() {
 }
 
 /// The Kind of plan_product.h for a product from presets, whose own Kind has:
-///   grow(spec, extras, depth, execution)   the file; depth of links to further images
-///   measure(spec, execution)               its exact estimate and its bounds
+///   grow(spec, atlas, extras, depth, execution)    the file; depth of links to further images
+///   measure(spec, atlas, execution)        its exact estimate and its bounds
 ///   cost_of_growing(spec)                  cost beside its vertices, bytes and images
-///   cost_of_painting(spec)                 cost of painting all of its images
+///   cost_of_painting(spec, atlas)          cost of painting all of its images
 ///   add_details(spec, body)                optional: adds further members to its JSON
 template <class Kind>
 struct PresetProduct {
     using Spec = typename Kind::Spec;
     struct Resolved {};
 
-    static std::string version(const Spec& spec, const Atlas&) {
-        return preset_token<Kind>(spec.preset);
+    static std::string version(const Spec& spec, const Atlas& atlas) {
+        return preset_token<Kind>(atlas, spec.preset);
     }
-    static std::string url(const Spec& spec, Product product) {
-        return canonical_address<Kind>(spec, product);
+    static std::string url(const Spec& spec, Product product, const Atlas& atlas) {
+        return canonical_address<Kind>(atlas, spec, product);
     }
     static std::string key(const Spec& spec, Product product, const std::string& version) {
         return key_of<Kind>(spec, product, version);
@@ -223,25 +229,26 @@ struct PresetProduct {
         cost.placed_vertices = estimated.vertices;
         if (product == Product::json) return cost;
         cost.bytes = estimated.bytes;
-        if (spec.params.textures == Textures::embedded) cost += Kind::cost_of_painting(spec);
+        if (spec.params.textures == Textures::embedded)
+            cost += Kind::cost_of_painting(spec, *context.atlas);
         return cost;
     }
 
-    static ImageUrls image_urls(const Context&, const Spec& spec, const std::string& version,
-                                const ExecutionContext&) {
-        return preset_image_urls<Kind>(spec.preset, paint_of(spec.params), version);
+    static ImageUrls image_urls(const Context& context, const Spec& spec,
+                                const std::string& version, const ExecutionContext&) {
+        return preset_image_urls<Kind>(*context.atlas, spec.preset, paint_of(spec.params), version);
     }
 
-    static Body grow(const Context&, const Spec& spec, Resolved&, const Extras& extras, int depth,
-                     const ExecutionContext& execution) {
-        return Kind::grow(spec, extras, depth, execution).glb;
+    static Body grow(const Context& context, const Spec& spec, Resolved&, const Extras& extras,
+                     int depth, const ExecutionContext& execution) {
+        return Kind::grow(spec, *context.atlas, extras, depth, execution).glb;
     }
 
-    static Value describe(const Context&, const Spec& spec, Resolved&, const std::string& version,
-                          const ExecutionContext& execution) {
-        const auto [cost, box] = Kind::measure(spec, execution);
+    static Value describe(const Context& context, const Spec& spec, Resolved&,
+                          const std::string& version, const ExecutionContext& execution) {
+        const auto [cost, box] = Kind::measure(spec, *context.atlas, execution);
         Value body = Value::object();
-        body.set("canonical", canonical_address<Kind>(spec, Product::glb));
+        body.set("canonical", canonical_address<Kind>(*context.atlas, spec, Product::glb));
         body.set("v", version);
         body.set("preset", spec.preset);
         body.set("effective", write(spec.params));
@@ -255,7 +262,8 @@ struct PresetProduct {
 /// Handles GET /v1/{kind}/{preset}.glb and .json.
 template <class Kind, Product product>
 Plan plan_preset_url(RouteCall& call) {
-    auto requested = read_preset<Kind>(call.captured[0], call.target.query, call.errors);
+    auto requested =
+        read_preset<Kind>(*call.context.atlas, call.captured[0], call.target.query, call.errors);
     requested.product = product;
     return plan_product<PresetProduct<Kind>>(call.context, call.request, std::move(requested),
                                              call.errors);
@@ -266,14 +274,16 @@ template <class Kind>
 Plan plan_preset_body(RouteCall& call) {
     refuse_query(call.target, call.errors);
     return plan_product<PresetProduct<Kind>>(
-        call.context, call.request, read_preset<Kind>(call.request.body, call.errors), call.errors);
+        call.context, call.request,
+        read_preset<Kind>(*call.context.atlas, call.request.body, call.errors), call.errors);
 }
 
 /// Handles GET /v1/surfaces/{kind}/{preset}/{image}.jpg.
 template <class Kind>
 Plan plan_preset_image(RouteCall& call) {
     Context& context = call.context;
-    const auto requested = read_preset_surface<Kind>(call.captured[0], call.captured[1],
+    const Atlas& atlas = *context.atlas;
+    const auto requested = read_preset_surface<Kind>(atlas, call.captured[0], call.captured[1],
                                                      call.target.query, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     const auto decide = [&](ValidationErrors& found) {
@@ -289,8 +299,8 @@ Plan plan_preset_image(RouteCall& call) {
     if constexpr (requires { requested.paint.seed; })
         of += '-' + std::to_string(requested.paint.seed);
     const ImageResource image{
-        *requested.kind, preset_token<Kind>(requested.preset),
-        canonical_image_address<Kind>(requested.preset, *requested.kind, requested.paint),
+        *requested.kind, preset_token<Kind>(atlas, requested.preset),
+        canonical_image_address<Kind>(atlas, requested.preset, *requested.kind, requested.paint),
         std::move(of), requested.version};
     return plan_image(context, call.request, image, decide, call.errors);
 }
@@ -299,9 +309,9 @@ Plan plan_preset_image(RouteCall& call) {
 ///
 /// params  schema of its parameters
 template <class Kind>
-Value preset_body_schema(Value params) {
+Value preset_body_schema(const Atlas& atlas, Value params) {
     Value ids = Value::array();
-    for (const auto& preset : Kind::presets()) ids.push(preset.id);
+    for (const auto& preset : Kind::presets(atlas)) ids.push(preset.id.view());
     return with_members({{"preset", object({{"type", "string"},
                                             {"enum", std::move(ids)},
                                             {"description", "What to begin with."}})},

@@ -58,37 +58,27 @@ void Trees::take_from_body(Value& body, ValidationErrors& errors) {
     body.erase("rows");
 }
 
-bool Trees::has_address(const TreeSpec& spec) {
+bool Trees::has_address(const TreeSpec& spec, const Atlas& atlas) {
     const auto& rows = spec.params.look.shape.topology.rows;
-    return rows.empty() || rows == own_params<Trees>(spec.preset).look.shape.topology.rows;
+    return rows.empty() || rows == own_params<Trees>(atlas, spec.preset).look.shape.topology.rows;
 }
 
-std::string Trees::more_templates() {
-    static const std::string text = [] {
-        std::string all;
-        for (const LeafPreset& preset : leaf_presets())
-            (all += ' ') += preset.id + canonical_text(params_of(preset));
-        return all;
-    }();
-    return text;
-}
-
-Grown Trees::grow(const TreeSpec& spec, const Extras& extras, int depth,
+Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras, int depth,
                   const ExecutionContext& execution) {
     ImageUrls of_leaves;
     if (spec.params.textures == Textures::linked) {
-        const std::string leaf = name(spec.params.look.leaf);
-        of_leaves = preset_image_urls<Leaves>(leaf, paint_of(leaf_of(spec.params)),
-                                              preset_token<Leaves>(leaf));
+        const std::string leaf = spec.params.look.leaf.id.string();
+        of_leaves = preset_image_urls<Leaves>(atlas, leaf, paint_of(leaf_of(spec.params, atlas)),
+                                              preset_token<Leaves>(atlas, leaf));
         for (std::string& url : of_leaves) url = reference_from(depth, url);
     }
-    return grow_tree(spec, extras, of_leaves, execution);
+    return grow_tree(spec, atlas, extras, of_leaves, execution);
 }
 
-std::pair<Estimate, Bounds> Trees::measure(const TreeSpec& spec,
+std::pair<Estimate, Bounds> Trees::measure(const TreeSpec& spec, const Atlas& atlas,
                                            const ExecutionContext& execution) {
     execution.observer(Step::build);
-    const TreeMeshes meshes = tree_meshes(spec);
+    const TreeMeshes meshes = tree_meshes(spec, atlas);
     execution.observer(Step::pack);
     return {measured(spec, meshes), bounds(meshes)};
 }
@@ -98,10 +88,10 @@ Cost Trees::cost_of_growing(const TreeSpec& spec) {
     return {.base = 100, .twigs = static_cast<std::uint64_t>(twigs)};
 }
 
-Cost Trees::cost_of_painting(const TreeSpec& spec) {
+Cost Trees::cost_of_painting(const TreeSpec& spec, const Atlas& atlas) {
     Cost cost = cost_of_paint(paint_of(spec.params));
     if (spec.params.look.leaves.per_tip > 0)
-        cost += Leaves::cost_of_paint(paint_of(leaf_of(spec.params)));
+        cost += Leaves::cost_of_paint(paint_of(leaf_of(spec.params, atlas)));
     return cost;
 }
 
@@ -118,11 +108,18 @@ Cost Trees::cost_of_paint(const TreePaint& paint) {
 
 namespace {
 
-Value params_schema() { return from_preset<TreeLook>(schema<TreeParams>()); }
+/// Returns parameters that allow the leaves of an atlas, from which schemas are made.
+TreeParams any_params(const Atlas& atlas) {
+    TreeParams params;
+    params.look.leaf.among = atlas.leaf_ids();
+    return params;
+}
+
+Value params_schema(const Atlas& atlas) { return from_preset<TreeLook>(schema(any_params(atlas))); }
 
 constexpr const char *json = "application/json", *glb = "model/gltf-binary";
 
-const char* example_preset() { return Trees::presets().front().id; }
+std::string example_preset(const Atlas& atlas) { return atlas.trees().front().id.string(); }
 
 constexpr Route routes[] = {
     {.kind = RouteKind::document,
@@ -132,7 +129,7 @@ constexpr Route routes[] = {
      .summary = "The trees to begin with.",
      .media_type = json,
      .response_schema = "tree_list",
-     .document = [](const DocumentInputs&) { return preset_list<Trees>(); }},
+     .document = [](const DocumentInputs& inputs) { return preset_list<Trees>(inputs.atlas); }},
     {.kind = RouteKind::document,
      .method = "GET",
      .pattern = "/v1/trees/schema",
@@ -140,8 +137,9 @@ constexpr Route routes[] = {
      .summary = "JSON Schema of the query parameters of a tree.",
      .media_type = "application/schema+json",
      .document =
-         [](const DocumentInputs&) {
-             return from_preset<TreeLook>(schema_document<TreeParams>("Parameters of a tree"));
+         [](const DocumentInputs& inputs) {
+             return from_preset<TreeLook>(
+                 schema_document("Parameters of a tree", any_params(inputs.atlas)));
          }},
     {.kind = RouteKind::product,
      .method = "GET",
@@ -182,7 +180,7 @@ constexpr Route routes[] = {
          "One image of a tree's bark; what textures=linked points to, beside those of its leaves.",
      .media_type = "image/jpeg",
      .example = example_preset,
-     .query_schema = [] { return from_preset<TreeLook>(schema<TreePaint>()); },
+     .query_schema = [](const Atlas&) { return from_preset<TreeLook>(schema<TreePaint>()); },
      .plan = plan_preset_image<Trees>},
 };
 
@@ -190,7 +188,7 @@ void add_links(Value& links, const Atlas&) {
     links.set("trees", "/v1/trees").set("tree_schema", "/v1/trees/schema");
 }
 
-void add_schemas(Value& schemas) {
+void add_schemas(Value& schemas, const Atlas& atlas) {
     const Value text = typed("string"), whole = typed("integer");
     Value description = preset_description_schema("tree_params");
     for (const auto& [key, value] : {Value::Member("matrix", list_of(list_of(typed("number")))),
@@ -198,7 +196,7 @@ void add_schemas(Value& schemas) {
         description.find("properties")->set(key, value);
         description.find("required")->push(key);
     }
-    schemas.set("tree_params", as_written(schema<TreeParams>()))
+    schemas.set("tree_params", as_written(schema(any_params(atlas))))
         .set("tree_list", objects({{"trees", list_of(objects({{"id", text},
                                                               {"name", text},
                                                               {"order", whole},
@@ -206,7 +204,7 @@ void add_schemas(Value& schemas) {
         .set("tree_description", std::move(description));
 }
 
-void add_bodies(Value& bodies, const Atlas&) {
+void add_bodies(Value& bodies, const Atlas& atlas) {
     const auto row = [](std::initializer_list<double> shares) {
         Value list = Value::array();
         for (const double share : shares) list.push(share);
@@ -215,8 +213,8 @@ void add_bodies(Value& bodies, const Atlas&) {
     bodies.set(
         "tree_order",
         json_body("A preset and what is to differ from it, also a ramification matrix of your own.",
-                  preset_body_schema<Trees>(params_schema()),
-                  object({{"preset", Trees::presets().front().id},
+                  preset_body_schema<Trees>(atlas, params_schema(atlas)),
+                  object({{"preset", example_preset(atlas)},
                           {"rows", Value(Value::Array{row({0.6, 0.4}), row({0.3, 0.4, 0.3})})},
                           {"leaves", object({{"per_tip", 6}})}})));
 }

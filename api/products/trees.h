@@ -3,6 +3,7 @@
 
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 
 #include "api/products/presets.h"
@@ -18,7 +19,10 @@ struct Trees {
     using Params = TreeParams;
     using Paint = TreePaint;
     static constexpr const char *one = "tree", *all = "trees";
-    static std::span<const Preset> presets() { return tree_presets(); }
+    static std::span<const Preset> presets(const Atlas& atlas) { return atlas.trees(); }
+    static const Preset* find(const Atlas& atlas, std::string_view id) {
+        return atlas.find_tree(id);
+    }
 
     /// Completes a body with a custom matrix: it is named `own`, has its highest order and is not
     /// blended, unless the body says otherwise. Problems of its rows are 422, each with its path;
@@ -29,7 +33,7 @@ struct Trees {
     static void settle(Params& params) { without_unused_rows(params); }
 
     /// Returns true if a URL can express a specification; custom rows cannot be expressed.
-    static bool has_address(const Spec& spec);
+    static bool has_address(const Spec& spec, const Atlas& atlas);
 
     /// Adds members to the item of a preset in the list.
     static void tell(const Preset& preset, Value& item) {
@@ -37,15 +41,15 @@ struct Trees {
     }
 
     /// Returns the text of further templates: those of the leaves that a tree can have.
-    static std::string more_templates();
+    static const std::string& more_templates(const Atlas& atlas) { return atlas.leaf_text(); }
 
-    static Grown grow(const TreeSpec& spec, const Extras& extras, int depth,
+    static Grown grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras, int depth,
                       const ExecutionContext& execution);
-    static std::pair<Estimate, Bounds> measure(const TreeSpec& spec,
+    static std::pair<Estimate, Bounds> measure(const TreeSpec& spec, const Atlas& atlas,
                                                const ExecutionContext& execution);
     static Cost cost_of_growing(const TreeSpec& spec);
     static Cost cost_of_paint(const TreePaint& paint);  ///< of these images
-    static Cost cost_of_painting(const TreeSpec& spec);
+    static Cost cost_of_painting(const TreeSpec& spec, const Atlas& atlas);
 
     /// Adds the matrix of the tree and its expected number of twigs to the JSON description.
     static void add_details(const TreeSpec& spec, Value& body);

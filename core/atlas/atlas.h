@@ -1,13 +1,18 @@
-// The atlas of species: compiled in, or read from a folder. It is immutable.
+// The atlas: the species, leaves and trees that are compiled in or read from a folder. It is
+// immutable.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "core/model/species.h"
+#include "core/plant/leaf.h"
+#include "core/plant/tree.h"
 
 namespace sporeprint {
 
@@ -18,32 +23,74 @@ struct AtlasEntry {
     std::uint64_t hash = 0;  ///< XXH3 of `json`, 64 bits
 };
 
-/// The species of an atlas, sorted by id.
+/// The JSON texts of an atlas, one per species, leaf or tree, in any order.
+struct AtlasTexts {
+    std::vector<std::string> species{}, leaves{}, trees{};
+};
+
+/// Species, leaves and trees; each kind has its own ids.
 class Atlas {
   public:
-    /// Parses and validates the templates, one JSON text per species.
+    /// Parses and validates the texts.
     ///
-    /// throws  InvalidInput with the problems of all texts, repeated ids included; paths are
-    ///         prefixed by the species' id
-    explicit Atlas(const std::vector<std::string>& json_texts);
+    /// throws  InvalidInput with the problems of all texts, repeated ids and trees with unknown
+    ///         leaves included; paths are prefixed by the id of the species, leaf or tree
+    explicit Atlas(const AtlasTexts& texts);
+
+    // Trees refer to the ids of the leaves, which a copy would leave behind.
+    Atlas(const Atlas&) = delete;
+    Atlas& operator=(const Atlas&) = delete;
+    Atlas(Atlas&&) = default;
+    Atlas& operator=(Atlas&&) = default;
+    ~Atlas() = default;
 
     /// Returns the entry of a species, or nullptr if the atlas has no species with this id.
     [[nodiscard]] const AtlasEntry* find(std::string_view id) const;
 
-    /// Returns all entries, sorted by id.
+    /// Returns all entries of species, sorted by id.
     [[nodiscard]] const std::vector<AtlasEntry>& entries() const { return entries_; }
+
+    /// Returns a leaf, or nullptr if the atlas has no leaf with this id.
+    [[nodiscard]] const LeafPreset* find_leaf(std::string_view id) const;
+
+    /// Returns a tree, or nullptr if the atlas has no tree with this id.
+    [[nodiscard]] const TreePreset* find_tree(std::string_view id) const;
+
+    /// Returns all leaves, sorted by rank and id.
+    [[nodiscard]] std::span<const LeafPreset> leaves() const { return leaves_; }
+
+    /// Returns all trees, sorted by rank and id. Each allows the leaves of the atlas.
+    [[nodiscard]] std::span<const TreePreset> trees() const { return trees_; }
+
+    /// Returns the ids of leaves(), in their order. They live as long as the atlas, even if it is
+    /// moved.
+    [[nodiscard]] std::span<const std::string> leaf_ids() const { return leaf_ids_; }
+
+    /// Returns the ids and canonical texts of the parameters of all leaves, in their order. A tree
+    /// may bear any of them, so its version depends on this text.
+    [[nodiscard]] const std::string& leaf_text() const { return leaf_text_; }
 
   private:
     std::vector<AtlasEntry> entries_;
+    std::vector<LeafPreset> leaves_;
+    std::vector<TreePreset> trees_;
+    std::vector<std::string> leaf_ids_;
+    std::string leaf_text_;
 };
 
-/// Returns the species that are compiled in.
+/// Returns the texts that are compiled in.
+[[nodiscard]] const AtlasTexts& built_in_texts();
+
+/// Returns the atlas that is compiled in.
 [[nodiscard]] std::shared_ptr<const Atlas> built_in_atlas();
 
-/// Reads an atlas from the *.json files of a folder, one species each; subfolders are not read.
+/// Reads an atlas from the *.json files of a folder: species from the folder itself and its
+/// subfolder species/, leaves from leaves/, trees from trees/. Other files and subfolders are not
+/// read. A kind without files is taken from the built-in atlas; files of a kind replace all
+/// built-in ones of this kind.
 ///
-/// throws  InvalidInput if the folder cannot be read or has no such file, or with the problems of
-///         the first invalid file, paths prefixed by its name
+/// throws  InvalidInput if the folder cannot be read or has no such file, with the problems of the
+///         first invalid file, paths prefixed by its name, or as the constructor does
 [[nodiscard]] std::shared_ptr<const Atlas> atlas_from(const std::filesystem::path& folder);
 
 }  // namespace sporeprint

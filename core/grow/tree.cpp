@@ -131,8 +131,8 @@ void keep_within(const Box& box, const Mesh& mesh, std::vector<PlacedLeaf>& leav
 /// Returns the mesh of the leaves at a level of detail. At coarse levels a leaf represents others
 /// near it: it is enlarged about its middle, not away from its twig, and the crown keeps its
 /// extent.
-Mesh leaves_of(const Tree& tree, const TreeParams& params) {
-    const LeafShape shape = shape_of(leaf_of(params));
+Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own_leaf) {
+    const LeafShape shape = shape_of(own_leaf);
     std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
     if (all.empty()) return {};
     const auto count = static_cast<double>(all.size());
@@ -186,13 +186,22 @@ Estimate estimate(const TreeSpec& spec) {
     return e;
 }
 
-TreeMeshes tree_meshes(const TreeSpec& spec) {
+LeafParams leaf_of(const TreeParams& params, const Atlas& atlas) {
+    if (const LeafPreset* preset = atlas.find_leaf(params.look.leaf.id))
+        return leaf_of(params, *preset);
+    IdChoice among_all = params.look.leaf;
+    among_all.among = atlas.leaf_ids();
+    throw InvalidInput("/leaf", not_allowed_message(in_quotes(params.look.leaf.id), among_all));
+}
+
+TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas) {
     const TreeParams& params = spec.params;
     require_valid(params);
+    const LeafParams leaf = leaf_of(params, atlas);
     static_cast<void>(estimate(spec));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
     refuse_beyond_bounds(tree);
-    TreeMeshes meshes{bark_of(tree, params.lod), leaves_of(tree, params)};
+    TreeMeshes meshes{bark_of(tree, params.lod), leaves_of(tree, params, leaf)};
     finish(meshes.bark, params);
     if (!meshes.leaves.positions.empty()) finish(meshes.leaves, params);
     return meshes;
@@ -218,11 +227,11 @@ std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
     });
 }
 
-Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageUrls& leaf_urls,
-                const ExecutionContext& execution) {
+Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
+                const ImageUrls& leaf_urls, const ExecutionContext& execution) {
     const TreeParams& params = spec.params;
     execution.observer(Step::build);
-    const TreeMeshes meshes = tree_meshes(spec);
+    const TreeMeshes meshes = tree_meshes(spec, atlas);
     throw_if_cancelled(execution);
     const std::string name = spec.preset.empty() ? "tree" : spec.preset;
     GlbScene scene;
@@ -240,7 +249,7 @@ Grown grow_tree(const TreeSpec& spec, const Extras& extras, const ImageUrls& lea
     std::shared_ptr<const ImageSet> leaf_images;
     if (leafy)
         leaf_images = attach_images(scene.materials[1], params.textures, leaf_urls, execution, [&] {
-            return painted_images(paint_of(leaf_of(params)), execution);
+            return painted_images(paint_of(leaf_of(params, atlas)), execution);
         });
     execution.observer(Step::pack);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes), meshes.triangles());

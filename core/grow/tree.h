@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "core/atlas/atlas.h"
 #include "core/grow/execution_context.h"
 #include "core/grow/product.h"
 #include "core/plant/tree_spec.h"
@@ -29,10 +30,15 @@ struct TreeMeshes {
     [[nodiscard]] std::size_t triangles() const { return bark.triangles() + leaves.triangles(); }
 };
 
+/// Returns the leaf of which a tree has many copies, from its preset in the atlas.
+///
+/// throws  InvalidInput (path "/leaf") if the atlas has no such leaf
+[[nodiscard]] LeafParams leaf_of(const TreeParams& params, const Atlas& atlas);
+
 /// Returns the meshes alone, in metres; the base of the trunk is at the origin.
 ///
-/// throws  InvalidInput, Impossible
-[[nodiscard]] TreeMeshes tree_meshes(const TreeSpec& spec);
+/// throws  InvalidInput, also (path "/leaf") if the atlas has no such leaf; Impossible
+[[nodiscard]] TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas);
 
 /// Returns the bounding box of both meshes.
 [[nodiscard]] Bounds bounds(const TreeMeshes& meshes);
@@ -54,8 +60,9 @@ struct TreeMeshes {
 /// extras     its image URLs are those of the bark
 /// leaf_urls  URLs of the images of its leaves, for Textures::linked
 /// returns    the GLB as shared slices: header with JSON, geometry and images of bark and leaves
-/// throws     InvalidInput, Impossible, GenerationError, Cancelled
-[[nodiscard]] Grown grow_tree(const TreeSpec& spec, const Extras& extras = {},
+/// throws     InvalidInput, also (path "/leaf") if the atlas has no such leaf; Impossible,
+///            GenerationError, Cancelled
+[[nodiscard]] Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras = {},
                               const ImageUrls& leaf_urls = {},
                               const ExecutionContext& execution = {});
 

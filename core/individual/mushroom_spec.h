@@ -2,24 +2,10 @@
 #pragma once
 
 #include "core/model/model.h"
+#include "core/params/shared_params.h"
 #include "core/silhouette/morph_set.h"
 
 namespace sporeprint {
-
-/// How the images are delivered.
-enum class Textures { embedded, linked, none };
-
-constexpr const char* name(Textures textures) {
-    switch (textures) {
-        case Textures::embedded:
-            return "embedded";
-        case Textures::linked:
-            return "linked";
-        case Textures::none:
-            return "none";
-    }
-    return nullptr;
-}
 
 /// The animation clip in the file.
 enum class Animation { none, growth };
@@ -33,9 +19,6 @@ constexpr const char* name(Animation animation) {
     }
     return nullptr;
 }
-
-/// The side of the LOD 0 atlas in texels.
-using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
 /// The query parameters of /v1/mushrooms. Unset optionals take the value of the species.
 struct MushroomParams {
@@ -64,23 +47,15 @@ struct MushroomParams {
                             .min = 0,
                             .max = 1,
                             .doc = "From button (0) through maturity (0.6) to decay (1)."});
-        visit(&P::size, Info{.name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."});
+        visit(&P::size, size_info);
         visit(&P::variation,
               Info{.name = "variation",
                    .min = 0,
                    .max = 1,
                    .doc = "How far individuals depart from their species' template."});
-        visit(&P::lod, Info{.name = "lod",
-                            .min = 0,
-                            .max = 3,
-                            .doc = "Level of detail: the same individual with fewer triangles and "
-                                   "smaller images."});
-        visit(&P::texture_size,
-              Info{.name = "texture_size",
-                   .unit = "texels",
-                   .doc = "Side of the image atlas at LOD 0; it halves with every level."});
-        visit(&P::textures, Info{.name = "textures",
-                                 .doc = "Images inside the file, linked by address, or none."});
+        visit(&P::lod, lod_info);
+        visit(&P::texture_size, texture_size_info);
+        visit(&P::textures, textures_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "What is left of the veils."});

@@ -67,13 +67,8 @@ class StageCheck {
 }  // namespace
 
 void Species::check(const std::string& path, std::vector<Problem>& problems) const {
-    if (id.empty()) report(problems, path + "/id", "is missing");
-    for (const char c : id.view())
-        if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_')) {
-            report(problems, path + "/id",
-                   "'" + id.string() + "' has other characters than a-z, 0-9 and _");
-            break;
-        }
+    if (const std::string message = invalid_id_message(id); !message.empty())
+        report(problems, path + "/id", message);
     if (stages.empty()) return report(problems, path + "/stages", "0 stages; at least 1 is needed");
     for (std::size_t i = 1; i < stages.size(); ++i) {
         const std::string stage = path + "/stages/" + std::to_string(i);

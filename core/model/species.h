@@ -1,5 +1,5 @@
 // A species: facts, growth stages and the spread of individuals. Each is one JSON file in
-// core/atlas.
+// core/atlas/species.
 #pragma once
 
 #include "core/model/model.h"

@@ -38,8 +38,8 @@ void canonical_members(const T& value, std::string& out) {
 }
 
 /// Appends all values of `value` in field order: "{seed:1,cap:{radius:0.04,},list:[1,2,],}".
-/// Numbers have their shortest round-trip digits, -0 is 0, text is a JSON string, an upload is
-/// "sha256:<hex>", a colour "#RRGGBB"; empty optionals and uploads are absent.
+/// Numbers have their shortest round-trip digits, -0 is 0, text is a JSON string, an enum or id is
+/// bare, an upload is "sha256:<hex>", a colour "#RRGGBB"; empty optionals and uploads are absent.
 template <class T>
 void canonical(const T& value, std::string& out) {
     if constexpr (Described<T> || is_variant<T>) {
@@ -60,6 +60,8 @@ void canonical(const T& value, std::string& out) {
             ']';
     } else if constexpr (NamedEnum<T>) {
         out += name(value);
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        out += value.id.view();
     } else if constexpr (std::is_same_v<T, bool>) {
         out += value ? "true" : "false";
     } else if constexpr (is_text<T>) {

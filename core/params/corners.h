@@ -60,6 +60,13 @@ void walk_corners(T& value, const Info& info, const std::string& path, const Use
             use(path);
         }
         value = original;
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        const T original = value;
+        for (const std::string& id : original.among) {
+            value.id = decltype(value.id)(std::string_view(id));
+            use(path);
+        }
+        value = original;
     } else if constexpr (std::is_same_v<T, bool>) {
         each({false, true});
     } else if constexpr (std::is_same_v<T, Colour>) {

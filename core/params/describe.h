@@ -173,6 +173,14 @@ std::string choice_names() {
     return text;
 }
 
+/// Returns the message "'elm' is not one of maple, oak" for a value that a choice does not allow.
+inline std::string not_allowed_message(const std::string& shown, const IdChoice& choice) {
+    if (choice.among.empty()) return shown + " is not an id of a-z, 0-9 and _";
+    std::string names;
+    for (const std::string& id : choice.among) names += (names.empty() ? "" : ", ") + id;
+    return shown + " is not one of " + names;
+}
+
 // --- Compile-time proof that a description is complete and sane -------------------------
 
 /// Converts to any type; it is only used in unevaluated operands.
@@ -457,6 +465,9 @@ void check(const T& value, const Info& info, const std::string& path,
         if (!T::allows(value.value))
             report(problems, path,
                    number_text(value.value) + " is not one of " + choice_names<T>());
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        if (!value.allows(value.id))
+            report(problems, path, not_allowed_message(in_quotes(value.id), value));
     } else if constexpr (NamedEnum<T>) {
         if (!enum_holds(value))
             report(problems, path,

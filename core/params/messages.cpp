@@ -132,6 +132,14 @@ std::string unknown_message(std::string_view name, std::span<const std::string> 
     return message;
 }
 
+std::string invalid_id_message(std::string_view id) {
+    if (id.empty()) return "is missing";
+    for (const char c : id)
+        if (!((c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_'))
+            return "'" + std::string(id) + "' has other characters than a-z, 0-9 and _";
+    return {};
+}
+
 std::string pointer_token(std::string_view key) {
     std::string out;
     for (const char c : printable(key)) {

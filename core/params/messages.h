@@ -40,6 +40,10 @@ std::string_view closest(std::string_view name, std::span<const std::string> can
 /// Returns "unknown parameter", with "; did you mean 'seed'?" if a known name is close.
 std::string unknown_message(std::string_view name, std::span<const std::string> known);
 
+/// Returns the message for an id that is empty or has other characters than a-z, 0-9 and _, or ""
+/// for a valid id.
+std::string invalid_id_message(std::string_view id);
+
 /// Returns one reference token of a JSON pointer (RFC 6901): '~' and '/' escaped, made printable.
 std::string pointer_token(std::string_view key);
 

@@ -129,6 +129,10 @@ void read(const Value& json, T& out, const Info& info, const std::string& path,
                     return;
                 }
         report(problems, path, shown(json) + " is not one of " + enum_names<T>());
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        if (!json.is_string() || !out.allows(json.as_string()))
+            return report(problems, path, not_allowed_message(shown(json), out));
+        out.id = decltype(out.id)(std::string_view(json.as_string()));
     } else if constexpr (std::is_same_v<T, bool>) {
         if (!json.is_bool()) return expected("true or false");
         out = json.as_bool();
@@ -241,6 +245,8 @@ Value write(const T& value) {
         return Value::Array{Value(value.from), Value(value.to)};
     } else if constexpr (NamedEnum<T>) {
         return name(value);
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        return value.id.view();
     } else if constexpr (std::is_same_v<T, bool>) {
         return value;
     } else if constexpr (is_text<T>) {

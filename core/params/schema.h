@@ -141,6 +141,12 @@ Value schema(const T& fallback, const Info& info) {
         for (int i = 0; const char* one = name(static_cast<T>(i)); ++i) names.push(one);
         out.set("type", "string").set("enum", std::move(names));
         out.set("default", write(fallback));
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        Value ids = Value::array();
+        for (const std::string& id : fallback.among) ids.push(id);
+        out.set("type", "string");
+        if (!ids.items().empty()) out.set("enum", std::move(ids));
+        out.set("default", write(fallback));
     } else if constexpr (std::is_same_v<T, bool>) {
         out.set("type", "boolean").set("default", fallback);
     } else if constexpr (is_text<T>) {

@@ -2,10 +2,13 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <array>
 #include <climits>
 #include <stdexcept>
 #include <utility>
+
+#include "core/params/messages.h"
 
 namespace sporeprint {
 namespace {
@@ -38,6 +41,12 @@ Upload uploaded(std::vector<std::uint8_t> bytes) {
     upload.sha256 = Text<64>(std::string_view(sha256_hex(bytes.data(), bytes.size())));
     upload.bytes = std::move(bytes);
     return upload;
+}
+
+bool IdChoice::allows(std::string_view candidate) const {
+    if (among.empty())
+        return candidate.size() <= decltype(id)::capacity && invalid_id_message(candidate).empty();
+    return std::find(among.begin(), among.end(), candidate) != among.end();
 }
 
 bool read_colour(std::string_view text, Colour& out) {

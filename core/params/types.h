@@ -1,4 +1,4 @@
-// Leaf types of parameters beyond numbers, booleans and enums: text, colour, range, choice, upload.
+// Leaf types of parameters beyond numbers, booleans and enums: text, colour, range, choices, upload.
 // Each is a literal type, so that defaults are proven at compile time.
 #pragma once
 
@@ -65,6 +65,19 @@ struct Choice {
     int value = values[0];
     static constexpr bool allows(double candidate) { return ((candidate == Values) || ...); }
     constexpr operator int() const { return value; }
+};
+
+/// One of several ids that are known at run time only, such as those of the leaves of an atlas. In
+/// JSON, text and schema it is like an enum.
+struct IdChoice {
+    Text<48> id;
+    /// The allowed ids, in the order of messages and of the schema; empty if any id is allowed. Their
+    /// owner, such as the atlas, must outlive every use of the choice.
+    std::span<const std::string> among{};
+
+    /// Returns true if `candidate` is an id and allowed.
+    bool allows(std::string_view candidate) const;
+    friend constexpr bool operator==(const IdChoice& a, const IdChoice& b) { return a.id == b.id; }
 };
 
 /// Bytes sent by the user, such as an image; base64 in JSON, "sha256:<hex>" in canonical text.

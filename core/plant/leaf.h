@@ -2,8 +2,8 @@
 #pragma once
 
 #include <cstdint>
-#include <span>
-#include <string_view>
+#include <string>
+#include <vector>
 
 #include "core/mesh/mesh.h"
 #include "core/plant/leaf_colour.h"
@@ -68,18 +68,34 @@ struct LeafShape {
 };
 static_assert(well_described<LeafShape>());
 
-/// A preset: a leaf to start from.
+/// A preset: a leaf to start from. Each is one JSON file in core/atlas/leaves.
 struct LeafPreset {
-    const char* id;
-    const char* name;
+    Text<48> id;
+    Text<48> name;
+    int rank = 1000;
     LeafShape shape;
     LeafPalette palette;
-};
 
-/// Returns the presets: maple, oak, birch, ivy, fern, shoot, needle.
-[[nodiscard]] std::span<const LeafPreset> leaf_presets();
-/// Returns a preset, or nullptr if there is none.
-[[nodiscard]] const LeafPreset* leaf_preset(std::string_view id);
+    static constexpr void fields(auto visit) {
+        using P = LeafPreset;
+        visit(&P::id,
+              Info{.name = "id", .doc = "Name in URLs: lower-case letters, digits, underscores."});
+        visit(&P::name, Info{.name = "name", .doc = "Name in lists, in English."});
+        visit(&P::rank, Info{.name = "rank",
+                             .min = 0,
+                             .max = 1000,
+                             .doc = "Place in lists, ascending; equal ranks are sorted by id."});
+        visit(&P::shape, Info{.name = "shape", .doc = "Veins, border and curvature."});
+        visit(&P::palette, Info{.name = "palette", .doc = "Colours through the year."});
+    }
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (const std::string message = invalid_id_message(id); !message.empty())
+            report(problems, path + "/id", message);
+        if (name.empty()) report(problems, path + "/name", "is missing");
+    }
+    bool operator==(const LeafPreset&) const = default;
+};
+static_assert(well_described<LeafPreset>());
 
 /// The chart of a leaf on its image: the upper face in the left half, the lower one in the right
 /// half, both seen from above, and below them a strip for the petiole.

@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/images.h"
 #include "core/plant/leaf.h"
-#include "core/surface/paint.h"
 
 namespace sporeprint {
 

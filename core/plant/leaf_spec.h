@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-#include "core/individual/mushroom_spec.h"
+#include "core/params/shared_params.h"
 #include "core/plant/leaf.h"
 
 namespace sporeprint {
@@ -24,13 +24,12 @@ struct LeafParams {
 
     static constexpr void fields(auto visit) {
         using P = LeafParams;
-        using M = MushroomParams;
         visit(&P::seed, Info{.name = "seed",
                              .min = 0,
                              .max = 4294967295.0,
                              .doc = "The individual: same seed and parameters, same leaf, bit for "
                                     "bit."});
-        visit(&P::size, info_of<M>("size"));
+        visit(&P::size, size_info);
         visit(&P::variation, Info{.name = "variation",
                                   .min = 0,
                                   .max = 1,
@@ -41,9 +40,9 @@ struct LeafParams {
                                .max = 1,
                                .doc = "From summer (0) through full autumn colour (0.5) to what "
                                       "lies on the ground (1)."});
-        visit(&P::lod, info_of<M>("lod"));
-        visit(&P::texture_size, info_of<M>("texture_size"));
-        visit(&P::textures, info_of<M>("textures"));
+        visit(&P::lod, lod_info);
+        visit(&P::texture_size, texture_size_info);
+        visit(&P::textures, textures_info);
         visit(&P::shape, Info{.name = ""});
         visit(&P::palette, Info{.name = ""});
     }

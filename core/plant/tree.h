@@ -5,7 +5,6 @@
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
-#include <string_view>
 #include <vector>
 
 #include "core/mesh/mesh.h"
@@ -270,19 +269,33 @@ inline constexpr std::size_t most_leaves = 100'000;
 /// up).
 [[nodiscard]] Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf);
 
-/// A preset: a tree to start from.
+/// A preset: a tree to start from. Each is one JSON file in core/atlas/trees.
 struct TreePreset {
-    const char* id;
-    const char* name;
-    const char* leaf;  ///< id of its leaf's preset
+    Text<48> id;
+    Text<48> name;
+    int rank = 1000;
+    IdChoice leaf;
     TreeShape shape;
     LeafStyle leaves;
     BarkStyle bark;
-};
 
-/// Returns the presets: broadleaf, birch, spruce, poplar, shrub, herb.
-[[nodiscard]] std::span<const TreePreset> tree_presets();
-/// Returns a preset, or nullptr if there is none.
-[[nodiscard]] const TreePreset* tree_preset(std::string_view id);
+    static constexpr void fields(auto visit) {
+        using P = TreePreset;
+        visit(&P::id, info_of<LeafPreset>("id"));
+        visit(&P::name, info_of<LeafPreset>("name"));
+        visit(&P::rank, info_of<LeafPreset>("rank"));
+        visit(&P::leaf, Info{.name = "leaf", .doc = "Id of the preset of its leaf."});
+        visit(&P::shape, Info{.name = "shape", .doc = "Trunk and branches."});
+        visit(&P::leaves, Info{.name = "leaves", .doc = "How leaves stand on their twigs."});
+        visit(&P::bark, Info{.name = "bark", .doc = "What is painted on trunk and branches."});
+    }
+    void check(const std::string& path, std::vector<Problem>& problems) const {
+        if (const std::string message = invalid_id_message(id); !message.empty())
+            report(problems, path + "/id", message);
+        if (name.empty()) report(problems, path + "/name", "is missing");
+    }
+    bool operator==(const TreePreset&) const = default;
+};
+static_assert(well_described<TreePreset>());
 
 }  // namespace sporeprint

@@ -7,12 +7,6 @@ namespace sporeprint {
 
 namespace {
 
-LeafKind kind_of(std::string_view id) {
-    for (int i = 0; const char* one = name(static_cast<LeafKind>(i)); ++i)
-        if (id == one) return static_cast<LeafKind>(i);
-    return LeafKind::oak;
-}
-
 // Largest number of triangles of a tree's foliage, unless each leaf already has only eight.
 constexpr std::size_t most_tree_foliage_triangles = 160'000;
 
@@ -21,7 +15,7 @@ constexpr std::size_t most_tree_foliage_triangles = 160'000;
 TreeParams params_of(const TreePreset& preset) {
     TreeParams params;
     params.look.shape = preset.shape;
-    params.look.leaf = kind_of(preset.leaf);
+    params.look.leaf = preset.leaf;
     params.look.leaves = preset.leaves;
     params.look.bark = preset.bark;
     return params;
@@ -35,8 +29,8 @@ TreePaint paint_of(const TreeParams& params) {
     return {{params.texture_size >> params.lod}, params.look.bark};
 }
 
-LeafParams leaf_of(const TreeParams& params) {
-    LeafParams leaf = params_of(*leaf_preset(name(params.look.leaf)));
+LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset) {
+    LeafParams leaf = params_of(preset);
     leaf.autumn = params.autumn;
     leaf.lod = params.lod;
     leaf.texture_size = params.texture_size;

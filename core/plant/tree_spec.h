@@ -4,39 +4,16 @@
 #include <cstdint>
 #include <string>
 
-#include "core/individual/mushroom_spec.h"
+#include "core/params/shared_params.h"
 #include "core/plant/leaf_spec.h"
 #include "core/plant/tree.h"
 
 namespace sporeprint {
 
-/// The kind of leaf of a tree: a preset of leaves.
-enum class LeafKind { maple, oak, birch, ivy, fern, shoot, needle };
-
-constexpr const char* name(LeafKind kind) {
-    switch (kind) {
-        case LeafKind::maple:
-            return "maple";
-        case LeafKind::oak:
-            return "oak";
-        case LeafKind::birch:
-            return "birch";
-        case LeafKind::ivy:
-            return "ivy";
-        case LeafKind::fern:
-            return "fern";
-        case LeafKind::shoot:
-            return "shoot";
-        case LeafKind::needle:
-            return "needle";
-    }
-    return nullptr;
-}
-
 /// The parameters that a preset sets.
 struct TreeLook {
     TreeShape shape;
-    LeafKind leaf = LeafKind::oak;
+    IdChoice leaf{"oak"};
     LeafStyle leaves;
     BarkStyle bark;
 
@@ -107,7 +84,7 @@ struct TreeSpec {
     TreeParams params;
 };
 
-/// Returns the parameters of a preset without overrides.
+/// Returns the parameters of a preset without overrides; other leaves are allowed as in the preset.
 [[nodiscard]] TreeParams params_of(const TreePreset& preset);
 
 /// Removes rows that no matrix of the spec uses, so that equal trees have equal canonical texts.
@@ -116,10 +93,12 @@ void without_unused_rows(TreeParams& params);
 /// Returns the part of the parameters that the images of bark depend on.
 [[nodiscard]] TreePaint paint_of(const TreeParams& params);
 
-/// Returns the leaf of which a tree has many copies: the preset of its kind without overrides, at
-/// the tree's moment of the year and with images of the tree's size. Its images are those of that
-/// leaf as a product of its own.
-[[nodiscard]] LeafParams leaf_of(const TreeParams& params);
+/// Returns the leaf of which a tree has many copies: a preset without overrides, at the tree's
+/// moment of the year and with images of the tree's size. Its images are those of that leaf as a
+/// product of its own.
+///
+/// preset  that of params.look.leaf
+[[nodiscard]] LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset);
 
 /// Returns the share of leaves that remains at a level of detail; these are enlarged to the same
 /// total area. With few leaves the share is larger, so that a herb does not end in a few huge

@@ -119,10 +119,6 @@ void paint_canvas(const PaintParams& params, const ImageRotations& turns, const 
 
 }  // namespace
 
-void in_turn(std::span<const std::function<void()>> pieces) {
-    for (const std::function<void()>& piece : pieces) piece();
-}
-
 RawImages paint_raw(const PaintParams& params, const Parallel& parallel,
                     const ImageRotations& turns) {
     Canvas canvas(checked_side(params));

@@ -1,11 +1,7 @@
 // Paints the image atlas of a mushroom: base colour, normal and occlusion-roughness-metalness.
 #pragma once
 
-#include <array>
-#include <functional>
-#include <span>
-
-#include "core/bytes.h"
+#include "core/images.h"
 #include "core/individual/gill_layout.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/individual/patches.h"
@@ -82,36 +78,6 @@ struct PaintParams {
     bool operator==(const PaintParams&) const = default;
 };
 
-enum class ImageKind { base_color, normal, orm };
-
-constexpr const char* name(ImageKind kind) {
-    switch (kind) {
-        case ImageKind::base_color:
-            return "base_color";
-        case ImageKind::normal:
-            return "normal";
-        case ImageKind::orm:
-            return "orm";
-    }
-    return nullptr;
-}
-
-/// Three encoded JPEG files, indexed by ImageKind.
-struct ImageSet {
-    std::array<Slice, 3> files;
-    [[nodiscard]] std::size_t bytes() const {
-        return files[0].size + files[1].size + files[2].size;
-    }
-};
-
-/// A function that runs independent tasks, possibly in parallel, returns when all are done and
-/// rethrows the exception of a failed one. The caller of core supplies it, since core has no
-/// threads of its own.
-using Parallel = std::function<void(std::span<const std::function<void()>>)>;
-
-/// Runs the tasks one after another.
-void in_turn(std::span<const std::function<void()>> pieces);
-
 /// Paints and encodes an atlas.
 ///
 /// params   its side is 16..2048 texels, a power of two (texture_size halved per LOD). The three
@@ -123,15 +89,6 @@ void in_turn(std::span<const std::function<void()>> pieces);
 /// cost     O(side^2)
 /// source   [Desbenoit2004] sec. 3.3 for the maps; hymenium occlusion by view factors of slots
 [[nodiscard]] ImageSet paint(const PaintParams& params, const Parallel& parallel = in_turn);
-
-/// The three images before encoding, indexed by ImageKind: `side` rows of `side` RGB texels each.
-struct RawImages {
-    int side = 0;
-    std::array<Bytes, 3> rgb;
-    [[nodiscard]] std::size_t bytes() const {
-        return rgb[0].size() + rgb[1].size() + rgb[2].size();
-    }
-};
 
 /// Encodes pixels as paint() does.
 [[nodiscard]] ImageSet encoded(const RawImages& images, const Parallel& parallel = in_turn);

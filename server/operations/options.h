@@ -91,7 +91,9 @@ struct Options {
                    .max = 1024,
                    .doc = "Files made at once; 0 takes as many as there are processors."});
         visit(&O::atlas,
-              Info{.name = "atlas", .doc = "Folder of templates that replace those compiled in."});
+              Info{.name = "atlas",
+                   .doc = "Folder of templates, of further kinds in subfolders, that replace "
+                          "those compiled in."});
         visit(&O::assets,
               Info{.name = "assets",
                    .doc = "Folder of the built page; found beside the program by itself."});

@@ -20,6 +20,7 @@
 #include "core/plant/leaf_spec.h"
 #include "core/plant/tree_spec.h"
 #include "tests/api/support.h"
+#include "tests/support/atlas.h"
 #include "tests/support/effort.h"
 
 namespace sporeprint::api {
@@ -234,23 +235,22 @@ void add_colonies(Cases& cases, const std::vector<std::string>& swept) {
 
 void add_plants(Cases& cases) {
     for (const LeafPreset& preset : leaf_presets()) {
-        const std::string of = "/v1/leaves/" + std::string(preset.id);
+        const std::string of = "/v1/leaves/" + preset.id.string();
         for (int lod = 0; lod < 4; ++lod)
             add_get(cases, levelled(of + ".glb", lod, "&textures=none"));
         add_get(cases, levelled(of + ".glb", 0, "&texture_size=1024"));
         add_get(cases, levelled(of + ".glb", 3, "&texture_size=128"));
         for (const int lod : {0, 3}) add_get(cases, levelled(of + ".json", lod));
         add_get(cases,
-                "/v1/surfaces/leaves/" + std::string(preset.id) + "/normal.jpg?texture_size=256");
+                "/v1/surfaces/leaves/" + preset.id.string() + "/normal.jpg?texture_size=256");
     }
     for (const TreePreset& preset : tree_presets()) {
-        const std::string of = "/v1/trees/" + std::string(preset.id);
+        const std::string of = "/v1/trees/" + preset.id.string();
         for (int lod = 0; lod < 4; ++lod)
             add_get(cases, levelled(of + ".glb", lod, "&textures=none"));
         add_get(cases, levelled(of + ".glb", 3, "&texture_size=1024"));
         for (const int lod : {0, 3}) add_get(cases, levelled(of + ".json", lod));
-        add_get(cases,
-                "/v1/surfaces/trees/" + std::string(preset.id) + "/normal.jpg?texture_size=512");
+        add_get(cases, "/v1/surfaces/trees/" + preset.id.string() + "/normal.jpg?texture_size=512");
     }
     cases.push_back({"own matrix", post("{\"preset\":\"broadleaf\",\"lod\":2,\"textures\":\"none\","
                                         "\"rows\":[[0.6,0.4],[0.3,0.4,0.3],[0.1,0.3,0.4,0.2]]}",

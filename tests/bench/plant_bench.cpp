@@ -6,6 +6,7 @@
 #include "core/plant/leaf_image.h"
 #include "core/plant/tree.h"
 #include "core/skeleton/skin.h"
+#include "tests/support/atlas.h"
 
 namespace {
 
@@ -13,7 +14,7 @@ using namespace sporeprint;
 
 void leaf(benchmark::State& state) {
     const LeafPreset& preset = leaf_presets()[static_cast<std::size_t>(state.range(0))];
-    state.SetLabel(preset.id);
+    state.SetLabel(preset.id.string());
     for (auto _ : state) benchmark::DoNotOptimize(leaf_mesh(preset.shape, 0).positions.data());
 }
 BENCHMARK(leaf)->DenseRange(0, 6)->Unit(benchmark::kMicrosecond);
@@ -21,7 +22,7 @@ BENCHMARK(leaf)->DenseRange(0, 6)->Unit(benchmark::kMicrosecond);
 // Both faces and the petiole, three images of 1024, not encoded.
 void leaf_painting(benchmark::State& state) {
     const LeafPreset& preset = leaf_presets()[static_cast<std::size_t>(state.range(0))];
-    state.SetLabel(preset.id);
+    state.SetLabel(preset.id.string());
     for (auto _ : state)
         benchmark::DoNotOptimize(
             leaf_images(preset.shape, preset.palette, 0.5, 1, 1024).rgb[0].data());

@@ -98,10 +98,10 @@ void read_as_colony(std::string_view text, const Atlas& atlas) {
 }
 
 template <class Kind>
-void read_as(std::string_view text) {
+void read_as(std::string_view text, const Atlas& atlas) {
     using Spec = typename Kind::Spec;
     api::ValidationErrors errors;
-    const Spec spec = api::read_preset<Kind>(text, errors).spec;
+    const Spec spec = api::read_preset<Kind>(atlas, text, errors).spec;
     if (!errors.empty()) return;
     const auto key = [](const Spec& one) { return api::key_of<Kind>(one, api::Product::glb, "v"); };
     Value own = write(spec.params);
@@ -109,14 +109,14 @@ void read_as(std::string_view text) {
     if (const Value* rows = own.find("rows"); rows && rows->items().empty()) own.erase("rows");
     own.set("preset", spec.preset);
     api::ValidationErrors none;
-    const Spec again = api::read_preset<Kind>(dump(own), none).spec;
+    const Spec again = api::read_preset<Kind>(atlas, dump(own), none).spec;
     expect(none.empty() && key(again) == key(spec), "it reads back from its own text");
     // It also reads back from its URL, if it has one.
-    const std::string address = api::canonical_address<Kind>(spec, api::Product::glb);
+    const std::string address = api::canonical_address<Kind>(atlas, spec, api::Product::glb);
     if (address.empty()) return;
     std::vector<Problem> problems;
     const api::Target target = api::split_target(address, problems);
-    const Spec there = api::read_preset<Kind>(spec.preset, target.query, none).spec;
+    const Spec there = api::read_preset<Kind>(atlas, spec.preset, target.query, none).spec;
     expect(problems.empty() && none.empty() && key(there) == key(spec),
            "it reads back from its URL");
 }
@@ -129,7 +129,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_as_mushroom(text, *atlas);
     read_as_morph(text, *atlas);
     read_as_colony(text, *atlas);
-    read_as<api::Leaves>(text);
-    read_as<api::Trees>(text);
+    read_as<api::Leaves>(text, *atlas);
+    read_as<api::Trees>(text, *atlas);
     return 0;
 }

@@ -88,7 +88,7 @@ fetch_all() { # server: path and SHA-256 of the answer to each request
     stop_server
 }
 paths=()
-for id in $(basename -s .json core/atlas/*.json); do
+for id in $(basename -s .json core/atlas/species/*.json); do
     paths+=("/v1/mushrooms/$id.glb?texture_size=256&seed=11"
         "/v1/mushrooms/$id.glb?texture_size=256&age=0.9&seed=12"
         "/v1/mushrooms/$id.glb?texture_size=128&age=0.15&lod=1&seed=13")

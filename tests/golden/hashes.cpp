@@ -44,6 +44,7 @@
 #include "core/math/random.h"
 #include "core/params/query.h"
 #include "core/params/value.h"
+#include "tests/support/atlas.h"
 
 namespace {
 
@@ -208,12 +209,13 @@ void add_leaves(Requests& requests) {
     for (const LeafPreset& preset : leaf_presets())
         for (const double autumn : {0.0, 0.5, 1.0})
             for (int lod = 0; lod < leaf_lods; ++lod) {
-                LeafSpec spec{preset.id, params_of(preset)};
+                LeafSpec spec{preset.id.string(), params_of(preset)};
                 spec.params.autumn = autumn;
                 spec.params.lod = lod;
                 spec.params.texture_size.value = small_side;
-                requests[line_of(std::string("leaf/") + preset.id, autumn, lod, small_side)] =
-                    [spec] { return grow_leaf(spec).glb; };
+                requests[line_of("leaf/" + preset.id.string(), autumn, lod, small_side)] = [spec] {
+                    return grow_leaf(spec).glb;
+                };
             }
 }
 
@@ -222,12 +224,13 @@ void add_trees(Requests& requests) {
     for (const TreePreset& preset : tree_presets())
         for (const std::uint32_t seed : {1u, 2u, 3u})
             for (int lod = 0; lod < tree_lods; ++lod) {
-                TreeSpec spec{preset.id, params_of(preset)};
+                TreeSpec spec{preset.id.string(), params_of(preset)};
                 spec.params.seed = seed;
                 spec.params.lod = lod;
                 spec.params.texture_size.value = small_side;
-                requests[line_of(std::string("tree/") + preset.id, seed, lod, small_side)] =
-                    [spec] { return grow_tree(spec).glb; };
+                requests[line_of("tree/" + preset.id.string(), seed, lod, small_side)] = [spec] {
+                    return grow_tree(spec, atlas()).glb;
+                };
             }
 }
 
@@ -418,7 +421,7 @@ bool print_line(const MushroomSpec& spec, const Atlas& atlas) {
 void print_leaf(std::uint32_t number) {
     Random random(number, 0x6c656166);
     const LeafPreset& preset = leaf_presets()[number % leaf_presets().size()];
-    LeafSpec spec{preset.id, params_of(preset)};
+    LeafSpec spec{preset.id.string(), params_of(preset)};
     LeafParams& params = spec.params;
     params.seed = random.bits();
     params.variation = random.uniform();
@@ -430,7 +433,7 @@ void print_leaf(std::uint32_t number) {
     params.shape.venation.border = random.uniform(1.0, 2.0);
     params.shape.venation.side_deg = random.uniform(15.0, 88.0);
     const std::string request =
-        std::string("leaf/") + preset.id + '?' + query_text(params, params_of(preset));
+        "leaf/" + preset.id.string() + '?' + query_text(params, params_of(preset));
     try {
         const Grown leaf = grow_leaf(spec);
         std::printf("%s %8zu  %s\n", hash_of(leaf.glb).c_str(), size_of(leaf.glb), request.c_str());
@@ -443,14 +446,14 @@ void print_leaf(std::uint32_t number) {
 void print_tree(std::uint32_t number) {
     Random random(number, 0x74726565);
     const TreePreset& preset = tree_presets()[number % tree_presets().size()];
-    TreeSpec spec{preset.id, params_of(preset)};
+    TreeSpec spec{preset.id.string(), params_of(preset)};
     TreeParams& params = spec.params;
     TreeShape& shape = params.look.shape;
     params.seed = random.bits();
     params.autumn = random.uniform();
     params.lod = static_cast<int>(random.bits() % tree_lods);
     params.texture_size.value = 128;
-    params.look.leaf = static_cast<LeafKind>(random.bits() % leaf_presets().size());
+    params.look.leaf.id = leaf_presets()[random.bits() % leaf_presets().size()].id;
     params.look.leaves.droop = random.uniform();
     params.look.bark.furrows = random.uniform();
     shape.width_rise = random.uniform(1.0, 3.0);
@@ -463,9 +466,9 @@ void print_tree(std::uint32_t number) {
     shape.variation = random.uniform();
     if (random.bits() % 4 == 0) shape.topology.growth = TreeGrowth::sampled;
     const std::string request =
-        std::string("tree/") + preset.id + '?' + query_text(params, params_of(preset));
+        "tree/" + preset.id.string() + '?' + query_text(params, params_of(preset));
     try {
-        const Grown tree = grow_tree(spec);
+        const Grown tree = grow_tree(spec, atlas());
         std::printf("%s %8zu  %s\n", hash_of(tree.glb).c_str(), size_of(tree.glb), request.c_str());
     } catch (const InvalidInput& refusal) {
         std::printf("refused  %s  %s\n", request.c_str(), refusal.what());

@@ -10,6 +10,7 @@
 #include <thread>
 
 #include "core/atlas/atlas.h"
+#include "core/params/reader.h"
 #include "server/operations/signatures.h"
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
@@ -93,6 +94,40 @@ TEST_F(Reload, ReplacesTemplatesAndKeepsCachesOfUnchangedOnes) {
     EXPECT_NE(ask(server, first).header("ETag"), tag);
     EXPECT_EQ(ask(server, second).status, 200);
     EXPECT_EQ(ask(server, "/readyz").status, 200);
+}
+
+TEST_F(Reload, ReplacesLeavesAndTrees) {
+    for (const char* kind : {"species", "leaves", "trees"})
+        fs::create_directories(folder / "atlas" / kind);
+    write("atlas/species/a.json", template_of("amanita_muscaria"));
+    const auto atlas = built_in_atlas();
+    const auto named = [](Value preset, const char* id, const char* leaf) {
+        preset.set("id", id);
+        if (*leaf) preset.set("leaf", leaf);
+        return dump(preset);
+    };
+    const Value leaf = sporeprint::write(*atlas->find_leaf("birch")),
+                tree = sporeprint::write(*atlas->find_tree("herb"));
+    write("atlas/leaves/elm.json", named(leaf, "elm", ""));
+    write("atlas/trees/elm.json", named(tree, "young_elm", "elm"));
+    const RealServer server(0, {"--atlas", folder / "atlas"}, folder / "log");
+    const std::string grown = "/v1/trees/young_elm.glb?lod=3&textures=none";
+    EXPECT_EQ(count(ask(server, "/v1/species").body, "\"scientific_name\""), 1u);
+    EXPECT_EQ(ask(server, grown).status, 200);
+    EXPECT_EQ(ask(server, grown + "&leaf=alder").status, 400);
+    EXPECT_EQ(ask(server, "/v1/leaves/elm.glb?lod=3&textures=none").status, 200);
+    EXPECT_EQ(ask(server, "/v1/trees/herb.glb").status, 404);
+
+    write("atlas/leaves/alder.json", named(leaf, "alder", ""));
+    server.hang_up();
+    EXPECT_TRUE(becomes_true([&] { return ask(server, grown + "&leaf=alder").status == 200; }));
+    EXPECT_EQ(count(ask(server, "/v1/leaves").body, "\"name\""), 2u);
+
+    write("atlas/trees/elm.json", named(tree, "young_elm", "adler"));
+    server.hang_up();
+    EXPECT_TRUE(becomes_true([&] { return count(server.log(), "reloading failed") == 1; }));
+    EXPECT_NE(server.log().find("did you mean 'alder'"), std::string::npos) << server.log();
+    EXPECT_EQ(ask(server, grown).status, 200);
 }
 
 TEST_F(Reload, KeepsTheStateAndNamesTheFileIfOneIsInvalid) {

@@ -23,6 +23,11 @@ void draw(T& value, const Info& info, Random& random) {
         int count = 0;
         while (name(static_cast<T>(count))) ++count;
         value = static_cast<T>(static_cast<int>(random.uniform() * count));
+    } else if constexpr (std::is_same_v<T, IdChoice>) {
+        if (value.among.empty()) return;
+        const auto count = static_cast<double>(value.among.size());
+        const std::string& id = value.among[static_cast<std::size_t>(random.uniform() * count)];
+        value.id = decltype(value.id)(std::string_view(id));
     } else if constexpr (is_choice<T>) {
         const auto count = static_cast<double>(std::size(T::values));
         value.value = T::values[static_cast<std::size_t>(random.uniform() * count)];

@@ -16,15 +16,10 @@
 #include "core/grow/mushroom.h"
 #include "core/problems.h"
 #include "tests/core/params/arbitrary.h"
+#include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
 namespace sporeprint {
-
-/// Returns the built-in atlas, read once.
-inline const Atlas& atlas() {
-    static const auto built_in = built_in_atlas();
-    return *built_in;
-}
 
 inline std::vector<std::string> species_ids() {
     std::vector<std::string> ids;
@@ -42,7 +37,7 @@ inline const Atlas& swept_atlas() {
         std::vector<std::string> texts;
         for (const AtlasEntry& entry : atlas().entries())
             if (!is_branched(entry.species)) texts.push_back(entry.json);
-        return Atlas(texts);
+        return Atlas({.species = texts});
     }();
     return swept;
 }

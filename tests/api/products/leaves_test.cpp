@@ -13,6 +13,7 @@
 #include "api/openapi.h"
 #include "api/products/trees.h"
 #include "tests/api/support.h"
+#include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 
 namespace sporeprint::api {
@@ -250,34 +251,36 @@ TEST(LeafSchema, SaysWhoseDefaultsAreThePresets) {
 RC_GTEST_PROP(LeafAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
     Random random(*rc::gen::arbitrary<std::uint32_t>(), 1);
     const auto& preset = leaf_presets()[random.bits() % leaf_presets().size()];
-    PresetRequest<Leaves> requested{{preset.id, params_of(preset)}, Product::glb, {}};
+    PresetRequest<Leaves> requested{{preset.id.string(), params_of(preset)}, Product::glb, {}};
     draw(requested.spec.params, Info{.name = ""}, random);
     std::vector<Problem> problems;
     check(requested.spec.params, Info{.name = ""}, "", problems);
     RC_PRE(problems.empty());
 
-    const std::string text = canonical_address<Leaves>(requested.spec, Product::glb);
+    const std::string text = canonical_address<Leaves>(atlas(), requested.spec, Product::glb);
     const Target target = split_target(text, problems);
     RC_ASSERT(problems.empty());
     ValidationErrors errors;
-    const auto read = read_preset<Leaves>(preset.id, target.query, errors);
+    const auto read = read_preset<Leaves>(atlas(), preset.id.string(), target.query, errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(read.spec.params == requested.spec.params);
-    RC_ASSERT(canonical_address<Leaves>(read.spec, Product::glb) == text);
+    RC_ASSERT(canonical_address<Leaves>(atlas(), read.spec, Product::glb) == text);
     Value json = write(requested.spec.params);
-    json.set("preset", preset.id);
-    const auto posted = read_preset<Leaves>(dump(json), errors);
+    json.set("preset", preset.id.string());
+    const auto posted = read_preset<Leaves>(atlas(), dump(json), errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(key_of<Leaves>(posted.spec, Product::glb, "v") ==
               key_of<Leaves>(requested.spec, Product::glb, "v"));
 
     // Its images are painted from their address alone.
     const LeafPaint paint = paint_of(requested.spec.params);
-    const std::string image = canonical_image_address<Leaves>(preset.id, ImageKind::orm, paint);
+    const std::string image =
+        canonical_image_address<Leaves>(atlas(), preset.id.string(), ImageKind::orm, paint);
     RC_ASSERT(image.size() <= longest_target);
     const Target there = split_target(image, problems);
     RC_ASSERT(problems.empty());
-    const auto surface = read_preset_surface<Leaves>(preset.id, "orm", there.query, errors);
+    const auto surface =
+        read_preset_surface<Leaves>(atlas(), preset.id.string(), "orm", there.query, errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(surface.paint == paint);
     RC_ASSERT(surface.kind == ImageKind::orm);

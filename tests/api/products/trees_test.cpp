@@ -13,6 +13,7 @@
 #include "api/openapi.h"
 #include "api/products/leaves.h"
 #include "tests/api/support.h"
+#include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 
 namespace sporeprint::api {
@@ -359,36 +360,38 @@ TEST(TreeSchema, SaysWhoseDefaultsAreThePresets) {
 RC_GTEST_PROP(TreeAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
     Random random(*rc::gen::arbitrary<std::uint32_t>(), 1);
     const auto& preset = tree_presets()[random.bits() % tree_presets().size()];
-    PresetRequest<Trees> requested{{preset.id, params_of(preset)}, Product::glb, {}};
+    PresetRequest<Trees> requested{{preset.id.string(), params_of(preset)}, Product::glb, {}};
     draw(requested.spec.params, Info{.name = ""}, random);
     without_unused_rows(requested.spec.params);
     std::vector<Problem> problems;
     check(requested.spec.params, Info{.name = ""}, "", problems);
     RC_PRE(problems.empty());
 
-    const std::string text = canonical_address<Trees>(requested.spec, Product::glb);
+    const std::string text = canonical_address<Trees>(atlas(), requested.spec, Product::glb);
     const Target target = split_target(text, problems);
     RC_ASSERT(problems.empty());
     ValidationErrors errors;
-    const auto read = read_preset<Trees>(preset.id, target.query, errors);
+    const auto read = read_preset<Trees>(atlas(), preset.id.string(), target.query, errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(read.spec.params == requested.spec.params);
-    RC_ASSERT(canonical_address<Trees>(read.spec, Product::glb) == text);
+    RC_ASSERT(canonical_address<Trees>(atlas(), read.spec, Product::glb) == text);
     Value json = write(requested.spec.params);
     if (requested.spec.params.look.shape.topology.rows.empty()) json.erase("rows");
-    json.set("preset", preset.id);
-    const auto posted = read_preset<Trees>(dump(json), errors);
+    json.set("preset", preset.id.string());
+    const auto posted = read_preset<Trees>(atlas(), dump(json), errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(key_of<Trees>(posted.spec, Product::glb, "v") ==
               key_of<Trees>(requested.spec, Product::glb, "v"));
 
     // Its images are painted from their address alone.
     const TreePaint paint = paint_of(requested.spec.params);
-    const std::string image = canonical_image_address<Trees>(preset.id, ImageKind::orm, paint);
+    const std::string image =
+        canonical_image_address<Trees>(atlas(), preset.id.string(), ImageKind::orm, paint);
     RC_ASSERT(image.size() <= longest_target);
     const Target there = split_target(image, problems);
     RC_ASSERT(problems.empty());
-    const auto surface = read_preset_surface<Trees>(preset.id, "orm", there.query, errors);
+    const auto surface =
+        read_preset_surface<Trees>(atlas(), preset.id.string(), "orm", there.query, errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(surface.paint == paint);
     RC_ASSERT(surface.kind == ImageKind::orm);

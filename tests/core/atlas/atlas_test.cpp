@@ -6,11 +6,13 @@
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/params/reader.h"
 #include "core/silhouette/morph_set.h"
 #include "core/silhouette/proof.h"
+#include "tests/support/atlas.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
@@ -33,6 +35,7 @@ class Folder {
     Folder& operator=(const Folder&) = delete;
 
     void write(const std::string& name, const std::string& text) const {
+        std::filesystem::create_directories((path_ / name).parent_path());
         std::ofstream(path_ / name, std::ios::binary) << text;
     }
     [[nodiscard]] const std::filesystem::path& path() const { return path_; }
@@ -195,26 +198,28 @@ TEST(Atlas, TheServedTemplateReadsBackAsTheSameSpecies) {
         std::vector<Problem> problems;
         EXPECT_EQ(read_json<Species>(entry.json, problems), entry.species);
         EXPECT_EQ(problems, std::vector<Problem>{});
-        const Atlas again({entry.json});
+        const Atlas again({.species = {entry.json}});
         EXPECT_EQ(again.entries()[0].hash, entry.hash);
         EXPECT_EQ(again.entries()[0].json, entry.json);
     }
 }
 
 TEST(Atlas, AnotherTemplateHasAnotherHash) {
-    const Atlas other({edited("boletus_edulis", "\"common_name\":\"", "\"common_name\":\"My ")});
+    const Atlas other(
+        {.species = {edited("boletus_edulis", "\"common_name\":\"", "\"common_name\":\"My ")}});
     EXPECT_NE(other.entries()[0].hash, atlas().find("boletus_edulis")->hash);
 }
 
 TEST(Atlas, ProblemsNameTheirSpecies) {
     const std::string boletus = atlas().find("boletus_edulis")->json;
     EXPECT_TRUE(names(refusal([&] {
-                          (void)Atlas({boletus, boletus});
+                          (void)Atlas({.species = {boletus, boletus}});
                       }),
                       "boletus_edulis:/id", "two templates"));
     const auto problems = refusal([&] {
-        (void)Atlas({edited("boletus_edulis", "\"spread\":{", "\"spread\":{\"speed\":1,"), "{}",
-                     edited("russula_vinosa", "\"season\":[", "\"season\":[0,")});
+        (void)Atlas(
+            {.species = {edited("boletus_edulis", "\"spread\":{", "\"spread\":{\"speed\":1,"), "{}",
+                         edited("russula_vinosa", "\"season\":[", "\"season\":[0,")}});
     });
     EXPECT_TRUE(names(problems, "boletus_edulis:/spread/speed"));
     EXPECT_TRUE(names(problems, "a template without id:/id", "missing"));
@@ -224,7 +229,7 @@ TEST(Atlas, ProblemsNameTheirSpecies) {
 TEST(Atlas, OrderOfTextsDoesNotMatter) {
     std::vector<std::string> texts;
     for (const AtlasEntry& entry : atlas().entries()) texts.insert(texts.begin(), entry.json);
-    const Atlas other(texts);
+    const Atlas other({.species = texts});
     for (std::size_t i = 0; i < other.entries().size(); ++i)
         EXPECT_EQ(other.entries()[i].species.id, atlas().entries()[i].species.id);
 }
@@ -253,6 +258,141 @@ TEST(Atlas, InvalidFoldersAndFilesAreNamed) {
     const auto problems = said();
     ASSERT_FALSE(problems.empty());
     EXPECT_NE(problems[0].path.find("broken.json:/stages/"), std::string::npos) << problems[0].path;
+}
+
+/// Returns the ids of leaves or trees, in their order.
+template <class Presets>
+std::vector<std::string> ids_of(const Presets& presets) {
+    std::vector<std::string> ids;
+    for (const auto& preset : presets) ids.push_back(preset.id.string());
+    return ids;
+}
+
+using Ids = std::vector<std::string>;
+
+/// Returns the JSON of a built-in leaf under another id.
+std::string leaf_json(const std::string& id, const std::string& like, int rank = 1000) {
+    return dump(write(*leaf_preset(like)).set("id", id).set("rank", rank));
+}
+
+/// Returns the JSON of a built-in tree under another id, with another leaf.
+std::string tree_json(const std::string& id, const std::string& like, const std::string& leaf,
+                      int rank = 1000) {
+    return dump(write(*tree_preset(like)).set("id", id).set("leaf", leaf).set("rank", rank));
+}
+
+TEST(Atlas, LeavesAndTreesStandByRank) {
+    EXPECT_TRUE(std::ranges::is_sorted(atlas().leaves(), {}, &LeafPreset::rank));
+    EXPECT_TRUE(std::ranges::is_sorted(atlas().trees(), {}, &TreePreset::rank));
+    EXPECT_EQ(atlas().leaves().front().id.view(), "maple");
+    EXPECT_EQ(atlas().trees().front().id.view(), "broadleaf");
+    EXPECT_TRUE(std::ranges::equal(atlas().leaf_ids(), ids_of(atlas().leaves())));
+    const Atlas own(
+        {.leaves = {leaf_json("b", "oak"), leaf_json("c", "ivy", 1), leaf_json("a", "fern")},
+         .trees = {tree_json("b", "herb", "c", 2), tree_json("a", "herb", "a", 3)}});
+    EXPECT_EQ(ids_of(own.leaves()), (Ids{"c", "a", "b"})) << "equal ranks by id";
+    EXPECT_EQ(ids_of(own.trees()), (Ids{"b", "a"}));
+}
+
+TEST(Atlas, FindsLeavesAndTreesByTheirOwnIds) {
+    ASSERT_NE(atlas().find_leaf("birch"), nullptr);
+    ASSERT_NE(atlas().find_tree("birch"), nullptr);
+    EXPECT_EQ(atlas().find("birch"), nullptr);
+    EXPECT_EQ(atlas().find_leaf("spruce"), nullptr);
+    EXPECT_EQ(atlas().find_tree("maple"), nullptr);
+    EXPECT_EQ(atlas().find_tree(""), nullptr);
+}
+
+TEST(Atlas, LeavesAndTreesReadBackFromTheirJson) {
+    AtlasTexts texts;
+    for (const LeafPreset& leaf : atlas().leaves()) texts.leaves.push_back(dump(write(leaf)));
+    for (const TreePreset& tree : atlas().trees()) texts.trees.push_back(dump(write(tree)));
+    Atlas again(texts);
+    EXPECT_TRUE(std::ranges::equal(again.leaves(), atlas().leaves()));
+    EXPECT_TRUE(std::ranges::equal(again.trees(), atlas().trees()));
+    EXPECT_EQ(again.leaf_text(), atlas().leaf_text());
+    const Atlas moved = std::move(again);
+    EXPECT_TRUE(moved.trees()[0].leaf.allows("needle"));
+    EXPECT_EQ(moved.trees()[0].leaf.among.data(), moved.leaf_ids().data());
+}
+
+TEST(Atlas, ProblemsOfLeavesAndTreesNameTheirId) {
+    const auto said = [](const AtlasTexts& texts) { return refusal([&] { (void)Atlas(texts); }); };
+    const std::string oak = leaf_json("oak", "oak");
+    EXPECT_TRUE(names(said({.leaves = {oak, oak}}), "oak:/id", "two templates"));
+    const std::string herb = tree_json("herb", "herb", "oak");
+    EXPECT_TRUE(names(said({.leaves = {oak}, .trees = {herb, herb}}), "herb:/id", "two templates"));
+    const auto leaves = said({.leaves = {R"({"id":"thin","name":"Thin","shape":{"length":9}})",
+                                         R"({"id":"My Leaf","name":"Mine"})", R"({"id":"bare"})",
+                                         R"({"name":"Nobody"})"}});
+    EXPECT_TRUE(names(leaves, "thin:/shape/length", "9 is outside"));
+    EXPECT_TRUE(names(leaves, "My Leaf:/id", "other characters than"));
+    EXPECT_TRUE(names(leaves, "bare:/name", "missing"));
+    EXPECT_TRUE(names(leaves, "a template without id:/id", "missing"));
+}
+
+TEST(Atlas, ATreeOfAnUnknownLeafIsRefused) {
+    const auto said = [](const std::string& leaf, const std::vector<std::string>& leaves) {
+        return refusal(
+            [&] { (void)Atlas({.leaves = leaves, .trees = {tree_json("t", "herb", leaf)}}); });
+    };
+    const std::vector<std::string> leaves{leaf_json("oak", "oak"), leaf_json("maple", "maple", 1)};
+    EXPECT_TRUE(names(said("oka", leaves), "t:/leaf",
+                      "'oka' is not one of maple, oak; did you mean 'oak'?"));
+    EXPECT_TRUE(names(said("zzzzzz", leaves), "t:/leaf", "'zzzzzz' is not one of maple, oak"));
+    EXPECT_TRUE(names(said("oak", {}), "t:/leaf", "no leaves"));
+    EXPECT_EQ(said("oak", leaves), std::vector<Problem>{});
+}
+
+TEST(Atlas, AFolderHoldsTheThreeKinds) {
+    const Folder folder;
+    const std::string boletus = atlas().find("boletus_edulis")->json;
+    folder.write("species/porcini.json", boletus);
+    const auto species_only = atlas_from(folder.path());
+    EXPECT_EQ(species_only->entries().size(), 1u);
+    EXPECT_EQ(ids_of(species_only->leaves()), ids_of(atlas().leaves()));
+    EXPECT_EQ(ids_of(species_only->trees()), ids_of(atlas().trees()));
+
+    folder.write("leaves/elm.json", leaf_json("elm", "birch"));
+    folder.write("leaves/notes.txt", "not a template");
+    folder.write("trees/elm.json", tree_json("elm", "shrub", "elm"));
+    folder.write("agaric.json", atlas().find("amanita_muscaria")->json);
+    const auto all = atlas_from(folder.path());
+    EXPECT_EQ(all->entries().size(), 2u) << "beside the subfolder, too";
+    EXPECT_EQ(ids_of(all->leaves()), Ids{"elm"});
+    EXPECT_EQ(ids_of(all->trees()), Ids{"elm"});
+
+    folder.write("again.json", boletus);
+    EXPECT_TRUE(
+        names(refusal([&] { (void)atlas_from(folder.path()); }), "boletus_edulis:/id", "two"));
+}
+
+TEST(Atlas, AFolderOfTreesKeepsTheBuiltInSpeciesAndLeaves) {
+    const Folder folder;
+    folder.write("trees/hedge.json", tree_json("hedge", "shrub", "ivy"));
+    const auto found = atlas_from(folder.path());
+    EXPECT_EQ(found->entries().size(), atlas().entries().size());
+    EXPECT_EQ(ids_of(found->leaves()), ids_of(atlas().leaves()));
+    EXPECT_EQ(ids_of(found->trees()), Ids{"hedge"});
+}
+
+TEST(Atlas, InvalidFilesOfLeavesAndTreesAreNamed) {
+    const Folder folder;
+    const auto said = [&] { return refusal([&] { (void)atlas_from(folder.path()); }); };
+    const auto first_path = [&] {
+        const auto problems = said();
+        return problems.empty() ? std::string() : problems[0].path;
+    };
+    folder.write("trees/broken.json", "{\"id\": ");
+    EXPECT_NE(first_path().find("trees/broken.json"), std::string::npos) << first_path();
+    folder.write("trees/broken.json", tree_json("x", "herb", "elm"));
+    EXPECT_TRUE(names(said(), "x:/leaf", "'elm' is not one of maple"));
+    folder.write("leaves/broken.json", R"({"id":"elm","name":"Elm","petals":5})");
+    EXPECT_NE(first_path().find("leaves/broken.json:/petals"), std::string::npos) << first_path();
+    // The leaves of a folder replace the built-in ones, which the built-in trees need.
+    std::filesystem::remove_all(folder.path() / "trees");
+    folder.write("leaves/broken.json", leaf_json("elm", "birch"));
+    EXPECT_TRUE(names(said(), "birch:/leaf", "'birch' is not one of elm"));
 }
 
 }  // namespace

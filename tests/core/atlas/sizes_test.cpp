@@ -86,7 +86,7 @@ const Atlas& straight_atlas() {
             }
             texts.push_back(std::move(json));
         }
-        return Atlas(texts);
+        return Atlas({.species = texts});
     }();
     return straight;
 }

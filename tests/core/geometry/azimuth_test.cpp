@@ -211,9 +211,9 @@ TEST(Azimuth, AmountsMixByWeightAndFormsStayThoseOfEachSpecies) {
     star.lobes = 6;
     star.lobe_depth = 0.6;
     star.lobe_sharpness = 1.0;
-    const Atlas forms({atlas().find("boletus_edulis")->json,
-                       renamed("disciotis_venosa", "fan", fan),
-                       renamed("disciotis_venosa", "star", star)});
+    const Atlas forms(
+        {.species = {atlas().find("boletus_edulis")->json, renamed("disciotis_venosa", "fan", fan),
+                     renamed("disciotis_venosa", "star", star)}});
     for (const int weight : {1, 250, 500, 999}) {
         const MushroomSpec order =
             mix_of({{"boletus_edulis", 1000 - weight}, {"fan", weight / 2 + 1}, {"star", weight}});
@@ -237,8 +237,8 @@ TEST(Azimuth, EachSpeciesKeepsItsOwnNumberOfLobes) {
     few.lobe_sharpness = 1.0;
     many.lobes = 9;
     many.lobe_depth = 0.4;
-    const Atlas forms(
-        {renamed("disciotis_venosa", "few", few), renamed("disciotis_venosa", "many", many)});
+    const Atlas forms({.species = {renamed("disciotis_venosa", "few", few),
+                                   renamed("disciotis_venosa", "many", many)}});
     const auto reach = [](const Individual& individual, double angle) {
         const AzimuthMap map(individual, details[0].columns);
         double product = 1.0;
@@ -281,8 +281,8 @@ TEST(Azimuth, WeightsMoveVerticesAndNeverTheirNumberAndNeverFar) {
     fan.lateral = 1.0;
     fan.lobes = 5;
     fan.lobe_depth = 0.3;
-    const Atlas forms(
-        {atlas().find("amanita_muscaria")->json, renamed("disciotis_venosa", "fan", fan)});
+    const Atlas forms({.species = {atlas().find("amanita_muscaria")->json,
+                                   renamed("disciotis_venosa", "fan", fan)}});
     Mesh before;
     for (int weight = 1; weight < 1000; weight += 37) {
         const Mesh mesh = swept_mesh(

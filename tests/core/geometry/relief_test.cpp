@@ -176,8 +176,8 @@ TEST(Relief, EachSpeciesKeepsItsOwnReliefScaledByItsWeight) {
         }
         return dump(write(species));
     };
-    const Atlas forms({atlas().find("amanita_muscaria")->json, carved("fine", 0.04, 20),
-                       carved("same", 0.08, 20), carved("wide", 0.06, 10)});
+    const Atlas forms({.species = {atlas().find("amanita_muscaria")->json, carved("fine", 0.04, 20),
+                                   carved("same", 0.08, 20), carved("wide", 0.06, 10)}});
     const Individual individual = resolve(
         mix_of({{"amanita_muscaria", 400}, {"fine", 100}, {"same", 200}, {"wide", 300}}), forms);
     ASSERT_EQ(individual.reliefs.size(), 2U) << "equal forms share one";

@@ -18,23 +18,23 @@
 namespace sporeprint {
 namespace {
 
-LeafSpec order_of(const char* preset, int lod = 0, int side = 128) {
+LeafSpec order_of(const std::string& preset, int lod = 0, int side = 128) {
     LeafSpec spec{preset, params_of(*leaf_preset(preset))};
     spec.params.lod = lod;
     spec.params.texture_size.value = side;
     return spec;
 }
 
-class EveryLeaf : public ::testing::TestWithParam<const char*> {};
+class EveryLeaf : public ::testing::TestWithParam<std::string> {};
 
-std::vector<const char*> ids() {
-    std::vector<const char*> found;
-    for (const LeafPreset& preset : leaf_presets()) found.push_back(preset.id);
+std::vector<std::string> ids() {
+    std::vector<std::string> found;
+    for (const LeafPreset& preset : leaf_presets()) found.push_back(preset.id.string());
     return found;
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, EveryLeaf, ::testing::ValuesIn(ids()),
-                         [](const auto& one) { return std::string(one.param); });
+                         [](const auto& one) { return one.param; });
 
 TEST_P(EveryLeaf, ReadsBackFromItsFile) {
     for (int lod = 0; lod < leaf_lods; ++lod) {

@@ -22,27 +22,27 @@
 namespace sporeprint {
 namespace {
 
-TreeSpec order_of(const char* preset, int lod = 0, int side = 128) {
+TreeSpec order_of(const std::string& preset, int lod = 0, int side = 128) {
     TreeSpec spec{preset, params_of(*tree_preset(preset))};
     spec.params.lod = lod;
     spec.params.texture_size.value = side;
     return spec;
 }
 
-class EveryTree : public ::testing::TestWithParam<const char*> {};
+class EveryTree : public ::testing::TestWithParam<std::string> {};
 
-std::vector<const char*> ids() {
-    std::vector<const char*> found;
-    for (const TreePreset& preset : tree_presets()) found.push_back(preset.id);
+std::vector<std::string> ids() {
+    std::vector<std::string> found;
+    for (const TreePreset& preset : tree_presets()) found.push_back(preset.id.string());
     return found;
 }
 
 INSTANTIATE_TEST_SUITE_P(Presets, EveryTree, ::testing::ValuesIn(ids()),
-                         [](const auto& one) { return std::string(one.param); });
+                         [](const auto& one) { return one.param; });
 
 TEST_P(EveryTree, ReadsBackFromItsFileAsTwoDrawCalls) {
     for (int lod = 0; lod < tree_lods; ++lod) {
-        const Grown tree = grow_tree(order_of(GetParam(), lod));
+        const Grown tree = grow_tree(order_of(GetParam(), lod), atlas());
         const ReadScene found = expect_scene(joined(tree.glb));
         ASSERT_EQ(found.meshes.size(), 1u);
         ASSERT_EQ(found.meshes[0].size(), 2u);
@@ -71,7 +71,7 @@ TEST_P(EveryTree, HasFewerTrianglesAtEveryLevelAndOneCrown) {
     Bounds finest;
     double before = 1e12, foliage = 0.0;
     for (int lod = 0; lod < tree_lods; ++lod) {
-        const TreeMeshes meshes = tree_meshes(order_of(GetParam(), lod));
+        const TreeMeshes meshes = tree_meshes(order_of(GetParam(), lod), atlas());
         const auto triangles = static_cast<double>(meshes.triangles());
         EXPECT_LT(triangles, 0.6 * before) << lod;
         before = triangles;
@@ -99,7 +99,7 @@ TEST_P(EveryTree, ReachesEquallyFarAtNeighbouringLevels) {
             TreeSpec spec = order_of(GetParam(), lod);
             spec.params.seed = seed;
             spec.params.autumn = std::min(1.0, 0.2 * (seed - 1.0));
-            const Bounds box = bounds(tree_meshes(spec));
+            const Bounds box = bounds(tree_meshes(spec, atlas()));
             const glm::vec3 size = box.max - box.min, last = before.max - before.min;
             for (int axis = 0; lod > 0 && axis < 3; ++axis)
                 EXPECT_NEAR(static_cast<double>(size[axis] / last[axis]), 1.0, 0.03)
@@ -115,7 +115,7 @@ TEST_P(EveryTree, IsEstimatedBeforeAnyWork) {
             TreeSpec spec = order_of(GetParam(), lod, 256);
             spec.params.seed = seed;
             const Estimate e = estimate(spec);
-            const Grown tree = grow_tree(spec);
+            const Grown tree = grow_tree(spec, atlas());
             EXPECT_GE(1.15 * static_cast<double>(e.vertices), static_cast<double>(tree.vertices));
             EXPECT_GE(1.15 * static_cast<double>(e.triangles), static_cast<double>(tree.triangles));
             EXPECT_LT(static_cast<double>(e.vertices), 4.5 * static_cast<double>(tree.vertices));
@@ -130,9 +130,9 @@ TEST_P(EveryTree, GivesEqualBytesTwiceAndWithManyThreads) {
     const TreeSpec spec = order_of(GetParam(), 1, 128);
     ExecutionContext threads;
     threads.parallel = in_threads;
-    const Bytes once = joined(grow_tree(spec).glb);
-    EXPECT_EQ(joined(grow_tree(spec, {}, {}, threads).glb), once);
-    EXPECT_EQ(joined(grow_tree(spec).glb), once);
+    const Bytes once = joined(grow_tree(spec, atlas()).glb);
+    EXPECT_EQ(joined(grow_tree(spec, atlas(), {}, {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_tree(spec, atlas()).glb), once);
 }
 
 TEST_P(EveryTree, LeavesSitOnItsTwigs) {
@@ -152,9 +152,9 @@ TEST_P(EveryTree, LeavesSitOnItsTwigs) {
 
 TEST(GrownTree, SizeScalesTheMeshes) {
     TreeSpec spec = order_of("herb");
-    const TreeMeshes one = tree_meshes(spec);
+    const TreeMeshes one = tree_meshes(spec, atlas());
     spec.params.size = 2.0;
-    const TreeMeshes twice = tree_meshes(spec);
+    const TreeMeshes twice = tree_meshes(spec, atlas());
     ASSERT_EQ(one.bark.positions.size(), twice.bark.positions.size());
     for (std::size_t i = 0; i < one.bark.positions.size(); ++i)
         ASSERT_EQ(2.0F * one.bark.positions[i], twice.bark.positions[i]);
@@ -165,32 +165,32 @@ TEST(GrownTree, SizeScalesTheMeshes) {
 TEST(GrownTree, SeedsDifferInShapeAndShareImages) {
     Keeper keeper;
     TreeSpec spec = order_of("shrub", 2);
-    const Bytes one = joined(grow_tree(spec, {}, {}, keeper.execution).glb);
+    const Bytes one = joined(grow_tree(spec, atlas(), {}, {}, keeper.execution).glb);
     EXPECT_EQ(keeper.made, 2) << "bark and leaves";
     spec.params.seed = 2;
     spec.params.look.shape.fork_deg = 40.0;
-    EXPECT_NE(joined(grow_tree(spec, {}, {}, keeper.execution).glb), one);
+    EXPECT_NE(joined(grow_tree(spec, atlas(), {}, {}, keeper.execution).glb), one);
     EXPECT_EQ(keeper.made, 2);
     // Only the leaf uses the cached images.
-    LeafSpec leaf{"maple", leaf_of(spec.params)};
+    LeafSpec leaf{"maple", leaf_of(spec.params, atlas())};
     (void)grow_leaf(leaf, {}, keeper.execution);
     EXPECT_EQ(keeper.made, 2);
     spec.params.autumn = 0.5;
-    (void)grow_tree(spec, {}, {}, keeper.execution);
+    (void)grow_tree(spec, atlas(), {}, {}, keeper.execution);
     EXPECT_EQ(keeper.made, 3) << "leaves turn, bark does not";
 }
 
 TEST(GrownTree, LinksImagesOrLeavesThemOut) {
     TreeSpec spec = order_of("poplar", 2);
     spec.params.textures = Textures::linked;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_tree(spec); }), "/textures", "linked"));
+    EXPECT_TRUE(names(refusal([&] { (void)grow_tree(spec, atlas()); }), "/textures", "linked"));
     const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
     const ReadScene found =
-        expect_scene(joined(grow_tree(spec, extras, {"/d.jpg", "/e.jpg", "/f.jpg"}).glb));
+        expect_scene(joined(grow_tree(spec, atlas(), extras, {"/d.jpg", "/e.jpg", "/f.jpg"}).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg", "/d.jpg",
                                                     "/e.jpg", "/f.jpg"}));
     spec.params.textures = Textures::none;
-    const ReadScene bare = expect_scene(joined(grow_tree(spec).glb));
+    const ReadScene bare = expect_scene(joined(grow_tree(spec, atlas()).glb));
     for (const ReadPrimitive& part : bare.meshes[0])
         EXPECT_EQ(part.attributes, (std::vector<std::string>{"NORMAL", "POSITION"}));
     EXPECT_TRUE(bare.images.empty());
@@ -199,7 +199,7 @@ TEST(GrownTree, LinksImagesOrLeavesThemOut) {
 TEST(GrownTree, WithoutLeavesItIsBarkAlone) {
     TreeSpec spec = order_of("birch", 2);
     spec.params.look.leaves.per_tip = 0;
-    const Grown tree = grow_tree(spec);
+    const Grown tree = grow_tree(spec, atlas());
     const ReadScene found = expect_scene(joined(tree.glb));
     EXPECT_EQ(found.meshes[0].size(), 1u);
     EXPECT_EQ(found.materials.size(), 1u);
@@ -210,11 +210,11 @@ TEST(GrownTree, WithoutLeavesItIsBarkAlone) {
 TEST(GrownTree, DescribesItselfInExtras) {
     TreeSpec spec = order_of("birch", 2);
     spec.params.look.shape.main_deg = 11.0;
-    const Value json = json_chunk(joined(grow_tree(spec, {"/v1/canonical", {}}).glb));
+    const Value json = json_chunk(joined(grow_tree(spec, atlas(), {"/v1/canonical", {}}).glb));
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/main_deg")->as_number(), 11.0);
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/rows/0/1")->as_number(), 0.3);
-    const TreeMeshes meshes = tree_meshes(spec);
+    const TreeMeshes meshes = tree_meshes(spec, atlas());
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
               static_cast<double>(meshes.triangles()));
     EXPECT_EQ(static_cast<float>(json.at_pointer("/asset/extras/bounds_m/max/1")->as_number()),
@@ -222,12 +222,22 @@ TEST(GrownTree, DescribesItselfInExtras) {
     EXPECT_EQ(json.at_pointer("/extensionsUsed"), nullptr);
 }
 
+TEST(GrownTree, AnUnknownLeafIsRefused) {
+    TreeSpec spec = order_of("herb", 2);
+    spec.params.look.leaf = {"elm"};
+    for (const auto grow : {+[](const TreeSpec& one) { (void)tree_meshes(one, atlas()); },
+                            +[](const TreeSpec& one) { (void)grow_tree(one, atlas()); }})
+        EXPECT_TRUE(names(refusal([&] { grow(spec); }), "/leaf", "'elm' is not one of maple, oak"));
+    spec.params.look.leaf = {"fern"};
+    EXPECT_FALSE(tree_meshes(spec, atlas()).leaves.positions.empty());
+}
+
 TEST(GrownTree, StopsWhenCancelled) {
     std::stop_source source;
     source.request_stop();
     ExecutionContext execution;
     execution.stop = source.get_token();
-    EXPECT_THROW((void)grow_tree(order_of("herb"), {}, {}, execution), Cancelled);
+    EXPECT_THROW((void)grow_tree(order_of("herb"), atlas(), {}, {}, execution), Cancelled);
 }
 
 TEST(GrownTree, ImpossibleParametersAreRefusedByNameBeforeAnyWork) {
@@ -254,7 +264,7 @@ TEST(GrownTree, ImpossibleParametersAreRefusedByNameBeforeAnyWork) {
     TreeSpec spec = order_of("broadleaf");
     spec.params.look.shape.topology.matrix = MatrixKind::own;
     spec.params.look.shape.topology.rows = {{0.5, 0.25}};
-    const auto found = refusal([&] { (void)grow_tree(spec); });
+    const auto found = refusal([&] { (void)grow_tree(spec, atlas()); });
     EXPECT_TRUE(names(found, "/rows/0", "sum to 0.75"));
     EXPECT_TRUE(names(found, "/order", "7 needs 6 rows"));
 }

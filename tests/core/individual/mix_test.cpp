@@ -43,7 +43,7 @@ Atlas with_twin(const std::string& id, const Change& change = {}) {
     twin.id = Text<48>("twin");
     if (change)
         for (Stage& stage : twin.stages) change(stage.model);
-    return Atlas({dump(write(species)), dump(write(twin))});
+    return Atlas({.species = {dump(write(species)), dump(write(twin))}});
 }
 
 Silhouette& drawn(Model& model) { return std::get<Swept>(model.shape).silhouette; }
@@ -106,7 +106,7 @@ TEST(Mix, OppositeAxesCancelAndTheStemKeepsItsLength) {
     other.id = Text<48>("twin");
     for (Stage& stage : species.stages) bend(0.15)(stage.model);
     for (Stage& stage : other.stages) bend(-0.15)(stage.model);
-    const Atlas twins({dump(write(species)), dump(write(other))});
+    const Atlas twins({.species = {dump(write(species)), dump(write(other))}});
     MushroomSpec spec = mix_of({{"mycena_sanguinolenta", 1000}});
     const Individual bent = resolve(spec, twins);
     spec.mix = {{"mycena_sanguinolenta", 500}, {"twin", 500}};

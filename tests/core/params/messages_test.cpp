@@ -77,6 +77,13 @@ TEST(Messages, ClosestFindsTheIntendedName) {
 
 TEST(Messages, PointersAreEscaped) { EXPECT_EQ(pointer_token("a/b~c\n"), "a~1b~0c?"); }
 
+TEST(Messages, IdsAreLowerCase) {
+    EXPECT_EQ(invalid_id_message("wych_elm_2"), "");
+    EXPECT_EQ(invalid_id_message(""), "is missing");
+    EXPECT_EQ(invalid_id_message("Elm"), "'Elm' has other characters than a-z, 0-9 and _");
+    EXPECT_NE(invalid_id_message("../elm"), "");
+}
+
 TEST(Messages, PercentEncodingKeepsUnreserved) {
     EXPECT_EQ(percent_encoded("aZ09-._~"), "aZ09-._~");
     EXPECT_EQ(percent_encoded("#D2 é&+%"), "%23D2%20%C3%A9%26%2B%25");

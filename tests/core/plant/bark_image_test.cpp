@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/plant/tree.h"
+#include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
 namespace sporeprint {

@@ -7,6 +7,7 @@
 
 #include "core/math/elementary.h"
 #include "core/plant/leaf.h"
+#include "tests/support/atlas.h"
 
 namespace sporeprint {
 namespace {

@@ -8,6 +8,7 @@
 #include <thread>
 
 #include "core/math/elementary.h"
+#include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
 namespace sporeprint {
@@ -23,7 +24,7 @@ glm::dvec3 texel(const RawImages& images, std::size_t image, const glm::dvec2& a
 
 TEST(LeafImage, ShowsThePaletteOnTheLamina) {
     for (const LeafPreset& preset : leaf_presets()) {
-        SCOPED_TRACE(preset.id);
+        SCOPED_TRACE(preset.id.string());
         const RawImages images = leaf_images(preset.shape, preset.palette, 0.0, 1, side);
         const Lamina lamina =
             lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, 0));

@@ -8,6 +8,7 @@
 #include "core/params/canonical.h"
 #include "core/params/corners.h"
 #include "core/params/query.h"
+#include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 #include "tests/support/effort.h"
 
@@ -17,12 +18,12 @@ namespace {
 TEST(LeafSpec, APresetHasItsOwnParametersByDefault) {
     for (const LeafPreset& preset : leaf_presets()) {
         const LeafParams params = params_of(preset);
-        EXPECT_EQ(params.shape, preset.shape) << preset.id;
-        EXPECT_EQ(params.palette, preset.palette) << preset.id;
+        EXPECT_EQ(params.shape, preset.shape) << preset.id.string();
+        EXPECT_EQ(params.palette, preset.palette) << preset.id.string();
         std::vector<Problem> problems;
         check(params, Info{.name = ""}, "", problems);
-        EXPECT_TRUE(problems.empty()) << preset.id;
-        EXPECT_EQ(query_text(params, params_of(preset)), "") << preset.id;
+        EXPECT_TRUE(problems.empty()) << preset.id.string();
+        EXPECT_EQ(query_text(params, params_of(preset)), "") << preset.id.string();
     }
 }
 
@@ -64,7 +65,7 @@ TEST(LeafSpec, IndividualsOfAnyShapeAreValid) {
 
 TEST(LeafSpec, WithoutVariationEveryIndividualIsTheShapeItself) {
     for (const LeafPreset& preset : leaf_presets())
-        EXPECT_EQ(individual_leaf(preset.shape, 7, 0.0), preset.shape) << preset.id;
+        EXPECT_EQ(individual_leaf(preset.shape, 7, 0.0), preset.shape) << preset.id.string();
     const LeafShape shape = leaf_preset("maple")->shape;
     EXPECT_NE(individual_leaf(shape, 7, 0.5), individual_leaf(shape, 8, 0.5));
 }
@@ -109,7 +110,7 @@ TEST(LeafSpec, CountsNeverExceedTheEstimate) {
     };
     for (const LeafPreset& preset : leaf_presets())
         for (int lod = 0; lod < leaf_lods; ++lod) {
-            SCOPED_TRACE(preset.id);
+            SCOPED_TRACE(preset.id.string());
             EXPECT_LT(expect_enough(preset.shape, lod), 200.0) << lod;
             LeafShape shape = preset.shape;
             walk_corners(shape, Info{.name = ""}, "", [&](const std::string&) {

@@ -9,6 +9,7 @@
 
 #include "core/math/elementary.h"
 #include "core/params/corners.h"
+#include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 #include "tests/support/effort.h"
 #include "tests/support/meshes.h"
@@ -36,10 +37,10 @@ double seen_area(const Mesh& mesh) {
 }
 
 TEST(Leaf, PresetsAreClosedShellsAtEveryLevelOfDetail) {
-    ASSERT_EQ(leaf_presets().size(), 7U);
+    ASSERT_FALSE(leaf_presets().empty());
     for (const LeafPreset& preset : leaf_presets()) {
-        SCOPED_TRACE(preset.id);
-        EXPECT_EQ(leaf_preset(preset.id), &preset);
+        SCOPED_TRACE(preset.id.string());
+        EXPECT_EQ(leaf_preset(preset.id.string()), &preset);
         std::size_t before = 2'600;  // about 2,000 triangles at LOD 0
         for (int lod = 0; lod < leaf_lods; ++lod) {
             const Mesh mesh = leaf_mesh(preset.shape, lod);
@@ -76,7 +77,8 @@ TEST(Leaf, LeavesAtTheEndsOfTheirRangesAreClosed) {
             check(shape, Info{.name = ""}, "", problems);
             if (!problems.empty()) return;
             for (const int lod : {0, 2})
-                EXPECT_TRUE(defects(leaf_mesh(shape, lod)).empty()) << preset.id << path << lod;
+                EXPECT_TRUE(defects(leaf_mesh(shape, lod)).empty())
+                    << preset.id.string() << path << lod;
         });
     }
 }
@@ -86,8 +88,8 @@ TEST(Leaf, FoliageKeepsTheAreaOfTheLamina) {
         const LeafShape flat = pressed(preset.shape);
         for (const std::size_t triangles : {8U, 12U, 16U}) {
             const Mesh mesh = foliage_leaf(flat, triangles);
-            EXPECT_LE(mesh.triangles(), triangles) << preset.id;
-            EXPECT_NEAR(seen_area(mesh) / lamina_area(flat), 1.0, 1e-4) << preset.id;
+            EXPECT_LE(mesh.triangles(), triangles) << preset.id.string();
+            EXPECT_NEAR(seen_area(mesh) / lamina_area(flat), 1.0, 1e-4) << preset.id.string();
         }
     }
 }
@@ -95,11 +97,12 @@ TEST(Leaf, FoliageKeepsTheAreaOfTheLamina) {
 // Levels of detail remove teeth and curves, but not lobes.
 TEST(Leaf, LevelsOfDetailHaveNearlyOneArea) {
     for (const LeafPreset& preset : leaf_presets()) {
-        if (std::string(preset.id) == "needle") continue;  // its petiole is as wide as its lamina
+        if (preset.id.view() == "needle") continue;  // its petiole is as wide as its lamina
         const LeafShape flat = pressed(preset.shape);
         const double finest = seen_area(leaf_mesh(flat, 0));
         for (int lod = 1; lod < leaf_lods; ++lod)
-            EXPECT_NEAR(seen_area(leaf_mesh(flat, lod)) / finest, 1.0, 0.15) << preset.id << lod;
+            EXPECT_NEAR(seen_area(leaf_mesh(flat, lod)) / finest, 1.0, 0.15)
+                << preset.id.string() << lod;
     }
 }
 
@@ -117,9 +120,11 @@ TEST(Leaf, NeighbouringLevelsOfDetailReachEquallyFar) {
                     const float bar = 0.03F * std::max({size.x, size.y, size.z});
                     for (int axis = 0; axis < 3; ++axis) {
                         EXPECT_NEAR(box.min[axis], before.min[axis], bar)
-                            << preset.id << ' ' << variation << ' ' << seed << ' ' << lod << axis;
+                            << preset.id.string() << ' ' << variation << ' ' << seed << ' ' << lod
+                            << axis;
                         EXPECT_NEAR(box.max[axis], before.max[axis], bar)
-                            << preset.id << ' ' << variation << ' ' << seed << ' ' << lod << axis;
+                            << preset.id.string() << ' ' << variation << ' ' << seed << ' ' << lod
+                            << axis;
                     }
                     before = box;
                 }

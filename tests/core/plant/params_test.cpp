@@ -10,6 +10,7 @@
 #include "core/params/reader.h"
 #include "core/params/schema.h"
 #include "core/plant/tree.h"
+#include "tests/support/atlas.h"
 
 namespace sporeprint {
 namespace {
@@ -32,12 +33,12 @@ void expect_described(const T& value) {
 
 TEST(PlantParams, OfEveryPresetAreReadBackAsTheyWereWritten) {
     for (const LeafPreset& preset : leaf_presets()) {
-        SCOPED_TRACE(preset.id);
+        SCOPED_TRACE(preset.id.string());
         expect_described(preset.shape);
         expect_described(preset.palette);
     }
     for (const TreePreset& preset : tree_presets()) {
-        SCOPED_TRACE(preset.id);
+        SCOPED_TRACE(preset.id.string());
         expect_described(preset.shape);
         expect_described(preset.leaves);
     }

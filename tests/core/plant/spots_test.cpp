@@ -5,6 +5,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/mesh/measure.h"
+#include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
 namespace sporeprint {

@@ -4,10 +4,12 @@
 
 #include <cmath>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "core/params/canonical.h"
 #include "core/params/query.h"
+#include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
 namespace sporeprint {
@@ -16,23 +18,28 @@ namespace {
 TEST(TreeSpec, APresetHasItsOwnParametersByDefault) {
     for (const TreePreset& preset : tree_presets()) {
         const TreeParams params = params_of(preset);
-        EXPECT_EQ(params.look.shape, preset.shape) << preset.id;
-        EXPECT_EQ(params.look.leaves, preset.leaves) << preset.id;
-        EXPECT_EQ(params.look.bark, preset.bark) << preset.id;
-        EXPECT_STREQ(name(params.look.leaf), preset.leaf);
-        EXPECT_EQ(problems_in(params), std::vector<Problem>{}) << preset.id;
-        EXPECT_EQ(query_text(params, params_of(preset)), "") << preset.id;
+        EXPECT_EQ(params.look.shape, preset.shape) << preset.id.string();
+        EXPECT_EQ(params.look.leaves, preset.leaves) << preset.id.string();
+        EXPECT_EQ(params.look.bark, preset.bark) << preset.id.string();
+        EXPECT_EQ(params.look.leaf, preset.leaf);
+        EXPECT_EQ(problems_in(params), std::vector<Problem>{}) << preset.id.string();
+        EXPECT_EQ(query_text(params, params_of(preset)), "") << preset.id.string();
         TreeParams same = params;
         without_unused_rows(same);
-        EXPECT_EQ(same, params) << preset.id << " keeps only rows that it uses";
+        EXPECT_EQ(same, params) << preset.id.string() << " keeps only rows that it uses";
     }
 }
 
-TEST(TreeSpec, KindsOfLeavesAreThePresetsOfLeaves) {
-    std::size_t kinds = 0;
-    for (; const char* one = name(static_cast<LeafKind>(kinds)); ++kinds)
-        EXPECT_STREQ(one, leaf_presets()[kinds].id);
-    EXPECT_EQ(kinds, leaf_presets().size());
+TEST(TreeSpec, AnUnknownLeafIsReportedWithTheLeavesOfTheAtlas) {
+    TreeParams params = params_of(*tree_preset("birch"));
+    params.look.leaf.id = "elm";
+    EXPECT_TRUE(names(problems_in(params), "/leaf", "'elm' is not one of maple, oak, birch"));
+    std::vector<Problem> problems;
+    const std::pair<std::string, std::string> pair{"leaf", "elm"};
+    params = params_of(*tree_preset("birch"));
+    read_query({&pair, 1}, params, problems);
+    EXPECT_TRUE(names(problems, "leaf", "'elm' is not one of maple, oak"));
+    EXPECT_EQ(params.look.leaf.id.view(), "birch");
 }
 
 TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
@@ -42,10 +49,11 @@ TEST(TreeSpec, ImagesDoNotDependOnParametersOfTheShape) {
     other.size = 2.0;
     other.look.shape.fork_deg = 50.0;
     other.look.leaves.per_tip = 1;
-    other.look.leaf = LeafKind::maple;
+    other.look.leaf.id = "maple";
     other.autumn = 0.5;
     EXPECT_EQ(paint_of(other), paint_of(params));
-    EXPECT_NE(paint_of(leaf_of(other)), paint_of(leaf_of(params)));
+    EXPECT_NE(paint_of(leaf_of(other, *leaf_preset("maple"))),
+              paint_of(leaf_of(params, *leaf_preset("birch"))));
     other.lod = 2;
     EXPECT_EQ(paint_of(other).texture_size.value, 256);
     other.lod = 0;
@@ -63,7 +71,7 @@ TEST(TreeSpec, UsesTheImagesOfItsLeafAlone) {
     alone.autumn = 0.4;
     alone.texture_size.value = 256;
     alone.lod = 1;
-    EXPECT_EQ(paint_of(leaf_of(params)), paint_of(alone));
+    EXPECT_EQ(paint_of(leaf_of(params, *leaf_preset("oak"))), paint_of(alone));
 }
 
 TEST(TreeSpec, LevelsOfDetailHaveFewerLeavesOfFewerTriangles) {
@@ -120,7 +128,7 @@ TEST(TreeSpec, EveryErrorOfAMatrixIsNamedByItsRow) {
 
 TEST(TreeSpec, OrdersAreExpectedAsTheyGrow) {
     for (const TreePreset& preset : tree_presets()) {
-        SCOPED_TRACE(preset.id);
+        SCOPED_TRACE(preset.id.string());
         const std::vector<ExpectedOrder> expected = expected_orders(preset.shape);
         double all = 0.0, grown = 0.0, tips = 0.0;
         constexpr std::uint32_t seeds = 8;

@@ -12,6 +12,7 @@
 #include "core/math/elementary.h"
 #include "core/mesh/measure.h"
 #include "core/params/corners.h"
+#include "tests/support/atlas.h"
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
 
@@ -276,9 +277,9 @@ TEST(Tree, EvenAxesAreEquallyLong) {
 
 TEST(Tree, BarkIsClosedAtEveryLevelOfDetail) {
     for (const TreePreset& preset : tree_presets()) {
-        SCOPED_TRACE(preset.id);
-        EXPECT_EQ(tree_preset(preset.id), &preset);
-        ASSERT_NE(leaf_preset(preset.leaf), nullptr);
+        SCOPED_TRACE(preset.id.string());
+        EXPECT_EQ(tree_preset(preset.id.string()), &preset);
+        ASSERT_NE(leaf_preset(preset.leaf.id), nullptr);
         const Tree tree = grown_tree(preset.shape, 1);
         std::size_t before = 400'000;
         for (int lod = 0; lod < tree_lods; ++lod) {
@@ -327,7 +328,7 @@ TEST(Foliage, LeavesHaveTheRequestedNumberAndFewTriangles) {
     const std::vector<PlacedLeaf> leaves = placed_leaves(tree, preset.leaves, 1);
     EXPECT_EQ(leaves.size(),
               tree.ramification.leaves() * static_cast<std::size_t>(preset.leaves.per_tip));
-    const Mesh leaf = foliage_leaf(leaf_preset(preset.leaf)->shape);
+    const Mesh leaf = foliage_leaf(leaf_preset(preset.leaf.id)->shape);
     const Mesh merged = merged_leaves(leaves, leaf);
     EXPECT_LE(merged.triangles(), 16 * leaves.size());
     EXPECT_TRUE(defects(merged).empty());
@@ -353,7 +354,7 @@ TEST(Foliage, ThinningNestsAndKeepsTheArea) {
     const TreePreset& preset = *tree_preset("shrub");
     const std::vector<PlacedLeaf> leaves =
         placed_leaves(grown_tree(preset.shape, 1), preset.leaves, 1);
-    const Mesh leaf = foliage_leaf(leaf_preset(preset.leaf)->shape, 8);
+    const Mesh leaf = foliage_leaf(leaf_preset(preset.leaf.id)->shape, 8);
     const double whole = area(merged_leaves(leaves, leaf));
     for (const double share : {0.5, 0.25, 0.06}) {
         const std::vector<PlacedLeaf> fewer = thinned(leaves, share);

@@ -9,6 +9,7 @@
 
 #include "core/math/elementary.h"
 #include "core/plant/leaf.h"
+#include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
@@ -201,8 +202,8 @@ TEST(Venation, BordersOfPresetsAreSimpleAtEveryLevelOfDetail) {
         for (int lod = 0; lod < leaf_lods; ++lod) {
             const std::vector<glm::dvec2> border =
                 border_of(lamina_of(preset.shape.venation, leaf_steps(preset.shape.venation, lod)));
-            EXPECT_EQ(meetings(border), 0U) << preset.id << ", " << lod;
-            EXPECT_GT(area(border), 0.0) << preset.id << ", " << lod;
+            EXPECT_EQ(meetings(border), 0U) << preset.id.string() << ", " << lod;
+            EXPECT_GT(area(border), 0.0) << preset.id.string() << ", " << lod;
         }
 }
 

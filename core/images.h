@@ -1,0 +1,54 @@
+// Images before and after encoding, and the function that runs independent tasks in parallel.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <functional>
+#include <span>
+
+#include "core/bytes.h"
+
+namespace sporeprint {
+
+enum class ImageKind { base_color, normal, orm };
+
+constexpr const char* name(ImageKind kind) {
+    switch (kind) {
+        case ImageKind::base_color:
+            return "base_color";
+        case ImageKind::normal:
+            return "normal";
+        case ImageKind::orm:
+            return "orm";
+    }
+    return nullptr;
+}
+
+/// The three images before encoding, indexed by ImageKind: `side` rows of `side` RGB texels each.
+struct RawImages {
+    int side = 0;
+    std::array<Bytes, 3> rgb;
+    [[nodiscard]] std::size_t bytes() const {
+        return rgb[0].size() + rgb[1].size() + rgb[2].size();
+    }
+};
+
+/// Three encoded JPEG files, indexed by ImageKind.
+struct ImageSet {
+    std::array<Slice, 3> files;
+    [[nodiscard]] std::size_t bytes() const {
+        return files[0].size + files[1].size + files[2].size;
+    }
+};
+
+/// A function that runs independent tasks, possibly in parallel, returns when all are done and
+/// rethrows the exception of a failed one. The caller of core supplies it, since core has no
+/// threads of its own.
+using Parallel = std::function<void(std::span<const std::function<void()>>)>;
+
+/// Runs the tasks one after another.
+inline void in_turn(std::span<const std::function<void()>> tasks) {
+    for (const std::function<void()>& task : tasks) task();
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,40 @@
+// Parameters that all products share: scale, level of detail and images.
+#pragma once
+
+#include "core/params/describe.h"
+
+namespace sporeprint {
+
+/// How the images are delivered.
+enum class Textures { embedded, linked, none };
+
+constexpr const char* name(Textures textures) {
+    switch (textures) {
+        case Textures::embedded:
+            return "embedded";
+        case Textures::linked:
+            return "linked";
+        case Textures::none:
+            return "none";
+    }
+    return nullptr;
+}
+
+/// The side of the LOD 0 atlas in texels.
+using TextureSize = Choice<128, 256, 512, 1024, 2048>;
+
+inline constexpr Info size_info{
+    .name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."};
+inline constexpr Info lod_info{
+    .name = "lod",
+    .min = 0,
+    .max = 3,
+    .doc = "Level of detail: the same individual with fewer triangles and smaller images."};
+inline constexpr Info texture_size_info{
+    .name = "texture_size",
+    .unit = "texels",
+    .doc = "Side of the image atlas at LOD 0; it halves with every level."};
+inline constexpr Info textures_info{.name = "textures",
+                                    .doc = "Images inside the file, linked by address, or none."};
+
+}  // namespace sporeprint
