@@ -148,17 +148,18 @@ void RequestHandler::respond(const std::shared_ptr<PendingRequest>& pending) {
     respond(state, pending, checked, false);
 }
 
+std::uint64_t RequestHandler::work_of_reading(const CheckedRequest& checked) const {
+    return budgets_ && !checked.request->body.empty()
+               ? api::Service::cost_of_reading(*checked.request, *checked.routed).work()
+               : 0;
+}
+
 void RequestHandler::respond(const StatePointer& state,
                              const std::shared_ptr<PendingRequest>& pending, CheckedRequest checked,
                              bool correspondence_ready) {
     api::Service& service = *state->service;
     const api::Request& request = *checked.request;
-    // plan() has to read the body before the cost of the job is known. This work is charged even if
-    // the request is refused.
-    const std::uint64_t reading =
-        budgets_ && !correspondence_ready && !request.body.empty()
-            ? api::Service::cost_of_reading(request, *checked.routed).work()
-            : 0;
+    const std::uint64_t reading = correspondence_ready ? 0 : work_of_reading(checked);
     if (reading > expensive_reading)
         if (const auto missing = budgets_->spend(client_of(pending->client()), 0, Clock::now());
             missing > missing.zero())
@@ -208,19 +209,25 @@ void RequestHandler::respond(const StatePointer& state,
     }
     pending->wait(
         [this, state, pending, checked, ticket = *ticket](PendingRequest::CancelReason reason) {
-            if (!single_flight_.cancel(ticket)) return;  // it has completed
-            const bool disconnected = reason == PendingRequest::CancelReason::disconnected;
-            metrics_.rejected(disconnected ? "left" : "deadline");
-            if (disconnected) {
-                api::Response nobody;
-                nobody.status = client_left;
-                return pending->reply(std::move(nobody));
-            }
-            reply(pending, checked,
-                  state->service->problem(pending->request(), 504,
-                                          "this took longer than a request may"));
+            // False: it has completed.
+            if (single_flight_.cancel(ticket)) reply_cancelled(*state, pending, checked, reason);
         });
     if (is_warm_up) proceed();
+}
+
+void RequestHandler::reply_cancelled(const AppState& state,
+                                     const std::shared_ptr<PendingRequest>& pending,
+                                     const CheckedRequest& checked,
+                                     PendingRequest::CancelReason reason) {
+    const bool disconnected = reason == PendingRequest::CancelReason::disconnected;
+    metrics_.rejected(disconnected ? "left" : "deadline");
+    if (disconnected) {
+        api::Response nobody;
+        nobody.status = client_left;
+        return pending->reply(std::move(nobody));
+    }
+    reply(pending, checked,
+          state.service->problem(pending->request(), 504, "this took longer than a request may"));
 }
 
 void RequestHandler::reply(const std::shared_ptr<PendingRequest>& pending,

@@ -124,6 +124,13 @@ class RequestHandler {
     /// correspondence_ready  true after a warm-up job of this request
     void respond(const StatePointer& state, const std::shared_ptr<PendingRequest>& pending,
                  CheckedRequest checked, bool correspondence_ready);
+    /// Responds to a request whose job was cancelled, unless its client has disconnected.
+    void reply_cancelled(const AppState& state, const std::shared_ptr<PendingRequest>& pending,
+                         const CheckedRequest& checked, PendingRequest::CancelReason reason);
+    /// Returns the cost of reading the body of a request, which plan() has to do before the cost of
+    /// the job is known, so that it is charged even if the request is refused. Microseconds of work;
+    /// 0 without budgets.
+    [[nodiscard]] std::uint64_t work_of_reading(const CheckedRequest& checked) const;
     /// Sends a response of the service after adapting it to this client and its signature.
     void reply(const std::shared_ptr<PendingRequest>& pending, const CheckedRequest& checked,
                api::Response response) const;

@@ -48,6 +48,22 @@ bool takes_gzip_of_glb(const Request& request, std::string_view type, const std:
            (header_list(request, "If-Range") && if_range_matches(request, gzip_etag(etag)));
 }
 
+/// Returns the headers of every response about a resource.
+///
+/// linked_elsewhere  true if its links differ from those of its canonical URL
+Response resource_head(const Context& context, const Resource& resource, const std::string& etag,
+                       bool versioned, bool linked_elsewhere) {
+    Response head;
+    head.headers = {{"Content-Type", resource.type},
+                    {"ETag", etag},
+                    {"Cache-Control", cache_control(versioned)},
+                    {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
+    if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_urls)
+        head.headers.emplace_back("Content-Location", context.responses.link(with_version(
+                                                          resource.address, resource.version)));
+    return head;
+}
+
 /// The cached representation of a resource that may have a gzip variant.
 struct Found {
     /// The representation to send if it is cached, else the identity.
@@ -102,6 +118,54 @@ Job gzip_job(Store& store, CachedResponse cached, const Key& key, bool versioned
                .delivery = with_cache_control(versioned)};
 }
 
+/// Returns the job that generates a resource which is not cached.
+///
+/// head  its headers, without Cache-Control
+/// cost  of generating it; nothing if that is unknown until its correspondence is computed
+Job generation_job(Store& store, Resource resource, Response head, const std::optional<Cost>& cost,
+                   bool takes_gzip, bool versioned) {
+    const Cost estimate = cost ? *cost : *resource.guess + resource.search;
+    const Cost compressing = takes_gzip ? gzip_cost_of_glb(estimate) : Cost{};
+    auto run = [&store, takes_gzip,
+                estimate_cost = cost ? nullptr : std::move(resource.estimate_cost),
+                make = std::move(resource.make), head = std::move(head), key = resource.key](
+                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
+        Response response = head;
+        const auto finished = [&](std::string status) {
+            if (header_of(response, "Content-Type") == glb_type && is_worth_gzip(response.body)) {
+                set_header(response, "Vary", "Accept-Encoding");
+                if (takes_gzip) response.gzipped = gzip_glb(response.body, stop, parallel);
+            }
+            response.is_stored = true;
+            if (!status.empty()) status += ", ";
+            const bool stored =
+                store.responses.fits(weight_of(response) + key.size() + entry_overhead);
+            set_header(response, "Cache-Status",
+                       status + cache_member("sporeprint", false, stored));
+            return std::move(response);
+        };
+        // A stored file is possible and within its budget.
+        if (store.directory)
+            if (std::optional<Slice> written = store.directory->find(key)) {
+                response.body = {*std::move(written)};
+                return finished(cache_member("sporeprint-store", true, false));
+            }
+        JobContext job_context(store, stop, observer, parallel);
+        if (estimate_cost) {
+            observer(Step::resolve);
+            static_cast<void>(estimate_cost(job_context.execution().caches));
+        }
+        response.body = make(job_context);
+        ++store.counters.generated;
+        if (store.directory) store.directory->insert(key, response.body);
+        return finished(job_context.cache_status());
+    };
+    return Job{.key = std::move(resource.key),
+               .cost = estimate + compressing,
+               .run = std::move(run),
+               .delivery = with_cache_control(versioned)};
+}
+
 /// Returns the cost of generating a resource. Adds what is impossible to `errors`, with the names
 /// that the client uses.
 Cost weighed(const Request& request, const Resource& resource, const Caches& caches,
@@ -118,6 +182,22 @@ Cost weighed(const Request& request, const Resource& resource, const Caches& cac
         throw;
     }
     return {};
+}
+
+/// Returns the response to a request for a cached resource.
+Response cached_response(const Context& context, const Request& request, const Found& found,
+                         bool versioned) {
+    Response response = **found.cached;
+    set_header(response, "Cache-Control", cache_control(versioned));
+    set_header(response, "Cache-Status", hit);
+    if (!found.is_chosen) {
+        select_gzip(response);
+        response.has_body = false;
+    }
+    response.cacheable = true;
+    context.responses.represent(request, response);
+    context.responses.select_range(request, response);
+    return response;
 }
 
 /// Returns 410, or a problem that precedes it.
@@ -199,14 +279,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
     Store& store = context.store;
     const bool versioned = resource.requested_version.has_value() && request.method != "POST";
     const std::string etag = etag_of(resource.key);
-    Response head;  // the headers of every response about this resource
-    head.headers = {{"Content-Type", resource.type},
-                    {"ETag", etag},
-                    {"Cache-Control", cache_control(versioned)},
-                    {"Content-Disposition", "inline; filename=\"" + resource.file_name + '"'}};
-    if (!resource.address.empty() && !linked_elsewhere && !context.options.signed_urls)
-        head.headers.emplace_back("Content-Location", context.responses.link(with_version(
-                                                          resource.address, resource.version)));
+    Response head = resource_head(context, resource, etag, versioned, linked_elsewhere);
     const bool takes_gzip = takes_gzip_of_glb(request, resource.type, etag);
     const Found found = find_cached(store, resource.key, takes_gzip);
     std::vector<std::string> etags = current_etags(request, etag, resource.type);
@@ -236,17 +309,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
         ++store.counters.glb_hits;
         if (!found.is_chosen && request.method != "HEAD")
             return gzip_job(store, *found.cached, resource.key, versioned);
-        Response response = **found.cached;
-        set_header(response, "Cache-Control", cache_control(versioned));
-        set_header(response, "Cache-Status", hit);
-        if (!found.is_chosen) {
-            select_gzip(response);
-            response.has_body = false;
-        }
-        response.cacheable = true;
-        context.responses.represent(request, response);
-        context.responses.select_range(request, response);
-        return response;
+        return cached_response(context, request, found, versioned);
     }
     // A correspondence that is not cached takes milliseconds: the job that generates the body
     // computes it, if there is such a job.
@@ -263,46 +326,7 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
 
     ++store.counters.glb_misses;
     take_header(head, "Cache-Control");
-    const Cost estimate = cost ? *cost : *resource.guess + resource.search;
-    const Cost compressing = takes_gzip ? gzip_cost_of_glb(estimate) : Cost{};
-    auto run = [&store, takes_gzip,
-                estimate_cost = cost ? nullptr : std::move(resource.estimate_cost),
-                make = std::move(resource.make), head = std::move(head), key = resource.key](
-                   std::stop_token stop, const Observer& observer, const Parallel& parallel) {
-        Response response = head;
-        const auto finished = [&](std::string status) {
-            if (header_of(response, "Content-Type") == glb_type && is_worth_gzip(response.body)) {
-                set_header(response, "Vary", "Accept-Encoding");
-                if (takes_gzip) response.gzipped = gzip_glb(response.body, stop, parallel);
-            }
-            response.is_stored = true;
-            if (!status.empty()) status += ", ";
-            const bool stored =
-                store.responses.fits(weight_of(response) + key.size() + entry_overhead);
-            set_header(response, "Cache-Status",
-                       status + cache_member("sporeprint", false, stored));
-            return std::move(response);
-        };
-        // A stored file is possible and within its budget.
-        if (store.directory)
-            if (std::optional<Slice> written = store.directory->find(key)) {
-                response.body = {*std::move(written)};
-                return finished(cache_member("sporeprint-store", true, false));
-            }
-        JobContext job_context(store, stop, observer, parallel);
-        if (estimate_cost) {
-            observer(Step::resolve);
-            static_cast<void>(estimate_cost(job_context.execution().caches));
-        }
-        response.body = make(job_context);
-        ++store.counters.generated;
-        if (store.directory) store.directory->insert(key, response.body);
-        return finished(job_context.cache_status());
-    };
-    return Job{.key = std::move(resource.key),
-               .cost = estimate + compressing,
-               .run = std::move(run),
-               .delivery = with_cache_control(versioned)};
+    return generation_job(store, std::move(resource), std::move(head), cost, takes_gzip, versioned);
 }
 
 }  // namespace sporeprint::api

@@ -180,6 +180,45 @@ void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& 
     }
 }
 
+/// Adds the meshes of the distinct individuals of a colony.
+///
+/// fit      of the typical individual; enlarged to the widest mesh if mushrooms stand as a whole
+/// returns  what placement needs of each
+std::vector<ColonyModel> add_models(const ColonySpec& spec, const ColonyTraits& traits,
+                                    const Atlas& atlas, const ExecutionContext& execution,
+                                    Colony& colony, StemFit& fit) {
+    const ColonyParams& params = spec.params;
+    std::vector<ColonyModel> models;
+    for (int which = 0; which < params.distinct; ++which) {
+        throw_if_cancelled(execution);
+        const MushroomSpec own = individual_spec(spec, which);
+        Individual one = resolve(own, atlas, execution.caches.morphs);
+        // All members use the images of one mushroom, so features drawn by its seed are where they
+        // are painted.
+        one.effective.seed = params.seed;
+        // Placement uses one level of detail, so that members are moved or skipped alike at every
+        // level.
+        const auto grown = [&](int lod, bool with_texture) {
+            if (traits.capped)
+                return cap_mesh(one, {.lod = lod,
+                                      .neck = std::max(params.cap_scale, 1.0),
+                                      .textured = with_texture});
+            Mesh mesh = body_mesh(one, lod, {.textured = with_texture});
+            order_for_vertex_cache(mesh);
+            return mesh;
+        };
+        const int own_lod = mesh_lod(one, params.lod);
+        colony.models.push_back(grown(own_lod, textured(spec)));
+        const Mesh& own_mesh = colony.models.back();
+        const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
+        const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
+        if (!traits.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
+        models.push_back(
+            {OccupancyGrid(footprint_mesh), traits.capped ? stem_fit(one).radius : fit.radius});
+    }
+    return models;
+}
+
 }  // namespace
 
 Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const Caches& caches) {
@@ -236,34 +275,7 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
 
     execution.observer(Step::build);
     Colony colony;
-    std::vector<ColonyModel> models;
-    for (int which = 0; which < params.distinct; ++which) {
-        throw_if_cancelled(execution);
-        const MushroomSpec own = individual_spec(spec, which);
-        Individual one = resolve(own, atlas, execution.caches.morphs);
-        // All members use the images of one mushroom, so features drawn by its seed are where they
-        // are painted.
-        one.effective.seed = params.seed;
-        // Placement uses one level of detail, so that members are moved or skipped alike at every
-        // level.
-        const auto grown = [&](int lod, bool with_texture) {
-            if (traits.capped)
-                return cap_mesh(one, {.lod = lod,
-                                      .neck = std::max(params.cap_scale, 1.0),
-                                      .textured = with_texture});
-            Mesh mesh = body_mesh(one, lod, {.textured = with_texture});
-            order_for_vertex_cache(mesh);
-            return mesh;
-        };
-        const int own_lod = mesh_lod(one, params.lod);
-        colony.models.push_back(grown(own_lod, textured(spec)));
-        const Mesh& own_mesh = colony.models.back();
-        const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
-        const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
-        if (!traits.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
-        models.push_back(
-            {OccupancyGrid(footprint_mesh), traits.capped ? stem_fit(one).radius : fit.radius});
-    }
+    const std::vector<ColonyModel> models = add_models(spec, traits, atlas, execution, colony, fit);
     throw_if_cancelled(execution);
 
     const ColonyRoots growth = growth_of(params, traits, fit);

@@ -12,6 +12,7 @@
 
 #include "api/http/encoding.h"
 #include "api/http/errors.h"
+#include "api/http/query.h"
 #include "api/products/mushrooms.h"
 #include "core/gltf/inspect.h"
 #include "core/grow/mushroom.h"
@@ -143,6 +144,26 @@ TEST_F(ServiceTest, PreflightRequestsSucceed) {
 TEST_F(ServiceTest, ALongAddressIs414) {
     expect_problem(ask("/v1/species?x=" + std::string(4096, 'a')), 414);
     EXPECT_NE(ask("/v1/species?x=" + std::string(4096 - 14, 'a')).status, 414);
+}
+
+TEST_F(ServiceTest, TheRouteOfARequestIsKnownBeforeItsBody) {
+    const RoutedRequest fitting = service_.route(post("", "/v1/mushrooms.glb"));
+    EXPECT_EQ(fitting.label(), "/v1/mushrooms.glb");
+    EXPECT_EQ(fitting.most_body, 4u << 20);
+    EXPECT_FALSE(fitting.response);
+    const RoutedRequest untyped = service_.route(request("POST", "/v1/inspect"));
+    EXPECT_EQ(untyped.label(), "/v1/inspect");
+    EXPECT_EQ(untyped.response->status, 415);
+    const RoutedRequest other_method = service_.route(get("/v1/inspect"));
+    EXPECT_EQ(other_method.label(), "/v1/inspect");
+    EXPECT_EQ(other_method.response->status, 405);
+    const RoutedRequest nowhere = service_.route(get("/nowhere?a=b"));
+    EXPECT_EQ(nowhere.label(), "UNKNOWN");
+    EXPECT_EQ(nowhere.response->status, 404);
+    const RoutedRequest endless =
+        service_.route(get("/v1/species?x=" + std::string(longest_target, 'x')));
+    EXPECT_EQ(endless.label(), "/v1/species");
+    EXPECT_EQ(endless.response->status, 414);
 }
 
 TEST_F(ServiceTest, BodiesOfAnotherTypeOrEncodingAre415AndLargeOnes413) {

@@ -191,7 +191,7 @@ TEST(Ramification, TooManyLeavesAreRefusedWithTheExpectedNumber) {
 }
 
 TEST(Ramification, ErrorsOfMatricesAreNamed) {
-    EXPECT_TRUE(names(validation_errors({}), "/matrix", "0 rows"));
+    EXPECT_TRUE(names(validation_errors(RamificationMatrix{}), "/matrix", "0 rows"));
     EXPECT_TRUE(names(validation_errors({{{0.5, 0.5}, {1.0}}}), "/matrix/1",
                       "1 entries; the row of order 3 has 3"));
     EXPECT_TRUE(names(validation_errors({{{0.6, 0.5}}}), "/matrix/0", "sum to 1.1"));
