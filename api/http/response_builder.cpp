@@ -18,13 +18,14 @@ constexpr const char* exposed_headers =
     "Content-Location, Content-Range, ETag, RateLimit, RateLimit-Policy, Retry-After, "
     "Server-Timing, X-Request-Id";
 
-/// The permissions of pages: their own scripts and styles, images that they create themselves, no
-/// embedding in frames. The pages contain the same policy in HTML, but that cannot forbid frames.
+/// The permissions of pages: their own scripts and styles, WebAssembly for the decoder of compressed
+/// geometry, images that they create themselves, no embedding in frames. The pages contain the same
+/// policy in HTML, but that cannot forbid frames.
 constexpr std::pair<const char*, const char*> page_headers[] = {
     {"Content-Security-Policy",
-     "default-src 'self'; img-src 'self' blob: data:; connect-src 'self' blob:; object-src 'none'; "
-     "base-uri 'none'; "
-     "form-action 'none'; frame-ancestors 'none'"},
+     "default-src 'self'; script-src 'self' 'wasm-unsafe-eval'; img-src 'self' blob: data:; "
+     "connect-src 'self' blob:; object-src 'none'; base-uri 'none'; form-action 'none'; "
+     "frame-ancestors 'none'"},
     {"Cross-Origin-Opener-Policy", "same-origin"},
     {"Permissions-Policy", "camera=(), geolocation=(), microphone=()"},
     {"Referrer-Policy", "same-origin"}};

@@ -1,6 +1,7 @@
 #include "core/gltf/glb.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstring>
@@ -9,6 +10,7 @@
 #include <optional>
 #include <utility>
 
+#include "core/gltf/compression.h"
 #include "core/problems.h"
 #include "core/version.h"
 
@@ -16,8 +18,13 @@ namespace sporeprint {
 
 namespace {
 
-constexpr int float_component = 5126, u16_component = 5123, u32_component = 5125;
+constexpr int float_component = 5126, u16_component = 5123, u32_component = 5125,
+              i16_component = 5122, i8_component = 5120;
 constexpr int vertex_target = 34962, index_target = 34963;
+constexpr const char* normalized = ",\"normalized\":true";
+constexpr const char *quantization = "KHR_mesh_quantization",
+                     *meshopt_compression = "EXT_meshopt_compression",
+                     *gpu_instancing = "EXT_mesh_gpu_instancing";
 
 void append(std::string& out, float value) {
     char text[32];
@@ -61,6 +68,7 @@ void append_triple(std::string& out, const glm::vec3& corner) {
 struct Tables {
     std::string views, accessors;
     std::size_t count = 0, binary = 0;  ///< number of views; bytes of the BIN chunk so far, padded
+    std::size_t decompressed = 0;       ///< bytes of all compressed views when decompressed
 
     std::size_t view(std::size_t length, int target = 0) {
         views += count == 0 ? "" : ",";
@@ -75,12 +83,34 @@ struct Tables {
     /// Adds an accessor. `more` holds further members of its JSON object, with a leading comma.
     std::size_t accessor(std::size_t items, int component, const char* type, std::size_t length,
                          int target = 0, const std::string& more = {}) {
-        accessors += count == 0 ? "" : ",";
-        append(accessors += "{\"bufferView\":", count);
-        accessors += ",\"componentType\":" + std::to_string(component) + ",\"count\":";
-        append(accessors, items);
-        ((((accessors += ",\"type\":\"") += type) += '"') += more) += '}';
+        append_accessor(items, component, type, more);
         return view(length, target);
+    }
+
+    /// Adds an accessor of vertices whose items have a stride, with a view of its own, and appends
+    /// its bytes to `out`.
+    ///
+    /// filter  of the compressed items; null for none
+    std::size_t stream(std::span<const std::uint8_t> data, std::size_t items, int component,
+                       const char* type, const std::string& more, bool compressed, Bytes& out,
+                       const char* filter = nullptr) {
+        const std::size_t stride = data.size() / items;
+        append_accessor(items, component, type, more);
+        append_view(data.size(), compressed, ",\"byteStride\":" + std::to_string(stride),
+                    vertex_target);
+        if (!compressed) return close_view(data, out);
+        const Bytes encoded = encoded_vertices(data, items, stride);
+        return close_compressed_view(encoded, items, stride, "ATTRIBUTES", out, filter);
+    }
+
+    /// Adds an accessor of compressed triangles, and appends their bytes to `out`.
+    std::size_t compressed_triangles(std::span<const std::uint32_t> indices, std::size_t vertices,
+                                     int component, Bytes& out) {
+        const std::size_t size = component == u16_component ? 2 : 4;
+        append_accessor(indices.size(), component, "SCALAR", {});
+        append_view(indices.size() * size, true, {}, index_target);
+        return close_compressed_view(encoded_triangles(indices, vertices), indices.size(), size,
+                                     "TRIANGLES", out);
     }
 
     std::size_t vectors(std::span<const glm::vec3> values, const std::string& more = {}) {
@@ -99,6 +129,47 @@ struct Tables {
         append_triple(box, low);
         append_triple(box += ",\"max\":", high);
         return vectors(values, box);
+    }
+
+  private:
+    void append_accessor(std::size_t items, int component, const char* type,
+                         const std::string& more) {
+        accessors += count == 0 ? "" : ",";
+        append(accessors += "{\"bufferView\":", count);
+        accessors += ",\"componentType\":" + std::to_string(component) + ",\"count\":";
+        append(accessors, items);
+        ((((accessors += ",\"type\":\"") += type) += '"') += more) += '}';
+    }
+
+    /// Begins a view. A compressed one lies in the second buffer, which no file contains.
+    void append_view(std::size_t length, bool compressed, const std::string& stride, int target) {
+        views += count == 0 ? "" : ",";
+        views += std::string("{\"buffer\":") + (compressed ? "1" : "0") + ",\"byteOffset\":";
+        append(views, compressed ? decompressed : binary);
+        append(views += ",\"byteLength\":", length);
+        views += stride + ",\"target\":" + std::to_string(target);
+        if (compressed) decompressed += padded(length);
+    }
+
+    std::size_t close_view(std::span<const std::uint8_t> data, Bytes& out) {
+        views += '}';
+        out.insert(out.end(), data.begin(), data.end());
+        out.resize(padded(out.size()));
+        binary += padded(data.size());
+        return count++;
+    }
+
+    std::size_t close_compressed_view(const Bytes& encoded, std::size_t items, std::size_t stride,
+                                      const char* mode, Bytes& out, const char* filter = nullptr) {
+        ((views += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"buffer\":0,";
+        append(views += "\"byteOffset\":", binary);
+        append(views += ",\"byteLength\":", encoded.size());
+        append(views += ",\"byteStride\":", stride);
+        append(views += ",\"count\":", items);
+        ((views += ",\"mode\":\"") += mode) += '"';
+        if (filter) ((views += ",\"filter\":\"") += filter) += '"';
+        views += "}}";
+        return close_view(encoded, out);
     }
 };
 
@@ -121,35 +192,124 @@ struct Geometry {
     std::shared_ptr<const Bytes> bytes;
     std::string attributes;
     std::size_t indices_accessor = 0;
+
+    void attribute(const char* name, std::size_t accessor) {
+        attributes += attributes.empty() ? "\"" : ",\"";
+        append((attributes += name) += "\":", accessor);
+    }
 };
 
-Geometry geometry(const Mesh& mesh, bool textured, Tables& tables) {
+/// Throws GenerationError for a mesh that is empty or lacks what its material needs.
+void check_mesh(const Mesh& mesh, bool textured) {
     const std::size_t n = mesh.positions.size();
     if (n == 0 || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
     if (mesh.normals.size() != n ||
         (textured && (mesh.tangents.size() != n || mesh.texture_coordinates.size() != n)))
         throw GenerationError("a mesh lacks what its material needs of each vertex");
+}
+
+std::array<std::uint16_t, 2> normalized_coordinates(const glm::vec2& uv) {
+    return {static_cast<std::uint16_t>(std::floor(uv.x * 65535.0F + 0.5F)),
+            static_cast<std::uint16_t>(std::floor(uv.y * 65535.0F + 0.5F))};
+}
+
+/// Returns the bytes of a vector of items without padding between their members.
+template <class T>
+std::span<const std::uint8_t> bytes_of(const std::vector<T>& items) {
+    return {reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(T)};
+}
+
+/// Returns the bounds of integers, which a reader compares before it scales them.
+std::string bounds_of(std::span<const Quantized16> values) {
+    Quantized16 low = values.front(), high = low;
+    for (const Quantized16& value : values)
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], value[k]);
+            high[k] = std::max(high[k], value[k]);
+        }
+    const auto list = [](const Quantized16& of) {
+        return std::to_string(of[0]) + ',' + std::to_string(of[1]) + ',' + std::to_string(of[2]);
+    };
+    return ",\"min\":[" + list(low) + "],\"max\":[" + list(high) + "]";
+}
+
+/// Adds positions as integers.
+std::size_t add_quantized(std::span<const glm::vec3> values, float step, bool compressed,
+                          Tables& tables, Bytes& out) {
+    const std::vector<Quantized16> items = quantized(values, step);
+    return tables.stream(bytes_of(items), items.size(), i16_component, "VEC3", bounds_of(items),
+                         compressed, out);
+}
+
+constexpr const char* octahedral = "OCTAHEDRAL";
+
+/// Writes quantised geometry.
+///
+/// step  of the positions
+Geometry quantized_geometry(const Mesh& mesh, bool textured, float step, bool compressed,
+                            Tables& tables) {
+    check_mesh(mesh, textured);
+    const std::size_t n = mesh.positions.size();
+    const auto bytes = std::make_shared<Bytes>();
+    Geometry out;
+    out.attribute("POSITION", add_quantized(mesh.positions, step, compressed, tables, *bytes));
+    const std::vector<Quantized16> normals =
+        compressed ? octahedral_normals(mesh.normals) : quantized_normals(mesh.normals);
+    out.attribute("NORMAL", tables.stream(bytes_of(normals), n, i16_component, "VEC3", normalized,
+                                          compressed, *bytes, octahedral));
+    if (textured) {
+        const std::vector<Quantized8> tangents =
+            compressed ? octahedral_tangents(mesh.tangents) : quantized_tangents(mesh.tangents);
+        out.attribute("TANGENT", tables.stream(bytes_of(tangents), n, i8_component, "VEC4",
+                                               normalized, compressed, *bytes, octahedral));
+        std::vector<std::array<std::uint16_t, 2>> coordinates;
+        coordinates.reserve(n);
+        for (const glm::vec2& uv : mesh.texture_coordinates)
+            coordinates.push_back(normalized_coordinates(uv));
+        out.attribute("TEXCOORD_0", tables.stream(bytes_of(coordinates), n, u16_component, "VEC2",
+                                                  normalized, compressed, *bytes));
+    }
+    const bool small = n <= 65535;
+    const int component = small ? u16_component : u32_component;
+    if (compressed) {
+        out.indices_accessor = tables.compressed_triangles(mesh.indices, n, component, *bytes);
+    } else {
+        const std::size_t length = mesh.indices.size() * (small ? 2 : 4);
+        Bytes indices(padded(length));
+        std::uint8_t* at = indices.data();
+        for (const std::uint32_t index : mesh.indices)
+            if (small)
+                put(at, static_cast<std::uint16_t>(index));
+            else
+                put(at, index);
+        bytes->insert(bytes->end(), indices.begin(), indices.end());
+        out.indices_accessor =
+            tables.accessor(mesh.indices.size(), component, "SCALAR", length, index_target);
+    }
+    out.bytes = bytes;
+    return out;
+}
+
+Geometry geometry(const Mesh& mesh, bool textured, Tables& tables) {
+    check_mesh(mesh, textured);
+    const std::size_t n = mesh.positions.size();
     const bool small = n <= 65535;
     const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
     Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0)) + padded(index_bytes));
     Geometry out;
-    const auto attribute = [&](const char* name, std::size_t accessor) {
-        out.attributes += out.attributes.empty() ? "\"" : ",\"";
-        append((out.attributes += name) += "\":", accessor);
-    };
     chunk.append(std::span<const glm::vec3>(mesh.positions));
-    attribute("POSITION", tables.positions(mesh.positions));
+    out.attribute("POSITION", tables.positions(mesh.positions));
     chunk.append(std::span<const glm::vec3>(mesh.normals));
-    attribute("NORMAL", tables.vectors(mesh.normals));
+    out.attribute("NORMAL", tables.vectors(mesh.normals));
     if (textured) {
         chunk.append(std::span<const glm::vec4>(mesh.tangents));
-        attribute("TANGENT", tables.accessor(n, float_component, "VEC4", n * 16, vertex_target));
+        out.attribute("TANGENT",
+                      tables.accessor(n, float_component, "VEC4", n * 16, vertex_target));
         for (const glm::vec2& uv : mesh.texture_coordinates) {
-            put(chunk.at, static_cast<std::uint16_t>(std::floor(uv.x * 65535.0F + 0.5F)));
-            put(chunk.at, static_cast<std::uint16_t>(std::floor(uv.y * 65535.0F + 0.5F)));
+            put(chunk.at, normalized_coordinates(uv));
         }
-        attribute("TEXCOORD_0", tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target,
-                                                ",\"normalized\":true"));
+        out.attribute("TEXCOORD_0",
+                      tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
     if (small)
         for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
@@ -168,23 +328,36 @@ struct TargetData {
     std::string targets;  ///< JSON member of the primitive, with a leading comma
 };
 
-TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices, Tables& tables) {
+/// step  of the positions if they are quantised
+TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices,
+                       GlbGeometry storage, float step, Tables& tables) {
     for (const MorphTarget& target : targets)
         if (target.positions.size() != vertices || target.normals.size() != vertices)
             throw GenerationError("a morph target has another number of vertices than its mesh");
     TargetData out;
     if (targets.empty()) return out;
-    Chunk chunk(targets.size() * vertices * 24);
+    const bool floats = storage == GlbGeometry::floats,
+               compressed = storage == GlbGeometry::compressed;
+    const auto bytes = std::make_shared<Bytes>();
+    bytes->reserve(targets.size() * vertices * 24);
+    const auto add_floats = [&](std::span<const glm::vec3> values, bool with_bounds) {
+        const auto* const data = reinterpret_cast<const std::uint8_t*>(values.data());
+        if (compressed)
+            return tables.stream({data, values.size_bytes()}, vertices, float_component, "VEC3", {},
+                                 true, *bytes);
+        bytes->insert(bytes->end(), data, data + values.size_bytes());
+        return with_bounds ? tables.positions(values) : tables.vectors(values);
+    };
     for (const MorphTarget& target : targets) {
-        chunk.append(std::span<const glm::vec3>(target.positions));
-        chunk.append(std::span<const glm::vec3>(target.normals));
         out.targets += out.targets.empty() ? ",\"targets\":[" : ",";
-        append(out.targets += "{\"POSITION\":", tables.positions(target.positions));
-        append(out.targets += ",\"NORMAL\":", tables.vectors(target.normals));
+        append(out.targets += "{\"POSITION\":",
+               floats ? add_floats(target.positions, true)
+                      : add_quantized(target.positions, step, compressed, tables, *bytes));
+        append(out.targets += ",\"NORMAL\":", add_floats(target.normals, false));
         out.targets += '}';
     }
     out.targets += ']';
-    out.bytes = std::move(chunk.bytes);
+    out.bytes = bytes;
     return out;
 }
 
@@ -280,23 +453,32 @@ struct TextureTables {
     }
 };
 
-constexpr const char* instancing = "EXT_mesh_gpu_instancing";
-
 /// The names of the extensions in use, each once.
 struct Extensions {
-    std::vector<std::string> names;
+    std::vector<std::string> names, required;
+
+    /// Adds an extension without which the file cannot be read.
+    void require(const std::string& name) {
+        if (std::find(required.begin(), required.end(), name) == required.end())
+            required.push_back(name);
+        use(name);
+    }
 
     void use(const std::string& name) {
         if (std::find(names.begin(), names.end(), name) == names.end()) names.push_back(name);
     }
     /// Returns the JSON members, with a leading comma. Required extensions are in both lists.
     [[nodiscard]] std::string json() const {
+        return list_of(",\"extensionsUsed\":[", names) +
+               list_of(",\"extensionsRequired\":[", required);
+    }
+
+  private:
+    static std::string list_of(const char* member, const std::vector<std::string>& names) {
         if (names.empty()) return {};
-        std::string list, required;
+        std::string list;
         for (const std::string& name : names) append_quoted(list += separator(list), name);
-        if (std::find(names.begin(), names.end(), instancing) != names.end())
-            required = std::string(",\"extensionsRequired\":[\"") + instancing + "\"]";
-        return ",\"extensionsUsed\":[" + list + "]" + required;
+        return member + list + "]";
     }
 };
 
@@ -374,7 +556,8 @@ struct InstanceData {
     std::string attributes;  ///< JSON members
 };
 
-InstanceData instance_data(const std::vector<GlbTransform>& places, Tables& tables) {
+/// step  factor of all scales
+InstanceData instance_data(const std::vector<GlbTransform>& places, double step, Tables& tables) {
     const std::size_t n = places.size();
     Chunk chunk(n * (12 + 16 + 12));
     InstanceData out;
@@ -383,7 +566,7 @@ InstanceData instance_data(const std::vector<GlbTransform>& places, Tables& tabl
         put(chunk.at, glm::vec3(place.translation));
     }
     for (const GlbTransform& place : places) put(chunk.at, glm::vec4(place.rotation));
-    for (const GlbTransform& place : places) put(chunk.at, glm::vec3(place.scale));
+    for (const GlbTransform& place : places) put(chunk.at, glm::vec3(step * place.scale));
     append(out.attributes += "\"TRANSLATION\":",
            tables.accessor(n, float_component, "VEC3", n * 12));
     append(out.attributes += ",\"ROTATION\":", tables.accessor(n, float_component, "VEC4", n * 16));
@@ -395,10 +578,12 @@ InstanceData instance_data(const std::vector<GlbTransform>& places, Tables& tabl
 /// Returns the JSON object of a node.
 ///
 /// instances  attributes of its instances, if it has any
-std::string node_json(const GlbNode& node, std::size_t meshes, const std::string& instances) {
-    const glm::vec3 translation(node.translation), scale(node.scale);
+/// step    factor of the scale, by which the positions of its mesh were divided
+std::string node_json(const GlbNode& node, double step, const std::string& instances) {
+    // Instances are scaled each.
+    const glm::vec3 translation(node.translation),
+        scale(instances.empty() ? step * node.scale : node.scale);
     const glm::vec4 rotation(node.rotation);
-    if (node.mesh >= meshes) throw GenerationError("a node shows a mesh that there is not");
     check_transform(node.rotation, scale);
     std::string json = "{\"name\":";
     append_quoted(json, node.name);
@@ -412,7 +597,7 @@ std::string node_json(const GlbNode& node, std::size_t meshes, const std::string
     }
     if (scale != glm::vec3(1.0F)) append_triple(json += ",\"scale\":", scale);
     if (!instances.empty())
-        json += std::string(",\"extensions\":{\"") + instancing + "\":{\"attributes\":{" +
+        json += std::string(",\"extensions\":{\"") + gpu_instancing + "\":{\"attributes\":{" +
                 instances + "}}}";
     return json + "}";
 }
@@ -441,19 +626,37 @@ Slice head_of(std::string json, std::size_t binary) {
     return Slice(std::move(head));
 }
 
+/// Returns the step of the positions of a mesh and its targets, by which its nodes are scaled: 1 for
+/// floats.
+float step_of(const GlbMesh& mesh, GlbGeometry storage) {
+    if (storage == GlbGeometry::floats) return 1.0F;
+    float largest = 0.0F;
+    for (const GlbPrimitive& primitive : mesh.primitives) {
+        largest = largest_coordinate(primitive.mesh->positions, largest);
+        for (const MorphTarget& target : primitive.targets)
+            largest = largest_coordinate(target.positions, largest);
+    }
+    return largest > 0.0F ? largest / static_cast<float>(most_quantized) : 1.0F;
+}
+
 /// Returns the JSON of all meshes, and appends their buffers to `geometries`.
 std::string meshes_json(const GlbScene& scene, Tables& tables, Body& geometries) {
+    const GlbGeometry storage = scene.geometry;
     std::string meshes;
     for (const GlbMesh& mesh : scene.meshes) {
+        const float step = step_of(mesh, storage);
         std::string primitives;
         for (const GlbPrimitive& primitive : mesh.primitives) {
             if (primitive.material >= scene.materials.size())
                 throw GenerationError("a primitive wears a material that there is not");
-            Geometry shape =
-                geometry(*primitive.mesh, is_textured(scene.materials[primitive.material]), tables);
+            const bool textured = is_textured(scene.materials[primitive.material]);
+            Geometry shape = storage == GlbGeometry::floats
+                                 ? geometry(*primitive.mesh, textured, tables)
+                                 : quantized_geometry(*primitive.mesh, textured, step,
+                                                      storage == GlbGeometry::compressed, tables);
             geometries.emplace_back(std::move(shape.bytes));
-            TargetData morph =
-                target_data(primitive.targets, primitive.mesh->positions.size(), tables);
+            TargetData morph = target_data(primitive.targets, primitive.mesh->positions.size(),
+                                           storage, step, tables);
             if (morph.bytes) geometries.emplace_back(std::move(morph.bytes));
             (primitives += separator(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
             append(primitives += "\"indices\":", shape.indices_accessor);
@@ -475,14 +678,17 @@ struct NodeData {
 NodeData node_data(const GlbScene& scene, Tables& tables, Extensions& used, Body& geometries) {
     NodeData data;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
+        const GlbNode& node = scene.nodes[i];
+        if (node.mesh >= scene.meshes.size())
+            throw GenerationError("a node shows a mesh that there is not");
+        const double step = static_cast<double>(step_of(scene.meshes[node.mesh], scene.geometry));
         InstanceData instances;
-        if (!scene.nodes[i].instances.empty()) {
-            instances = instance_data(scene.nodes[i].instances, tables);
+        if (!node.instances.empty()) {
+            instances = instance_data(node.instances, step, tables);
             geometries.emplace_back(std::move(instances.bytes));
-            used.use(instancing);
+            used.require(gpu_instancing);
         }
-        (data.nodes += separator(data.nodes)) +=
-            node_json(scene.nodes[i], scene.meshes.size(), instances.attributes);
+        (data.nodes += separator(data.nodes)) += node_json(node, step, instances.attributes);
         append(data.roots += separator(data.roots), i);
     }
     return data;
@@ -506,6 +712,8 @@ Body glb(const GlbScene& scene) {
     Tables tables;
     Body geometries;
     Extensions used;
+    if (scene.geometry != GlbGeometry::floats) used.require(quantization);
+    if (scene.geometry == GlbGeometry::compressed) used.require(meshopt_compression);
     const std::string meshes = meshes_json(scene, tables, geometries);
     const NodeData nodes = node_data(scene, tables, used, geometries);
     AnimationData clip;
@@ -531,6 +739,10 @@ Body glb(const GlbScene& scene) {
         json += ",\"textures\":[" + texture_tables.textures + "],\"samplers\":[" +
                 texture_tables.samplers + "],\"images\":[" + texture_tables.images + "]";
     append(json += ",\"buffers\":[{\"byteLength\":", tables.binary);
+    if (tables.decompressed > 0) {
+        append(json += "},{\"byteLength\":", tables.decompressed);
+        ((json += ",\"extensions\":{\"") += meshopt_compression) += "\":{\"fallback\":true}}";
+    }
     json += "}],\"bufferViews\":[" + tables.views + "],\"accessors\":[" + tables.accessors + "]" +
             clip.animations + "}";
 
@@ -547,6 +759,7 @@ Body glb(const Mesh& mesh, const GlbParts& parts) {
     scene.nodes.push_back({.name = parts.name});
     scene.extras_json = parts.extras_json;
     scene.clip = parts.clip;
+    scene.geometry = parts.geometry;
     return glb(scene);
 }
 

@@ -76,6 +76,13 @@ struct GlbNode {
     std::vector<GlbTransform> instances = {};
 };
 
+/// How geometry is stored.
+enum class GlbGeometry {
+    floats,     ///< core glTF, which every loader reads
+    quantized,  ///< KHR_mesh_quantization, which loaders must support
+    compressed  ///< quantised, and compressed by EXT_meshopt_compression, which they must support
+};
+
 /// The content of a file.
 struct GlbScene {
     std::vector<GlbMaterial> materials;
@@ -83,6 +90,7 @@ struct GlbScene {
     std::vector<GlbNode> nodes;
     std::string extras_json;           ///< a JSON object for asset.extras; empty for none
     const WeightClip* clip = nullptr;  ///< animates the targets of the first node
+    GlbGeometry geometry = GlbGeometry::floats;
 };
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture
@@ -90,6 +98,10 @@ struct GlbScene {
 /// written if and only if the material has images; materials with the same images share their
 /// textures. Identity transforms of nodes are omitted. Targets are dense: positions and normals
 /// move nearly everywhere, so sparse accessors would be larger.
+///
+/// Quantised positions and their targets are i16 in steps by which the nodes of the mesh are scaled,
+/// so that the origin stays the pivot. Normals are normalised i16, tangents normalised i8; normals
+/// of targets stay floats, for their differences exceed 1.
 ///
 /// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
 ///          targets, the instances of each node that has some, the clip, then each image with its
@@ -108,6 +120,7 @@ struct GlbParts {
     MaterialLook look = {};
     std::span<const MorphTarget> targets = {};  ///< weights are 0 until a viewer sets them
     const WeightClip* clip = nullptr;           ///< of the targets
+    GlbGeometry geometry = GlbGeometry::floats;
 };
 
 /// Writes the same for a scene of one mesh.

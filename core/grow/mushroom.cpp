@@ -55,7 +55,8 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, images / 3);
+    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.compress,
+                              images / 3);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(spec.params.frames);
         e.bytes += e.vertices * 24 * frames + 600 * frames;
@@ -98,7 +99,8 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                    .images = nullptr,
                    .image_urls = {},
                    .extras_json = extras_json(extras, write(individual.effective), mesh),
-                   .look = look_of(individual.model)};
+                   .look = look_of(individual.model),
+                   .geometry = storage_of(spec.params.compress)};
     GrowthClip growth;
     if (spec.params.animation == Animation::growth) {
         growth = growth_clip(spec, atlas, mesh, execution);

@@ -26,11 +26,15 @@ struct Estimate {
     std::uint64_t bytes = 0;
 };
 
+/// Returns the storage of geometry that a parameter requests.
+[[nodiscard]] GlbGeometry storage_of(Compression compress);
+
 /// Returns the approximate size of a file with a mesh and images, bytes.
 ///
 /// image_bytes  size of all images; counted for Textures::embedded only
 [[nodiscard]] std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles,
-                                            Textures textures, std::uint64_t image_bytes);
+                                            Textures textures, Compression compress,
+                                            std::uint64_t image_bytes);
 
 /// URLs of the images of an atlas, indexed by ImageKind.
 using ImageUrls = std::array<std::string, 3>;

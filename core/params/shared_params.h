@@ -20,6 +20,21 @@ constexpr const char* name(Textures textures) {
     return nullptr;
 }
 
+/// How geometry is stored in a file.
+enum class Compression { none, quantize, meshopt };
+
+constexpr const char* name(Compression compression) {
+    switch (compression) {
+        case Compression::none:
+            return "none";
+        case Compression::quantize:
+            return "quantize";
+        case Compression::meshopt:
+            return "meshopt";
+    }
+    return nullptr;
+}
+
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
@@ -36,5 +51,11 @@ inline constexpr Info texture_size_info{
     .doc = "Side of the image atlas at LOD 0; it halves with every level."};
 inline constexpr Info textures_info{.name = "textures",
                                     .doc = "Images inside the file, linked by address, or none."};
+inline constexpr Info compress_info{
+    .name = "compress",
+    .doc =
+        "Geometry as floats, which every loader reads; quantised to 16 bits, for loaders of "
+        "KHR_mesh_quantization; or quantised and compressed, for those of "
+        "EXT_meshopt_compression."};
 
 }  // namespace sporeprint

@@ -260,6 +260,45 @@ void add_colonies(Requests& requests, const std::shared_ptr<const Atlas>& atlas)
     }
 }
 
+/// Adds some files of every product with quantised and with compressed geometry.
+void add_compressed(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const Compression compress : {Compression::quantize, Compression::meshopt})
+        for (int lod = 0; lod < 4; ++lod) {
+            const std::string folder = std::string(name(compress)) + '/';
+            for (const char* id : {"amanita_muscaria", "ramaria_formosa"}) {
+                MushroomSpec spec = order_of({{id, 1000}}, 0.6, lod);
+                spec.params.compress = compress;
+                add_mushroom(requests, species, folder + id, spec);
+                spec.params.animation = Animation::growth;
+                spec.params.frames = 3;
+                if (lod > 1) add_mushroom(requests, species, folder + "clip/" + id, spec);
+            }
+            ColonySpec colony;
+            colony.mix = {{"hypholoma_fasciculare", 1000}};
+            colony.params.count = 9;
+            colony.params.lod = lod;
+            colony.params.texture_size.value = small_side;
+            colony.params.compress = compress;
+            requests[line_of(folder + "colony", 9, lod, small_side)] = [colony, species] {
+                return grow_colony(colony, *species).glb;
+            };
+            TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+            tree.params.lod = lod;
+            tree.params.texture_size.value = small_side;
+            tree.params.compress = compress;
+            requests[line_of(folder + "tree", 1, lod, small_side)] = [tree] {
+                return grow_tree(tree, atlas()).glb;
+            };
+            LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
+            leaf.params.lod = lod;
+            leaf.params.texture_size.value = small_side;
+            leaf.params.compress = compress;
+            requests[line_of(folder + "leaf", 1, lod, small_side)] = [leaf] {
+                return grow_leaf(leaf).glb;
+            };
+        }
+}
+
 Requests golden_requests() {
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();
     Requests requests;
@@ -271,6 +310,7 @@ Requests golden_requests() {
     add_leaves(requests);
     add_trees(requests);
     add_colonies(requests, atlas);
+    add_compressed(requests, atlas);
     return requests;
 }
 

@@ -101,6 +101,7 @@ async function requestFactors(server) {
     const leaves = await list("/v1/leaves", "leaves");
     const trees = await list("/v1/trees", "trees");
     const ages = ["age=0", "age=0.25", "age=0.5", "age=0.75", "age=1"];
+    const storage = ["", "", "compress=quantize", "compress=meshopt"];
     const clips = [
         "",
         "",
@@ -118,11 +119,12 @@ async function requestFactors(server) {
                 ["seed=7", "seed=8", "seed=9&variation=1"],
                 images,
                 clips,
+                storage,
             ],
         },
         {
             route: "mushrooms",
-            factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, images, clips],
+            factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, images, clips, storage],
         },
         {
             route: "leaves",
@@ -133,6 +135,7 @@ async function requestFactors(server) {
                 ["seed=7", "seed=7&variation=1"],
                 images,
                 ["", "curl_deg=180&size=0.25", "venation.teeth=1&venation.teeth_per_vein=6"],
+                storage,
             ],
         },
         {
@@ -145,6 +148,7 @@ async function requestFactors(server) {
                 images,
                 ["", "size=0.25", "leaves.per_tip=0"],
                 ["", "growth=drawn"],
+                storage,
             ],
         },
         {
@@ -156,6 +160,7 @@ async function requestFactors(server) {
                 ["seed=7", "seed=8"],
                 images,
                 ["", "", "instancing=gpu"],
+                storage,
             ],
         },
         { route: "mushrooms", factors: [species] },

@@ -164,6 +164,30 @@ test("an address opens as it was shared", async (t) => {
     expectNoProblems(log);
 });
 
+test("quantised and compressed geometry shows the same model", async (t) => {
+    const shown = [];
+    for (const compress of ["none", "quantize", "meshopt"]) {
+        const { page, log } = await open(
+            t,
+            `?species=${species[0].id}&lod=1&compress=${compress}&animation=growth&frames=3`,
+        );
+        shown.push(
+            await page.evaluate(() => ({
+                counts: window.sporeprint.counts,
+                size: window.sporeprint.size,
+            })),
+        );
+        expectNoProblems(log);
+    }
+    const [plain, ...others] = shown;
+    assert.ok(plain.counts.triangles > 500);
+    for (const { counts, size } of others) {
+        assert.deepEqual(counts, plain.counts);
+        for (const [axis, metres] of Object.entries(plain.size))
+            assert.ok(Math.abs(size[axis] - metres) < 0.0001, `${axis}: ${size[axis]}`);
+    }
+});
+
 test("what an address gets wrong is said in words beside the control", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}&age=1.7&sed=4`);
     assert.match(

@@ -8,6 +8,7 @@ import {
     type Material,
     type Object3D,
 } from "three";
+import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
 import type { DraftTextures } from "./draft_textures";
 
@@ -68,7 +69,7 @@ export async function parseModel(
     from: string,
     sharedTextures?: DraftTextures,
 ): Promise<Object3D> {
-    const loader = new GLTFLoader();
+    const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
     const linkedImages = new Map<string, string>();
     if (sharedTextures) loader.register(sharedTextures.plugin(linkedImages, from));
     const { scene, animations } = await loader.parseAsync(bytes, new URL(".", from).href);

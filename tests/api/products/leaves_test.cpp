@@ -243,7 +243,7 @@ TEST(LeafSchema, SaysWhoseDefaultsAreThePresets) {
         };
     walk(schema, "");
     EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "variation", "autumn", "lod",
-                                          "texture_size", "textures"}));
+                                          "texture_size", "textures", "compress"}));
     for (const char* name : {"venation.lobes", "length", "paler_below", "fallen.tip"})
         EXPECT_TRUE(preset.contains(name)) << name;
 }

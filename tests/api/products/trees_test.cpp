@@ -350,8 +350,8 @@ TEST(TreeSchema, SaysWhoseDefaultsAreThePresets) {
             }
         };
     walk(schema, "");
-    EXPECT_EQ(own,
-              (std::set<std::string>{"seed", "size", "autumn", "lod", "texture_size", "textures"}));
+    EXPECT_EQ(own, (std::set<std::string>{"seed", "size", "autumn", "lod", "texture_size",
+                                          "textures", "compress"}));
     for (const char* name :
          {"order", "matrix", "rows", "trunk", "leaf", "leaves.per_tip", "bark.furrows"})
         EXPECT_TRUE(preset.contains(name)) << name;

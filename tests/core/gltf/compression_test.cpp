@@ -1,0 +1,274 @@
+#include "core/gltf/compression.h"
+
+#include <gtest/gtest.h>
+#include <meshoptimizer.h>
+#include <rapidcheck/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
+
+#include "core/gltf/glb.h"
+#include "core/grow/colony.h"
+#include "core/grow/mushroom.h"
+#include "core/grow/tree.h"
+#include "core/params/value.h"
+#include "tests/support/atlas.h"
+#include "tests/support/meshes.h"
+#include "tests/support/orders.h"
+
+namespace sporeprint {
+namespace {
+
+/// A GLB whose buffer views are decompressed.
+class Decoded {
+  public:
+    explicit Decoded(const Body& body) {
+        for (const Slice& slice : body)
+            file_.insert(file_.end(), slice.data(), slice.data() + slice.size);
+        const std::size_t json_size = word(12);
+        std::vector<Problem> problems;
+        json = parse({reinterpret_cast<const char*>(file_.data()) + 20, json_size}, problems);
+        EXPECT_TRUE(problems.empty());
+        binary_ = 20 + json_size + 8;
+    }
+
+    [[nodiscard]] const Value& at(const std::string& pointer) const {
+        const Value* found = json.at_pointer(pointer);
+        EXPECT_TRUE(found) << pointer;
+        return *found;
+    }
+    [[nodiscard]] std::size_t number(const std::string& pointer) const {
+        return static_cast<std::size_t>(at(pointer).as_number());
+    }
+
+    /// Returns the bytes of a buffer view, decompressed by meshoptimizer.
+    [[nodiscard]] Bytes view(std::size_t index) const {
+        const std::string path = "/bufferViews/" + std::to_string(index);
+        Bytes out(number(path + "/byteLength"));
+        const std::string extension = path + "/extensions/EXT_meshopt_compression";
+        if (!json.at_pointer(extension)) {
+            EXPECT_EQ(number(path + "/buffer"), 0u);
+            std::memcpy(out.data(), data(number(path + "/byteOffset")), out.size());
+            return out;
+        }
+        EXPECT_EQ(number(path + "/buffer"), 1u);
+        const std::uint8_t* const from = data(number(extension + "/byteOffset"));
+        const std::size_t count = number(extension + "/count"),
+                          stride = number(extension + "/byteStride"),
+                          length = number(extension + "/byteLength");
+        EXPECT_EQ(out.size(), count * stride);
+        if (at(extension + "/mode").as_string() == "TRIANGLES") {
+            EXPECT_EQ(from[0], 0xe1) << "the extension requires version 1";
+            EXPECT_EQ(meshopt_decodeIndexBuffer(out.data(), count, stride, from, length), 0);
+        } else {
+            EXPECT_EQ(from[0], 0xa0) << "the extension requires version 0";
+            EXPECT_EQ(meshopt_decodeVertexBuffer(out.data(), count, stride, from, length), 0);
+            if (json.at_pointer(extension + "/filter"))
+                meshopt_decodeFilterOct(out.data(), count, stride);
+        }
+        return out;
+    }
+
+    /// Returns the vectors of an accessor of three floats or i16, normalised or not.
+    [[nodiscard]] std::vector<glm::vec3> vectors(std::size_t accessor) const {
+        const std::string path = "/accessors/" + std::to_string(accessor);
+        const std::size_t count = number(path + "/count");
+        const Bytes bytes = view(number(path + "/bufferView"));
+        const std::size_t stride = bytes.size() / count;
+        std::vector<glm::vec3> out(count);
+        for (std::size_t i = 0; i < count; ++i)
+            if (number(path + "/componentType") == 5126) {
+                std::memcpy(&out[i], bytes.data() + i * stride, 12);
+            } else {
+                Quantized16 item;
+                std::memcpy(item.data(), bytes.data() + i * stride, 8);
+                EXPECT_EQ(item[3], 0);
+                const float unit = json.at_pointer(path + "/normalized") ? 32767.0F : 1.0F;
+                out[i] = glm::vec3(item[0], item[1], item[2]) / unit;
+            }
+        return out;
+    }
+
+    [[nodiscard]] std::vector<std::uint32_t> indices(std::size_t accessor) const {
+        const std::string path = "/accessors/" + std::to_string(accessor);
+        const Bytes bytes = view(number(path + "/bufferView"));
+        const std::size_t count = number(path + "/count"), size = bytes.size() / count;
+        std::vector<std::uint32_t> out(count, 0);
+        for (std::size_t i = 0; i < count; ++i) std::memcpy(&out[i], bytes.data() + i * size, size);
+        return out;
+    }
+
+    Value json;
+
+  private:
+    [[nodiscard]] std::size_t word(std::size_t at) const {
+        std::uint32_t value = 0;
+        std::memcpy(&value, file_.data() + at, 4);
+        return value;
+    }
+    [[nodiscard]] const std::uint8_t* data(std::size_t offset) const {
+        return file_.data() + binary_ + offset;
+    }
+
+    std::vector<std::uint8_t> file_;
+    std::size_t binary_ = 0;
+};
+
+double largest_difference(const std::vector<glm::vec3>& a, const std::vector<glm::vec3>& b,
+                          float scale) {
+    EXPECT_EQ(a.size(), b.size());
+    double largest = 0.0;
+    for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+        largest = std::max(largest, static_cast<double>(glm::length(a[i] - scale * b[i])));
+    return largest;
+}
+
+/// Returns triangles beginning with their smallest index, in their order.
+std::vector<std::uint32_t> rotated(std::vector<std::uint32_t> indices) {
+    for (std::size_t i = 0; i + 2 < indices.size(); i += 3) {
+        const auto first = indices.begin() + static_cast<std::ptrdiff_t>(i);
+        std::rotate(first, std::min_element(first, first + 3), first + 3);
+    }
+    return indices;
+}
+
+RC_GTEST_PROP(Compression, VectorsAreWithinHalfAStep, ()) {
+    const auto numbers = *rc::gen::nonEmpty(rc::gen::container<std::vector<std::array<int, 3>>>(
+        rc::gen::container<std::array<int, 3>>(rc::gen::inRange(-30'000, 30'001))));
+    std::vector<glm::vec3> values;
+    for (const auto& one : numbers) values.push_back(0.0001F * glm::vec3(one[0], one[1], one[2]));
+    const float step = largest_coordinate(values, 1e-6F) / static_cast<float>(most_quantized);
+    const std::vector<Quantized16> items = quantized(values, step);
+    for (std::size_t i = 0; i < values.size(); ++i)
+        for (int k = 0; k < 3; ++k)
+            RC_ASSERT(std::abs(static_cast<float>(items[i][static_cast<std::size_t>(k)]) * step -
+                               values[i][k]) <= 0.501F * step);
+}
+
+TEST(Compression, TangentsKeepTheirDirectionAndHandedness) {
+    for (const float w : {1.0F, -1.0F})
+        for (int i = 0; i < 360; ++i) {
+            const float angle = static_cast<float>(i) * 0.0174533F;
+            const glm::vec4 tangent(std::cos(angle), 0.0F, std::sin(angle), w);
+            const Quantized8 item = quantized_tangents(std::vector{tangent})[0];
+            const glm::vec3 back(item[0] / 127.0F, item[1] / 127.0F, item[2] / 127.0F);
+            EXPECT_GT(glm::dot(glm::normalize(back), glm::vec3(tangent)), 0.99996F);
+            EXPECT_EQ(item[3], w > 0.0F ? 127 : -127);
+        }
+}
+
+TEST(Compression, EveryStorageIsTheSameMesh) {
+    for (const std::string& id : species_ids()) {
+        const Mesh mesh = mesh_of(textured(order_of(id, 0.6, 1, 1)));
+        GlbParts parts;
+        parts.name = id;
+        parts.image_urls = {"a.jpg", "b.jpg", "c.jpg"};
+        const std::size_t plain = size_of(glb(mesh, parts));
+        for (const GlbGeometry storage : {GlbGeometry::quantized, GlbGeometry::compressed}) {
+            parts.geometry = storage;
+            const Body body = glb(mesh, parts);
+            EXPECT_LT(size_of(body),
+                      1500 + plain * (storage == GlbGeometry::quantized ? 65 : 40) / 100)
+                << id;
+            const Decoded file(body);
+            const std::string primitive = "/meshes/0/primitives/0/";
+            const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
+            EXPECT_EQ(scale, largest_coordinate(mesh.positions) / most_quantized);
+            EXPECT_FALSE(file.json.at_pointer("/nodes/0/translation")) << "the pivot stays";
+            const auto accessor = [&](const std::string& name) {
+                return file.number(primitive + name);
+            };
+            EXPECT_LE(largest_difference(mesh.positions,
+                                         file.vectors(accessor("attributes/POSITION")), scale),
+                      0.9 * static_cast<double>(scale))
+                << id;
+            EXPECT_LE(
+                largest_difference(mesh.normals, file.vectors(accessor("attributes/NORMAL")), 1.0F),
+                storage == GlbGeometry::quantized ? 0.00005 : 0.0015);
+            EXPECT_EQ(rotated(file.indices(accessor("indices"))), rotated(mesh.indices)) << id;
+            EXPECT_EQ(file.at("/extensionsRequired").items().size(),
+                      storage == GlbGeometry::quantized ? 1u : 2u);
+        }
+    }
+}
+
+TEST(Compression, GrowthClipsMoveAsFar) {
+    MushroomSpec spec = order_of("amanita_muscaria", 0.6, 2, 1);
+    spec.params.animation = Animation::growth;
+    spec.params.frames = 3;
+    const Decoded plain(grow_mushroom(spec, atlas()).glb);
+    for (const Compression compress : {Compression::quantize, Compression::meshopt}) {
+        spec.params.compress = compress;
+        const Decoded file(grow_mushroom(spec, atlas()).glb);
+        const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
+        for (int frame = 0; frame < 3; ++frame) {
+            const std::string target =
+                "/meshes/0/primitives/0/targets/" + std::to_string(frame) + '/';
+            EXPECT_LE(largest_difference(plain.vectors(plain.number(target + "POSITION")),
+                                         file.vectors(file.number(target + "POSITION")), scale),
+                      0.00005);
+            EXPECT_EQ(plain.vectors(plain.number(target + "NORMAL")),
+                      file.vectors(file.number(target + "NORMAL")));
+        }
+    }
+}
+
+// The meshes of a colony have a scale each; nodes and instances are scaled by it.
+TEST(Compression, InstancesAndNodesKeepTheirSizes) {
+    for (const Instancing instancing : {Instancing::nodes, Instancing::gpu}) {
+        ColonySpec spec;
+        spec.mix = {{"hypholoma_fasciculare", 1000}};
+        spec.params.count = 6;
+        spec.params.distinct = 2;
+        spec.params.lod = 2;
+        spec.params.textures = Textures::none;
+        spec.params.instancing = instancing;
+        const Decoded plain(grow_colony(spec, atlas()).glb);
+        spec.params.compress = Compression::meshopt;
+        const Decoded file(grow_colony(spec, atlas()).glb);
+        ASSERT_EQ(plain.at("/nodes").items().size(), file.at("/nodes").items().size());
+        for (std::size_t i = 0; i < plain.at("/nodes").items().size(); ++i) {
+            const std::string node = "/nodes/" + std::to_string(i);
+            const std::string mesh = "/meshes/" + std::to_string(file.number(node + "/mesh"));
+            const auto largest = [&](const Decoded& of) {
+                return largest_coordinate(
+                    of.vectors(of.number(mesh + "/primitives/0/attributes/POSITION")));
+            };
+            const auto factor = [&](const Decoded& of) {
+                const std::string extension = node + "/extensions/EXT_mesh_gpu_instancing";
+                if (of.json.at_pointer(extension))
+                    return of.vectors(of.number(extension + "/attributes/SCALE")).front().x;
+                const Value* scale = of.json.at_pointer(node + "/scale/0");
+                return scale ? static_cast<float>(scale->as_number()) : 1.0F;
+            };
+            const float expected = largest(plain) * factor(plain);
+            EXPECT_NEAR(largest(file) * factor(file), expected, 1e-4F * expected);
+        }
+    }
+}
+
+TEST(Compression, BothPartsOfATreeHaveOneScale) {
+    TreeSpec spec{"shrub", params_of(*atlas().find_tree("shrub"))};
+    spec.params.lod = 2;
+    spec.params.textures = Textures::none;
+    const TreeMeshes meshes = tree_meshes(spec, atlas());
+    spec.params.compress = Compression::meshopt;
+    const Decoded file(grow_tree(spec, atlas()).glb);
+    const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
+    const std::array<const Mesh*, 2> parts = {&meshes.bark, &meshes.leaves};
+    for (std::size_t i = 0; i < parts.size(); ++i)
+        EXPECT_LE(largest_difference(
+                      parts[i]->positions,
+                      file.vectors(file.number("/meshes/0/primitives/" + std::to_string(i) +
+                                               "/attributes/POSITION")),
+                      scale),
+                  0.9 * static_cast<double>(scale));
+}
+
+}  // namespace
+}  // namespace sporeprint
