@@ -66,8 +66,8 @@ TEST(ThreadPool, RunsEachTaskOnce) {
 }
 
 TEST(ThreadPool, RefusesTasksBeyondTheQueue) {
+    std::counting_semaphore<> gate(0);  // outlives the pool, whose threads wait for it
     ThreadPool pool(2, 3);
-    std::counting_semaphore<> gate(0);
     std::vector<ThreadPool::Ticket> tickets;
     for (int i = 0; i < 5; ++i) {
         const auto ticket = pool.submit([&] { gate.acquire(); });
@@ -85,9 +85,9 @@ TEST(ThreadPool, RefusesTasksBeyondTheQueue) {
 }
 
 TEST(ThreadPool, SharesWorkWithIdleThreads) {
-    ThreadPool pool(4, 8);
     std::latch together(3);  // passed only while three threads wait in it
     std::atomic<int> done{0};
+    ThreadPool pool(4, 8);
     Numbers single_flight(pool, 8);
     Recorder recorder;
     ASSERT_TRUE(single_flight.join(
