@@ -193,11 +193,11 @@ Value Colonies::describe(const Context& context, const ColonySpec& spec, Resolve
 
 namespace {
 
-template <Product product>
+template <Product Format>
 Plan plan_from_url(RouteCall& call) {
     ColonyRequest requested =
         read_colony(call.captured[0], call.target.query, *call.context.atlas, call.errors);
-    requested.product = product;
+    requested.product = Format;
     return plan_product<Colonies>(call.context, call.request, std::move(requested), call.errors);
 }
 

@@ -265,11 +265,11 @@ Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Reso
 
 namespace {
 
-template <Product product>
+template <Product Format>
 Plan plan_from_url(RouteCall& call) {
     MushroomRequest requested =
         read_mushroom(call.captured[0], call.target.query, *call.context.atlas, call.errors);
-    requested.product = product;
+    requested.product = Format;
     return plan_product<Mushrooms>(call.context, call.request, std::move(requested), call.errors);
 }
 

@@ -260,11 +260,11 @@ struct PresetProduct {
 };
 
 /// Handles GET /v1/{kind}/{preset}.glb and .json.
-template <class Kind, Product product>
+template <class Kind, Product Format>
 Plan plan_preset_url(RouteCall& call) {
     auto requested =
         read_preset<Kind>(*call.context.atlas, call.captured[0], call.target.query, call.errors);
-    requested.product = product;
+    requested.product = Format;
     return plan_product<PresetProduct<Kind>>(call.context, call.request, std::move(requested),
                                              call.errors);
 }
