@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <iterator>
 #include <string>
 #include <vector>
 
@@ -193,6 +194,7 @@ void blend_onto(Canvas& canvas, std::span<const RawImages* const> paintings,
         return;
     }
     std::vector<std::function<void()>> pieces;
+    pieces.reserve(std::size(all_parts));
     for (const Part part : all_parts)
         pieces.emplace_back([&plan, part] { plan.charts[index_of(part)] = measured(plan, part); });
     parallel(pieces);
