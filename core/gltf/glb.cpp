@@ -640,11 +640,15 @@ float step_of(const GlbMesh& mesh, GlbGeometry storage) {
 }
 
 /// Returns the JSON of all meshes, and appends their buffers to `geometries`.
-std::string meshes_json(const GlbScene& scene, Tables& tables, Body& geometries) {
+///
+/// steps  of the positions of each mesh
+std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, Tables& tables,
+                        Body& geometries) {
     const GlbGeometry storage = scene.geometry;
     std::string meshes;
-    for (const GlbMesh& mesh : scene.meshes) {
-        const float step = step_of(mesh, storage);
+    for (std::size_t i = 0; i < scene.meshes.size(); ++i) {
+        const GlbMesh& mesh = scene.meshes[i];
+        const float step = steps[i];
         std::string primitives;
         for (const GlbPrimitive& primitive : mesh.primitives) {
             if (primitive.material >= scene.materials.size())
@@ -675,13 +679,15 @@ struct NodeData {
     std::string nodes, roots;
 };
 
-NodeData node_data(const GlbScene& scene, Tables& tables, Extensions& used, Body& geometries) {
+/// steps  of the positions of each mesh
+NodeData node_data(const GlbScene& scene, const std::vector<float>& steps, Tables& tables,
+                   Extensions& used, Body& geometries) {
     NodeData data;
     for (std::size_t i = 0; i < scene.nodes.size(); ++i) {
         const GlbNode& node = scene.nodes[i];
         if (node.mesh >= scene.meshes.size())
             throw GenerationError("a node shows a mesh that there is not");
-        const double step = static_cast<double>(step_of(scene.meshes[node.mesh], scene.geometry));
+        const auto step = static_cast<double>(steps[node.mesh]);
         InstanceData instances;
         if (!node.instances.empty()) {
             instances = instance_data(node.instances, step, tables);
@@ -714,8 +720,11 @@ Body glb(const GlbScene& scene) {
     Extensions used;
     if (scene.geometry != GlbGeometry::floats) used.require(quantization);
     if (scene.geometry == GlbGeometry::compressed) used.require(meshopt_compression);
-    const std::string meshes = meshes_json(scene, tables, geometries);
-    const NodeData nodes = node_data(scene, tables, used, geometries);
+    std::vector<float> steps;
+    steps.reserve(scene.meshes.size());
+    for (const GlbMesh& mesh : scene.meshes) steps.push_back(step_of(mesh, scene.geometry));
+    const std::string meshes = meshes_json(scene, steps, tables, geometries);
+    const NodeData nodes = node_data(scene, steps, tables, used, geometries);
     AnimationData clip;
     if (scene.clip) {
         const GlbMesh& shown = scene.meshes[scene.nodes.front().mesh];
