@@ -28,18 +28,6 @@ Response image_head(const ResponseBuilder& responses, const ImageResource& image
     return head;
 }
 
-/// Returns 410, or a problem that precedes it.
-Response superseded(const ResponseBuilder& responses, const Request& request,
-                    const ImageResource& image, ValidationErrors& errors) {
-    errors.add(410, "v",
-               in_quotes(*image.requested_version) + " is no longer made; today's version is " +
-                   in_quotes(image.version));
-    Value::Object more;
-    if (errors.status() == 410)
-        more.emplace_back("canonical", responses.link(with_version(image.address, image.version)));
-    return responses.problem(request, errors.status(), {}, errors.problems(), more);
-}
-
 }  // namespace
 
 Plan plan_image(Context& context, const Request& request, const ImageResource& image,
@@ -49,7 +37,8 @@ Plan plan_image(Context& context, const Request& request, const ImageResource& i
     Store& store = context.store;
     PaintWork work = decide(errors);
     if (image.requested_version && *image.requested_version != image.version)
-        return superseded(responses, request, image, errors);
+        return superseded(responses, request, "v", *image.requested_version, image.version,
+                          image.address, errors);
     if (!errors.empty()) return responses.problem(request, errors);
 
     const std::string digest = digest_of(work.key);

@@ -63,6 +63,18 @@ std::string with_version(std::string address, std::string_view version) {
     return (address += "v=") += version;
 }
 
+Response superseded(const ResponseBuilder& responses, const Request& request, const char* parameter,
+                    const std::string& requested, const std::string& version,
+                    const std::string& address, ValidationErrors& errors) {
+    errors.add(
+        410, parameter,
+        in_quotes(requested) + " is no longer made; today's version is " + in_quotes(version));
+    Value::Object more;
+    if (errors.status() == 410 && !address.empty())
+        more.emplace_back("canonical", responses.link(with_version(address, version)));
+    return responses.problem(request, errors.status(), {}, errors.problems(), more);
+}
+
 std::string reference_from(int depth, std::string_view address) {
     constexpr std::string_view root = "/v1/";
     std::string reference;

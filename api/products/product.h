@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "api/http/errors.h"
+#include "api/http/response_builder.h"
 #include "core/grow/product.h"
 #include "core/params/describe.h"
 #include "core/params/query.h"
@@ -87,6 +88,15 @@ void without_negative_zero(T& value) {
 
 /// Appends `v` as the last parameter of a URL.
 [[nodiscard]] std::string with_version(std::string address, std::string_view version);
+
+/// Returns 410 for a version token that is not the current one, or a problem that precedes it.
+///
+/// parameter  name of the token: "v", or "/v" in a body
+/// address    canonical URL without version; empty if there is none
+[[nodiscard]] Response superseded(const ResponseBuilder& responses, const Request& request,
+                                  const char* parameter, const std::string& requested,
+                                  const std::string& version, const std::string& address,
+                                  ValidationErrors& errors);
 
 /// Returns a reference to a URL under /v1 from a document whose own URL has `depth` segments
 /// between /v1/ and its name. The reference is relative, so that it is valid under any prefix.

@@ -200,24 +200,6 @@ Response cached_response(const Context& context, const Request& request, const F
     return response;
 }
 
-/// Returns 410, or a problem that precedes it.
-Response superseded(Context& context, const Request& request, const Resource& resource,
-                    ValidationErrors& errors) {
-    static_cast<void>(weighed(request, resource, context.caches, errors));
-    errors.add(410, request.method == "POST" ? "/v" : "v",
-               in_quotes(*resource.requested_version) + " is no longer made; today's version is " +
-                   in_quotes(resource.version));
-    Value::Object more;
-    if (errors.status() == 410 && !resource.address.empty())
-        more.emplace_back("canonical",
-                          context.responses.link(with_version(resource.address, resource.version)));
-    return context.responses.problem(request, errors.status(), {}, errors.problems(), more);
-}
-
-}  // namespace
-
-namespace {
-
 std::string too_many_texels(const ServiceOptions& options, std::uint64_t texels,
                             bool of_every_species) {
     return std::to_string(texels) + " texels would be held" +
@@ -273,8 +255,11 @@ Plan plan_resource(Context& context, const Request& request, Resource resource,
     // resolved.
     const bool linked_elsewhere = resource.is_linked && depth != usual_depth;
     if (linked_elsewhere) resource.key += "\nlinked from depth " + std::to_string(depth);
-    if (resource.requested_version && *resource.requested_version != resource.version)
-        return superseded(context, request, resource, errors);
+    if (resource.requested_version && *resource.requested_version != resource.version) {
+        static_cast<void>(weighed(request, resource, context.caches, errors));
+        return superseded(context.responses, request, request.method == "POST" ? "/v" : "v",
+                          *resource.requested_version, resource.version, resource.address, errors);
+    }
 
     Store& store = context.store;
     const bool versioned = resource.requested_version.has_value() && request.method != "POST";
