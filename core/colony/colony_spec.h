@@ -73,7 +73,7 @@ struct ColonyParams {
     int lod = 0;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
-    Compression compress = Compression::none;
+    FileOptions file;
     Instancing instancing = Instancing::nodes;
 
     static constexpr void fields(auto visit) {
@@ -124,7 +124,7 @@ struct ColonyParams {
         visit(&P::lod, info_of<M>("lod"));
         visit(&P::texture_size, info_of<M>("texture_size"));
         visit(&P::textures, info_of<M>("textures"));
-        visit(&P::compress, compress_info);
+        visit(&P::file, file_info);
         visit(&P::instancing,
               Info{.name = "instancing",
                    .doc = "How a mesh is repeated: by nodes, or by EXT_mesh_gpu_instancing."});

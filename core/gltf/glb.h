@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -64,16 +65,29 @@ struct GlbTransform {
     glm::dvec3 scale{1.0};
 };
 
-/// A mesh with a transform; several nodes may use the same mesh.
+/// An extension of an object of the file.
+struct GlbExtension {
+    std::string name;
+    std::string json;  ///< its JSON object
+};
+
+/// A transform with a mesh, with children, or with neither; several nodes may use the same mesh.
 struct GlbNode {
     std::string name;
-    std::size_t mesh = 0;  ///< index into the scene's
+    std::optional<std::size_t> mesh = {};  ///< index into the scene's
     glm::dvec3 translation{0.0};
     glm::dvec4 rotation{0.0, 0.0, 0.0, 1.0};  ///< unit quaternion x, y, z, w
     glm::dvec3 scale{1.0};
     /// EXT_mesh_gpu_instancing: the mesh is drawn once for each of these transforms, relative to
     /// the node; readers must support the extension.
     std::vector<GlbTransform> instances = {};
+    /// Indices into the scene's nodes; a node with children has no mesh, because the scale of
+    /// quantised positions would also scale them.
+    std::vector<std::size_t> children = {};
+    std::vector<GlbExtension> extensions = {};  ///< which readers may ignore
+    std::string extras_json = {};               ///< a JSON object; empty for none
+    /// Whether the node is shown. Others are in the file for extensions that refer to them.
+    bool in_scene = true;
 };
 
 /// How geometry is stored.
@@ -87,9 +101,10 @@ enum class GlbGeometry {
 struct GlbScene {
     std::vector<GlbMaterial> materials;
     std::vector<GlbMesh> meshes;
-    std::vector<GlbNode> nodes;
-    std::string extras_json;           ///< a JSON object for asset.extras; empty for none
-    const WeightClip* clip = nullptr;  ///< animates the targets of the first node
+    std::vector<GlbNode> nodes;  ///< those in the scene that are no children are its roots
+    std::vector<GlbExtension> extensions;  ///< of the file itself, which readers may ignore
+    std::string extras_json;               ///< a JSON object for asset.extras; empty for none
+    const WeightClip* clip = nullptr;      ///< animates the targets of the first node
     GlbGeometry geometry = GlbGeometry::floats;
 };
 
@@ -107,8 +122,8 @@ struct GlbScene {
 ///          targets, the instances of each node that has some, the clip, then each image with its
 ///          padding
 /// throws   GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
-///          material needs, an index of no mesh or material, a rotation that is no unit quaternion,
-///          a zero scale, targets or a clip that do not fit, or a file of more than 2^32 - 1 bytes
+///          material needs, an index of no mesh, material or node, a node with a mesh and children,
+///          a node with two parents, a rotation that is no unit quaternion, a zero scale, targets or a clip that do not fit, or a file of more than 2^32 - 1 bytes
 [[nodiscard]] Body glb(const GlbScene& scene);
 
 /// A file of one mesh, one primitive, one material and one node.

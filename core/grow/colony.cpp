@@ -102,7 +102,7 @@ std::uint64_t image_texels(const ColonySpec& spec) {
 std::uint64_t bytes_of(const ColonySpec& spec, std::uint64_t vertices, std::uint64_t triangles,
                        std::uint64_t members) {
     const std::uint64_t place = spec.params.instancing == Instancing::gpu ? 40 : 150;
-    return estimated_bytes(vertices, triangles, spec.params.textures, spec.params.compress,
+    return estimated_bytes(vertices, triangles, spec.params.textures, spec.params.file,
                            image_texels(spec) / 3) +
            place * members + 700 * static_cast<std::uint64_t>(spec.params.distinct);
 }
@@ -360,12 +360,12 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
         [&] { return painted_images(paint_spec_of(spec, atlas, execution.caches), execution); });
     execution.observer(Step::pack);
     GlbScene scene;
-    scene.geometry = storage_of(spec.params.compress);
+    scene.geometry = storage_of(spec.params.file.compress);
     scene.extras_json =
         extras_json(extras, write(colony.effective), bounds(colony), instanced_triangles(colony));
     scene.materials.push_back(material);
     if (!colony.skin.positions.empty()) {
-        scene.nodes.push_back({.name = "stems"});
+        scene.nodes.push_back({.name = "stems", .mesh = 0});
         scene.meshes.push_back({"stems", {{&colony.skin, 0, {}}}});
     }
     std::vector<std::size_t> mesh_of(colony.models.size(), 0);

@@ -20,7 +20,7 @@ Estimate measured(const LeafSpec& spec, const Mesh& mesh) {
     Estimate e = estimate(spec);
     e.vertices = mesh.positions.size();
     e.triangles = mesh.triangles();
-    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.compress,
+    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.file,
                               image_bytes(e.texels));
     return e;
 }
@@ -33,7 +33,7 @@ Estimate estimate(const LeafSpec& spec) {
     e.vertices = most.vertices;
     e.triangles = most.triangles;
     e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
-    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.compress,
+    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.file,
                               image_bytes(e.texels));
     return e;
 }
@@ -77,7 +77,7 @@ Grown grow_leaf(const LeafSpec& spec, const Extras& extras, const ExecutionConte
                    .images = nullptr,
                    .image_urls = {},
                    .extras_json = extras_json(extras, write(params), mesh),
-                   .geometry = storage_of(params.compress)};
+                   .geometry = storage_of(params.file.compress)};
     const auto images = attach_images(parts, params.textures, extras, execution,
                                       [&] { return painted_images(paint_of(params), execution); });
     execution.observer(Step::pack);

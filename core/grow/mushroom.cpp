@@ -55,7 +55,7 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.compress,
+    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.file,
                               images / 3);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(spec.params.frames);
@@ -100,7 +100,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                    .image_urls = {},
                    .extras_json = extras_json(extras, write(individual.effective), mesh),
                    .look = look_of(individual.model),
-                   .geometry = storage_of(spec.params.compress)};
+                   .geometry = storage_of(spec.params.file.compress)};
     GrowthClip growth;
     if (spec.params.animation == Animation::growth) {
         growth = growth_clip(spec, atlas, mesh, execution);

@@ -75,7 +75,7 @@ SpeciesPaint species_paint(const MushroomSpec& stepped, const Individual& indivi
     spec.params.lod = stepped.params.lod;
     spec.params.texture_size = stepped.params.texture_size;
     spec.params.textures = stepped.params.textures;
-    spec.params.compress = stepped.params.compress;
+    spec.params.file = stepped.params.file;
     spec.params.animation = stepped.params.animation;
     spec.params.frames = stepped.params.frames;
     const bool is_known = spec.mix == stepped.mix && spec.params == stepped.params;

@@ -31,11 +31,11 @@ GlbGeometry storage_of(Compression compress) {
 }
 
 std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles, Textures textures,
-                              Compression compress, std::uint64_t image_bytes) {
+                              const FileOptions& file, std::uint64_t image_bytes) {
     const bool textured = textures != Textures::none;
     const std::uint64_t images = textures == Textures::embedded ? image_bytes : 0;
     const std::uint64_t index_size = vertices > 65535 ? 4 : 2;
-    switch (compress) {
+    switch (file.compress) {
         case Compression::none:
             break;
         case Compression::quantize:

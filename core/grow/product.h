@@ -33,7 +33,7 @@ struct Estimate {
 ///
 /// image_bytes  size of all images; counted for Textures::embedded only
 [[nodiscard]] std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles,
-                                            Textures textures, Compression compress,
+                                            Textures textures, const FileOptions& file,
                                             std::uint64_t image_bytes);
 
 /// URLs of the images of an atlas, indexed by ImageKind.

@@ -156,7 +156,7 @@ Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes) {
     e.vertices = meshes.vertices();
     e.triangles = meshes.triangles();
     e.texels = texels_of(params);
-    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.compress,
+    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.file,
                               image_bytes(e.texels));
     return e;
 }
@@ -183,7 +183,7 @@ Estimate estimate(const TreeSpec& spec) {
     e.vertices = static_cast<std::uint64_t>(bark.vertices) + leaves * (triangles + 2);
     e.triangles = static_cast<std::uint64_t>(bark.triangles) + leaves * triangles;
     e.texels = texels_of(params);
-    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.compress,
+    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.file,
                               image_bytes(e.texels));
     return e;
 }
@@ -237,10 +237,10 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     throw_if_cancelled(execution);
     const std::string name = spec.preset.empty() ? "tree" : spec.preset;
     GlbScene scene;
-    scene.geometry = storage_of(params.compress);
+    scene.geometry = storage_of(params.file.compress);
     scene.materials.push_back({.name = "bark", .repeats_u = true});
     scene.meshes.push_back({name, {{&meshes.bark, 0, {}}}});
-    scene.nodes.push_back({.name = name});
+    scene.nodes.push_back({.name = name, .mesh = 0});
     const bool leafy = !meshes.leaves.positions.empty();
     if (leafy) {
         scene.materials.push_back({.name = "leaves"});

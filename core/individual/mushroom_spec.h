@@ -29,7 +29,7 @@ struct MushroomParams {
     int lod = 0;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
-    Compression compress = Compression::none;
+    FileOptions file;
     DeformationOf<Maybe> deformation;
     OrnamentsOf<Maybe> ornaments;
     HymeniumOf<Maybe> hymenium;
@@ -57,7 +57,7 @@ struct MushroomParams {
         visit(&P::lod, lod_info);
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);
-        visit(&P::compress, compress_info);
+        visit(&P::file, file_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});
         visit(&P::ornaments, Info{.name = "ornaments", .doc = "What is left of the veils."});

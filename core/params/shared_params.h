@@ -51,11 +51,23 @@ inline constexpr Info texture_size_info{
     .doc = "Side of the image atlas at LOD 0; it halves with every level."};
 inline constexpr Info textures_info{.name = "textures",
                                     .doc = "Images inside the file, linked by address, or none."};
-inline constexpr Info compress_info{
-    .name = "compress",
-    .doc =
-        "Geometry as floats, which every loader reads; quantised to 16 bits, for loaders of "
-        "KHR_mesh_quantization; or quantised and compressed, for those of "
-        "EXT_meshopt_compression."};
+
+/// How a file is written for the program that reads it. It belongs to every product and does not
+/// change what grows.
+struct FileOptions {
+    Compression compress = Compression::none;
+
+    static constexpr void fields(auto visit) {
+        using O = FileOptions;
+        visit(&O::compress,
+              Info{.name = "compress",
+                   .doc = "Geometry as floats, which every loader reads; quantised to 16 bits, for "
+                          "loaders of KHR_mesh_quantization; or quantised and compressed, for "
+                          "those of EXT_meshopt_compression."});
+    }
+    bool operator==(const FileOptions&) const = default;
+};
+
+inline constexpr Info file_info{.name = "", .doc = "How the file is written."};
 
 }  // namespace sporeprint

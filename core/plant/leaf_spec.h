@@ -19,7 +19,7 @@ struct LeafParams {
     int lod = 0;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
-    Compression compress = Compression::none;
+    FileOptions file;
     LeafShape shape;
     LeafPalette palette;
 
@@ -44,7 +44,7 @@ struct LeafParams {
         visit(&P::lod, lod_info);
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);
-        visit(&P::compress, compress_info);
+        visit(&P::file, file_info);
         visit(&P::shape, Info{.name = ""});
         visit(&P::palette, Info{.name = ""});
     }

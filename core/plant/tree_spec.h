@@ -36,7 +36,7 @@ struct TreeParams {
     int lod = 0;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
-    Compression compress = Compression::none;
+    FileOptions file;
     TreeLook look;
 
     static constexpr void fields(auto visit) {
@@ -59,7 +59,7 @@ struct TreeParams {
                                      .doc = "Side of the images of bark and of those of leaves at "
                                             "LOD 0; it halves with every level."});
         visit(&P::textures, info_of<L>("textures"));
-        visit(&P::compress, compress_info);
+        visit(&P::file, file_info);
         visit(&P::look, Info{.name = ""});
     }
     bool operator==(const TreeParams&) const = default;

@@ -267,7 +267,7 @@ void add_compressed(Requests& requests, const std::shared_ptr<const Atlas>& spec
             const std::string folder = std::string(name(compress)) + '/';
             for (const char* id : {"amanita_muscaria", "ramaria_formosa"}) {
                 MushroomSpec spec = order_of({{id, 1000}}, 0.6, lod);
-                spec.params.compress = compress;
+                spec.params.file.compress = compress;
                 add_mushroom(requests, species, folder + id, spec);
                 spec.params.animation = Animation::growth;
                 spec.params.frames = 3;
@@ -278,21 +278,21 @@ void add_compressed(Requests& requests, const std::shared_ptr<const Atlas>& spec
             colony.params.count = 9;
             colony.params.lod = lod;
             colony.params.texture_size.value = small_side;
-            colony.params.compress = compress;
+            colony.params.file.compress = compress;
             requests[line_of(folder + "colony", 9, lod, small_side)] = [colony, species] {
                 return grow_colony(colony, *species).glb;
             };
             TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
             tree.params.lod = lod;
             tree.params.texture_size.value = small_side;
-            tree.params.compress = compress;
+            tree.params.file.compress = compress;
             requests[line_of(folder + "tree", 1, lod, small_side)] = [tree] {
                 return grow_tree(tree, atlas()).glb;
             };
             LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
             leaf.params.lod = lod;
             leaf.params.texture_size.value = small_side;
-            leaf.params.compress = compress;
+            leaf.params.file.compress = compress;
             requests[line_of(folder + "leaf", 1, lod, small_side)] = [leaf] {
                 return grow_leaf(leaf).glb;
             };

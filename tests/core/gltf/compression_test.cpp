@@ -203,7 +203,7 @@ TEST(Compression, GrowthClipsMoveAsFar) {
     spec.params.frames = 3;
     const Decoded plain(grow_mushroom(spec, atlas()).glb);
     for (const Compression compress : {Compression::quantize, Compression::meshopt}) {
-        spec.params.compress = compress;
+        spec.params.file.compress = compress;
         const Decoded file(grow_mushroom(spec, atlas()).glb);
         const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
         for (int frame = 0; frame < 3; ++frame) {
@@ -229,7 +229,7 @@ TEST(Compression, InstancesAndNodesKeepTheirSizes) {
         spec.params.textures = Textures::none;
         spec.params.instancing = instancing;
         const Decoded plain(grow_colony(spec, atlas()).glb);
-        spec.params.compress = Compression::meshopt;
+        spec.params.file.compress = Compression::meshopt;
         const Decoded file(grow_colony(spec, atlas()).glb);
         ASSERT_EQ(plain.at("/nodes").items().size(), file.at("/nodes").items().size());
         for (std::size_t i = 0; i < plain.at("/nodes").items().size(); ++i) {
@@ -257,7 +257,7 @@ TEST(Compression, BothPartsOfATreeHaveOneScale) {
     spec.params.lod = 2;
     spec.params.textures = Textures::none;
     const TreeMeshes meshes = tree_meshes(spec, atlas());
-    spec.params.compress = Compression::meshopt;
+    spec.params.file.compress = Compression::meshopt;
     const Decoded file(grow_tree(spec, atlas()).glb);
     const auto scale = static_cast<float>(file.at("/nodes/0/scale/0").as_number());
     const std::array<const Mesh*, 2> parts = {&meshes.bark, &meshes.leaves};

@@ -292,7 +292,7 @@ struct Group {
                             .repeats_u = true}};
         scene.meshes = {{"both", {{&painted_mesh, 1, {}}, {&bare, 0, {}}, {&painted_mesh, 2, {}}}},
                         {"one", {{&painted_mesh, 3, {}}}}};
-        scene.nodes = {{.name = "here"},
+        scene.nodes = {{.name = "here", .mesh = 0},
                        {.name = "there",
                         .mesh = 1,
                         .translation = {0.5, -1.0, 0.25},
@@ -376,6 +376,25 @@ TEST(Glb, InstancesOfANodeReadBackAsTheyWere) {
     EXPECT_THROW((void)glb(group.scene), GenerationError);
 }
 
+TEST(Glb, NodesFormATreeAndOthersStandBesideTheScene) {
+    Group group;
+    group.scene.nodes[2].in_scene = false;
+    group.scene.nodes[0].extensions = {{"MSFT_lod", R"({"ids":[2]})"}};
+    group.scene.nodes[0].extras_json = R"({"MSFT_screencoverage":[0.5,0.1]})";
+    group.scene.nodes.push_back({.name = "parent", .children = {1}});
+    group.scene.extensions = {{"OMI_physics_shape", R"({"shapes":[]})"}};
+    const Value json = json_chunk(joined(glb(group.scene)));
+    const auto text = [&](const char* pointer) { return dump(*json.at_pointer(pointer)); };
+    EXPECT_EQ(text("/scenes/0/nodes"), "[0,3]");
+    EXPECT_EQ(text("/nodes/3"), R"({"name":"parent","children":[1]})");
+    EXPECT_EQ(text("/nodes/0/extensions"), R"({"MSFT_lod":{"ids":[2]}})");
+    EXPECT_EQ(text("/nodes/0/extras"), R"({"MSFT_screencoverage":[0.5,0.1]})");
+    EXPECT_EQ(text("/extensions"), R"({"OMI_physics_shape":{"shapes":[]}})");
+    EXPECT_EQ(text("/extensionsUsed"),
+              R"(["MSFT_lod","KHR_materials_clearcoat","OMI_physics_shape"])");
+    EXPECT_EQ(json.find("extensionsRequired"), nullptr);
+}
+
 TEST(Glb, ASceneOfOneMeshIsTheFileOfThatMesh) {
     const Group group;
     GlbParts parts = parts_of("one");
@@ -383,7 +402,7 @@ TEST(Glb, ASceneOfOneMeshIsTheFileOfThatMesh) {
     GlbScene scene;
     scene.materials = {{.name = "one", .images = &group.images}};
     scene.meshes = {{"one", {{&group.painted_mesh, 0, {}}}}};
-    scene.nodes = {{.name = "one"}};
+    scene.nodes = {{.name = "one", .mesh = 0}};
     EXPECT_EQ(joined(glb(scene)), joined(glb(group.painted_mesh, parts)));
 }
 
@@ -395,6 +414,13 @@ TEST(Glb, InvalidScenesAreRefused) {
     };
     refused([](Group& g) { g.scene.nodes.clear(); });
     refused([](Group& g) { g.scene.nodes[1].mesh = 2; });
+    refused([](Group& g) { g.scene.nodes[1].children = {2}; });
+    refused([](Group& g) { g.scene.nodes.push_back({.name = "p", .children = {4}}); });
+    refused([](Group& g) { g.scene.nodes.push_back({.name = "p", .children = {1, 1}}); });
+    refused([](Group& g) { g.scene.nodes.push_back({.name = "p", .instances = {{}}}); });
+    refused([](Group& g) {
+        for (GlbNode& node : g.scene.nodes) node.in_scene = false;
+    });
     refused([](Group& g) { g.scene.nodes[1].rotation *= 1.01; });
     refused([](Group& g) { g.scene.nodes[1].rotation.x = NAN; });
     refused([](Group& g) { g.scene.nodes[1].scale.y = 0.0; });

@@ -1,0 +1,46 @@
+// Materials, textures, images and the list of extensions of a file.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "core/gltf/glb.h"
+#include "core/gltf/tables.h"
+
+namespace sporeprint::gltf {
+
+/// The tables of textures, images and samplers.
+struct TextureTables {
+    std::string textures, images, samplers;
+    std::vector<const GlbMaterial*> sources;  ///< materials that added images, three textures each
+    std::vector<bool> sampler_repeats;        ///< by sampler
+
+    /// Returns the index of the first texture of a material; adds its textures unless an earlier
+    /// material has the same images.
+    std::size_t textures_of(const GlbMaterial& material, Tables& tables);
+
+  private:
+    std::size_t sampler_of(bool repeats_u);
+};
+
+/// The names of the extensions in use, each once.
+struct Extensions {
+    std::vector<std::string> names, required;
+
+    /// Adds an extension without which the file cannot be read.
+    void require(const std::string& name);
+    /// Adds an extension that readers may ignore.
+    void use(const std::string& name);
+    /// Returns the JSON members, with a leading comma. Required extensions are in both lists.
+    [[nodiscard]] std::string json() const;
+};
+
+/// Returns true if a material has images, embedded or linked.
+[[nodiscard]] bool is_textured(const GlbMaterial& material);
+
+/// Returns the JSON object of a material; adds its textures to the tables.
+[[nodiscard]] std::string material_json(const GlbMaterial& material, TextureTables& texture_tables,
+                                        Tables& tables, Extensions& used);
+
+}  // namespace sporeprint::gltf

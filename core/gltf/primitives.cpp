@@ -1,0 +1,208 @@
+#include "core/gltf/primitives.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <glm/common.hpp>
+#include <utility>
+#include <vector>
+
+#include "core/gltf/compression.h"
+#include "core/gltf/json_text.h"
+#include "core/problems.h"
+
+namespace sporeprint::gltf {
+
+namespace {
+
+/// Throws GenerationError for a mesh that is empty or lacks what its material needs.
+void check_mesh(const Mesh& mesh, bool textured) {
+    const std::size_t n = mesh.positions.size();
+    if (n == 0 || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
+    if (mesh.normals.size() != n ||
+        (textured && (mesh.tangents.size() != n || mesh.texture_coordinates.size() != n)))
+        throw GenerationError("a mesh lacks what its material needs of each vertex");
+}
+
+std::array<std::uint16_t, 2> normalized_coordinates(const glm::vec2& uv) {
+    return {static_cast<std::uint16_t>(std::floor(uv.x * 65535.0F + 0.5F)),
+            static_cast<std::uint16_t>(std::floor(uv.y * 65535.0F + 0.5F))};
+}
+
+/// Returns the bytes of a vector of items without padding between their members.
+template <class T>
+std::span<const std::uint8_t> bytes_of(const std::vector<T>& items) {
+    return {reinterpret_cast<const std::uint8_t*>(items.data()), items.size() * sizeof(T)};
+}
+
+/// Returns the bounds of integers, which a reader compares before it scales them.
+std::string bounds_of(std::span<const Quantized16> values) {
+    Quantized16 low = values.front(), high = low;
+    for (const Quantized16& value : values)
+        for (std::size_t k = 0; k < 3; ++k) {
+            low[k] = std::min(low[k], value[k]);
+            high[k] = std::max(high[k], value[k]);
+        }
+    const auto list = [](const Quantized16& of) {
+        return std::to_string(of[0]) + ',' + std::to_string(of[1]) + ',' + std::to_string(of[2]);
+    };
+    return ",\"min\":[" + list(low) + "],\"max\":[" + list(high) + "]";
+}
+
+/// Adds positions as integers.
+std::size_t add_quantized(std::span<const glm::vec3> values, float step, bool compressed,
+                          Tables& tables, Bytes& out) {
+    const std::vector<Quantized16> items = quantized(values, step);
+    return tables.stream(bytes_of(items), items.size(), i16_component, "VEC3", bounds_of(items),
+                         compressed, out);
+}
+
+constexpr const char* octahedral = "OCTAHEDRAL";
+
+/// Writes quantised geometry.
+///
+/// step  of the positions
+Geometry quantized_geometry(const Mesh& mesh, bool textured, float step, bool compressed,
+                            Tables& tables) {
+    check_mesh(mesh, textured);
+    const std::size_t n = mesh.positions.size();
+    const auto bytes = std::make_shared<Bytes>();
+    Geometry out;
+    out.attribute("POSITION", add_quantized(mesh.positions, step, compressed, tables, *bytes));
+    const std::vector<Quantized16> normals =
+        compressed ? octahedral_normals(mesh.normals) : quantized_normals(mesh.normals);
+    out.attribute("NORMAL", tables.stream(bytes_of(normals), n, i16_component, "VEC3", normalized,
+                                          compressed, *bytes, octahedral));
+    if (textured) {
+        const std::vector<Quantized8> tangents =
+            compressed ? octahedral_tangents(mesh.tangents) : quantized_tangents(mesh.tangents);
+        out.attribute("TANGENT", tables.stream(bytes_of(tangents), n, i8_component, "VEC4",
+                                               normalized, compressed, *bytes, octahedral));
+        std::vector<std::array<std::uint16_t, 2>> coordinates;
+        coordinates.reserve(n);
+        for (const glm::vec2& uv : mesh.texture_coordinates)
+            coordinates.push_back(normalized_coordinates(uv));
+        out.attribute("TEXCOORD_0", tables.stream(bytes_of(coordinates), n, u16_component, "VEC2",
+                                                  normalized, compressed, *bytes));
+    }
+    const bool small = n <= 65535;
+    const int component = small ? u16_component : u32_component;
+    if (compressed) {
+        out.indices_accessor = tables.compressed_triangles(mesh.indices, n, component, *bytes);
+    } else {
+        const std::size_t length = mesh.indices.size() * (small ? 2 : 4);
+        Bytes indices(padded(length));
+        std::uint8_t* at = indices.data();
+        for (const std::uint32_t index : mesh.indices)
+            if (small)
+                put(at, static_cast<std::uint16_t>(index));
+            else
+                put(at, index);
+        bytes->insert(bytes->end(), indices.begin(), indices.end());
+        out.indices_accessor =
+            tables.accessor(mesh.indices.size(), component, "SCALAR", length, index_target);
+    }
+    out.bytes = bytes;
+    return out;
+}
+
+Geometry float_geometry(const Mesh& mesh, bool textured, Tables& tables) {
+    check_mesh(mesh, textured);
+    const std::size_t n = mesh.positions.size();
+    const bool small = n <= 65535;
+    const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
+    Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0)) + padded(index_bytes));
+    Geometry out;
+    chunk.append(std::span<const glm::vec3>(mesh.positions));
+    out.attribute("POSITION", tables.positions(mesh.positions));
+    chunk.append(std::span<const glm::vec3>(mesh.normals));
+    out.attribute("NORMAL", tables.vectors(mesh.normals));
+    if (textured) {
+        chunk.append(std::span<const glm::vec4>(mesh.tangents));
+        out.attribute("TANGENT",
+                      tables.accessor(n, float_component, "VEC4", n * 16, vertex_target));
+        for (const glm::vec2& uv : mesh.texture_coordinates) {
+            put(chunk.at, normalized_coordinates(uv));
+        }
+        out.attribute("TEXCOORD_0",
+                      tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
+    }
+    if (small)
+        for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
+    else
+        chunk.append(std::span<const std::uint32_t>(mesh.indices));
+    out.indices_accessor =
+        tables.accessor(mesh.indices.size(), small ? u16_component : u32_component, "SCALAR",
+                        index_bytes, index_target);
+    out.bytes = std::move(chunk.bytes);
+    return out;
+}
+
+}  // namespace
+
+Geometry geometry_of(const Mesh& mesh, bool textured, GlbGeometry storage, float step,
+                     Tables& tables) {
+    return storage == GlbGeometry::floats
+               ? float_geometry(mesh, textured, tables)
+               : quantized_geometry(mesh, textured, step, storage == GlbGeometry::compressed,
+                                    tables);
+}
+
+TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices,
+                       GlbGeometry storage, float step, Tables& tables) {
+    for (const MorphTarget& target : targets)
+        if (target.positions.size() != vertices || target.normals.size() != vertices)
+            throw GenerationError("a morph target has another number of vertices than its mesh");
+    TargetData out;
+    if (targets.empty()) return out;
+    const bool floats = storage == GlbGeometry::floats,
+               compressed = storage == GlbGeometry::compressed;
+    const auto bytes = std::make_shared<Bytes>();
+    bytes->reserve(targets.size() * vertices * 24);
+    const auto add_floats = [&](std::span<const glm::vec3> values, bool with_bounds) {
+        const auto* const data = reinterpret_cast<const std::uint8_t*>(values.data());
+        if (compressed)
+            return tables.stream({data, values.size_bytes()}, vertices, float_component, "VEC3", {},
+                                 true, *bytes);
+        bytes->insert(bytes->end(), data, data + values.size_bytes());
+        return with_bounds ? tables.positions(values) : tables.vectors(values);
+    };
+    for (const MorphTarget& target : targets) {
+        out.targets += out.targets.empty() ? ",\"targets\":[" : ",";
+        append(out.targets += "{\"POSITION\":",
+               floats ? add_floats(target.positions, true)
+                      : add_quantized(target.positions, step, compressed, tables, *bytes));
+        append(out.targets += ",\"NORMAL\":", add_floats(target.normals, false));
+        out.targets += '}';
+    }
+    out.targets += ']';
+    out.bytes = bytes;
+    return out;
+}
+
+std::string target_weights_json(const GlbMesh& mesh) {
+    const auto& targets = mesh.primitives.front().targets;
+    for (const GlbPrimitive& other : mesh.primitives)
+        if (other.targets.size() != targets.size())
+            throw GenerationError("the primitives of a mesh have as many targets each");
+    if (targets.empty()) return {};
+    std::string names, zeros;
+    for (const MorphTarget& target : targets) {
+        append_quoted(names += names.empty() ? "" : ",", target.name);
+        zeros += zeros.empty() ? "0" : ",0";
+    }
+    return ",\"weights\":[" + zeros + "],\"extras\":{\"targetNames\":[" + names + "]}";
+}
+
+float step_of(const GlbMesh& mesh, GlbGeometry storage) {
+    if (storage == GlbGeometry::floats) return 1.0F;
+    float largest = 0.0F;
+    for (const GlbPrimitive& primitive : mesh.primitives) {
+        largest = largest_coordinate(primitive.mesh->positions, largest);
+        for (const MorphTarget& target : primitive.targets)
+            largest = largest_coordinate(target.positions, largest);
+    }
+    return largest > 0.0F ? largest / static_cast<float>(most_quantized) : 1.0F;
+}
+
+}  // namespace sporeprint::gltf
