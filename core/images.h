@@ -24,6 +24,24 @@ constexpr const char* name(ImageKind kind) {
     return nullptr;
 }
 
+/// The format of encoded images.
+enum class ImageFormat { jpg, webp };
+
+constexpr const char* name(ImageFormat format) {
+    switch (format) {
+        case ImageFormat::jpg:
+            return "jpg";
+        case ImageFormat::webp:
+            return "webp";
+    }
+    return nullptr;
+}
+
+/// Returns the media type of a format.
+constexpr const char* media_type(ImageFormat format) {
+    return format == ImageFormat::webp ? "image/webp" : "image/jpeg";
+}
+
 /// The three images before encoding, indexed by ImageKind: `side` rows of `side` RGB texels each.
 struct RawImages {
     int side = 0;
@@ -33,9 +51,10 @@ struct RawImages {
     }
 };
 
-/// Three encoded JPEG files, indexed by ImageKind.
+/// Three encoded files, indexed by ImageKind.
 struct ImageSet {
     std::array<Slice, 3> files;
+    ImageFormat format = ImageFormat::jpg;
     [[nodiscard]] std::size_t bytes() const {
         return files[0].size + files[1].size + files[2].size;
     }

@@ -59,6 +59,7 @@ struct Cost {
     std::uint64_t leaf_atlases = 0, leaf_rows = 0, leaf_texels = 0;  ///< of leaves
     std::uint64_t leaf_row_vertices = 0;  ///< rows of images of leaves times vertices of a leaf
     std::uint64_t bark_atlases = 0, bark_texels = 0;  ///< of bark
+    std::uint64_t webp_texels = 0;                    ///< of all images that are encoded as WebP
     std::uint64_t pixels = 0;                         ///< of uploaded images that are decoded
     std::uint64_t json_bytes = 0;                     ///< JSON of the client that is parsed
     std::uint64_t json_values = 0;                    ///< approximate number of values in it

@@ -84,9 +84,9 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
-    cost.atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    cost.texels = estimated.texels;
-    return cost;
+    const auto atlases = static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    return cost + cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
+                                 estimated.texels / atlases);
 }
 
 bool shows_roots(const ColonySpec& spec, const Atlas& atlas) {

@@ -19,12 +19,12 @@ Response image_head(const ResponseBuilder& responses, const ImageResource& image
                     std::string_view digest) {
     Response head;
     head.headers = {
-        {"Content-Type", "image/jpeg"},
+        {"Content-Type", media_type(image.format)},
         {"ETag", '"' + std::string(digest) + '-' + name(image.kind) + '"'},
         {"Cache-Control", cache_control(image.requested_version.has_value())},
         {"Content-Location", responses.link(with_version(image.address, image.version))},
         {"Content-Disposition",
-         "inline; filename=\"" + image.of + '-' + name(image.kind) + ".jpg\""}};
+         "inline; filename=\"" + image.of + '-' + file_of(image.kind, image.format) + '"'}};
     return head;
 }
 

@@ -13,6 +13,7 @@ namespace sporeprint::api {
 /// One image of an atlas as an HTTP resource.
 struct ImageResource {
     ImageKind kind = ImageKind::base_color;
+    ImageFormat format = ImageFormat::jpg;
     std::string version;  ///< current version token
     std::string address;  ///< canonical URL without version
     std::string of;       ///< first part of the file name: "amanita_muscaria-7"

@@ -99,7 +99,17 @@ constexpr Route routes[] = {
      .example = example_preset,
      .query_schema =
          [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
-     .plan = plan_preset_image<Leaves>},
+     .plan = plan_preset_image<Leaves, ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/surfaces/leaves/{preset}/{image}.webp",
+     .id = "get_leaf_surface_webp",
+     .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
+     .media_type = "image/webp",
+     .example = example_preset,
+     .query_schema =
+         [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
+     .plan = plan_preset_image<Leaves, ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

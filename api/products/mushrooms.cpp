@@ -144,8 +144,9 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
-    cost.atlases = static_cast<std::uint64_t>(atlases_held(spec));
-    cost.texels = estimated.texels;
+    const auto atlases = static_cast<std::uint64_t>(atlases_held(spec));
+    cost += cost_of_images(spec.params.file, {.atlases = atlases, .texels = estimated.texels},
+                           estimated.texels / atlases);
     if (spec.model)
         for (const Upload* upload :
              {&spec.model->surface.cap.image, &spec.model->surface.hymenium.image,
@@ -336,7 +337,15 @@ constexpr Route routes[] = {
      .summary = "One image of a mushroom's atlas; what textures=linked points to.",
      .media_type = "image/jpeg",
      .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
-     .plan = plan_mushroom_image},
+     .plan = plan_mushroom_image<ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/surfaces/mushrooms/{mix}/{image}.webp",
+     .id = "get_surface_webp",
+     .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
+     .media_type = "image/webp",
+     .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
+     .plan = plan_mushroom_image<ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

@@ -66,8 +66,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
         extras.canonical = url;
         if (spec->params.textures == Textures::linked) {
             const ImageUrls urls = Kind::image_urls(context, *spec, version, job.execution());
-            for (std::size_t i = 0; i < urls.size(); ++i)
-                extras.image_urls[i] = reference_from(depth, urls[i]);
+            extras.image_urls = references_from(depth, urls);
         }
         return Kind::grow(context, *spec, *resolved, extras, depth, job.execution());
     };

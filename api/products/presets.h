@@ -162,9 +162,9 @@ PresetSurface<Kind> read_preset_surface(const Atlas& atlas, std::string_view id,
 /// Returns the canonical URL of an image without version.
 template <class Kind, class Paint>
 std::string canonical_image_address(const Atlas& atlas, const std::string& preset, ImageKind kind,
-                                    const Paint& paint) {
+                                    ImageFormat format, const Paint& paint) {
     return with_query(
-        std::string("/v1/surfaces/") + Kind::all + '/' + preset + '/' + name(kind) + ".jpg",
+        std::string("/v1/surfaces/") + Kind::all + '/' + preset + '/' + file_of(kind, format),
         query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
 }
 
@@ -172,12 +172,10 @@ std::string canonical_image_address(const Atlas& atlas, const std::string& prese
 template <class Kind, class Paint>
 ImageUrls preset_image_urls(const Atlas& atlas, const std::string& preset, const Paint& paint,
                             const std::string& version) {
-    ImageUrls urls;
-    for (std::size_t i = 0; i < urls.size(); ++i)
-        urls[i] = with_version(
-            canonical_image_address<Kind>(atlas, preset, static_cast<ImageKind>(i), paint),
-            version);
-    return urls;
+    return image_urls_of([&](ImageKind kind, ImageFormat format) {
+        return with_version(canonical_image_address<Kind>(atlas, preset, kind, format, paint),
+                            version);
+    });
 }
 
 /// Returns the document that lists all presets: {"leaves":[{"id","name","links"}]} for leaves.
@@ -230,7 +228,8 @@ struct PresetProduct {
         if (product == Product::json) return cost;
         cost.bytes = estimated.bytes;
         if (spec.params.textures == Textures::embedded)
-            cost += Kind::cost_of_painting(spec, *context.atlas);
+            cost += cost_of_images(spec.params.file, Kind::cost_of_painting(spec, *context.atlas),
+                                   estimated.texels);
         return cost;
     }
 
@@ -278,8 +277,8 @@ Plan plan_preset_body(RouteCall& call) {
         read_preset<Kind>(*call.context.atlas, call.request.body, call.errors), call.errors);
 }
 
-/// Handles GET /v1/surfaces/{kind}/{preset}/{image}.jpg.
-template <class Kind>
+/// Handles GET /v1/surfaces/{kind}/{preset}/{image}.jpg and .webp.
+template <class Kind, ImageFormat Format>
 Plan plan_preset_image(RouteCall& call) {
     Context& context = call.context;
     const Atlas& atlas = *context.atlas;
@@ -290,18 +289,24 @@ Plan plan_preset_image(RouteCall& call) {
         const auto paint = std::make_shared<const typename Kind::Paint>(requested.paint);
         const auto side = static_cast<std::uint64_t>(paint->texture_size.value);
         refuse_texels(context.options, 3 * side * side, false, found);
-        return PaintWork{image_key(*paint), Kind::cost_of_paint(*paint),
+        Cost cost = Kind::cost_of_paint(*paint);
+        if (Format == ImageFormat::webp) cost.webp_texels = 3 * side * side;
+        return PaintWork{image_key(*paint, Format), cost,
                          [paint](const ExecutionContext& execution) {
-                             return painted_images(*paint, execution);
+                             return painted_images(*paint, execution, Format);
                          }};
     };
     std::string of = requested.preset;
     if constexpr (requires { requested.paint.seed; })
         of += '-' + std::to_string(requested.paint.seed);
     const ImageResource image{
-        *requested.kind, preset_token<Kind>(atlas, requested.preset),
-        canonical_image_address<Kind>(atlas, requested.preset, *requested.kind, requested.paint),
-        std::move(of), requested.version};
+        *requested.kind,
+        Format,
+        preset_token<Kind>(atlas, requested.preset),
+        canonical_image_address<Kind>(atlas, requested.preset, *requested.kind, Format,
+                                      requested.paint),
+        std::move(of),
+        requested.version};
     return plan_image(context, call.request, image, decide, call.errors);
 }
 

@@ -82,6 +82,31 @@ std::string reference_from(int depth, std::string_view address) {
     return reference += address.substr(root.size());
 }
 
+ImageUrls references_from(int depth, ImageUrls urls) {
+    for (auto* of_format : {&urls.jpg, &urls.webp})
+        for (std::string& url : *of_format) url = reference_from(depth, url);
+    return urls;
+}
+
+std::string file_of(ImageKind kind, ImageFormat format) {
+    return std::string(name(kind)) + '.' + name(format);
+}
+
+ImageUrls image_urls_of(const std::function<std::string(ImageKind, ImageFormat)>& url) {
+    ImageUrls urls;
+    for (std::size_t i = 0; i < urls.jpg.size(); ++i) {
+        urls.jpg[i] = url(static_cast<ImageKind>(i), ImageFormat::jpg);
+        urls.webp[i] = url(static_cast<ImageKind>(i), ImageFormat::webp);
+    }
+    return urls;
+}
+
+Cost cost_of_images(const FileOptions& file, const Cost& painting, std::uint64_t texels) {
+    if (file.image_format == ImageFormats::jpg) return painting;
+    Cost cost = painting + Cost{.webp_texels = texels};
+    return file.image_format == ImageFormats::webp_jpg ? cost + painting : cost;
+}
+
 std::optional<ImageKind> read_image(std::string_view image, ValidationErrors& errors) {
     std::vector<std::string> kinds;
     for (int i = 0; const char* one = name(static_cast<ImageKind>(i)); ++i) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <algorithm>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -105,8 +106,26 @@ void without_negative_zero(T& value) {
 /// depth    0 for /v1/mushrooms.glb, 1 for /v1/mushrooms/x.glb, 2 for /v1/morphs/a/b.glb
 [[nodiscard]] std::string reference_from(int depth, std::string_view address);
 
+/// Returns the same for the URLs of images.
+[[nodiscard]] ImageUrls references_from(int depth, ImageUrls urls);
+
+/// Returns the file name of an image in its folder: "base_color.jpg".
+[[nodiscard]] std::string file_of(ImageKind kind, ImageFormat format);
+
+/// Returns the URLs of all images of an atlas; `url` returns that of one kind and format.
+[[nodiscard]] ImageUrls image_urls_of(
+    const std::function<std::string(ImageKind, ImageFormat)>& url);
+
 /// Reads the {image} of a URL; adds 404 if it is unknown.
 [[nodiscard]] std::optional<ImageKind> read_image(std::string_view image, ValidationErrors& errors);
+
+/// Returns the cost of the images in the formats that a file has: the painting once for each, and
+/// the encoding of WebP.
+///
+/// painting  cost of painting them and encoding them as JPEG
+/// texels    of all images of the file
+[[nodiscard]] Cost cost_of_images(const FileOptions& file, const Cost& painting,
+                                  std::uint64_t texels);
 
 /// Returns members of the JSON description of a product.
 [[nodiscard]] Value description(const Estimate& estimate);

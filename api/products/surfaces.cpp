@@ -66,18 +66,18 @@ SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query 
     return request;
 }
 
-std::string canonical_address(const Mix& mix, ImageKind kind, const SurfaceAddress& address) {
-    return with_query("/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + name(kind) + ".jpg",
+std::string canonical_address(const Mix& mix, ImageKind kind, ImageFormat format,
+                              const SurfaceAddress& address) {
+    return with_query("/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + file_of(kind, format),
                       query_text(address));
 }
 
 ImageUrls mushroom_image_urls(const MushroomSpec& surface, const SurfaceAddress& address,
                               const Atlas& atlas) {
-    ImageUrls urls;
-    for (std::size_t i = 0; i < urls.size(); ++i)
-        urls[i] = with_version(canonical_address(surface.mix, static_cast<ImageKind>(i), address),
-                               version_token(surface.mix, atlas));
-    return urls;
+    const std::string version = version_token(surface.mix, atlas);
+    return image_urls_of([&](ImageKind kind, ImageFormat format) {
+        return with_version(canonical_address(surface.mix, kind, format, address), version);
+    });
 }
 
 namespace {
@@ -109,6 +109,7 @@ PaintSpec painted(Context& context, const SurfaceRequest& requested, ValidationE
 
 }  // namespace
 
+template <ImageFormat Format>
 Plan plan_mushroom_image(RouteCall& call) {
     Context& context = call.context;
     ValidationErrors& errors = call.errors;
@@ -120,19 +121,29 @@ Plan plan_mushroom_image(RouteCall& call) {
         const auto paint_spec =
             std::make_shared<const PaintSpec>(painted(context, requested, found));
         if (paint_spec->empty()) return PaintWork{};
-        const Cost cost{.base = 300,
-                        .atlases = static_cast<std::uint64_t>(atlases_held(*paint_spec)),
-                        .texels = texels_held(*paint_spec)};
-        return PaintWork{image_key(*paint_spec), cost,
+        Cost cost{.base = 300,
+                  .atlases = static_cast<std::uint64_t>(atlases_held(*paint_spec)),
+                  .texels = texels_held(*paint_spec)};
+        if (Format == ImageFormat::webp) {
+            const auto side = static_cast<std::uint64_t>(side_of(*paint_spec));
+            cost.webp_texels = 3 * side * side;
+        }
+        return PaintWork{image_key(*paint_spec, Format), cost,
                          [paint_spec](const ExecutionContext& execution) {
-                             return painted_images(*paint_spec, execution);
+                             return painted_images(*paint_spec, execution, Format);
                          }};
     };
     const ImageResource image{
-        *requested.kind, version_token(requested.mix, *context.atlas),
-        canonical_address(requested.mix, *requested.kind, requested.address),
-        requested.mix.front().id + '-' + std::to_string(requested.address.seed), requested.version};
+        *requested.kind,
+        Format,
+        version_token(requested.mix, *context.atlas),
+        canonical_address(requested.mix, *requested.kind, Format, requested.address),
+        requested.mix.front().id + '-' + std::to_string(requested.address.seed),
+        requested.version};
     return plan_image(context, request, image, decide, errors);
 }
+
+template Plan plan_mushroom_image<ImageFormat::jpg>(RouteCall& call);
+template Plan plan_mushroom_image<ImageFormat::webp>(RouteCall& call);
 
 }  // namespace sporeprint::api

@@ -98,16 +98,19 @@ struct SurfaceRequest {
                                           const Atlas& atlas, ValidationErrors& errors);
 
 /// Returns the canonical URL of an image without version.
-[[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind,
+[[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind, ImageFormat format,
                                             const SurfaceAddress& address);
 
-/// Returns the URLs of the three images of a mushroom, with their version tokens.
+/// Returns the URLs of the images of a mushroom, with their version tokens.
 ///
 /// surface  as surface_spec() returns it
 [[nodiscard]] ImageUrls mushroom_image_urls(const MushroomSpec& surface,
                                             const SurfaceAddress& address, const Atlas& atlas);
 
-/// Handles GET /v1/surfaces/mushrooms/{mix}/{image}.jpg.
+/// Handles GET /v1/surfaces/mushrooms/{mix}/{image}.jpg and .webp.
+template <ImageFormat Format>
 [[nodiscard]] Plan plan_mushroom_image(RouteCall& call);
+extern template Plan plan_mushroom_image<ImageFormat::jpg>(RouteCall& call);
+extern template Plan plan_mushroom_image<ImageFormat::webp>(RouteCall& call);
 
 }  // namespace sporeprint::api

@@ -68,9 +68,9 @@ Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras
     ImageUrls of_leaves;
     if (spec.params.textures == Textures::linked) {
         const std::string leaf = spec.params.look.leaf.id.string();
-        of_leaves = preset_image_urls<Leaves>(atlas, leaf, paint_of(leaf_of(spec.params, atlas)),
-                                              preset_token<Leaves>(atlas, leaf));
-        for (std::string& url : of_leaves) url = reference_from(depth, url);
+        of_leaves = references_from(
+            depth, preset_image_urls<Leaves>(atlas, leaf, paint_of(leaf_of(spec.params, atlas)),
+                                             preset_token<Leaves>(atlas, leaf)));
     }
     return grow_tree(spec, atlas, extras, of_leaves, execution);
 }
@@ -181,7 +181,17 @@ constexpr Route routes[] = {
      .media_type = "image/jpeg",
      .example = example_preset,
      .query_schema = [](const Atlas&) { return from_preset<TreeLook>(schema<TreePaint>()); },
-     .plan = plan_preset_image<Trees>},
+     .plan = plan_preset_image<Trees, ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/surfaces/trees/{preset}/{image}.webp",
+     .id = "get_tree_surface_webp",
+     .summary =
+         "One image of a tree's bark; what textures=linked points to, beside those of its leaves.",
+     .media_type = "image/webp",
+     .example = example_preset,
+     .query_schema = [](const Atlas&) { return from_preset<TreeLook>(schema<TreePaint>()); },
+     .plan = plan_preset_image<Trees, ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

@@ -44,6 +44,10 @@ struct GlbMaterial {
     std::array<std::string, 3> image_urls = {};  ///< linked when not empty
     MaterialLook look = {};
     bool repeats_u = false;  ///< wrap mode of the samplers in u: REPEAT, otherwise CLAMP_TO_EDGE
+    ImageFormat url_format = ImageFormat::jpg;  ///< of the linked images
+    /// JPEG images for loaders without EXT_texture_webp, which WebP images otherwise require.
+    const ImageSet* fallback = nullptr;
+    std::array<std::string, 3> fallback_urls = {};
 };
 
 /// A part of a mesh with one material: one draw call.

@@ -7,7 +7,30 @@
 
 namespace sporeprint::gltf {
 
-std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tables) {
+namespace {
+
+constexpr const char* texture_webp = "EXT_texture_webp";
+
+}  // namespace
+
+std::size_t TextureTables::add_images(const ImageSet* files, const std::array<std::string, 3>& urls,
+                                      Tables& tables) {
+    for (std::size_t i = 0; i < urls.size(); ++i) {
+        images += separator(images);
+        if (files) {
+            ((images += "{\"mimeType\":\"") += media_type(files->format)) += "\",\"bufferView\":";
+            append(images, tables.view(files->files[i].size));
+        } else {
+            append_quoted(images += "{\"uri\":", urls[i]);
+        }
+        images += '}';
+    }
+    image_count_ += urls.size();
+    return image_count_ - urls.size();
+}
+
+std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tables,
+                                       Extensions& used) {
     for (std::size_t k = 0; k < sources.size(); ++k)
         if (sources[k]->images == material.images &&
             sources[k]->image_urls == material.image_urls &&
@@ -16,16 +39,23 @@ std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tabl
     const std::size_t sampler = sampler_of(material.repeats_u);
     const std::size_t first = 3 * sources.size();
     sources.push_back(&material);
+    const bool is_webp = (material.images ? material.images->format : material.url_format) ==
+                         ImageFormat::webp,
+               falls_back = material.fallback || !material.fallback_urls[0].empty();
+    const std::size_t source = add_images(material.images, material.image_urls, tables);
+    const std::size_t fallback =
+        falls_back ? add_images(material.fallback, material.fallback_urls, tables) : source;
+    if (is_webp && falls_back) used.use(texture_webp);
+    if (is_webp && !falls_back) used.require(texture_webp);
     for (std::size_t i = 0; i < 3; ++i) {
         append((textures += separator(textures)) += "{\"sampler\":", sampler);
-        append(textures += ",\"source\":", first + i);
+        if (falls_back || !is_webp) append(textures += ",\"source\":", fallback + i);
+        if (is_webp) {
+            ((textures += ",\"extensions\":{\"") += texture_webp) += "\":{\"source\":";
+            append(textures, source + i);
+            textures += "}}";
+        }
         textures += '}';
-        if (material.images)
-            append((images += separator(images)) += "{\"mimeType\":\"image/jpeg\",\"bufferView\":",
-                   tables.view(material.images->files[i].size));
-        else
-            append_quoted((images += separator(images)) += "{\"uri\":", material.image_urls[i]);
-        images += '}';
     }
     return first;
 }
@@ -122,7 +152,7 @@ std::string material_json(const GlbMaterial& material, TextureTables& texture_ta
     if (!is_textured(material))
         return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
                material_extensions_json(material.look, std::nullopt, used) + "}";
-    const std::size_t first = texture_tables.textures_of(material, tables);
+    const std::size_t first = texture_tables.textures_of(material, tables, used);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);

@@ -10,20 +10,6 @@
 
 namespace sporeprint::gltf {
 
-/// The tables of textures, images and samplers.
-struct TextureTables {
-    std::string textures, images, samplers;
-    std::vector<const GlbMaterial*> sources;  ///< materials that added images, three textures each
-    std::vector<bool> sampler_repeats;        ///< by sampler
-
-    /// Returns the index of the first texture of a material; adds its textures unless an earlier
-    /// material has the same images.
-    std::size_t textures_of(const GlbMaterial& material, Tables& tables);
-
-  private:
-    std::size_t sampler_of(bool repeats_u);
-};
-
 /// The names of the extensions in use, each once.
 struct Extensions {
     std::vector<std::string> names, required;
@@ -34,6 +20,25 @@ struct Extensions {
     void use(const std::string& name);
     /// Returns the JSON members, with a leading comma. Required extensions are in both lists.
     [[nodiscard]] std::string json() const;
+};
+
+/// The tables of textures, images and samplers.
+struct TextureTables {
+    std::string textures, images, samplers;
+    std::vector<const GlbMaterial*> sources;  ///< materials that added textures, three each
+    std::vector<bool> sampler_repeats;        ///< by sampler
+
+    /// Returns the index of the first texture of a material; adds its textures unless an earlier
+    /// material has the same images.
+    std::size_t textures_of(const GlbMaterial& material, Tables& tables, Extensions& used);
+
+  private:
+    std::size_t image_count_ = 0;
+
+    /// Adds three images, embedded or linked; returns the index of the first.
+    std::size_t add_images(const ImageSet* files, const std::array<std::string, 3>& urls,
+                           Tables& tables);
+    std::size_t sampler_of(bool repeats_u);
 };
 
 /// Returns true if a material has images, embedded or linked.

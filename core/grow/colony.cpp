@@ -355,9 +355,11 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     const Colony colony = colony_parts(spec, typical, atlas, execution);
     const std::string name = name_of(typical);
     GlbMaterial material{.name = name, .look = look_of(typical.model)};
-    const auto images = attach_images(
-        material, spec.params.textures, extras.image_urls, execution,
-        [&] { return painted_images(paint_spec_of(spec, atlas, execution.caches), execution); });
+    const EmbeddedImages images = attach_images(
+        material, spec.params.textures, spec.params.file, extras.image_urls, execution,
+        [&](ImageFormat format) {
+            return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
+        });
     execution.observer(Step::pack);
     GlbScene scene;
     scene.geometry = storage_of(spec.params.file.compress);

@@ -50,12 +50,15 @@ Mesh leaf_mesh(const LeafSpec& spec) {
     return mesh;
 }
 
-std::string image_key(const LeafPaint& paint) { return "leaf " + canonical_text(paint); }
+std::string image_key(const LeafPaint& paint, ImageFormat format) {
+    return key_of_format(format) + "leaf " + canonical_text(paint);
+}
 
 std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
-                                               const ExecutionContext& execution) {
+                                               const ExecutionContext& execution,
+                                               ImageFormat format) {
     require_valid(paint);
-    return execution.caches.images(image_key(paint), [&] {
+    return execution.caches.images(image_key(paint, format), [&] {
         LeafParams params;
         params.seed = paint.seed;
         params.variation = paint.variation;
@@ -64,7 +67,7 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
         const RawImages images = leaf_images(shape_of(params), paint.palette, paint.autumn,
                                              paint.seed, paint.texture_size, execution.parallel);
         throw_if_cancelled(execution);
-        return std::make_shared<const ImageSet>(encoded(images, execution.parallel));
+        return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
     });
 }
 
@@ -73,15 +76,18 @@ Grown grow_leaf(const LeafSpec& spec, const Extras& extras, const ExecutionConte
     execution.observer(Step::build);
     const Mesh mesh = leaf_mesh(spec);
     throw_if_cancelled(execution);
-    GlbParts parts{.name = spec.preset.empty() ? "leaf" : spec.preset,
-                   .images = nullptr,
-                   .image_urls = {},
-                   .extras_json = extras_json(extras, write(params), mesh),
-                   .geometry = storage_of(params.file.compress)};
-    const auto images = attach_images(parts, params.textures, extras, execution,
-                                      [&] { return painted_images(paint_of(params), execution); });
+    const std::string name = spec.preset.empty() ? "leaf" : spec.preset;
+    GlbScene scene;
+    scene.geometry = storage_of(params.file.compress);
+    scene.extras_json = extras_json(extras, write(params), mesh);
+    scene.materials.push_back({.name = name});
+    scene.meshes.push_back({name, {{&mesh, 0, {}}}});
+    scene.nodes.push_back({.name = name, .mesh = 0});
+    const EmbeddedImages images = attach_images(
+        scene.materials[0], params.textures, params.file, extras.image_urls, execution,
+        [&](ImageFormat format) { return painted_images(paint_of(params), execution, format); });
     execution.observer(Step::pack);
-    return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
+    return {glb(scene), mesh.positions.size(), mesh.triangles()};
 }
 
 }  // namespace sporeprint

@@ -23,13 +23,14 @@ namespace sporeprint {
 [[nodiscard]] Estimate measured(const LeafSpec& spec, const Mesh& mesh);
 
 /// Returns the cache key of a leaf's images: equal keys, equal images.
-[[nodiscard]] std::string image_key(const LeafPaint& paint);
+[[nodiscard]] std::string image_key(const LeafPaint& paint, ImageFormat format);
 
 /// Returns the images, cached in execution.caches or painted now.
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
-                                                             const ExecutionContext& execution);
+                                                             const ExecutionContext& execution,
+                                                             ImageFormat format = ImageFormat::jpg);
 
 /// Builds a leaf.
 ///

@@ -95,23 +95,26 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     execution.observer(Step::build);
     const Mesh mesh = mushroom_mesh(spec, individual);
     throw_if_cancelled(execution);
-    GlbParts parts{.name = name_of(individual),
-                   .images = nullptr,
-                   .image_urls = {},
-                   .extras_json = extras_json(extras, write(individual.effective), mesh),
-                   .look = look_of(individual.model),
-                   .geometry = storage_of(spec.params.file.compress)};
+    const std::string name = name_of(individual);
+    GlbScene scene;
+    scene.geometry = storage_of(spec.params.file.compress);
+    scene.extras_json = extras_json(extras, write(individual.effective), mesh);
+    scene.materials.push_back({.name = name, .look = look_of(individual.model)});
+    scene.meshes.push_back({name, {{&mesh, 0, {}}}});
+    scene.nodes.push_back({.name = name, .mesh = 0});
     GrowthClip growth;
     if (spec.params.animation == Animation::growth) {
         growth = growth_clip(spec, atlas, mesh, execution);
-        parts.targets = growth.targets;
-        parts.clip = &growth.clip;
+        scene.meshes[0].primitives[0].targets = growth.targets;
+        scene.clip = &growth.clip;
     }
-    const auto images = attach_images(parts, spec.params.textures, extras, execution, [&] {
-        return painted_images(paint_spec_of(spec, atlas, execution.caches), execution);
-    });
+    const EmbeddedImages images = attach_images(
+        scene.materials[0], spec.params.textures, spec.params.file, extras.image_urls, execution,
+        [&](ImageFormat format) {
+            return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
+        });
     execution.observer(Step::pack);
-    return {glb(mesh, parts), mesh.positions.size(), mesh.triangles()};
+    return {glb(scene), mesh.positions.size(), mesh.triangles()};
 }
 
 }  // namespace sporeprint

@@ -281,16 +281,18 @@ int atlases_held(const PaintSpec& paint_spec) {
 
 int side_of(const PaintSpec& paint_spec) { return paint_spec.front().painting.side; }
 
-std::string image_key(const PaintSpec& paint_spec) {
-    if (paint_spec.size() == 1) return painting_key(paint_spec.front().painting);
-    std::string key = "dissolve";
+std::string image_key(const PaintSpec& paint_spec, ImageFormat format) {
+    const std::string start = key_of_format(format);
+    if (paint_spec.size() == 1) return start + painting_key(paint_spec.front().painting);
+    std::string key = start + "dissolve";
     for (const PaintShare& share : paint_spec)
         ((key += ' ') += std::to_string(share.sixty_fourths) + ' ') += painting_key(share.painting);
     return key;
 }
 
 std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,
-                                               const ExecutionContext& execution) {
+                                               const ExecutionContext& execution,
+                                               ImageFormat format) {
     const auto blended = [&] {
         std::vector<const PaintParams*> params;
         std::vector<double> weights;
@@ -314,14 +316,16 @@ std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,
             raw.push_back(paintings.back().get());
         }
         return std::make_shared<const ImageSet>(
-            blend_images(raw, weights, execution.parallel, params));
+            blend_images(raw, weights, execution.parallel, params, format));
     };
-    return execution.caches.images(image_key(paint_spec), [&]() -> std::shared_ptr<const ImageSet> {
-        if (paint_spec.size() > 1) return blended();
-        throw_if_cancelled(execution);  // uploads of a model are decoded first, 80 ms each at most
-        return std::make_shared<const ImageSet>(
-            paint(paint_spec.front().painting, execution.parallel));
-    });
+    return execution.caches.images(
+        image_key(paint_spec, format), [&]() -> std::shared_ptr<const ImageSet> {
+            if (paint_spec.size() > 1) return blended();
+            throw_if_cancelled(
+                execution);  // uploads of a model are decoded first, 80 ms each at most
+            return std::make_shared<const ImageSet>(
+                paint(paint_spec.front().painting, execution.parallel, format));
+        });
 }
 
 }  // namespace sporeprint

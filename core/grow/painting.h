@@ -62,13 +62,14 @@ using PaintSpec = std::vector<PaintShare>;
 
 /// Returns the cache key of the images: equal keys, equal images. For a single species it is the
 /// key of its painting.
-[[nodiscard]] std::string image_key(const PaintSpec& paint_spec);
+[[nodiscard]] std::string image_key(const PaintSpec& paint_spec, ImageFormat format);
 
 /// Returns the images, cached in execution.caches or painted now. A mix is blended from paintings
 /// that may be cached too; uploaded images of several species are rotated to match first.
 ///
 /// throws  InvalidInput if an uploaded image cannot be read; Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const PaintSpec& paint_spec,
-                                                             const ExecutionContext& execution);
+                                                             const ExecutionContext& execution,
+                                                             ImageFormat format = ImageFormat::jpg);
 
 }  // namespace sporeprint

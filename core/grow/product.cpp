@@ -30,10 +30,31 @@ GlbGeometry storage_of(Compression compress) {
     return GlbGeometry::floats;
 }
 
+namespace {
+
+/// Returns the approximate size of images.
+///
+/// jpg  the size of the same images as JPEG
+std::uint64_t bytes_of_images(std::uint64_t jpg, ImageFormats formats) {
+    const std::uint64_t webp = jpg / 3;
+    switch (formats) {
+        case ImageFormats::jpg:
+            break;
+        case ImageFormats::webp:
+            return webp;
+        case ImageFormats::webp_jpg:
+            return webp + jpg;
+    }
+    return jpg;
+}
+
+}  // namespace
+
 std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles, Textures textures,
                               const FileOptions& file, std::uint64_t image_bytes) {
     const bool textured = textures != Textures::none;
-    const std::uint64_t images = textures == Textures::embedded ? image_bytes : 0;
+    const std::uint64_t images =
+        textures == Textures::embedded ? bytes_of_images(image_bytes, file.image_format) : 0;
     const std::uint64_t index_size = vertices > 65535 ? 4 : 2;
     switch (file.compress) {
         case Compression::none:
@@ -64,33 +85,33 @@ std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh)
     return extras_json(extras, std::move(effective), bounds(mesh), mesh.triangles());
 }
 
-std::shared_ptr<const ImageSet> attach_images(
-    GlbMaterial& material, Textures textures, const ImageUrls& addresses,
+std::string key_of_format(ImageFormat format) {
+    return format == ImageFormat::jpg ? std::string() : std::string(name(format)) + ' ';
+}
+
+EmbeddedImages attach_images(
+    GlbMaterial& material, Textures textures, const FileOptions& file, const ImageUrls& urls,
     const ExecutionContext& execution,
-    const std::function<std::shared_ptr<const ImageSet>()>& paint) {
-    std::shared_ptr<const ImageSet> images;
+    const std::function<std::shared_ptr<const ImageSet>(ImageFormat)>& paint) {
+    const bool is_webp = file.image_format != ImageFormats::jpg,
+               falls_back = file.image_format == ImageFormats::webp_jpg;
+    EmbeddedImages images;
     if (textures == Textures::embedded) {
         execution.observer(Step::paint);
-        images = paint();
-        material.images = images.get();
+        images.files = paint(is_webp ? ImageFormat::webp : ImageFormat::jpg);
+        if (falls_back) images.fallback = paint(ImageFormat::jpg);
+        material.images = images.files.get();
+        material.fallback = images.fallback.get();
         throw_if_cancelled(execution);
     } else if (textures == Textures::linked) {
-        if (addresses[0].empty())
+        if (urls.jpg[0].empty())
             throw Impossible(
                 "/textures",
                 "'linked' needs the images to have addresses; a model of one's own has none");
-        material.image_urls = addresses;
+        material.image_urls = is_webp ? urls.webp : urls.jpg;
+        material.url_format = is_webp ? ImageFormat::webp : ImageFormat::jpg;
+        if (falls_back) material.fallback_urls = urls.jpg;
     }
-    return images;
-}
-
-std::shared_ptr<const ImageSet> attach_images(
-    GlbParts& parts, Textures textures, const Extras& extras, const ExecutionContext& execution,
-    const std::function<std::shared_ptr<const ImageSet>()>& paint) {
-    GlbMaterial material;
-    auto images = attach_images(material, textures, extras.image_urls, execution, paint);
-    parts.images = material.images;
-    parts.image_urls = material.image_urls;
     return images;
 }
 

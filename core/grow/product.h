@@ -31,13 +31,23 @@ struct Estimate {
 
 /// Returns the approximate size of a file with a mesh and images, bytes.
 ///
-/// image_bytes  size of all images; counted for Textures::embedded only
+/// image_bytes  size of all images as JPEG; counted for Textures::embedded only
 [[nodiscard]] std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles,
                                             Textures textures, const FileOptions& file,
                                             std::uint64_t image_bytes);
 
-/// URLs of the images of an atlas, indexed by ImageKind.
-using ImageUrls = std::array<std::string, 3>;
+/// URLs of the images of an atlas in each format, indexed by ImageKind.
+struct ImageUrls {
+    std::array<std::string, 3> jpg, webp;
+};
+
+/// Returns the start of the cache keys of images in a format; empty for JPEG.
+[[nodiscard]] std::string key_of_format(ImageFormat format);
+
+/// Images of a material that are embedded in a file, which must outlive the material.
+struct EmbeddedImages {
+    std::shared_ptr<const ImageSet> files, fallback;
+};
 
 struct Extras {
     std::string canonical;  ///< canonical URL of the request; empty for none
@@ -57,19 +67,14 @@ struct Grown {
                                       std::size_t triangles);
 [[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh);
 
-/// Sets the images of `parts` as `textures` requests: embedded images, which `paint` returns, the
-/// URLs of `extras`, or none.
+/// Sets the images of a material as the parameters request: embedded images, which `paint` returns
+/// in a format, linked images, or none.
 ///
-/// returns  the embedded images, which must outlive `parts`; nullptr if there are none
+/// returns  the embedded images
 /// throws   Impossible (path "/textures") for linked images without URLs; Cancelled
-[[nodiscard]] std::shared_ptr<const ImageSet> attach_images(
-    GlbParts& parts, Textures textures, const Extras& extras, const ExecutionContext& execution,
-    const std::function<std::shared_ptr<const ImageSet>()>& paint);
-
-/// Does the same for one material of a scene.
-[[nodiscard]] std::shared_ptr<const ImageSet> attach_images(
-    GlbMaterial& material, Textures textures, const ImageUrls& addresses,
+[[nodiscard]] EmbeddedImages attach_images(
+    GlbMaterial& material, Textures textures, const FileOptions& file, const ImageUrls& urls,
     const ExecutionContext& execution,
-    const std::function<std::shared_ptr<const ImageSet>()>& paint);
+    const std::function<std::shared_ptr<const ImageSet>(ImageFormat)>& paint);
 
 }  // namespace sporeprint

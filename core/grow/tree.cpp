@@ -216,16 +216,19 @@ Bounds bounds(const TreeMeshes& meshes) {
     return {glm::min(box.min, leaves.min), glm::max(box.max, leaves.max)};
 }
 
-std::string image_key(const TreePaint& paint) { return "bark " + canonical_text(paint); }
+std::string image_key(const TreePaint& paint, ImageFormat format) {
+    return key_of_format(format) + "bark " + canonical_text(paint);
+}
 
 std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
-                                               const ExecutionContext& execution) {
+                                               const ExecutionContext& execution,
+                                               ImageFormat format) {
     require_valid(paint);
-    return execution.caches.images(image_key(paint), [&] {
+    return execution.caches.images(image_key(paint, format), [&] {
         const RawImages images =
             bark_images(paint.bark, bark_seed, paint.texture_size, execution.parallel);
         throw_if_cancelled(execution);
-        return std::make_shared<const ImageSet>(encoded(images, execution.parallel));
+        return std::make_shared<const ImageSet>(encoded(images, format, execution.parallel));
     });
 }
 
@@ -246,14 +249,16 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
         scene.materials.push_back({.name = "leaves"});
         scene.meshes[0].primitives.push_back({&meshes.leaves, 1, {}});
     }
-    const auto bark_images =
-        attach_images(scene.materials[0], params.textures, extras.image_urls, execution,
-                      [&] { return painted_images(paint_of(params), execution); });
-    std::shared_ptr<const ImageSet> leaf_images;
+    const EmbeddedImages bark_images = attach_images(
+        scene.materials[0], params.textures, params.file, extras.image_urls, execution,
+        [&](ImageFormat format) { return painted_images(paint_of(params), execution, format); });
+    EmbeddedImages leaf_images;
     if (leafy)
-        leaf_images = attach_images(scene.materials[1], params.textures, leaf_urls, execution, [&] {
-            return painted_images(paint_of(leaf_of(params, atlas)), execution);
-        });
+        leaf_images = attach_images(scene.materials[1], params.textures, params.file, leaf_urls,
+                                    execution, [&](ImageFormat format) {
+                                        return painted_images(paint_of(leaf_of(params, atlas)),
+                                                              execution, format);
+                                    });
     execution.observer(Step::pack);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes), meshes.triangles());
     return {glb(scene), meshes.vertices(), meshes.triangles()};

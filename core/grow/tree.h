@@ -47,13 +47,14 @@ struct TreeMeshes {
 [[nodiscard]] Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes);
 
 /// Returns the cache key of the images of bark: equal keys, equal images.
-[[nodiscard]] std::string image_key(const TreePaint& paint);
+[[nodiscard]] std::string image_key(const TreePaint& paint, ImageFormat format);
 
 /// Returns the images of bark, cached in execution.caches or painted now.
 ///
 /// throws  InvalidInput, Cancelled
 [[nodiscard]] std::shared_ptr<const ImageSet> painted_images(const TreePaint& paint,
-                                                             const ExecutionContext& execution);
+                                                             const ExecutionContext& execution,
+                                                             ImageFormat format = ImageFormat::jpg);
 
 /// Builds a tree: one mesh of two primitives, bark and leaves, with two materials.
 ///

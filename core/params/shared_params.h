@@ -35,6 +35,21 @@ constexpr const char* name(Compression compression) {
     return nullptr;
 }
 
+/// The format of images: one of ImageFormat, or both.
+enum class ImageFormats { jpg, webp, webp_jpg };
+
+constexpr const char* name(ImageFormats formats) {
+    switch (formats) {
+        case ImageFormats::jpg:
+            return "jpg";
+        case ImageFormats::webp:
+            return "webp";
+        case ImageFormats::webp_jpg:
+            return "webp_jpg";
+    }
+    return nullptr;
+}
+
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
@@ -56,6 +71,7 @@ inline constexpr Info textures_info{.name = "textures",
 /// change what grows.
 struct FileOptions {
     Compression compress = Compression::none;
+    ImageFormats image_format = ImageFormats::jpg;
 
     static constexpr void fields(auto visit) {
         using O = FileOptions;
@@ -64,6 +80,11 @@ struct FileOptions {
                    .doc = "Geometry as floats, which every loader reads; quantised to 16 bits, for "
                           "loaders of KHR_mesh_quantization; or quantised and compressed, for "
                           "those of EXT_meshopt_compression."});
+        visit(&O::image_format,
+              Info{.name = "image_format",
+                   .doc = "Images as JPEG, which every loader reads; as WebP, a third of the "
+                          "bytes, for loaders of EXT_texture_webp; or both, the JPEG images for "
+                          "loaders without it."});
     }
     bool operator==(const FileOptions&) const = default;
 };

@@ -57,33 +57,47 @@ Canvas::~Canvas() { canvas_pool().release(std::move(bytes_)); }
 
 namespace {
 
+/// How an image is encoded.
+struct Quality {
+    int jpeg;
+    Chroma chroma;
+    int webp;
+};
+
+/// Qualities by ImageKind. WebP always halves the resolution of chroma, of which normals have most;
+/// roughness and occlusion stand lower qualities than colours.
+constexpr std::array<Quality, 3> qualities = {
+    {{88, Chroma::halved, 75}, {89, Chroma::full, 75}, {88, Chroma::halved, 60}}};
+
 ImageSet encoded(const std::array<std::span<const std::uint8_t>, 3>& rgb, int side,
-                 const Parallel& parallel) {
+                 ImageFormat format, const Parallel& parallel) {
     ImageSet out;
-    const auto encode = [&](ImageKind kind, int quality, Chroma chroma) {
-        const std::size_t i = static_cast<std::size_t>(kind);
-        out.files[i] =
-            Slice(std::make_shared<const Bytes>(jpeg(rgb[i], side, side, quality, chroma)));
+    out.format = format;
+    const auto encode = [&](ImageKind kind) {
+        const auto i = static_cast<std::size_t>(kind);
+        const Quality& quality = qualities[i];
+        out.files[i] = Slice(std::make_shared<const Bytes>(
+            format == ImageFormat::webp ? webp(rgb[i], side, side, quality.webp)
+                                        : jpeg(rgb[i], side, side, quality.jpeg, quality.chroma)));
     };
-    const std::array<std::function<void()>, 3> pieces = {
-        [&] { encode(ImageKind::normal, 89, Chroma::full); },
-        [&] { encode(ImageKind::base_color, 88, Chroma::halved); },
-        [&] { encode(ImageKind::orm, 88, Chroma::halved); },
-    };
+    // The image that takes longest first.
+    const std::array<std::function<void()>, 3> pieces = {[&] { encode(ImageKind::normal); },
+                                                         [&] { encode(ImageKind::base_color); },
+                                                         [&] { encode(ImageKind::orm); }};
     parallel(pieces);
     return out;
 }
 
 }  // namespace
 
-ImageSet encoded(const Canvas& canvas, const Parallel& parallel) {
+ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& parallel) {
     std::array<std::span<const std::uint8_t>, 3> rgb;
     for (std::size_t i = 0; i < rgb.size(); ++i) rgb[i] = {canvas.image(i), canvas.size()};
-    return encoded(rgb, canvas.side(), parallel);
+    return encoded(rgb, canvas.side(), format, parallel);
 }
 
-ImageSet encoded(const RawImages& images, const Parallel& parallel) {
-    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.side, parallel);
+ImageSet encoded(const RawImages& images, ImageFormat format, const Parallel& parallel) {
+    return encoded({images.rgb[0], images.rgb[1], images.rgb[2]}, images.side, format, parallel);
 }
 
 RawImages raw(const Canvas& canvas) {

@@ -39,8 +39,8 @@ class Canvas {
     Bytes bytes_;
 };
 
-/// Encodes the three images as JPEG files, with the qualities stated at paint().
-[[nodiscard]] ImageSet encoded(const Canvas& canvas, const Parallel& parallel);
+/// Encodes the three images with the qualities stated at paint().
+[[nodiscard]] ImageSet encoded(const Canvas& canvas, ImageFormat format, const Parallel& parallel);
 
 /// Returns a copy of the three images.
 [[nodiscard]] RawImages raw(const Canvas& canvas);

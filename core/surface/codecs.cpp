@@ -3,6 +3,7 @@
 #include <png.h>
 #include <turbojpeg.h>
 #include <webp/decode.h>
+#include <webp/encode.h>
 
 #include <cstddef>
 #include <cstring>
@@ -119,6 +120,34 @@ Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality
                     quality, TJFLAG_NOREALLOC | TJFLAG_ACCURATEDCT) != 0)
         throw GenerationError(std::string("JPEG encoder: ") + tjGetErrorStr2(handle.get()));
     return Bytes(out, out + size);
+}
+
+Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality) {
+    WebPConfig config;
+    WebPPicture picture;
+    if (WebPConfigPreset(&config, WEBP_PRESET_DEFAULT, static_cast<float>(quality)) == 0 ||
+        WebPPictureInit(&picture) == 0)
+        throw GenerationError("no WebP encoder of this version");
+    config.method = 2;
+    struct Release {
+        WebPPicture& picture;
+        WebPMemoryWriter& writer;
+        ~Release() {
+            WebPPictureFree(&picture);
+            WebPMemoryWriterClear(&writer);
+        }
+    };
+    WebPMemoryWriter writer;
+    WebPMemoryWriterInit(&writer);
+    const Release release{picture, writer};
+    picture.width = width;
+    picture.height = height;
+    picture.writer = WebPMemoryWrite;
+    picture.custom_ptr = &writer;
+    if (WebPPictureImportRGB(&picture, rgb.data(), 3 * width) == 0 ||
+        WebPEncode(&config, &picture) == 0)
+        throw GenerationError("WebP encoder: error " + std::to_string(picture.error_code));
+    return {writer.mem, writer.mem + writer.size};
 }
 
 std::uint64_t declared_pixels(std::span<const std::uint8_t> file) {

@@ -1,4 +1,4 @@
-// Image codecs: RGB pixels to JPEG, and an uploaded PNG, JPEG or WebP file to RGB pixels.
+// Image codecs: RGB pixels to JPEG or WebP, and an uploaded PNG, JPEG or WebP file to RGB pixels.
 #pragma once
 
 #include <cstdint>
@@ -30,6 +30,14 @@ enum class Chroma { halved, full };
 /// throws   GenerationError if the encoder fails
 [[nodiscard]] Bytes jpeg(std::span<const std::uint8_t> rgb, int width, int height, int quality,
                          Chroma chroma);
+
+/// Encodes an image as a lossy WebP file (VP8, chroma of half the resolution) by method 2 of 6:
+/// the next one saves 4 % of the bytes in twice the time.
+///
+/// rgb      3 * width * height bytes
+/// quality  0..100
+/// throws   GenerationError if the encoder fails
+[[nodiscard]] Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality);
 
 /// Returns the number of pixels that decoded_picture() will decode, as the header of the file
 /// declares it; 0 if decoded_picture() refuses the file by its header.

@@ -228,11 +228,12 @@ RawImages blend_raw(std::span<const RawImages* const> paintings, std::span<const
 }
 
 ImageSet blend_images(std::span<const RawImages* const> paintings, std::span<const double> weights,
-                      const Parallel& parallel, std::span<const PaintParams* const> patches_of) {
+                      const Parallel& parallel, std::span<const PaintParams* const> patches_of,
+                      ImageFormat format) {
     check(paintings, weights);
     Canvas canvas(paintings[0]->side);
     blend_onto(canvas, paintings, weights, parallel, patches_of);
-    return encoded(canvas, parallel);
+    return encoded(canvas, format, parallel);
 }
 
 }  // namespace sporeprint

@@ -36,7 +36,8 @@ namespace sporeprint {
 [[nodiscard]] ImageSet blend_images(std::span<const RawImages* const> paintings,
                                     std::span<const double> weights,
                                     const Parallel& parallel = in_turn,
-                                    std::span<const PaintParams* const> patches_of = {});
+                                    std::span<const PaintParams* const> patches_of = {},
+                                    ImageFormat format = ImageFormat::jpg);
 
 /// Returns the same parameters without warts and scales.
 [[nodiscard]] PaintParams without_patches(PaintParams params);

@@ -126,10 +126,10 @@ RawImages paint_raw(const PaintParams& params, const Parallel& parallel,
     return raw(canvas);
 }
 
-ImageSet paint(const PaintParams& params, const Parallel& parallel) {
+ImageSet paint(const PaintParams& params, const Parallel& parallel, ImageFormat format) {
     Canvas canvas(checked_side(params));
     paint_canvas(params, {}, parallel, canvas);
-    return encoded(canvas, parallel);
+    return encoded(canvas, format, parallel);
 }
 
 namespace {

@@ -82,16 +82,19 @@ struct PaintParams {
 ///
 /// params   its side is 16..2048 texels, a power of two (texture_size halved per LOD). The three
 ///          RGB images have the layout of swept_charts and are padded beyond every chart
-/// returns  JPEG files: base colour (sRGB, quality 88, 4:2:0), normal (+Y up, linear, quality 89,
-///          4:4:4), occlusion R, roughness G, metalness B = 0 (quality 88, 4:2:0)
+/// returns  base colour (sRGB), normal (+Y up, linear), and occlusion R, roughness G, metalness
+///          B = 0. As JPEG: quality 88 and 4:2:0, 89 and 4:4:4, 88 and 4:2:0; as WebP: quality 75,
+///          75 and 60
 /// throws   InvalidInput if an uploaded image cannot be read (path /surface/<part>/image) or the
 ///          side is invalid (path /side); what `parallel` throws, such as Cancelled
 /// cost     O(side^2)
 /// source   [Desbenoit2004] sec. 3.3 for the maps; hymenium occlusion by view factors of slots
-[[nodiscard]] ImageSet paint(const PaintParams& params, const Parallel& parallel = in_turn);
+[[nodiscard]] ImageSet paint(const PaintParams& params, const Parallel& parallel = in_turn,
+                             ImageFormat format = ImageFormat::jpg);
 
 /// Encodes pixels as paint() does.
-[[nodiscard]] ImageSet encoded(const RawImages& images, const Parallel& parallel = in_turn);
+[[nodiscard]] ImageSet encoded(const RawImages& images, ImageFormat format,
+                               const Parallel& parallel = in_turn);
 
 /// Rotation of uploaded images about the axis, in turns: a texel at angle x shows the image at
 /// angle x plus this.

@@ -126,7 +126,10 @@ TEST(OpenApi, NamesEveryMemberOfABody) {
         return out;
     };
     std::set<std::string> params, morph = {"t", "arcs", "v"}, mushroom = {"mix", "model", "v"};
-    MushroomParams::fields([&](auto, const Info& info) { params.insert(info.name); });
+    std::set<std::string> params_of_mushroom;
+    leaf_names<MushroomParams>("", params_of_mushroom);
+    for (const std::string& name : params_of_mushroom)
+        params.insert(name.substr(0, name.find('.')));
     morph.insert(params.begin(), params.end());
     mushroom.insert(params.begin(), params.end());
     std::set<std::string> leaf = {"preset", "v"}, params_of_leaf;

@@ -299,6 +299,29 @@ void add_compressed(Requests& requests, const std::shared_ptr<const Atlas>& spec
         }
 }
 
+/// Adds some files of every product with images as WebP, alone and beside JPEG.
+void add_image_formats(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const ImageFormats format : {ImageFormats::webp, ImageFormats::webp_jpg})
+        for (int lod = 1; lod < 4; ++lod) {
+            const std::string folder = std::string(name(format)) + '/';
+            const std::vector<std::pair<std::string, Mix>> mixes = {
+                {"amanita_muscaria", {{"amanita_muscaria", 1000}}},
+                {"mix", {{"amanita_muscaria", 700}, {"boletus_edulis", 300}}}};
+            for (const auto& [id, mix] : mixes) {
+                MushroomSpec spec = order_of(mix, 0.6, lod);
+                spec.params.file.image_format = format;
+                add_mushroom(requests, species, folder + id, spec);
+            }
+            TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+            tree.params.lod = lod;
+            tree.params.texture_size.value = small_side;
+            tree.params.file.image_format = format;
+            requests[line_of(folder + "tree", 1, lod, small_side)] = [tree] {
+                return grow_tree(tree, atlas()).glb;
+            };
+        }
+}
+
 Requests golden_requests() {
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();
     Requests requests;
@@ -307,6 +330,7 @@ Requests golden_requests() {
     add_morphs(requests, atlas);
     add_clips(requests, atlas);
     add_weathering(requests, atlas);
+    add_image_formats(requests, atlas);
     add_leaves(requests);
     add_trees(requests);
     add_colonies(requests, atlas);

@@ -78,7 +78,12 @@ export function product(sizes) {
 }
 
 const small = "texture_size=128";
-const images = [small, small, "textures=none"]; // most defects can be in images
+const images = [
+    small,
+    `${small}&image_format=webp`,
+    `${small}&image_format=webp_jpg`,
+    "textures=none",
+];
 const lods = ["", "lod=1", "lod=2", "lod=3"];
 
 /** Returns for each product its route and its factors; the values are parts of a query. Some

@@ -58,7 +58,8 @@ RC_GTEST_PROP(SurfaceAddressProperty, AnAddressPaintsWhatItsOrderPaints, ()) {
     const SurfaceAddress address = surface_address(surface);
 
     // Through its text and back, as another server reads it.
-    const std::string text = canonical_address(surface.mix, ImageKind::normal, address);
+    const std::string text =
+        canonical_address(surface.mix, ImageKind::normal, ImageFormat::jpg, address);
     RC_ASSERT(text.size() <= longest_target);
     std::vector<Problem> problems;
     const Target target = split_target(text, problems);
@@ -71,10 +72,10 @@ RC_GTEST_PROP(SurfaceAddressProperty, AnAddressPaintsWhatItsOrderPaints, ()) {
     RC_ASSERT(read.kind == ImageKind::normal);
     RC_ASSERT(read.mix == surface.mix);
     RC_ASSERT(read.address == address);
-    RC_ASSERT(canonical_address(read.mix, *read.kind, read.address) == text);
+    RC_ASSERT(canonical_address(read.mix, *read.kind, ImageFormat::jpg, read.address) == text);
 
     const PaintSpec again = painted_at(read.address, read.mix, *atlas);
-    RC_ASSERT(image_key(again) == image_key(painted));
+    RC_ASSERT(image_key(again, ImageFormat::jpg) == image_key(painted, ImageFormat::jpg));
     RC_ASSERT(again == painted);
 }
 
@@ -100,7 +101,7 @@ TEST(SurfaceAddress, WeightsComeInStepsOfASixtyFourth) {
         ValidationErrors errors;
         const SurfaceRequest read = read_surface(mix, "normal", {}, *atlas, errors);
         EXPECT_TRUE(errors.empty()) << mix;
-        return canonical_address(read.mix, ImageKind::normal, read.address);
+        return canonical_address(read.mix, ImageKind::normal, ImageFormat::jpg, read.address);
     };
     const std::string half = "/v1/surfaces/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5";
     EXPECT_EQ(canonical("amanita_muscaria:1,boletus_edulis:1"), half + "/normal.jpg");
@@ -122,22 +123,26 @@ TEST(SurfaceAddress, LinkedImagesOfAMixAreThoseEmbedded) {
             other(built_in_atlas(), ServiceOptions{});
         const std::string address =
             "/v1/mushrooms/" + mix + ".glb?age=0.71&seed=3&lod=2&texture_size=256";
-        const std::string embedded = test::text_of(handle(service, test::get(address)));
-        const Response linked = handle(service, test::get(address + "&textures=linked"));
-        ASSERT_EQ(linked.status, 200) << test::text_of(linked);
-        int found = 0;
-        for (const std::string& image : test::linked_images(linked, address)) {
-            const Response cached = handle(service, test::get(image));
-            ASSERT_EQ(cached.status, 200) << image << test::text_of(cached);
-            EXPECT_EQ(test::header(cached, "Cache-Status"), "sporeprint-images; hit") << image;
-            EXPECT_EQ(test::header(cached, "Content-Location"), image);
-            EXPECT_NE(embedded.find(test::text_of(cached)), std::string::npos) << image;
-            const Response elsewhere = handle(other, test::get(image));
-            EXPECT_EQ(test::text_of(elsewhere), test::text_of(cached));
-            EXPECT_EQ(test::header(elsewhere, "ETag"), test::header(cached, "ETag"));
-            ++found;
+        for (const std::string formats : {"jpg", "webp", "webp_jpg"}) {
+            const std::string embedded =
+                test::text_of(handle(service, test::get(address + "&image_format=" + formats)));
+            const Response linked =
+                handle(service, test::get(address + "&textures=linked&image_format=" + formats));
+            ASSERT_EQ(linked.status, 200) << test::text_of(linked);
+            int found = 0;
+            for (const std::string& image : test::linked_images(linked, address)) {
+                const Response cached = handle(service, test::get(image));
+                ASSERT_EQ(cached.status, 200) << image << test::text_of(cached);
+                EXPECT_EQ(test::header(cached, "Cache-Status"), "sporeprint-images; hit") << image;
+                EXPECT_EQ(test::header(cached, "Content-Location"), image);
+                EXPECT_NE(embedded.find(test::text_of(cached)), std::string::npos) << image;
+                const Response elsewhere = handle(other, test::get(image));
+                EXPECT_EQ(test::text_of(elsewhere), test::text_of(cached));
+                EXPECT_EQ(test::header(elsewhere, "ETag"), test::header(cached, "ETag"));
+                ++found;
+            }
+            EXPECT_EQ(found, formats == "webp_jpg" ? 6 : 3);
         }
-        EXPECT_EQ(found, 3);
     }
 }
 

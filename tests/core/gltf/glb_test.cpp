@@ -274,6 +274,61 @@ TEST(Glb, TargetsAndClipsThatDoNotFitAreRefused) {
     refused({}, &good);
 }
 
+TEST(Glb, WebpImagesAreRequiredUnlessJpegImagesReplaceThem) {
+    const Mesh mesh = mesh_of(textured(order_of("boletus_edulis", 0.6, 1, 3)));
+    const PaintSpec spec =
+        paint_spec_of(painted(order_of("boletus_edulis", 0.6, 1, 3), 128), atlas());
+    const ImageSet webp = *painted_images(spec, {}, ImageFormat::webp),
+                   jpg = *painted_images(spec, {});
+    GlbScene scene;
+    scene.materials = {{.name = "m", .images = &webp}};
+    scene.meshes = {{"m", {{&mesh, 0, {}}}}};
+    scene.nodes = {{.name = "m", .mesh = 0}};
+    const auto text = [](const Value& json, const char* pointer) {
+        const Value* const found = json.at_pointer(pointer);
+        return found ? dump(*found) : "nothing";
+    };
+    const Value alone = document_of(glb(scene));
+    EXPECT_EQ(text(alone, "/extensionsRequired"), R"(["EXT_texture_webp"])");
+    EXPECT_EQ(text(alone, "/textures/1"),
+              R"({"sampler":0,"extensions":{"EXT_texture_webp":{"source":1}}})");
+    EXPECT_EQ(text(alone, "/images/2/mimeType"), R"("image/webp")");
+    EXPECT_EQ(text(alone, "/images/3"), "nothing");
+
+    scene.materials[0].fallback = &jpg;
+    const Body body = glb(scene);
+    const Value both = document_of(body);
+    EXPECT_EQ(text(both, "/extensionsRequired"), "nothing");
+    EXPECT_EQ(text(both, "/extensionsUsed"), R"(["EXT_texture_webp"])");
+    EXPECT_EQ(text(both, "/textures/1"),
+              R"({"sampler":0,"source":4,"extensions":{"EXT_texture_webp":{"source":1}}})");
+    EXPECT_EQ(text(both, "/images/5/mimeType"), R"("image/jpeg")");
+    // Views of images follow all others, in the order of the images.
+    const Bytes file = joined(body);
+    const auto at = [&](const char* pointer) {
+        return static_cast<std::size_t>(both.at_pointer(pointer)->as_number());
+    };
+    const std::size_t binary = 28 + [&] {
+        std::uint32_t size = 0;
+        std::memcpy(&size, file.data() + 12, 4);
+        return size;
+    }();
+    const std::string view = "/bufferViews/" + dump(*both.at_pointer("/images/4/bufferView"));
+    const std::size_t from = binary + at((view + "/byteOffset").c_str());
+    ASSERT_EQ(at((view + "/byteLength").c_str()), jpg.files[1].size);
+    EXPECT_EQ(std::memcmp(file.data() + from, jpg.files[1].data(), jpg.files[1].size), 0);
+
+    scene.materials[0] = {.name = "m",
+                          .image_urls = {"a.webp", "b.webp", "c.webp"},
+                          .url_format = ImageFormat::webp,
+                          .fallback_urls = {"a.jpg", "b.jpg", "c.jpg"}};
+    const Value linked = document_of(glb(scene));
+    EXPECT_EQ(text(linked, "/images/0"), R"({"uri":"a.webp"})");
+    EXPECT_EQ(text(linked, "/images/3"), R"({"uri":"a.jpg"})");
+    EXPECT_EQ(text(linked, "/textures/2"),
+              R"({"sampler":0,"source":5,"extensions":{"EXT_texture_webp":{"source":2}}})");
+}
+
 /// Two mushrooms, one of them textured, in three nodes, and their materials.
 struct Group {
     Mesh bare = mesh_of(order_of("boletus_edulis", 0.6, 1, 3));

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/grow/mushroom.h"
+#include "core/surface/codecs.h"
 #include "core/surface/image_blend.h"
 #include "tests/support/orders.h"
 #include "tests/support/paintings.h"
@@ -199,7 +200,7 @@ TEST(Painting, TheOrderOfSpeciesDoesNotMatter) {
     const PaintSpec back = paint_spec_of(
         mixed({{"russula_vinosa", 500}, {"boletus_edulis", 250}, {"amanita_muscaria", 250}}));
     EXPECT_EQ(there, back);
-    EXPECT_EQ(image_key(there), image_key(back));
+    EXPECT_EQ(image_key(there, ImageFormat::jpg), image_key(back, ImageFormat::jpg));
 }
 
 TEST(Painting, EightSpeciesHaveOnePaintSpec) {
@@ -345,12 +346,36 @@ TEST(Painting, AMixIsBlendedFromCachedPaintings) {
 
 TEST(Painting, KeysDistinguishPaintSpecs) {
     std::set<std::string> keys;
-    for (const int first : {1, 31, 32, 63}) keys.insert(image_key(pair(first)));
+    for (const int first : {1, 31, 32, 63}) keys.insert(image_key(pair(first), ImageFormat::jpg));
     PaintSpec seeded = pair(32);
     seeded[1].painting.seed = 9;
-    keys.insert(image_key(seeded));
-    keys.insert(image_key({{pair(32)[0].painting, 64}}));
-    EXPECT_EQ(keys.size(), 6U);
+    keys.insert(image_key(seeded, ImageFormat::jpg));
+    for (const ImageFormat format : {ImageFormat::jpg, ImageFormat::webp})
+        keys.insert(image_key({{pair(32)[0].painting, 64}}, format));
+    EXPECT_EQ(keys.size(), 7U);
+}
+
+TEST(Painting, WebpImagesShowWhatJpegImagesShow) {
+    Keeper keeper;
+    for (const PaintSpec& spec : {pair(32), PaintSpec{{pair(32)[0].painting, 64}}}) {
+        const auto webp = painted_images(spec, keeper.execution, ImageFormat::webp),
+                   jpg = painted_images(spec, keeper.execution);
+        EXPECT_EQ(webp->format, ImageFormat::webp);
+        EXPECT_EQ(jpg->format, ImageFormat::jpg);
+        EXPECT_LT(webp->bytes(), jpg->bytes() * 3 / 4);
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto pixels = [&](const ImageSet& set) {
+                const Slice& file = set.files[i];
+                return decoded_picture({file.data(), file.size}, "/").rgb;
+            };
+            const Bytes one = pixels(*webp), other = pixels(*jpg);
+            ASSERT_EQ(one.size(), other.size());
+            double sum = 0.0;
+            for (std::size_t k = 0; k < one.size(); ++k)
+                sum += std::abs(int{one[k]} - int{other[k]});
+            EXPECT_LT(sum / static_cast<double>(one.size()), 6.0) << i;
+        }
+    }
 }
 
 TEST(Painting, StopsWhenCancelled) {

@@ -337,7 +337,7 @@ double extent(const Polyline& line) {
 
 // Mixed with a thousandth of any other species, a species changes by less than 0.3 % of its extent.
 TEST(MorphSet, OutlinesConvergeToTheSingleSpeciesAtWeightOne) {
-    for (const auto& [one, two] : sanitized ? some_pairs(8) : some_pairs(1000))
+    for (const auto& [one, two] : some_pairs(effort(1000, 8)))
         for (const auto& [a, b] : {std::array{one, two}, {two, one}}) {
             const MorphSet alone = set_of({a});
             const bool first = a < b;
@@ -399,7 +399,7 @@ TEST(MorphSet, TheOrderOfTwoSpeciesHasNoVisibleEffect) {
 
 // The steps are 1/256 in t.
 TEST(MorphSet, MorphsAreContinuous) {
-    for (const auto& [a, b] : sanitized ? some_pairs(8) : some_pairs(1000)) {
+    for (const auto& [a, b] : some_pairs(effort(1000, 8))) {
         const MorphSet set = set_of({a, b});
         const auto indices = indices_of({a, b});
         for (const double age : {0.0, 0.3, 0.6, 1.0}) {

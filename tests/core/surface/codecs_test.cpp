@@ -151,5 +151,24 @@ TEST(Codecs, AJpegWithTooManyScansIsRefused) {
     EXPECT_EQ(refusal(file), "the JPEG file has too many scans");
 }
 
+TEST(Codecs, WebpReproducesASlopeInFewerBytesThanJpeg) {
+    const Bytes rgb = slope(256, 128);
+    const Bytes file = webp(rgb, 256, 128, 80);
+    EXPECT_EQ(webp(rgb, 256, 128, 80), file);
+    EXPECT_LT(file.size(), jpeg(rgb, 256, 128, 88, Chroma::halved).size());
+    const Picture decoded = decoded_picture(file, "/surface/cap/image");
+    ASSERT_EQ(decoded.width, 256);
+    ASSERT_EQ(decoded.height, 128);
+    for (std::size_t i = 0; i < rgb.size(); ++i)
+        ASSERT_LE(std::abs(int{decoded.rgb[i]} - int{rgb[i]}), 12) << i;
+}
+
+TEST(Codecs, WebpRefusesWhatItCannotHold) {
+    EXPECT_THROW((void)webp({}, 0, 0, 80), GenerationError);
+    const Bytes row(3 * 20000);
+    EXPECT_THROW((void)webp(row, 20000, 1, 80), GenerationError) << "at most 16383 texels wide";
+    EXPECT_THROW((void)webp(row, 100, 1, 101), GenerationError);
+}
+
 }  // namespace
 }  // namespace sporeprint
