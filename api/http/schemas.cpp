@@ -51,9 +51,12 @@ Value as_written(Value schema) {
         const Value* properties = one.find("properties");
         if (!properties) return;
         Value required = Value::array();
-        for (const auto& [key, property] : properties->members())
-            if (!property.find("x-default-from") && !property.find("contentEncoding"))
+        for (const auto& [key, property] : properties->members()) {
+            // What a profile sets is always written, what species or presets have is not.
+            const Value* const from = property.find("x-default-from");
+            if ((!from || *from == Value("profile")) && !property.find("contentEncoding"))
                 required.push(key);
+        }
         if (!required.items().empty()) one.set("required", std::move(required));
     });
     each_schema(schema, [](Value& one) { one.erase("x-default-from"); });

@@ -24,6 +24,7 @@ ColonyRequest read_colony(std::string_view mix, Query query, const Atlas& atlas,
     std::vector<std::pair<std::string, std::string>> rest;
     request.version = take_version(query, rest, errors);
     std::vector<Problem> problems;
+    apply_profile(requested_profile(rest), request.spec.params);
     read_query(rest, request.spec.params, problems);
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
@@ -42,6 +43,7 @@ ColonyRequest read_colony(std::string_view body, const Atlas& atlas, ValidationE
         errors.add(400, "mix", "is missing; give {\"mix\":{\"species id\":1}}");
     request.version = take_version(json, problems);
     json.erase("mix");
+    apply_profile(requested_profile(json), request.spec.params);
     read(json, request.spec.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
@@ -49,8 +51,9 @@ ColonyRequest read_colony(std::string_view body, const Atlas& atlas, ValidationE
 }
 
 std::string canonical_address(const ColonySpec& spec, Product product) {
-    return with_query("/v1/colonies/" + mix_text(spec.mix) + ending_of(product),
-                      query_text(spec.params));
+    return with_query(
+        "/v1/colonies/" + mix_text(spec.mix) + ending_of(product),
+        query_text(spec.params, with_profile(ColonyParams{}, spec.params.file.profile)));
 }
 
 std::string key_of(const ColonySpec& spec, Product product, std::string_view version) {

@@ -100,6 +100,7 @@ MushroomRequest read_morph(const SpeciesPair& species, std::string_view body,
     std::vector<Problem> problems;
     request.version = take_version(*json, problems);
     MorphSpec spec;
+    apply_profile(requested_profile(*json), spec.params);
     read(*json, spec, Info{.name = ""}, "", problems);
     add_problems(problems, spec, "", true, errors);
     refuse_crossings(spec.arcs, errors);

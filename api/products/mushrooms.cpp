@@ -27,6 +27,7 @@ MushroomRequest read_mushroom(std::string_view mix, Query query, const Atlas& at
     std::vector<std::pair<std::string, std::string>> rest;
     request.version = take_version(query, rest, errors);
     std::vector<Problem> problems;
+    apply_profile(requested_profile(rest), request.spec.params);
     read_query(rest, request.spec.params, problems);
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
@@ -57,6 +58,7 @@ MushroomRequest read_mushroom(std::string_view body, const Atlas& atlas, Validat
     }
     request.version = take_version(json, problems);
     for (const char* taken : {"mix", "model"}) json.erase(taken);
+    apply_profile(requested_profile(json), request.spec.params);
     read(json, request.spec.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
@@ -73,8 +75,9 @@ std::string version_token(const Mix& mix, const Atlas& atlas) {
 }
 
 std::string canonical_address(const MushroomSpec& spec, Product product) {
-    return with_query("/v1/mushrooms/" + mix_text(spec.mix) + ending_of(product),
-                      query_text(spec.params));
+    return with_query(
+        "/v1/mushrooms/" + mix_text(spec.mix) + ending_of(product),
+        query_text(spec.params, with_profile(MushroomParams{}, spec.params.file.profile)));
 }
 
 std::string key_of(const MushroomSpec& spec, Product product, std::string_view version) {

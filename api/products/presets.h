@@ -71,6 +71,7 @@ PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view id, Query q
     std::vector<std::pair<std::string, std::string>> rest;
     request.version = take_version(query, rest, errors);
     std::vector<Problem> problems;
+    apply_profile(requested_profile(rest), request.spec.params);
     read_query(rest, request.spec.params, problems);
     add_problems(problems, request.spec.params, "", false, errors);
     without_negative_zero(request.spec.params);
@@ -102,6 +103,7 @@ PresetRequest<Kind> read_preset(const Atlas& atlas, std::string_view body,
     if constexpr (requires { Kind::take_from_body(*json, errors); })
         Kind::take_from_body(*json, errors);
     request.spec = {preset.id.string(), params_of(preset)};
+    apply_profile(requested_profile(*json), request.spec.params);
     read(*json, request.spec.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.params, "", true, errors);
     without_negative_zero(request.spec.params);
@@ -126,7 +128,8 @@ std::string canonical_address(const Atlas& atlas, const Spec& spec, Product prod
     if constexpr (requires { Kind::has_address(spec, atlas); })
         if (!Kind::has_address(spec, atlas)) return {};
     return with_query(std::string("/v1/") + Kind::all + '/' + spec.preset + ending_of(product),
-                      query_text(spec.params, own_params<Kind>(atlas, spec.preset)));
+                      query_text(spec.params, with_profile(own_params<Kind>(atlas, spec.preset),
+                                                           spec.params.file.profile)));
 }
 
 /// Returns the canonical text of all values: equal keys mean equal bytes.

@@ -40,6 +40,27 @@ std::optional<std::string> take_version(Value& body, std::vector<Problem>& probl
     return version;
 }
 
+namespace {
+
+Profile profile_named(std::string_view text) {
+    for (int i = 0; const char* one = name(static_cast<Profile>(i)); ++i)
+        if (text == one) return static_cast<Profile>(i);
+    return Profile::core;
+}
+
+}  // namespace
+
+Profile requested_profile(Query query) {
+    for (const auto& [key, value] : query)
+        if (key == "profile") return profile_named(value);
+    return Profile::core;
+}
+
+Profile requested_profile(const Value& body) {
+    const Value* const given = body.find("profile");
+    return given && given->is_string() ? profile_named(given->as_string()) : Profile::core;
+}
+
 std::optional<Value> read_body(std::string_view body, ValidationErrors& errors) {
     std::vector<Problem> problems;
     Value json = parse(body, problems);

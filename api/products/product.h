@@ -15,6 +15,7 @@
 #include "api/http/response_builder.h"
 #include "core/grow/product.h"
 #include "core/params/describe.h"
+#include "core/params/profile.h"
 #include "core/params/query.h"
 #include "core/params/value.h"
 
@@ -38,6 +39,11 @@ enum class Product { glb, json };
 
 /// Removes `v` from a body and returns it.
 [[nodiscard]] std::optional<std::string> take_version(Value& body, std::vector<Problem>& problems);
+
+/// Returns the profile that a query or body names; core if it names none. Names that are no profile
+/// are reported when the parameters are read.
+[[nodiscard]] Profile requested_profile(Query query);
+[[nodiscard]] Profile requested_profile(const Value& body);
 
 /// Returns the JSON object of a body; nothing, with the reason in `errors`, if it is none.
 [[nodiscard]] std::optional<Value> read_body(std::string_view body, ValidationErrors& errors);

@@ -272,7 +272,7 @@ Body glb(const GlbScene& scene) {
     std::string materials;
     for (const GlbMaterial& material : scene.materials)
         (materials += separator(materials)) +=
-            material_json(material, texture_tables, tables, used);
+            material_json(material, scene.material_extensions, texture_tables, tables, used);
 
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
                        std::to_string(generator_version) + "\"";

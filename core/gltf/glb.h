@@ -110,6 +110,7 @@ struct GlbScene {
     std::string extras_json;               ///< a JSON object for asset.extras; empty for none
     const WeightClip* clip = nullptr;      ///< animates the targets of the first node
     GlbGeometry geometry = GlbGeometry::floats;
+    bool material_extensions = true;  ///< whether materials have their optional extensions
 };
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture

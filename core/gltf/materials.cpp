@@ -100,13 +100,15 @@ namespace {
 /// Returns the material members of optional extensions, with a leading comma.
 ///
 /// textures  index of the first of its own; none for a material without images
+/// extended  with extensions; otherwise only the emission of core glTF
 std::string material_extensions_json(const MaterialLook& look, std::optional<std::size_t> textures,
-                                     Extensions& used) {
+                                     bool extended, Extensions& used) {
     const auto is_visible = [](const glm::dvec3& light) {
         return light.x > 0.0 || light.y > 0.0 || light.z > 0.0;
     };
     std::string extensions, emission;
     const auto extension = [&](const std::string& name, const std::string& members) {
+        if (!extended) return;
         extensions += (extensions.empty() ? "\"" : ",\"") + name + "\":{" + members + "}";
         used.use(name);
     };
@@ -135,7 +137,7 @@ std::string material_extensions_json(const MaterialLook& look, std::optional<std
         append_triple(sheen, glm::vec3(look.sheen));
         extension("KHR_materials_sheen", sheen + ",\"sheenRoughnessFactor\":0.45");
     }
-    if (extensions.empty()) return {};
+    if (extensions.empty()) return emission;
     return emission + ",\"extensions\":{" + extensions + "}";
 }
 
@@ -145,19 +147,19 @@ bool is_textured(const GlbMaterial& material) {
     return material.images != nullptr || !material.image_urls[0].empty();
 }
 
-std::string material_json(const GlbMaterial& material, TextureTables& texture_tables,
+std::string material_json(const GlbMaterial& material, bool extended, TextureTables& texture_tables,
                           Tables& tables, Extensions& used) {
     std::string json = "{\"name\":";
     append_quoted(json, material.name);
     if (!is_textured(material))
         return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
-               material_extensions_json(material.look, std::nullopt, used) + "}";
+               material_extensions_json(material.look, std::nullopt, extended, used) + "}";
     const std::size_t first = texture_tables.textures_of(material, tables, used);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);
     append(json += "}},\"normalTexture\":{\"index\":", first + 1);
     append(json += "},\"occlusionTexture\":{\"index\":", first + 2);
-    return json + "}" + material_extensions_json(material.look, first, used) + "}";
+    return json + "}" + material_extensions_json(material.look, first, extended, used) + "}";
 }
 
 }  // namespace sporeprint::gltf

@@ -45,7 +45,10 @@ struct TextureTables {
 [[nodiscard]] bool is_textured(const GlbMaterial& material);
 
 /// Returns the JSON object of a material; adds its textures to the tables.
-[[nodiscard]] std::string material_json(const GlbMaterial& material, TextureTables& texture_tables,
-                                        Tables& tables, Extensions& used);
+///
+/// extended  it has its optional extensions
+[[nodiscard]] std::string material_json(const GlbMaterial& material, bool extended,
+                                        TextureTables& texture_tables, Tables& tables,
+                                        Extensions& used);
 
 }  // namespace sporeprint::gltf

@@ -362,7 +362,7 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
         });
     execution.observer(Step::pack);
     GlbScene scene;
-    scene.geometry = storage_of(spec.params.file.compress);
+    set_options(scene, spec.params.file);
     scene.extras_json =
         extras_json(extras, write(colony.effective), bounds(colony), instanced_triangles(colony));
     scene.materials.push_back(material);

@@ -78,7 +78,7 @@ Grown grow_leaf(const LeafSpec& spec, const Extras& extras, const ExecutionConte
     throw_if_cancelled(execution);
     const std::string name = spec.preset.empty() ? "leaf" : spec.preset;
     GlbScene scene;
-    scene.geometry = storage_of(params.file.compress);
+    set_options(scene, params.file);
     scene.extras_json = extras_json(extras, write(params), mesh);
     scene.materials.push_back({.name = name});
     scene.meshes.push_back({name, {{&mesh, 0, {}}}});

@@ -97,7 +97,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     throw_if_cancelled(execution);
     const std::string name = name_of(individual);
     GlbScene scene;
-    scene.geometry = storage_of(spec.params.file.compress);
+    set_options(scene, spec.params.file);
     scene.extras_json = extras_json(extras, write(individual.effective), mesh);
     scene.materials.push_back({.name = name, .look = look_of(individual.model)});
     scene.meshes.push_back({name, {{&mesh, 0, {}}}});

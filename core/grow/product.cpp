@@ -16,8 +16,6 @@ Value corner(const glm::vec3& p) {
     return list;
 }
 
-}  // namespace
-
 GlbGeometry storage_of(Compression compress) {
     switch (compress) {
         case Compression::none:
@@ -28,6 +26,13 @@ GlbGeometry storage_of(Compression compress) {
             return GlbGeometry::compressed;
     }
     return GlbGeometry::floats;
+}
+
+}  // namespace
+
+void set_options(GlbScene& scene, const FileOptions& file) {
+    scene.geometry = storage_of(file.compress);
+    scene.material_extensions = file.materials == MaterialSet::full;
 }
 
 namespace {

@@ -26,8 +26,8 @@ struct Estimate {
     std::uint64_t bytes = 0;
 };
 
-/// Returns the storage of geometry that a parameter requests.
-[[nodiscard]] GlbGeometry storage_of(Compression compress);
+/// Sets how a scene is written.
+void set_options(GlbScene& scene, const FileOptions& file);
 
 /// Returns the approximate size of a file with a mesh and images, bytes.
 ///

@@ -240,7 +240,7 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     throw_if_cancelled(execution);
     const std::string name = spec.preset.empty() ? "tree" : spec.preset;
     GlbScene scene;
-    scene.geometry = storage_of(params.file.compress);
+    set_options(scene, params.file);
     scene.materials.push_back({.name = "bark", .repeats_u = true});
     scene.meshes.push_back({name, {{&meshes.bark, 0, {}}}});
     scene.nodes.push_back({.name = name, .mesh = 0});

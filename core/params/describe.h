@@ -32,6 +32,8 @@ struct Info {
     double step = 0.0;            ///< a slider's step; 0 leaves it to the page
     const char* group =
         "";  ///< heading under which controls of one object are grouped; empty: that of the object
+    /// Name of the parameter from whose value the default follows; empty for none.
+    const char* default_from = "";
 };
 
 /// A parameter struct: an aggregate that calls `visit(&T::member, Info{...})` for each member, in

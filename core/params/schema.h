@@ -87,14 +87,20 @@ void schema_members(const T& fallback, Value& properties, Value& choices) {
                 if (sub.name[0] == '\0')
                     return schema_members(fallback.*member, properties, choices);
             }
-            properties.set(sub.name, schema(fallback.*member, sub));
+            Value property = schema(fallback.*member, sub);
+            if (sub.default_from[0] != '\0') {
+                property.erase("default");
+                property.set("x-default-from", sub.default_from);
+            }
+            properties.set(sub.name, std::move(property));
         });
     }
 }
 
 /// Returns the schema of T with the defaults of `fallback`. Leaves carry type, range or enum,
 /// default, title, description, "x-unit", "x-group" and "x-step"; an empty optional has no default
-/// but "x-default-from": "species". Unknown properties are refused. One function, because it is a
+/// but "x-default-from": "species", and one whose default follows from another parameter the name
+/// of that parameter. Unknown properties are refused. One function, because it is a
 /// table: each branch is the rule of one kind of member.
 template <class T>
 Value schema(const T& fallback, const Info& info) {

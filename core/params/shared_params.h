@@ -50,6 +50,44 @@ constexpr const char* name(ImageFormats formats) {
     return nullptr;
 }
 
+/// Which optional extensions materials have.
+enum class MaterialSet { full, core };
+
+constexpr const char* name(MaterialSet materials) {
+    switch (materials) {
+        case MaterialSet::full:
+            return "full";
+        case MaterialSet::core:
+            return "core";
+    }
+    return nullptr;
+}
+
+/// The program for which a file is written.
+enum class Profile { core, web, mobile, godot, unity, unreal, blender, cesium };
+
+constexpr const char* name(Profile profile) {
+    switch (profile) {
+        case Profile::core:
+            return "core";
+        case Profile::web:
+            return "web";
+        case Profile::mobile:
+            return "mobile";
+        case Profile::godot:
+            return "godot";
+        case Profile::unity:
+            return "unity";
+        case Profile::unreal:
+            return "unreal";
+        case Profile::blender:
+            return "blender";
+        case Profile::cesium:
+            return "cesium";
+    }
+    return nullptr;
+}
+
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
@@ -59,7 +97,8 @@ inline constexpr Info lod_info{
     .name = "lod",
     .min = 0,
     .max = 3,
-    .doc = "Level of detail: the same individual with fewer triangles and smaller images."};
+    .doc = "Level of detail: the same individual with fewer triangles and smaller images.",
+    .default_from = "profile"};
 inline constexpr Info texture_size_info{
     .name = "texture_size",
     .unit = "texels",
@@ -70,21 +109,39 @@ inline constexpr Info textures_info{.name = "textures",
 /// How a file is written for the program that reads it. It belongs to every product and does not
 /// change what grows.
 struct FileOptions {
+    Profile profile = Profile::core;
     Compression compress = Compression::none;
     ImageFormats image_format = ImageFormats::jpg;
+    MaterialSet materials = MaterialSet::full;
 
     static constexpr void fields(auto visit) {
         using O = FileOptions;
+        visit(&O::profile,
+              Info{.name = "profile",
+                   .doc = "The engine that reads the file: sets the defaults of lod and of the "
+                          "options below, each of which may still be given. core is plain glTF, "
+                          "which every loader reads.",
+                   .group = "file"});
         visit(&O::compress,
               Info{.name = "compress",
                    .doc = "Geometry as floats, which every loader reads; quantised to 16 bits, for "
                           "loaders of KHR_mesh_quantization; or quantised and compressed, for "
-                          "those of EXT_meshopt_compression."});
+                          "those of EXT_meshopt_compression.",
+                   .group = "file",
+                   .default_from = "profile"});
         visit(&O::image_format,
               Info{.name = "image_format",
                    .doc = "Images as JPEG, which every loader reads; as WebP, a third of the "
                           "bytes, for loaders of EXT_texture_webp; or both, the JPEG images for "
-                          "loaders without it."});
+                          "loaders without it.",
+                   .group = "file",
+                   .default_from = "profile"});
+        visit(&O::materials,
+              Info{.name = "materials",
+                   .doc = "Materials with all optional extensions (clear coat, sheen, strength of "
+                          "emission), or of core glTF alone, which is cheaper to draw.",
+                   .group = "file",
+                   .default_from = "profile"});
     }
     bool operator==(const FileOptions&) const = default;
 };
