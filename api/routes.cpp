@@ -5,6 +5,7 @@
 #include "api/products/leaves.h"
 #include "api/products/morphs.h"
 #include "api/products/mushrooms.h"
+#include "api/products/sets.h"
 #include "api/products/trees.h"
 #include "api/static_documents.h"
 
@@ -19,6 +20,7 @@ const RouteTable& route_table() {
         colony_routes,
         leaf_routes,
         tree_routes,
+        set_routes,
         inspection_routes,
         reference_routes,
         health_routes,

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "core/colony/colony_spec.h"
+#include "core/grow/set.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/params/query.h"
 #include "core/plant/tree_spec.h"
@@ -145,7 +146,7 @@ std::string parameter_name(std::string_view pointer, bool posted) {
         return pointer.empty() && posted ? std::string() : std::string(pointer);
     const std::string_view first = pointer.substr(1, pointer.find('/', 1) - 1);
     const bool of_params = is_field_of<MushroomParams>(first) || is_field_of<ColonyParams>(first) ||
-                           is_field_of<TreeParams>(first);
+                           is_field_of<TreeParams>(first) || is_field_of<SetParams>(first);
     if (posted)
         return first == "model" || first == "mix" || first == "arcs" || of_params
                    ? std::string(pointer)

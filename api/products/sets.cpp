@@ -1,0 +1,381 @@
+#include "api/products/sets.h"
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+#include "api/http/encoding.h"
+#include "api/http/schemas.h"
+#include "api/http/zip.h"
+#include "api/products/mix.h"
+#include "api/products/mushrooms.h"
+#include "api/products/resource.h"
+#include "core/grow/mushroom.h"
+#include "core/params/canonical.h"
+#include "core/params/messages.h"
+#include "core/params/profile.h"
+#include "core/params/reader.h"
+#include "core/params/schema.h"
+
+namespace sporeprint::api {
+
+namespace {
+
+/// Largest archive that is generated, bytes. A larger set is fetched by the URLs of its manifest.
+constexpr std::uint64_t most_archive_bytes = 256'000'000;
+
+/// Parameters of a mushroom that a set chooses itself, and what a client gives instead.
+constexpr std::pair<const char*, const char*> chosen[] = {
+    {"seed", "first_seed and seeds"}, {"age", "ages"}, {"lod", "levels"}};
+
+/// Reads the species of a set: a list of mixes as they stand in URLs.
+std::vector<Mix> read_species(const Value& body, const Atlas& atlas, ValidationErrors& errors,
+                              std::vector<Problem>& problems) {
+    std::vector<Mix> mixes;
+    const Value* const given = body.find("species");
+    if (!given || !given->is_array() || given->items().empty()) {
+        report(problems, "/species",
+               !given ? "is missing; give {\"species\":[\"" + example_id(atlas) + "\"]}"
+                      : "expected a list of species or mixes, got " + shown(*given));
+        return mixes;
+    }
+    if (given->items().size() > most_set_species) {
+        report(problems, "/species",
+               std::to_string(given->items().size()) + " species; at most " +
+                   std::to_string(most_set_species) + " are allowed");
+        return mixes;
+    }
+    for (std::size_t i = 0; i < given->items().size(); ++i) {
+        const std::string path = "/species/" + std::to_string(i);
+        const Value& item = given->items()[i];
+        if (!item.is_string()) {
+            report(problems, path, "expected text, got " + shown(item));
+            continue;
+        }
+        ValidationErrors of_mix;
+        Mix mix = read_mix(item.as_string(), atlas, of_mix);
+        for (const Problem& problem : of_mix.problems())
+            errors.add(of_mix.status(), path, problem.message);
+        if (of_mix.empty() && std::find(mixes.begin(), mixes.end(), mix) != mixes.end())
+            report(problems, path, mix_text(mix) + " is given more than once");
+        mixes.push_back(std::move(mix));
+    }
+    return mixes;
+}
+
+/// Moves the members that belong to the parameters of a set into an object of their own.
+Value taken_set_params(Value& body) {
+    Value own = Value::object();
+    SetParams::fields([&](auto, const Info& info) {
+        if (const Value* given = body.find(info.name)) own.set(info.name, *given);
+        body.erase(info.name);
+    });
+    return own;
+}
+
+/// Returns the version token of a set: that of all of its templates.
+std::string version_of(const SetSpec& spec, const Atlas& atlas) {
+    std::string tokens;
+    for (const Mix& mix : spec.species) tokens += version_token(mix, atlas) + '\n';
+    return token_of(tokens);
+}
+
+Key key_of(const SetSpec& spec, const char* ending, const std::string& version) {
+    Key key = std::string("set") + ending + ' ' + version;
+    for (const Mix& mix : spec.species) (key += '\n') += mix_text(mix);
+    key += '\n';
+    canonical(spec.params, key);
+    key += '\n';
+    canonical(spec.mushroom, key);
+    return key;
+}
+
+/// Calls visit(spec, individual, level) for every file of a plan.
+template <class Visit>
+void each_file(const SetSpec& spec, const SetPlan& plan, Visit visit) {
+    for (const SetIndividual& individual : plan.individuals)
+        for (std::size_t level = 0; level < spec.params.levels.size(); ++level)
+            visit(file_spec(spec, individual, level), individual, level);
+}
+
+/// Returns the bounding box of an individual from its farthest level of detail, which is within a
+/// few percent of all others.
+Bounds bounds_of(MushroomSpec spec, const Context& context, const ExecutionContext& execution) {
+    spec.params.lod = 3;
+    spec.params.textures = Textures::none;
+    return bounds(body_mesh(resolve(spec, *context.atlas, execution.caches.morphs), 3));
+}
+
+/// Returns the manifest of a set.
+///
+/// sizes  bytes of each file, in order; empty where they are only estimated
+Value manifest(const Context& context, const SetSpec& spec, const SetPlan& plan,
+               const std::vector<std::uint64_t>& sizes, const ExecutionContext& execution) {
+    const Atlas& atlas = *context.atlas;
+    Value individuals = Value::array(), files = Value::array();
+    std::uint64_t shown = 0, bytes = 0;
+    std::size_t index = 0;
+    for (const SetIndividual& one : plan.individuals) {
+        throw_if_cancelled(execution);
+        Value item = Value::object();
+        item.set("species", mix_text(spec.species[one.species]));
+        item.set("seed", one.params.seed).set("age", one.params.age).set("shown", one.shown);
+        item.set("bounds_m", description(bounds_of(file_spec(spec, one, 0), context, execution)));
+        shown += one.shown;
+        individuals.push(std::move(item));
+    }
+    std::size_t individual = 0;
+    each_file(spec, plan, [&](const MushroomSpec& file, const SetIndividual& one, std::size_t i) {
+        const std::string version = version_token(file.mix, atlas);
+        const std::uint64_t size = index < sizes.size() ? sizes[index] : one.files[i].bytes;
+        Value item = Value::object();
+        item.set("name", Mushrooms::file_name(file, Product::glb));
+        item.set("url", context.responses.link(with_version(canonical_address(file), version)));
+        item.set("individual", individual).set("lod", file.params.lod);
+        item.set("vertices", one.files[i].vertices).set("triangles", one.files[i].triangles);
+        item.set("bytes", size);
+        if (file.params.textures == Textures::linked) {
+            const ImageUrls urls = Mushrooms::image_urls(context, file, version, execution);
+            Value images = Value::array();
+            for (const std::string& url :
+                 file.params.file.image_format == ImageFormats::jpg ? urls.jpg : urls.webp)
+                images.push(context.responses.link(url));
+            item.set("images", std::move(images));
+        }
+        files.push(std::move(item));
+        bytes += size;
+        if (i + 1 == spec.params.levels.size()) ++individual;
+        ++index;
+    });
+    Value body = Value::object();
+    body.set("v", version_of(spec, atlas));
+    body.set("seeds", plan.seeds).set("texture_size", plan.texture_size);
+    body.set("individuals", std::move(individuals)).set("files", std::move(files));
+    body.set("totals", Value::object()
+                           .set("files", index)
+                           .set("shown", shown)
+                           .set("draw_calls", index)
+                           .set("triangles", plan.total().triangles)
+                           .set("bytes", bytes));
+    return body;
+}
+
+/// Returns the archive of a set: its files and their manifest.
+Body archive(const Context& context, const SetSpec& spec, const SetPlan& plan,
+             const ExecutionContext& execution) {
+    std::vector<ArchiveFile> files;
+    std::vector<std::uint64_t> sizes;
+    each_file(spec, plan, [&](const MushroomSpec& file, const SetIndividual&, std::size_t) {
+        throw_if_cancelled(execution);
+        const Individual individual = resolve(file, *context.atlas, execution.caches.morphs);
+        Extras extras;
+        extras.canonical = canonical_address(file);
+        Body glb = grow_mushroom(file, individual, *context.atlas, extras, execution).glb;
+        sizes.push_back(size_of(glb));
+        files.push_back({Mushrooms::file_name(file, Product::glb), std::move(glb)});
+    });
+    files.push_back(
+        {"manifest.json", {slice_of(dump(manifest(context, spec, plan, sizes, execution)))}});
+    return zip_archive(files);
+}
+
+/// Returns the approximate cost of a set, from its counts alone.
+///
+/// archived  its files are generated, not only listed
+Cost guessed_cost(const SetSpec& spec, bool archived, const Atlas& atlas) {
+    Cost cost{.base = 200};
+    for (const Mix& mix : spec.species) {
+        MushroomSpec file{.mix = mix, .model = {}, .params = spec.mushroom};
+        cost += Mushrooms::search(file, atlas);
+        const std::uint64_t of_mix =
+            spec.params.ages.size() * static_cast<std::uint64_t>(spec.params.seeds);
+        cost += cost_of_individuals(mix, is_branched(mix, atlas), 2 * of_mix);
+        cost.vertices += 400 * of_mix;  // of the farthest level
+        if (!archived) continue;
+        for (const int level : spec.params.levels) {
+            file.params.lod = level;
+            const Cost one = Mushrooms::guess(file, Product::glb, atlas);
+            for (std::uint64_t i = 0; i < of_mix; ++i) cost += one;
+        }
+    }
+    return cost;
+}
+
+/// Throws Impossible for more files than one request may have.
+void refuse_large(const SetSpec& spec, const Cost& cost, bool archived) {
+    if (const std::uint64_t files = most_files(spec); files > most_set_files)
+        throw Impossible("/seeds", std::to_string(files) + " files; at most " +
+                                       std::to_string(most_set_files) +
+                                       " are made. Lower seeds, ages or levels, or ask for some "
+                                       "of the species");
+    if (archived && spec.params.megabytes == 0.0 && cost.bytes > most_archive_bytes)
+        throw Impossible("/megabytes",
+                         "the archive would have about " + std::to_string(cost.bytes / 1'000'000) +
+                             " MB; at most " + std::to_string(most_archive_bytes / 1'000'000) +
+                             " are made. Give a budget of megabytes, lower seeds "
+                             "or levels, or fetch the files of the manifest");
+    if (archived && spec.params.megabytes * 1e6 > static_cast<double>(most_archive_bytes))
+        throw Impossible("/megabytes",
+                         number_text(spec.params.megabytes) + " MB in one archive; at most " +
+                             std::to_string(most_archive_bytes / 1'000'000) + " are made");
+}
+
+template <bool Archived>
+Plan plan_set(RouteCall& call) {
+    Context& context = call.context;
+    refuse_query(call.target, call.errors);
+    SetRequest requested = read_set(call.request.body, *context.atlas, call.errors);
+    if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
+    const char* const ending = Archived ? ".zip" : ".json";
+    const auto spec = std::make_shared<const SetSpec>(std::move(requested.spec));
+    Resource resource;
+    resource.version = version_of(*spec, *context.atlas);
+    resource.key = key_of(*spec, ending, resource.version);
+    resource.type = Archived ? "application/zip" : "application/json";
+    resource.file_name = std::string("mushrooms") + ending;
+    resource.requested_version = std::move(requested.version);
+    resource.estimate_cost = [&context, spec](const Caches&) {
+        const Cost cost = guessed_cost(*spec, Archived, *context.atlas);
+        if (Archived && spec->mushroom.textures == Textures::linked)
+            throw Impossible("/textures",
+                             "links of files in an archive lead nowhere; ask for embedded or none");
+        refuse_large(*spec, cost, Archived);
+        return cost;
+    };
+    resource.make = [&context, spec](JobContext& job) -> Body {
+        const ExecutionContext& execution = job.execution();
+        execution.observer(Step::resolve);
+        const SetPlan plan = planned_set(*spec, *context.atlas, execution);
+        for (const SetIndividual& one : plan.individuals)
+            for (const Estimate& file : one.files) refuse_over_budget(context.options, file);
+        execution.observer(Step::build);
+        if (Archived) return archive(context, *spec, plan, execution);
+        return {slice_of(dump(manifest(context, *spec, plan, {}, execution)))};
+    };
+    return plan_resource(context, call.request, std::move(resource), call.errors);
+}
+
+constexpr const char* json = "application/json";
+
+constexpr Route routes[] = {
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/sets.json",
+     .id = "plan_set",
+     .summary = "The files of a set of mushrooms within a budget of bytes and draw calls: names, "
+                "URLs, sizes, triangles and bounds.",
+     .media_type = json,
+     .body_type = json,
+     .response_schema = "set_manifest",
+     .request_body = "set_order",
+     .plan = plan_set<false>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/sets.zip",
+     .id = "post_set",
+     .summary = "The files of a set and their manifest in one archive.",
+     .media_type = "application/zip",
+     .body_type = json,
+     .request_body = "set_order",
+     .plan = plan_set<true>},
+};
+
+/// Returns the schema of the parameters of a body beside its species.
+Value order_schema() {
+    Value schema = sporeprint::schema<SetParams>();
+    Value& properties = *schema.find("properties");
+    const Value mushroom = sporeprint::schema<MushroomParams>();
+    for (const auto& [name, property] : mushroom.find("properties")->members())
+        if (std::none_of(std::begin(chosen), std::end(chosen),
+                         [&, &name = name](const auto& one) { return name == one.first; }))
+            properties.set(name, property);
+    return schema;
+}
+
+void add_schemas(Value& schemas, const Atlas&) {
+    const Value text = typed("string"), number = typed("number"), count = typed("integer");
+    Value file = objects({{"name", text},
+                          {"url", text},
+                          {"individual", count},
+                          {"lod", count},
+                          {"vertices", count},
+                          {"triangles", count},
+                          {"bytes", count}});
+    file.find("properties")->set("images", list_of(text));
+    schemas.set("set_manifest",
+                objects({{"v", text},
+                         {"seeds", count},
+                         {"texture_size", count},
+                         {"individuals", list_of(objects({{"species", text},
+                                                          {"seed", count},
+                                                          {"age", number},
+                                                          {"shown", count},
+                                                          {"bounds_m", bounds_schema()}}))},
+                         {"files", list_of(std::move(file))},
+                         {"totals", objects({{"files", count},
+                                             {"shown", count},
+                                             {"draw_calls", count},
+                                             {"triangles", count},
+                                             {"bytes", count}})}}));
+}
+
+void add_bodies(Value& bodies, const Atlas& atlas) {
+    Value species = object({{"type", "array"},
+                            {"description", "Species, or mixes as they stand in URLs."},
+                            {"items", typed("string")},
+                            {"minItems", 1},
+                            {"maxItems", most_set_species}});
+    bodies.set(
+        "set_order",
+        json_body("Species, the individuals and levels of each, and a budget.",
+                  with_members({{"species", std::move(species)}, {"v", version_member()}},
+                               order_schema(), "species"),
+                  object({{"species", Value(Value::Array{example_id(atlas), other_id(atlas)})},
+                          {"ages", Value(Value::Array{0.3, 0.6})},
+                          {"seeds", 8},
+                          {"levels", Value(Value::Array{1, 2, 3})},
+                          {"individuals", 300},
+                          {"draw_calls", 100},
+                          {"megabytes", 30},
+                          {"profile", "web"}})));
+}
+
+}  // namespace
+
+SetRequest read_set(std::string_view body, const Atlas& atlas, ValidationErrors& errors) {
+    SetRequest request;
+    std::optional<Value> read_json = read_body(body, errors);
+    if (!read_json) return request;
+    Value& json = *read_json;
+    std::vector<Problem> problems;
+    request.spec.species = read_species(json, atlas, errors, problems);
+    json.erase("species");
+    request.version = take_version(json, problems);
+    for (const auto& [name, instead] : chosen)
+        if (json.find(name)) {
+            report(problems, std::string("/") + name,
+                   std::string("is chosen by the set; give ") + instead);
+            json.erase(name);
+        }
+    errors.add(400, problems);
+    problems.clear();
+    const Value own = taken_set_params(json);
+    read(own, request.spec.params, Info{.name = ""}, "", problems);
+    add_problems(problems, request.spec.params, "", true, errors);
+    problems.clear();
+    apply_profile(requested_profile(json), request.spec.mushroom);
+    read(json, request.spec.mushroom, Info{.name = ""}, "", problems);
+    add_problems(problems, request.spec.mushroom, "", true, errors);
+    without_negative_zero(request.spec.params);
+    without_negative_zero(request.spec.mushroom);
+    return request;
+}
+
+const RouteGroup set_routes = {.tag = "sets",
+                               .description = "Many mushrooms of several species for one scene.",
+                               .routes = routes,
+                               .add_links = nullptr,
+                               .add_schemas = add_schemas,
+                               .add_bodies = add_bodies};
+
+}  // namespace sporeprint::api

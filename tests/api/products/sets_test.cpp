@@ -1,0 +1,134 @@
+#include "api/products/sets.h"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+#include <string>
+
+#include "tests/api/support.h"
+
+namespace sporeprint::api {
+namespace {
+
+using test::header;
+using test::json_of;
+using test::post;
+using test::text_of;
+
+class Sets : public ::testing::Test {
+  protected:
+    Service service_{built_in_atlas(), ServiceOptions{}};
+
+    Response planned(const std::string& body) {
+        return handle(service_, post(body, "/v1/sets.json"));
+    }
+    /// Returns the text of a problem response, after its status.
+    std::string refused(const std::string& body, const char* ending = "json") {
+        const Response response = handle(service_, post(body, std::string("/v1/sets.") + ending));
+        return std::to_string(response.status) + ' ' + text_of(response);
+    }
+};
+
+constexpr const char* two_species =
+    R"({"species":["amanita_muscaria","amanita_muscaria:0.7,boletus_edulis:0.3"],"ages":[0.3,0.6],
+        "seeds":2,"levels":[2,3],"texture_size":128,"profile":"web"})";
+
+TEST_F(Sets, ManifestsListFilesThatAreServed) {
+    const Response response = planned(two_species);
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    const Value manifest = json_of(response);
+    const auto& files = manifest.find("files")->items();
+    ASSERT_EQ(files.size(), 16U);
+    EXPECT_EQ(manifest.find("individuals")->items().size(), 8U);
+    std::set<std::string> names, urls;
+    double bytes = 0.0;
+    for (const Value& file : files) {
+        names.insert(file.find("name")->as_string());
+        const std::string url = file.find("url")->as_string();
+        urls.insert(url);
+        const Response glb = handle(service_, test::get(url));
+        ASSERT_EQ(glb.status, 200) << url << text_of(glb);
+        EXPECT_EQ(header(glb, "Cache-Control"), "public, max-age=31536000, immutable");
+        EXPECT_EQ(header(glb, "Content-Location"), url) << "URLs are canonical";
+        const auto size = static_cast<double>(size_of(glb.body));
+        EXPECT_NEAR(file.find("bytes")->as_number() / size, 1.0, 0.5) << url;
+        bytes += file.find("bytes")->as_number();
+    }
+    EXPECT_EQ(names.size(), 16U);
+    EXPECT_EQ(urls.size(), 16U);
+    EXPECT_EQ(manifest.at_pointer("/totals/files")->as_number(), 16.0);
+    EXPECT_EQ(manifest.at_pointer("/totals/bytes")->as_number(), bytes);
+    EXPECT_EQ(header(planned(two_species), "Cache-Status"), "sporeprint; hit");
+}
+
+TEST_F(Sets, ArchivesContainTheFilesThatTheManifestNames) {
+    const Response response = handle(service_, post(two_species, "/v1/sets.zip"));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    EXPECT_EQ(header(response, "Content-Type"), "application/zip");
+    EXPECT_EQ(header(response, "Content-Disposition"), "inline; filename=\"mushrooms.zip\"");
+    const std::string archive = text_of(response);
+    const Value manifest = json_of(planned(two_species));
+    for (const Value& file : manifest.find("files")->items()) {
+        EXPECT_NE(archive.find(file.find("name")->as_string()), std::string::npos);
+        const std::string url = file.find("url")->as_string();
+        EXPECT_NE(archive.find(text_of(handle(service_, test::get(url)))), std::string::npos)
+            << "the same bytes as " << url;
+    }
+    EXPECT_NE(archive.find("manifest.json"), std::string::npos);
+}
+
+TEST_F(Sets, BudgetsChooseSeedsAndImages) {
+    const Value manifest = json_of(planned(
+        R"({"species":["amanita_muscaria","boletus_edulis"],"seeds":16,"levels":[1,2,3],
+            "individuals":300,"draw_calls":40,"megabytes":1.5,"profile":"web"})"));
+    EXPECT_LE(manifest.at_pointer("/totals/draw_calls")->as_number(), 40.0);
+    EXPECT_LE(manifest.at_pointer("/totals/bytes")->as_number(), 1.5e6);
+    EXPECT_EQ(manifest.at_pointer("/totals/shown")->as_number(), 300.0);
+    EXPECT_GE(manifest.find("seeds")->as_number(), 1.0);
+}
+
+TEST_F(Sets, LinkedImagesAreListed) {
+    const Value manifest = json_of(planned(
+        R"({"species":["amanita_muscaria"],"levels":[3],"textures":"linked","texture_size":128})"));
+    const auto& images = manifest.at_pointer("/files/0/images")->items();
+    ASSERT_EQ(images.size(), 3U);
+    EXPECT_EQ(handle(service_, test::get(images[0].as_string())).status, 200);
+}
+
+TEST_F(Sets, ErrorsNameWhatIsWrong) {
+    EXPECT_NE(refused("{}").find("\"/species\",\"detail\":\"is missing"), std::string::npos);
+    EXPECT_NE(refused(R"({"species":["amanita_muscara"]})").find("404"), std::string::npos);
+    EXPECT_NE(refused(R"({"species":["amanita_muscara"]})").find("\"/species/0\""),
+              std::string::npos);
+    EXPECT_NE(refused(R"({"species":[7]})").find("400"), std::string::npos);
+    const std::string own = R"({"species":["amanita_muscaria"],)";
+    EXPECT_NE(refused(own + R"("seed":3})").find("first_seed and seeds"), std::string::npos);
+    EXPECT_NE(refused(own + R"("age":0.3})").find("give ages"), std::string::npos);
+    EXPECT_NE(refused(own + R"("ages":[0.3,0.3]})").find("\"/ages/1\""), std::string::npos);
+    EXPECT_NE(refused(own + R"("ages":[1.3]})").find("\"/ages/0\""), std::string::npos);
+    EXPECT_NE(refused(own + R"("sizes":2})").find("\"/sizes\""), std::string::npos);
+    EXPECT_NE(refused(own + R"("draw_calls":3})").find("422"), std::string::npos);
+    EXPECT_NE(refused(own + R"("megabytes":0.0001})").find("422"), std::string::npos);
+    EXPECT_NE(refused(own + R"("weathering":{"cracks":2}})").find("\"/weathering/cracks\""),
+              std::string::npos);
+    EXPECT_NE(refused(R"({"species":["amanita_muscaria","amanita_muscaria:3"]})")
+                  .find("given more than once"),
+              std::string::npos);
+    EXPECT_NE(refused(own + R"("textures":"linked"})", "zip").find("422"), std::string::npos);
+}
+
+TEST_F(Sets, LargeOnesAreRefusedBeforeAnyWork) {
+    std::string species;
+    for (const AtlasEntry& entry : built_in_atlas()->entries())
+        (species += species.empty() ? "\"" : ",\"") += entry.species.id.string() + '"';
+    const std::string body = R"({"species":[)" + species + R"(],"seeds":64})";
+    EXPECT_NE(refused(body).find("422"), std::string::npos);
+    EXPECT_NE(refused(R"({"species":[)" + species + R"(],"levels":[0],"seeds":4})", "zip")
+                  .find("\"/megabytes\""),
+              std::string::npos);
+    EXPECT_EQ(service_.counters().generated, 0U);
+}
+
+}  // namespace
+}  // namespace sporeprint::api
