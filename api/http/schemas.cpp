@@ -40,6 +40,17 @@ Value estimate_schema() {
 
 Value bounds_schema() { return objects({{"min", triple()}, {"max", triple()}}); }
 
+Value levels_schema() {
+    Value coverage = typed("number");
+    coverage.set("description",
+                 "Height over that of the screen down to which this level is drawn; below that of "
+                 "the last there is nothing to see.");
+    return list_of(objects({{"lod", typed("integer")},
+                            {"vertices", typed("integer")},
+                            {"triangles", typed("integer")},
+                            {"screen_coverage", std::move(coverage)}}));
+}
+
 Value version_member() {
     return object(
         {{"type", "string"}, {"description", "Version token; another than today's is 410."}});

@@ -37,6 +37,9 @@ namespace sporeprint::api {
 [[nodiscard]] Value estimate_schema();
 [[nodiscard]] Value bounds_schema();
 
+/// Returns the schema of the levels of detail of a product: the requested one and those below it.
+[[nodiscard]] Value levels_schema();
+
 /// Returns the schema of the member "v" of a request body, the version token.
 [[nodiscard]] Value version_member();
 

@@ -10,6 +10,7 @@
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/colony.h"
+#include "core/grow/names.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
 #include "core/params/reader.h"
@@ -64,12 +65,6 @@ std::string key_of(const ColonySpec& spec, Product product, std::string_view ver
     return key;
 }
 
-std::string file_name(const ColonySpec& spec, Product product) {
-    std::string out;
-    for (const MixPart& part : spec.mix) (out += part.id) += '-';
-    return out + "colony-" + std::to_string(spec.params.seed) + ending_of(product);
-}
-
 namespace {
 
 /// Approximate vertices of the mesh that measures the space of an individual: its cap at lod=1.
@@ -115,9 +110,10 @@ Estimate guessed(const ColonySpec& spec) {
     Estimate guess;
     // Caps are those of the next level of detail; a stem has about six nodes of nine quads, each
     // subdivided into sixteen near the viewer.
-    guess.vertices = (static_cast<std::uint64_t>(params.distinct) * 1000 +
-                      static_cast<std::uint64_t>(params.count) * 400) >>
-                     (2 * std::min(params.lod, 2));
+    for (const int lod : levels_in_file(params.lod, params.file))
+        guess.vertices += (static_cast<std::uint64_t>(params.distinct) * 1000 +
+                           static_cast<std::uint64_t>(params.count) * 400) >>
+                          (2 * std::min(lod, 2));
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
     guess.bytes = 60 * guess.vertices + images / 3;
@@ -138,15 +134,16 @@ std::string Colonies::key(const ColonySpec& spec, Product product, const std::st
     return key_of(spec, product, version);
 }
 
-std::string Colonies::file_name(const ColonySpec& spec, Product product) {
-    return api::file_name(spec, product);
+std::string Colonies::file_name(const ColonySpec& spec, Product product, const Atlas&) {
+    return sporeprint::file_name(product_name(spec), spec.params.lod, spec.params.file) +
+           ending_of(product);
 }
 
 Cost Colonies::cost(const Context& context, const ColonySpec& spec, Product product,
                     const Caches& caches, Resolved& resolved) {
     const Individual& typical = resolved_individual(context, spec, caches, resolved);
     const Estimate estimated = estimate(spec, typical, *context.atlas);
-    refuse_over_budget(context.options, estimated, spec.mix.size() > 1);
+    refuse_over_budget(context.options, estimated, spec.mix.size() > 1, false, spec.params.file);
     return cost_of(spec, estimated, product, *context.atlas);
 }
 
@@ -190,7 +187,9 @@ Value Colonies::describe(const Context& context, const ColonySpec& spec, Resolve
     body.set("made", std::uint64_t{colony.members.size()});
     body.set("effective", write(colony.effective));
     body.set("estimate", description(measured(spec, colony)));
-    body.set("bounds_m", description(bounds(colony)));
+    const Bounds box = bounds(colony);
+    body.set("bounds_m", description(box));
+    body.set("levels", level_list(levels_of(spec, typical, *context.atlas, box)));
     return body;
 }
 
@@ -276,7 +275,8 @@ void add_schemas(Value& schemas, const Atlas&) {
                                             {"made", typed("integer")},
                                             {"effective", reference("schemas/colony_params")},
                                             {"estimate", estimate_schema()},
-                                            {"bounds_m", bounds_schema()}}));
+                                            {"bounds_m", bounds_schema()},
+                                            {"levels", levels_schema()}}));
 }
 
 void add_bodies(Value& bodies, const Atlas& atlas) {

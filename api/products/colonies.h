@@ -37,9 +37,6 @@ struct ColonyRequest {
 /// keys mean equal bytes.
 [[nodiscard]] std::string key_of(const ColonySpec& spec, Product product, std::string_view version);
 
-/// Returns "armillaria_mellea-colony-7.glb".
-[[nodiscard]] std::string file_name(const ColonySpec& spec, Product product);
-
 /// The Kind of plan_product.h for colonies.
 struct Colonies {
     using Resolved = std::optional<Individual>;  ///< the typical individual, once it is needed
@@ -47,7 +44,7 @@ struct Colonies {
     static std::string version(const ColonySpec& spec, const Atlas& atlas);
     static std::string url(const ColonySpec& spec, Product product, const Atlas& atlas);
     static std::string key(const ColonySpec& spec, Product product, const std::string& version);
-    static std::string file_name(const ColonySpec& spec, Product product);
+    static std::string file_name(const ColonySpec& spec, Product product, const Atlas&);
     static Cost cost(const Context& context, const ColonySpec& spec, Product product,
                      const Caches& caches, Resolved& resolved);
     static Cost search(const ColonySpec& spec, const Atlas& atlas);

@@ -23,8 +23,9 @@ Response image_head(const ResponseBuilder& responses, const ImageResource& image
         {"ETag", '"' + std::string(digest) + '-' + name(image.kind) + '"'},
         {"Cache-Control", cache_control(image.requested_version.has_value())},
         {"Content-Location", responses.link(with_version(image.address, image.version))},
-        {"Content-Disposition",
-         "inline; filename=\"" + image.of + '-' + file_of(image.kind, image.format) + '"'}};
+        {"Content-Disposition", "inline; filename=\"" + image.of + '-' +
+                                    std::string(digest.substr(0, 8)) + '-' +
+                                    file_of(image.kind, image.format) + '"'}};
     return head;
 }
 

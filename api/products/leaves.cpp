@@ -4,17 +4,16 @@
 
 namespace sporeprint::api {
 
-Grown Leaves::grow(const LeafSpec& spec, const Atlas&, const Extras& extras, int,
+Grown Leaves::grow(const LeafSpec& spec, const Atlas& atlas, const Extras& extras, int,
                    const ExecutionContext& execution) {
-    return grow_leaf(spec, extras, execution);
+    return grow_leaf(spec, atlas, extras, execution);
 }
 
-std::pair<Estimate, Bounds> Leaves::measure(const LeafSpec& spec, const Atlas&,
-                                            const ExecutionContext& execution) {
+Measures Leaves::measure(const LeafSpec& spec, const Atlas&, const ExecutionContext& execution) {
     execution.observer(Step::build);
-    const Mesh mesh = leaf_mesh(spec);
+    const std::vector<Level> levels = levels_of(spec);
     execution.observer(Step::pack);
-    return {measured(spec, mesh), bounds(mesh)};
+    return {measured(spec, levels), bounds(leaf_mesh(spec)), levels};
 }
 
 Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }

@@ -3,7 +3,6 @@
 
 #include <span>
 #include <string_view>
-#include <utility>
 
 #include "api/products/presets.h"
 #include "core/grow/leaf.h"
@@ -25,8 +24,8 @@ struct Leaves {
 
     static Grown grow(const LeafSpec& spec, const Atlas& atlas, const Extras& extras, int depth,
                       const ExecutionContext& execution);
-    static std::pair<Estimate, Bounds> measure(const LeafSpec& spec, const Atlas& atlas,
-                                               const ExecutionContext& execution);
+    static Measures measure(const LeafSpec& spec, const Atlas& atlas,
+                            const ExecutionContext& execution);
     static Cost cost_of_growing(const LeafSpec& spec);
     /// Returns the cost of painting these images.
     static Cost cost_of_paint(const LeafPaint& paint);

@@ -11,6 +11,7 @@
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/names.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -96,13 +97,6 @@ std::string key_of(const MushroomSpec& spec, Product product, std::string_view v
     return key;
 }
 
-std::string file_name(const MushroomSpec& spec, Product product) {
-    std::string out;
-    for (const MixPart& part : spec.mix) (out += part.id) += '-';
-    if (spec.mix.empty()) out = "model-";
-    return out + std::to_string(spec.params.seed) + ending_of(product);
-}
-
 namespace {
 
 /// Resolves the individual of a request unless that is done.
@@ -124,7 +118,7 @@ Estimate weighed(const Context& context, const MushroomSpec& spec, const Caches&
     const Estimate cost = estimate(spec, resolved_individual(context, spec, caches, resolved));
     if (spec.model) resolved.reset();
     refuse_over_budget(context.options, cost, spec.mix.size() > 1,
-                       spec.params.animation != Animation::none);
+                       spec.params.animation != Animation::none, spec.params.file);
     return cost;
 }
 
@@ -163,7 +157,8 @@ Estimate guessed(const MushroomSpec& spec) {
     const MushroomParams& params = spec.params;
     const auto side = static_cast<std::uint64_t>(params.texture_size.value) >> params.lod;
     Estimate guess;
-    guess.vertices = std::uint64_t{12'000} >> (2 * params.lod);
+    for (const int lod : levels_in_file(params.lod, params.file))
+        guess.vertices += std::uint64_t{12'000} >> (2 * lod);
     const std::uint64_t images = params.textures == Textures::none ? 0 : 3 * side * side;
     guess.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     guess.bytes = 60 * guess.vertices + images / 3;
@@ -217,8 +212,9 @@ std::string Mushrooms::key(const MushroomSpec& spec, Product product, const std:
     return key_of(spec, product, version);
 }
 
-std::string Mushrooms::file_name(const MushroomSpec& spec, Product product) {
-    return api::file_name(spec, product);
+std::string Mushrooms::file_name(const MushroomSpec& spec, Product product, const Atlas&) {
+    return sporeprint::file_name(product_name(spec), spec.params.lod, spec.params.file) +
+           ending_of(product);
 }
 
 Cost Mushrooms::cost(const Context& context, const MushroomSpec& spec, Product product,
@@ -263,6 +259,7 @@ Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Reso
     body.set("effective", write(individual.effective));
     body.set("estimate", description(estimate(spec, individual)));
     body.set("bounds_m", description(box));
+    body.set("levels", level_list(levels_of(spec, individual, box)));
     body.set("certificate", write(certificate(spec, individual, atlas, execution.caches.morphs)));
     return body;
 }
@@ -365,6 +362,7 @@ void add_schemas(Value& schemas, const Atlas&) {
                                               {"effective", reference("schemas/mushroom_params")},
                                               {"estimate", estimate_schema()},
                                               {"bounds_m", bounds_schema()},
+                                              {"levels", levels_schema()},
                                               {"certificate", reference("schemas/certificate")}}))
         .set("certificate", as_written(schema<Certificate>()));
 }

@@ -46,9 +46,6 @@ struct MushroomRequest {
 [[nodiscard]] std::string key_of(const MushroomSpec& spec, Product product,
                                  std::string_view version);
 
-/// Returns "amanita_muscaria-7.glb".
-[[nodiscard]] std::string file_name(const MushroomSpec& spec, Product product);
-
 /// The Kind of plan_product.h for mushrooms.
 struct Mushrooms {
     /// The individual, once it is needed. The job of a client's own model resolves it again: it
@@ -58,7 +55,7 @@ struct Mushrooms {
     static std::string version(const MushroomSpec& spec, const Atlas& atlas);
     static std::string url(const MushroomSpec& spec, Product product, const Atlas& atlas);
     static std::string key(const MushroomSpec& spec, Product product, const std::string& version);
-    static std::string file_name(const MushroomSpec& spec, Product product);
+    static std::string file_name(const MushroomSpec& spec, Product product, const Atlas&);
     static Cost cost(const Context& context, const MushroomSpec& spec, Product product,
                      const Caches& caches, Resolved& resolved);
     static Cost search(const MushroomSpec& spec, const Atlas& atlas);

@@ -19,7 +19,7 @@ namespace sporeprint::api {
 ///   version(spec, atlas)                   current version token
 ///   url(spec, product, atlas)              canonical URL without version; "" if it has none
 ///   key(spec, product, version)            canonical text of all values
-///   file_name(spec, product)
+///   file_name(spec, product, atlas)
 ///   cost(context, spec, product, caches, resolved)   cost of generating it; throws if it is
 ///                                          impossible
 ///   search(spec, atlas)                    optional: cost of its correspondence (MorphSet)
@@ -44,7 +44,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     resource.address = Kind::url(*spec, product, *context.atlas);
     resource.key = Kind::key(*spec, product, resource.version);
     resource.type = type_of(product);
-    resource.file_name = Kind::file_name(*spec, product);
+    resource.file_name = Kind::file_name(*spec, product, *context.atlas);
     resource.requested_version = std::move(requested.version);
     resource.is_linked = product == Product::glb && spec->params.textures == Textures::linked;
     resource.estimate_cost = [&context, spec, product, resolved](const Caches& caches) {

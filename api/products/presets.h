@@ -15,6 +15,7 @@
 #include "api/products/plan_product.h"
 #include "api/products/product.h"
 #include "core/atlas/atlas.h"
+#include "core/grow/names.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/query.h"
@@ -139,12 +140,6 @@ std::string key_of(const Spec& spec, Product product, const std::string& version
            canonical_text(spec.params);
 }
 
-/// Returns the name of the file to download, from preset and seed: "maple-7.glb".
-template <class Spec>
-std::string preset_file_name(const Spec& spec, Product product) {
-    return spec.preset + '-' + std::to_string(spec.params.seed) + ending_of(product);
-}
-
 /// Reads {preset}, {image} and query of a URL under /v1/surfaces.
 template <class Kind>
 PresetSurface<Kind> read_preset_surface(const Atlas& atlas, std::string_view id,
@@ -198,9 +193,16 @@ Value preset_list(const Atlas& atlas) {
     return Value::object().set(Kind::all, std::move(list));
 }
 
+/// What the JSON of a product from a preset says about its meshes.
+struct Measures {
+    Estimate estimate;
+    Bounds box;
+    std::vector<Level> levels;
+};
+
 /// The Kind of plan_product.h for a product from presets, whose own Kind has:
 ///   grow(spec, atlas, extras, depth, execution)    the file; depth of links to further images
-///   measure(spec, atlas, execution)        its exact estimate and its bounds
+///   measure(spec, atlas, execution)        its exact estimate, its bounds, its levels of detail
 ///   cost_of_growing(spec)                  cost beside its vertices, bytes and images
 ///   cost_of_painting(spec, atlas)          cost of painting all of its images
 ///   add_details(spec, body)                optional: adds further members to its JSON
@@ -218,14 +220,15 @@ struct PresetProduct {
     static std::string key(const Spec& spec, Product product, const std::string& version) {
         return key_of<Kind>(spec, product, version);
     }
-    static std::string file_name(const Spec& spec, Product product) {
-        return preset_file_name(spec, product);
+    static std::string file_name(const Spec& spec, Product product, const Atlas& atlas) {
+        return sporeprint::file_name(product_name(spec, atlas), spec.params.lod, spec.params.file) +
+               ending_of(product);
     }
 
     static Cost cost(const Context& context, const Spec& spec, Product product, const Caches&,
                      Resolved&) {
         const Estimate estimated = estimate(spec);
-        refuse_over_budget(context.options, estimated);
+        refuse_over_budget(context.options, estimated, false, false, spec.params.file);
         Cost cost = Kind::cost_of_growing(spec);
         cost.placed_vertices = estimated.vertices;
         if (product == Product::json) return cost;
@@ -248,7 +251,7 @@ struct PresetProduct {
 
     static Value describe(const Context& context, const Spec& spec, Resolved&,
                           const std::string& version, const ExecutionContext& execution) {
-        const auto [cost, box] = Kind::measure(spec, *context.atlas, execution);
+        const auto [cost, box, levels] = Kind::measure(spec, *context.atlas, execution);
         Value body = Value::object();
         body.set("canonical", canonical_address<Kind>(*context.atlas, spec, Product::glb));
         body.set("v", version);
@@ -256,6 +259,7 @@ struct PresetProduct {
         body.set("effective", write(spec.params));
         body.set("estimate", description(cost));
         body.set("bounds_m", description(box));
+        body.set("levels", level_list(levels));
         if constexpr (requires { Kind::add_details(spec, body); }) Kind::add_details(spec, body);
         return body;
     }
@@ -337,7 +341,8 @@ inline Value preset_description_schema(const char* params) {
                     {"preset", text},
                     {"effective", reference(std::string("schemas/") + params)},
                     {"estimate", estimate_schema()},
-                    {"bounds_m", bounds_schema()}});
+                    {"bounds_m", bounds_schema()},
+                    {"levels", levels_schema()}});
 }
 
 }  // namespace sporeprint::api

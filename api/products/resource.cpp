@@ -210,13 +210,14 @@ std::string too_many_texels(const ServiceOptions& options, std::uint64_t texels,
 }  // namespace
 
 void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, bool of_every_species,
-                        bool is_clip) {
+                        bool is_clip, const FileOptions& file) {
     std::vector<Problem> problems;
     if (cost.vertices > options.most_vertices) {
         const std::string count = std::to_string(cost.vertices) +
                                   " vertices would be made; at most " +
                                   std::to_string(options.most_vertices) + " are. ";
         report(problems, "/lod", count + "Raise lod");
+        if (file.lods != Lods::single) report(problems, "/lods", count + "Ask for lods=single");
         if (is_clip) report(problems, "/frames", count + "Lower frames");
     }
     if (cost.texels > options.most_texels)

@@ -53,9 +53,9 @@ struct Resource {
                                  ValidationErrors& errors);
 
 /// Throws Impossible (422) for an estimate over the budget of one request, with the parameters that
-/// would lower it: /lod, /frames of a clip, /texture_size.
-void refuse_over_budget(const ServiceOptions& options, const Estimate& cost,
-                        bool of_every_species = false, bool is_clip = false);
+/// would lower it: /lod, /lods of several levels, /frames of a clip, /texture_size.
+void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, bool of_every_species,
+                        bool is_clip, const FileOptions& file);
 
 /// Adds 422 to `errors` if images have more texels than the budget of one request.
 void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,

@@ -129,7 +129,7 @@ Value manifest(const Context& context, const SetSpec& spec, const SetPlan& plan,
         const std::string version = version_token(file.mix, atlas);
         const std::uint64_t size = index < sizes.size() ? sizes[index] : one.files[i].bytes;
         Value item = Value::object();
-        item.set("name", Mushrooms::file_name(file, Product::glb));
+        item.set("name", Mushrooms::file_name(file, Product::glb, *context.atlas));
         item.set("url", context.responses.link(with_version(canonical_address(file), version)));
         item.set("individual", individual).set("lod", file.params.lod);
         item.set("vertices", one.files[i].vertices).set("triangles", one.files[i].triangles);
@@ -172,7 +172,7 @@ Body archive(const Context& context, const SetSpec& spec, const SetPlan& plan,
         extras.canonical = canonical_address(file);
         Body glb = grow_mushroom(file, individual, *context.atlas, extras, execution).glb;
         sizes.push_back(size_of(glb));
-        files.push_back({Mushrooms::file_name(file, Product::glb), std::move(glb)});
+        files.push_back({Mushrooms::file_name(file, Product::glb, *context.atlas), std::move(glb)});
     });
     files.push_back(
         {"manifest.json", {slice_of(dump(manifest(context, spec, plan, sizes, execution)))}});
@@ -247,7 +247,8 @@ Plan plan_set(RouteCall& call) {
         execution.observer(Step::resolve);
         const SetPlan plan = planned_set(*spec, *context.atlas, execution);
         for (const SetIndividual& one : plan.individuals)
-            for (const Estimate& file : one.files) refuse_over_budget(context.options, file);
+            for (const Estimate& file : one.files)
+                refuse_over_budget(context.options, file, false, false, spec->mushroom.file);
         execution.observer(Step::build);
         if (Archived) return archive(context, *spec, plan, execution);
         return {slice_of(dump(manifest(context, *spec, plan, {}, execution)))};

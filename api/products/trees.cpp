@@ -75,17 +75,19 @@ Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras
     return grow_tree(spec, atlas, extras, of_leaves, execution);
 }
 
-std::pair<Estimate, Bounds> Trees::measure(const TreeSpec& spec, const Atlas& atlas,
-                                           const ExecutionContext& execution) {
+Measures Trees::measure(const TreeSpec& spec, const Atlas& atlas,
+                        const ExecutionContext& execution) {
     execution.observer(Step::build);
-    const TreeMeshes meshes = tree_meshes(spec, atlas);
+    const std::vector<TreeMeshes> meshes = level_meshes(spec, atlas);
     execution.observer(Step::pack);
-    return {measured(spec, meshes), bounds(meshes)};
+    const Bounds box = bounds(meshes.front());
+    return {measured(spec, meshes), box, levels_of(spec, atlas, box)};
 }
 
 Cost Trees::cost_of_growing(const TreeSpec& spec) {
     const double twigs = expected_tips(spec.params.look.shape.topology);
-    return {.base = 100, .twigs = static_cast<std::uint64_t>(twigs)};
+    const std::size_t levels = levels_in_file(spec.params.lod, spec.params.file).size();
+    return {.base = 100, .twigs = levels * static_cast<std::uint64_t>(twigs)};
 }
 
 Cost Trees::cost_of_painting(const TreeSpec& spec, const Atlas& atlas) {

@@ -4,7 +4,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 
 #include "api/products/presets.h"
 #include "core/grow/tree.h"
@@ -45,8 +44,8 @@ struct Trees {
 
     static Grown grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras, int depth,
                       const ExecutionContext& execution);
-    static std::pair<Estimate, Bounds> measure(const TreeSpec& spec, const Atlas& atlas,
-                                               const ExecutionContext& execution);
+    static Measures measure(const TreeSpec& spec, const Atlas& atlas,
+                            const ExecutionContext& execution);
     static Cost cost_of_growing(const TreeSpec& spec);
     static Cost cost_of_paint(const TreePaint& paint);  ///< of these images
     static Cost cost_of_painting(const TreeSpec& spec, const Atlas& atlas);

@@ -298,15 +298,4 @@ Body glb(const GlbScene& scene) {
     return body;
 }
 
-Body glb(const Mesh& mesh, const GlbParts& parts) {
-    GlbScene scene;
-    scene.materials.push_back({parts.name, parts.images, parts.image_urls, parts.look, false});
-    scene.meshes.push_back({parts.name, {{&mesh, 0, parts.targets}}});
-    scene.nodes.push_back({.name = parts.name, .mesh = 0});
-    scene.extras_json = parts.extras_json;
-    scene.clip = parts.clip;
-    scene.geometry = parts.geometry;
-    return glb(scene);
-}
-
 }  // namespace sporeprint

@@ -19,7 +19,7 @@ namespace sporeprint {
 /// A morph target: the offsets of each vertex at weight 1.
 struct MorphTarget {
     std::string name;
-    std::vector<glm::vec3> positions, normals;  ///< offsets, one per vertex
+    std::vector<glm::vec3> positions, normals;  ///< offsets; normals of all targets or none
 };
 
 /// An animation of the weights of all targets, linear between keys.
@@ -39,8 +39,8 @@ struct MaterialLook {
 
 /// A material with its images.
 struct GlbMaterial {
-    std::string name;
-    const ImageSet* images = nullptr;            ///< embedded when given
+    std::string name;                  ///< also of its images, with their kinds: "oak_base_color"
+    const ImageSet* images = nullptr;  ///< embedded when given
     std::array<std::string, 3> image_urls = {};  ///< linked when not empty
     MaterialLook look = {};
     bool repeats_u = false;  ///< wrap mode of the samplers in u: REPEAT, otherwise CLAMP_TO_EDGE
@@ -130,20 +130,5 @@ struct GlbScene {
 ///          material needs, an index of no mesh, material or node, a node with a mesh and children,
 ///          a node with two parents, a rotation that is no unit quaternion, a zero scale, targets or a clip that do not fit, or a file of more than 2^32 - 1 bytes
 [[nodiscard]] Body glb(const GlbScene& scene);
-
-/// A file of one mesh, one primitive, one material and one node.
-struct GlbParts {
-    std::string name;                       ///< of node, mesh and material
-    const ImageSet* images = nullptr;       ///< embedded when given
-    std::array<std::string, 3> image_urls;  ///< linked when not empty
-    std::string extras_json;                ///< a JSON object for asset.extras; empty for none
-    MaterialLook look = {};
-    std::span<const MorphTarget> targets = {};  ///< weights are 0 until a viewer sets them
-    const WeightClip* clip = nullptr;           ///< of the targets
-    GlbGeometry geometry = GlbGeometry::floats;
-};
-
-/// Writes the same for a scene of one mesh.
-[[nodiscard]] Body glb(const Mesh& mesh, const GlbParts& parts);
 
 }  // namespace sporeprint

@@ -13,15 +13,16 @@ constexpr const char* texture_webp = "EXT_texture_webp";
 
 }  // namespace
 
-std::size_t TextureTables::add_images(const ImageSet* files, const std::array<std::string, 3>& urls,
-                                      Tables& tables) {
+std::size_t TextureTables::add_images(const std::string& name, const ImageSet* files,
+                                      const std::array<std::string, 3>& urls, Tables& tables) {
     for (std::size_t i = 0; i < urls.size(); ++i) {
-        images += separator(images);
+        append_quoted((images += separator(images)) += "{\"name\":",
+                      name + '_' + sporeprint::name(static_cast<ImageKind>(i)));
         if (files) {
-            ((images += "{\"mimeType\":\"") += media_type(files->format)) += "\",\"bufferView\":";
+            ((images += ",\"mimeType\":\"") += media_type(files->format)) += "\",\"bufferView\":";
             append(images, tables.view(files->files[i].size));
         } else {
-            append_quoted(images += "{\"uri\":", urls[i]);
+            append_quoted(images += ",\"uri\":", urls[i]);
         }
         images += '}';
     }
@@ -42,9 +43,11 @@ std::size_t TextureTables::textures_of(const GlbMaterial& material, Tables& tabl
     const bool is_webp = (material.images ? material.images->format : material.url_format) ==
                          ImageFormat::webp,
                falls_back = material.fallback || !material.fallback_urls[0].empty();
-    const std::size_t source = add_images(material.images, material.image_urls, tables);
+    const std::size_t source =
+        add_images(material.name, material.images, material.image_urls, tables);
     const std::size_t fallback =
-        falls_back ? add_images(material.fallback, material.fallback_urls, tables) : source;
+        falls_back ? add_images(material.name, material.fallback, material.fallback_urls, tables)
+                   : source;
     if (is_webp && falls_back) used.use(texture_webp);
     if (is_webp && !falls_back) used.require(texture_webp);
     for (std::size_t i = 0; i < 3; ++i) {

@@ -35,9 +35,10 @@ struct TextureTables {
   private:
     std::size_t image_count_ = 0;
 
-    /// Adds three images, embedded or linked; returns the index of the first.
-    std::size_t add_images(const ImageSet* files, const std::array<std::string, 3>& urls,
-                           Tables& tables);
+    /// Adds three images, embedded or linked, with names that begin with `name`; returns the index of
+    /// the first.
+    std::size_t add_images(const std::string& name, const ImageSet* files,
+                           const std::array<std::string, 3>& urls, Tables& tables);
     std::size_t sampler_of(bool repeats_u);
 };
 

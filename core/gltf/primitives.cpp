@@ -151,7 +151,8 @@ Geometry geometry_of(const Mesh& mesh, bool textured, GlbGeometry storage, float
 TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertices,
                        GlbGeometry storage, float step, Tables& tables) {
     for (const MorphTarget& target : targets)
-        if (target.positions.size() != vertices || target.normals.size() != vertices)
+        if (target.positions.size() != vertices ||
+            target.normals.size() != (targets.front().normals.empty() ? 0 : vertices))
             throw GenerationError("a morph target has another number of vertices than its mesh");
     TargetData out;
     if (targets.empty()) return out;
@@ -172,7 +173,8 @@ TargetData target_data(std::span<const MorphTarget> targets, std::size_t vertice
         append(out.targets += "{\"POSITION\":",
                floats ? add_floats(target.positions, true)
                       : add_quantized(target.positions, step, compressed, tables, *bytes));
-        append(out.targets += ",\"NORMAL\":", add_floats(target.normals, false));
+        if (!target.normals.empty())
+            append(out.targets += ",\"NORMAL\":", add_floats(target.normals, false));
         out.targets += '}';
     }
     out.targets += ']';

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
+#include <span>
 #include <string>
 #include <utility>
 
 #include "core/colony/colony_skin.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/names.h"
 #include "core/individual/proportion.h"
 #include "core/math/purposes.h"
 #include "core/math/random.h"
@@ -60,6 +62,7 @@ MushroomSpec individual_spec(const ColonySpec& spec, int which) {
         params.distinct > 1 ? params.age * (1.0 - 0.5 * which / (params.distinct - 1)) : params.age;
     own.params.lod = cap_lod(params.lod);
     own.params.textures = params.textures;
+    own.params.file = params.file;
     return own;
 }
 
@@ -99,12 +102,46 @@ std::uint64_t image_texels(const ColonySpec& spec) {
     return textured(spec) ? 3 * side * side : 0;
 }
 
-std::uint64_t bytes_of(const ColonySpec& spec, std::uint64_t vertices, std::uint64_t triangles,
-                       std::uint64_t members) {
-    const std::uint64_t place = spec.params.instancing == Instancing::gpu ? 40 : 150;
-    return estimated_bytes(vertices, triangles, spec.params.textures, spec.params.file,
-                           image_texels(spec) / 3) +
-           place * members + 700 * static_cast<std::uint64_t>(spec.params.distinct);
+/// Adds one level of detail of a file.
+void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std::uint64_t triangles,
+               std::uint64_t members) {
+    const std::uint64_t place = spec.params.instancing == Instancing::gpu ? 40 : 220;
+    add_level(e, vertices, triangles, spec.params.textures, spec.params.file);
+    e.bytes += place * members + 900 * static_cast<std::uint64_t>(spec.params.distinct);
+}
+
+void add_images(Estimate& e, const ColonySpec& spec) {
+    const std::uint64_t texels = image_texels(spec);
+    e.texels = texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
+    if (spec.params.textures == Textures::embedded) e.bytes += texels / 3;
+}
+
+/// Returns about how many vertices and triangles the meshes of a level of detail have.
+MeshCount expected_count(const ColonySpec& spec, const Individual& typical,
+                         const ColonyTraits& traits, const ColonyRoots& growth, int lod) {
+    const ColonyParams& params = spec.params;
+    const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
+    const MeshCount one = body_count(typical, mesh_lod(typical, lod));
+    double nodes = 0.0;
+    if (traits.roots == RootsShown::shown)
+        nodes += root_share(lod) * (1.2 * expected_root_nodes(growth) + 20.0);
+    if (traits.capped) nodes += params.count * (segments_of(growth, lod) + 1.0) + 2.0;
+    // Where the number of nodes is random, the level of the finer skin is assumed.
+    const auto least =
+        static_cast<std::size_t>(traits.roots == RootsShown::shown ? 0.6 * nodes : nodes);
+    const double quads =
+        nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, lod)));
+    return {distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads),
+            distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads)};
+}
+
+MeshCount count_of(const Mesh& skin, std::span<const Mesh> models) {
+    MeshCount count{skin.positions.size(), skin.triangles()};
+    for (const Mesh& model : models) {
+        count.vertices += model.positions.size();
+        count.triangles += model.triangles();
+    }
+    return count;
 }
 
 /// Returns the parameters with every default resolved.
@@ -157,15 +194,20 @@ glm::dvec4 quaternion_of(const glm::dmat3& m) {
 }
 
 /// Adds one node for each member, or one instanced node for each model.
-void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& name,
+///
+/// mesh_of  of each model
+void add_member_nodes(GlbScene& scene, const Colony& colony,
                       const std::vector<std::size_t>& mesh_of) {
     const bool gpu = colony.effective.instancing == Instancing::gpu;
     std::vector<std::size_t> node_of(colony.models.size(), scene.nodes.max_size());
+    std::size_t count = 0;
     for (const ColonyMember& member : colony.members) {
         const Pose& at = member.pose;
         const GlbTransform place{at.at, quaternion_of(at.turn), glm::dvec3(at.scale)};
-        GlbNode node{.name = name, .mesh = mesh_of[member.model]};
+        const std::size_t mesh = mesh_of[member.model];
+        GlbNode node{.name = scene.meshes[mesh].name, .mesh = mesh};
         if (!gpu) {
+            node.name += '_' + std::to_string(++count);
             node.translation = place.translation;
             node.rotation = place.rotation;
             node.scale = place.scale;
@@ -179,6 +221,48 @@ void add_member_nodes(GlbScene& scene, const Colony& colony, const std::string& 
         }
         scene.nodes[index].instances.push_back(place);
     }
+}
+
+/// Adds the meshes and nodes of one level of detail.
+///
+/// name  level_name()
+void add_colony(GlbScene& scene, const Colony& colony, const Mesh& skin,
+                std::span<const Mesh> models, const std::string& name) {
+    if (!skin.positions.empty()) {
+        scene.nodes.push_back({.name = name + "_stems", .mesh = scene.meshes.size()});
+        scene.meshes.push_back({name + "_stems", {{&skin, 0, {}}}});
+    }
+    std::vector<std::size_t> mesh_of(models.size(), 0);
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        if (models[i].positions.empty()) continue;
+        mesh_of[i] = scene.meshes.size();
+        scene.meshes.push_back(
+            {name + "_individual" + std::to_string(i + 1), {{&models[i], 0, {}}}});
+    }
+    add_member_nodes(scene, colony, mesh_of);
+}
+
+/// Adds all levels of detail; each of several is a node with children.
+void add_levels(GlbScene& scene, const Colony& colony, const std::string& name,
+                std::span<const Level> levels, Lods lods) {
+    std::vector<std::size_t> nodes;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const std::string own = level_name(name, levels[i].lod);
+        std::size_t first = scene.nodes.size();
+        if (lods != Lods::single) {
+            nodes.push_back(first++);
+            scene.nodes.push_back({.name = own});
+        }
+        if (i == 0)
+            add_colony(scene, colony, colony.skin, colony.models, own);
+        else
+            add_colony(scene, colony, colony.farther[i - 1].skin, colony.farther[i - 1].models,
+                       own);
+        if (lods != Lods::single)
+            for (; first < scene.nodes.size(); ++first)
+                scene.nodes[nodes.back()].children.push_back(first);
+    }
+    link_levels(scene, nodes, levels, lods);
 }
 
 /// Adds the meshes of the distinct individuals of a colony.
@@ -210,6 +294,9 @@ std::vector<ColonyModel> add_models(const ColonySpec& spec, const ColonyTraits& 
         };
         const int own_lod = mesh_lod(one, params.lod);
         colony.models.push_back(grown(own_lod, textured(spec)));
+        for (std::size_t i = 0; i < colony.farther.size(); ++i)
+            colony.farther[i].models.push_back(
+                grown(mesh_lod(one, params.lod + 1 + static_cast<int>(i)), textured(spec)));
         const Mesh& own_mesh = colony.models.back();
         const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
         const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
@@ -232,38 +319,42 @@ Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
     const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
-    const auto count = static_cast<std::uint64_t>(params.count);
-    const auto distinct = static_cast<std::uint64_t>(std::min(params.distinct, params.count));
-    const MeshCount one = body_count(typical, mesh_lod(typical, params.lod));
-    double nodes = 0.0;
-    if (traits.roots == RootsShown::shown)
-        nodes += root_share(params.lod) * (1.2 * expected_root_nodes(growth) + 20.0);
-    if (traits.capped) nodes += params.count * (segments_of(growth, params.lod) + 1.0) + 2.0;
-    // Where the number of nodes is random, the level of the finer skin is assumed.
-    const auto least =
-        static_cast<std::size_t>(traits.roots == RootsShown::shown ? 0.6 * nodes : nodes);
-    const double quads =
-        nodes * quads_per_node * static_cast<double>(1 << (2 * skin_levels(least, params.lod)));
     Estimate e;
-    e.vertices = distinct * one.vertices + static_cast<std::uint64_t>(1.2 * quads);
-    e.triangles = distinct * one.triangles + static_cast<std::uint64_t>(2.0 * quads);
-    e.texels =
-        image_texels(spec) * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    e.bytes = bytes_of(spec, e.vertices, e.triangles, count);
+    for (const int lod : levels_in_file(params.lod, params.file)) {
+        const MeshCount count = expected_count(spec, typical, traits, growth, lod);
+        add_level(e, spec, count.vertices, count.triangles,
+                  static_cast<std::uint64_t>(params.count));
+    }
+    add_images(e, spec);
     return e;
+}
+
+std::vector<Level> levels_of(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
+                             const Bounds& box) {
+    const ColonyParams& params = spec.params;
+    const ColonyTraits traits = colony_traits(spec, atlas);
+    const StemFit fit = fit_of(typical, traits);
+    const ColonyRoots growth = growth_of(params, traits, fit);
+    std::vector<Level> levels;
+    std::vector<double> errors;
+    for (int lod = params.lod; lod <= last_lod; ++lod) {
+        const MeshCount count = expected_count(spec, typical, traits, growth, lod);
+        levels.push_back({lod, count.vertices, count.triangles, 0.0});
+        errors.push_back(
+            outline_error(typical, mesh_lod(typical, lod), params.size * fit.cap_radius));
+    }
+    set_coverages(levels, box, errors);
+    return levels;
 }
 
 Estimate measured(const ColonySpec& spec, const Colony& colony) {
     Estimate e;
-    e.vertices = colony.skin.positions.size();
-    e.triangles = colony.skin.triangles();
-    for (const Mesh& model : colony.models) {
-        e.vertices += model.positions.size();
-        e.triangles += model.triangles();
-    }
-    e.texels =
-        image_texels(spec) * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    e.bytes = bytes_of(spec, e.vertices, e.triangles, colony.members.size());
+    const auto add = [&](const MeshCount& count) {
+        add_level(e, spec, count.vertices, count.triangles, colony.members.size());
+    };
+    add(count_of(colony.skin, colony.models));
+    for (const ColonyLevel& level : colony.farther) add(count_of(level.skin, level.models));
+    add_images(e, spec);
     return e;
 }
 
@@ -276,28 +367,40 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
 
     execution.observer(Step::build);
     Colony colony;
+    colony.farther.resize(levels_in_file(params.lod, params.file).size() - 1);
     const std::vector<ColonyModel> models = add_models(spec, traits, atlas, execution, colony, fit);
     throw_if_cancelled(execution);
 
     const ColonyRoots growth = growth_of(params, traits, fit);
     const ColonySite site = colony_site(params, traits, growth, fit);
     colony.members = placed_members(site, models, params, traits);
-    const Skeleton skeleton =
-        colony_skeleton(site, colony.members, params, traits, segments_of(growth, params.lod));
-    throw_if_cancelled(execution);
-    colony.skin = colony_skin(skeleton, {params.lod, painted_length, textured(spec)});
+    const auto skin = [&](int lod) {
+        throw_if_cancelled(execution);
+        ColonyParams at = params;
+        at.lod = lod;
+        const Skeleton skeleton =
+            colony_skeleton(site, colony.members, at, traits, segments_of(growth, lod));
+        Mesh mesh = colony_skin(skeleton, {lod, painted_length, textured(spec)});
+        for (glm::vec3& place : mesh.positions) place *= static_cast<float>(params.size);
+        return mesh;
+    };
+    colony.skin = skin(params.lod);
+    for (std::size_t i = 0; i < colony.farther.size(); ++i)
+        colony.farther[i].skin = skin(params.lod + 1 + static_cast<int>(i));
     colony.effective = effective_params(params, traits, growth, fit);
     colony.junction = fit.radius;
 
-    for (glm::vec3& place : colony.skin.positions) place *= static_cast<float>(params.size);
     std::vector<bool> shown(colony.models.size(), false);
     for (ColonyMember& member : colony.members) {
         member.pose.at *= params.size;
         member.pose.scale *= params.size;
         shown[member.model] = true;
     }
-    for (std::size_t i = 0; i < shown.size(); ++i)
-        if (!shown[i]) colony.models[i] = {};
+    for (std::size_t i = 0; i < shown.size(); ++i) {
+        if (shown[i]) continue;
+        colony.models[i] = {};
+        for (ColonyLevel& level : colony.farther) level.models[i] = {};
+    }
     if (colony.members.empty() && colony.skin.positions.empty())
         throw Impossible("/stem_probability", "no root node of this seed bears anything");
     return colony;
@@ -352,31 +455,32 @@ Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extr
 
 Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
                   const Extras& extras, const ExecutionContext& execution) {
+    const ColonyParams& params = spec.params;
     const Colony colony = colony_parts(spec, typical, atlas, execution);
-    const std::string name = name_of(typical);
-    GlbMaterial material{.name = name, .look = look_of(typical.model)};
+    const Bounds box = bounds(colony);
+    GlbScene scene;
+    set_options(scene, params.file);
+    scene.materials.push_back({.name = skin_name(spec), .look = look_of(typical.model)});
     const EmbeddedImages images = attach_images(
-        material, spec.params.textures, spec.params.file, extras.image_urls, execution,
+        scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
         [&](ImageFormat format) {
             return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
         });
     execution.observer(Step::pack);
-    GlbScene scene;
-    set_options(scene, spec.params.file);
-    scene.extras_json =
-        extras_json(extras, write(colony.effective), bounds(colony), instanced_triangles(colony));
-    scene.materials.push_back(material);
-    if (!colony.skin.positions.empty()) {
-        scene.nodes.push_back({.name = "stems", .mesh = 0});
-        scene.meshes.push_back({"stems", {{&colony.skin, 0, {}}}});
+    std::vector<Level> levels{{params.lod}};
+    if (params.file.lods != Lods::single) {
+        levels = levels_of(spec, typical, atlas, box);
+        for (std::size_t i = 0; i < levels.size(); ++i) {
+            const MeshCount count =
+                i == 0 ? count_of(colony.skin, colony.models)
+                       : count_of(colony.farther[i - 1].skin, colony.farther[i - 1].models);
+            levels[i].vertices = count.vertices;
+            levels[i].triangles = count.triangles;
+        }
     }
-    std::vector<std::size_t> mesh_of(colony.models.size(), 0);
-    for (std::size_t i = 0; i < colony.models.size(); ++i) {
-        if (colony.models[i].positions.empty()) continue;
-        mesh_of[i] = scene.meshes.size();
-        scene.meshes.push_back({name + " " + std::to_string(i + 1), {{&colony.models[i], 0, {}}}});
-    }
-    add_member_nodes(scene, colony, name, mesh_of);
+    scene.extras_json = extras_json(extras, write(colony.effective), box,
+                                    instanced_triangles(colony), {levels, params.file.lods});
+    add_levels(scene, colony, product_name(spec), levels, params.file.lods);
     const Estimate e = measured(spec, colony);
     return {glb(scene), e.vertices, e.triangles};
 }

@@ -26,11 +26,18 @@ namespace sporeprint {
 [[nodiscard]] Estimate estimate(const ColonySpec& spec, const Individual& typical,
                                 const Atlas& atlas);
 
+/// The meshes of a colony at a level of detail below the requested one.
+struct ColonyLevel {
+    Mesh skin;
+    std::vector<Mesh> models;
+};
+
 /// The parts of a colony; each mesh is stored once.
 struct Colony {
     Mesh skin;                          ///< roots and stems; empty where there are none
     std::vector<Mesh> models;           ///< caps or whole individuals; unused ones are empty
     std::vector<ColonyMember> members;  ///< with the poses of the file
+    std::vector<ColonyLevel> farther;  ///< further levels of detail of the file, with these members
     ColonyParams effective;  ///< every parameter resolved; requesting it gives the same colony
     double junction = 0.0;   ///< radius of the stem at size 1 where caps are cut off
 };
@@ -49,8 +56,17 @@ struct Colony {
 /// Returns the bounding box of all instances of a colony.
 [[nodiscard]] Bounds bounds(const Colony& colony);
 
-/// Returns the number of triangles drawn, counting every instance.
+/// Returns the number of triangles drawn at the requested level of detail, counting every instance.
 [[nodiscard]] std::uint64_t instanced_triangles(const Colony& colony);
+
+/// Returns the requested level of detail and all below it, with estimated counts. A colony is
+/// replaced as a whole: its stems are one mesh, and each cap is cut to fit the stem of its level.
+///
+/// typical  typical_individual() of the spec
+/// box      of the colony
+/// throws   as estimate()
+[[nodiscard]] std::vector<Level> levels_of(const ColonySpec& spec, const Individual& typical,
+                                           const Atlas& atlas, const Bounds& box);
 
 /// Returns the spec of the mushroom whose images all members of a colony use.
 [[nodiscard]] MushroomSpec paint_mushroom_spec(const ColonySpec& spec);
@@ -60,6 +76,7 @@ struct Colony {
                                       const Caches& caches = {});
 
 /// Builds a colony: one skin, a few caps, and a node per individual, or an instanced node per cap.
+/// Of several levels of detail each is one node whose children these are.
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled

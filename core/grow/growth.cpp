@@ -27,18 +27,19 @@ auto at_age(double age, const Work& work) {
     }
 }
 
-MorphTarget difference(const Mesh& from, const Mesh& to, double age) {
+MorphTarget difference(const Mesh& from, const Mesh& to, double age, Targets moved) {
     // A clip requires equal topology: places of features are drawn once, and ages only move
     // vertices.
     if (to.positions.size() != from.positions.size() || to.indices != from.indices)
         throw GenerationError("the mesh at age " + number_text(age) + " has other triangles");
     MorphTarget target{"age " + number_text(age), {}, {}};
     target.positions.reserve(to.positions.size());
-    target.normals.reserve(to.normals.size());
-    for (std::size_t i = 0; i < to.positions.size(); ++i) {
+    for (std::size_t i = 0; i < to.positions.size(); ++i)
         target.positions.push_back(to.positions[i] - from.positions[i]);
+    if (moved == Targets::position) return target;
+    target.normals.reserve(to.normals.size());
+    for (std::size_t i = 0; i < to.normals.size(); ++i)
         target.normals.push_back(to.normals[i] - from.normals[i]);
-    }
     return target;
 }
 
@@ -74,8 +75,9 @@ GrowthClip growth_clip(const MushroomSpec& spec, const Atlas& atlas, const Mesh&
         pieces.emplace_back([&, k, age, frame, individual = std::move(individual)] {
             try {
                 throw_if_cancelled(execution);
-                growth.targets[k] = difference(
-                    mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }), age);
+                growth.targets[k] =
+                    difference(mesh, at_age(age, [&] { return mushroom_mesh(frame, individual); }),
+                               age, frame.params.targets);
             } catch (...) {
                 errors[k] = std::current_exception();
             }

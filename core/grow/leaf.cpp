@@ -1,6 +1,9 @@
 #include "core/grow/leaf.h"
 
+#include <array>
+
 #include "core/gltf/glb.h"
+#include "core/grow/names.h"
 #include "core/mesh/index_order.h"
 #include "core/params/canonical.h"
 #include "core/params/reader.h"
@@ -14,28 +17,66 @@ namespace {
 // three files.
 std::uint64_t image_bytes(std::uint64_t texels) { return texels / 6 + 1500; }
 
+void add_images(Estimate& e, const LeafParams& params) {
+    const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
+    e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
+    if (params.textures == Textures::embedded) e.bytes += image_bytes(e.texels);
+}
+
+/// Distance of the border of a level of detail from that of LOD 0, in lengths of the lamina: the
+/// largest of all presets at LOD 1 and 2; at LOD 3 that of their teeth and lobes.
+constexpr std::array<double, 4> border_errors = {0.0, 0.01, 0.03, 0.1};
+
+/// Returns the mesh of each level of detail of a file, finest first.
+std::vector<Mesh> level_meshes(LeafSpec spec) {
+    std::vector<Mesh> meshes;
+    for (const int lod : levels_in_file(spec.params.lod, spec.params.file)) {
+        spec.params.lod = lod;
+        meshes.push_back(leaf_mesh(spec));
+    }
+    return meshes;
+}
+
+/// Returns the levels of detail that have these meshes.
+std::vector<Level> sized_levels(const LeafParams& params, std::span<const Mesh> meshes) {
+    std::vector<Level> levels;
+    std::vector<double> errors;
+    for (const Mesh& mesh : meshes) {
+        const int lod = params.lod + static_cast<int>(levels.size());
+        levels.push_back({lod, mesh.positions.size(), mesh.triangles(), 0.0});
+        errors.push_back(border_errors[static_cast<std::size_t>(lod)] * params.shape.length *
+                         params.size);
+    }
+    set_coverages(levels, bounds(meshes.front()), errors);
+    return levels;
+}
+
 }  // namespace
 
-Estimate measured(const LeafSpec& spec, const Mesh& mesh) {
-    Estimate e = estimate(spec);
-    e.vertices = mesh.positions.size();
-    e.triangles = mesh.triangles();
-    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.file,
-                              image_bytes(e.texels));
+Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
+    const LeafParams& params = spec.params;
+    Estimate e;
+    for (const Level& level : levels.first(levels_in_file(params.lod, params.file).size()))
+        add_level(e, level.vertices, level.triangles, params.textures, params.file);
+    add_images(e, params);
     return e;
 }
 
 Estimate estimate(const LeafSpec& spec) {
     const LeafParams& params = spec.params;
-    const LeafCount most = most_of_leaf(params.shape.venation, params.lod);
-    const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     Estimate e;
-    e.vertices = most.vertices;
-    e.triangles = most.triangles;
-    e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
-    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.file,
-                              image_bytes(e.texels));
+    for (const int lod : levels_in_file(params.lod, params.file)) {
+        const LeafCount most = most_of_leaf(params.shape.venation, lod);
+        add_level(e, most.vertices, most.triangles, params.textures, params.file);
+    }
+    add_images(e, params);
     return e;
+}
+
+std::vector<Level> levels_of(const LeafSpec& spec) {
+    LeafSpec all = spec;
+    all.params.file.lods = Lods::nodes;
+    return sized_levels(spec.params, level_meshes(all));
 }
 
 Mesh leaf_mesh(const LeafSpec& spec) {
@@ -71,23 +112,33 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
     });
 }
 
-Grown grow_leaf(const LeafSpec& spec, const Extras& extras, const ExecutionContext& execution) {
+Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
+                const ExecutionContext& execution) {
     const LeafParams& params = spec.params;
     execution.observer(Step::build);
-    const Mesh mesh = leaf_mesh(spec);
+    const std::vector<Mesh> meshes = level_meshes(spec);
     throw_if_cancelled(execution);
-    const std::string name = spec.preset.empty() ? "leaf" : spec.preset;
+    const std::vector<Level> levels = sized_levels(params, meshes);
     GlbScene scene;
     set_options(scene, params.file);
-    scene.extras_json = extras_json(extras, write(params), mesh);
-    scene.materials.push_back({.name = name});
-    scene.meshes.push_back({name, {{&mesh, 0, {}}}});
-    scene.nodes.push_back({.name = name, .mesh = 0});
+    const LeafPaint paint = paint_of(params);
+    scene.materials.push_back({.name = leaf_material_name(spec.preset, paint, params.textures)});
     const EmbeddedImages images = attach_images(
-        scene.materials[0], params.textures, params.file, extras.image_urls, execution,
-        [&](ImageFormat format) { return painted_images(paint_of(params), execution, format); });
+        scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
+        [&](ImageFormat format) { return painted_images(paint, execution, format); });
     execution.observer(Step::pack);
-    return {glb(scene), mesh.positions.size(), mesh.triangles()};
+    Grown grown;
+    std::vector<std::vector<GlbPrimitive>> primitives;
+    for (const Mesh& mesh : meshes) {
+        primitives.push_back({{&mesh, 0, {}}});
+        grown.vertices += mesh.positions.size();
+        grown.triangles += mesh.triangles();
+    }
+    add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
+    scene.extras_json = extras_json(extras, write(params), bounds(meshes.front()),
+                                    meshes.front().triangles(), {levels, params.file.lods});
+    grown.glb = glb(scene);
+    return grown;
 }
 
 }  // namespace sporeprint

@@ -2,8 +2,11 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
+#include "core/atlas/atlas.h"
 #include "core/grow/execution_context.h"
 #include "core/grow/product.h"
 #include "core/plant/leaf_spec.h"
@@ -19,8 +22,16 @@ namespace sporeprint {
 /// throws  InvalidInput
 [[nodiscard]] Mesh leaf_mesh(const LeafSpec& spec);
 
-/// Returns the estimate of a spec whose mesh is built, with exact vertex and triangle counts.
-[[nodiscard]] Estimate measured(const LeafSpec& spec, const Mesh& mesh);
+/// Returns the requested level of detail and all below it.
+///
+/// throws  InvalidInput
+/// cost    that of building them
+[[nodiscard]] std::vector<Level> levels_of(const LeafSpec& spec);
+
+/// Returns the estimate of a spec with exact vertex and triangle counts.
+///
+/// levels  levels_of() the spec
+[[nodiscard]] Estimate measured(const LeafSpec& spec, std::span<const Level> levels);
 
 /// Returns the cache key of a leaf's images: equal keys, equal images.
 [[nodiscard]] std::string image_key(const LeafPaint& paint, ImageFormat format);
@@ -36,7 +47,7 @@ namespace sporeprint {
 ///
 /// returns  the GLB as shared slices: header with JSON, geometry, images
 /// throws   InvalidInput, Impossible, GenerationError, Cancelled
-[[nodiscard]] Grown grow_leaf(const LeafSpec& spec, const Extras& extras = {},
+[[nodiscard]] Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras = {},
                               const ExecutionContext& execution = {});
 
 }  // namespace sporeprint

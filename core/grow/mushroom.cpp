@@ -1,10 +1,16 @@
 #include "core/grow/mushroom.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "core/geometry/branch_plan.h"
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
 #include "core/gltf/glb.h"
 #include "core/grow/growth.h"
+#include "core/grow/names.h"
 #include "core/grow/painting.h"
+#include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/reader.h"
 
@@ -14,14 +20,19 @@ namespace {
 
 bool textured(const MushroomSpec& spec) { return spec.params.textures != Textures::none; }
 
-}  // namespace
-
-std::string name_of(const Individual& individual) {
-    const auto most = std::max_element(
-        individual.parts.begin(), individual.parts.end(),
-        [](const SpeciesShare& a, const SpeciesShare& b) { return a.weight < b.weight; });
-    return most == individual.parts.end() || most->id.empty() ? "mushroom" : most->id;
+/// Returns the mesh of each level of detail of a file.
+std::vector<Mesh> level_meshes(MushroomSpec spec, const Individual& individual,
+                               const ExecutionContext& execution) {
+    std::vector<Mesh> meshes;
+    for (const int lod : levels_in_file(spec.params.lod, spec.params.file)) {
+        spec.params.lod = lod;
+        meshes.push_back(mushroom_mesh(spec, individual));
+        throw_if_cancelled(execution);
+    }
+    return meshes;
 }
+
+}  // namespace
 
 MaterialLook look_of(const Model& model) {
     const Material& material = model.material;
@@ -46,20 +57,22 @@ Estimate estimate(const MushroomSpec& spec, const Atlas& atlas, const Caches& ca
 }
 
 Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
-    const bool grows = spec.params.animation != Animation::none;
-    const MeshCount mesh = body_count(individual, spec.params.lod, grows);
+    const MushroomParams& params = spec.params;
+    const bool grows = params.animation != Animation::none;
     Estimate e;
-    e.vertices = mesh.vertices;
-    e.triangles = mesh.triangles;
-    const auto side = static_cast<std::uint64_t>(spec.params.texture_size) >> spec.params.lod;
+    for (const int lod : levels_in_file(params.lod, params.file)) {
+        const MeshCount mesh = body_count(individual, lod, grows);
+        add_level(e, mesh.vertices, mesh.triangles, params.textures, params.file);
+    }
+    const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    e.bytes = estimated_bytes(e.vertices, e.triangles, spec.params.textures, spec.params.file,
-                              images / 3);
+    if (params.textures == Textures::embedded) e.bytes += images / 3;
     if (grows) {
-        const auto frames = static_cast<std::uint64_t>(spec.params.frames);
-        e.bytes += e.vertices * 24 * frames + 600 * frames;
+        const auto frames = static_cast<std::uint64_t>(params.frames);
+        const std::uint64_t moved = params.targets == Targets::position ? 12 : 24;
+        e.bytes += e.vertices * moved * frames + 600 * frames;
         e.vertices += e.vertices * frames;
     }
     return e;
@@ -83,6 +96,38 @@ Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual) {
     return mesh;
 }
 
+double outline_error(const Individual& individual, int lod, double radius) {
+    if (!individual.is_branched()) {
+        const Detail& detail = detail_of(lod);
+        // The rings of a cap divide a quarter of a circle.
+        return radius * (inscribed_error(detail.columns) + inscribed_error(4 * detail.cap_rings));
+    }
+    const BranchGraph& graph = individual.branch_graph;
+    const BranchPlan plan = branch_plan(graph, lod);
+    double tips = 0.0;
+    for (const std::uint32_t root : graph.roots) tips += graph.nodes[root].tips;
+    // Tubes that are left out leave gaps: n tips in a disc are about radius / sqrt(n) apart.
+    const double gaps =
+        radius * (1.0 / std::sqrt(static_cast<double>(plan.chains.size())) - 1.0 / std::sqrt(tips));
+    return std::max(gaps, graph.trunk_radius * inscribed_error(plan.detail.trunk_sides));
+}
+
+std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individual,
+                             const Bounds& box) {
+    const bool grows = spec.params.animation != Animation::none;
+    const double radius =
+        0.5 * static_cast<double>(std::max(box.max.x - box.min.x, box.max.z - box.min.z));
+    std::vector<Level> levels;
+    std::vector<double> errors;
+    for (int lod = spec.params.lod; lod <= last_lod; ++lod) {
+        const MeshCount count = body_count(individual, lod, grows);
+        levels.push_back({lod, count.vertices, count.triangles, 0.0});
+        errors.push_back(outline_error(individual, lod, radius));
+    }
+    set_coverages(levels, box, errors);
+    return levels;
+}
+
 Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extras& extras,
                        const ExecutionContext& execution) {
     execution.observer(Step::resolve);
@@ -93,28 +138,39 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extra
 Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, const Atlas& atlas,
                        const Extras& extras, const ExecutionContext& execution) {
     execution.observer(Step::build);
-    const Mesh mesh = mushroom_mesh(spec, individual);
-    throw_if_cancelled(execution);
-    const std::string name = name_of(individual);
+    const MushroomParams& params = spec.params;
+    const std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
+    const Mesh& first = meshes.front();
+    const Bounds box = bounds(first);
+    const bool is_chain = params.file.lods != Lods::single;
+    std::vector<Level> levels =
+        is_chain ? levels_of(spec, individual, box) : std::vector<Level>{{params.lod}};
     GlbScene scene;
-    set_options(scene, spec.params.file);
-    scene.extras_json = extras_json(extras, write(individual.effective), mesh);
-    scene.materials.push_back({.name = name, .look = look_of(individual.model)});
-    scene.meshes.push_back({name, {{&mesh, 0, {}}}});
-    scene.nodes.push_back({.name = name, .mesh = 0});
+    set_options(scene, params.file);
+    scene.materials.push_back({.name = skin_name(spec), .look = look_of(individual.model)});
     GrowthClip growth;
-    if (spec.params.animation == Animation::growth) {
-        growth = growth_clip(spec, atlas, mesh, execution);
-        scene.meshes[0].primitives[0].targets = growth.targets;
+    if (params.animation == Animation::growth) {
+        growth = growth_clip(spec, atlas, first, execution);
         scene.clip = &growth.clip;
     }
     const EmbeddedImages images = attach_images(
-        scene.materials[0], spec.params.textures, spec.params.file, extras.image_urls, execution,
+        scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
         [&](ImageFormat format) {
             return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
         });
     execution.observer(Step::pack);
-    return {glb(scene), mesh.positions.size(), mesh.triangles()};
+    Mushroom grown;
+    std::vector<std::vector<GlbPrimitive>> primitives;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        primitives.push_back({{&meshes[i], 0, growth.targets}});
+        grown.vertices += levels[i].vertices = meshes[i].positions.size();
+        grown.triangles += levels[i].triangles = meshes[i].triangles();
+    }
+    add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
+    scene.extras_json = extras_json(extras, write(individual.effective), box, first.triangles(),
+                                    {levels, params.file.lods});
+    grown.glb = glb(scene);
+    return grown;
 }
 
 }  // namespace sporeprint

@@ -31,9 +31,18 @@ namespace sporeprint {
 /// Returns the mesh alone.
 [[nodiscard]] Mesh mushroom_mesh(const MushroomSpec& spec, const Individual& individual);
 
-/// Returns the name in a file: the species with the largest weight, so that the order of a mix does
-/// not matter.
-[[nodiscard]] std::string name_of(const Individual& individual);
+/// Returns about the largest distance of the outline of a mesh at a level of detail from the true
+/// one, metres: that of the polygons around its widest part and over its cap, or that of the gaps
+/// that missing branches leave.
+///
+/// radius  of the widest part, metres
+[[nodiscard]] double outline_error(const Individual& individual, int lod, double radius);
+
+/// Returns the requested level of detail and all below it.
+///
+/// box  of the mesh
+[[nodiscard]] std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individual,
+                                           const Bounds& box);
 
 /// Returns the material beyond its images. Slime and water are a clear coat; velvet shines in the
 /// cap's own colours.

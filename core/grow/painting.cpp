@@ -78,6 +78,7 @@ SpeciesPaint species_paint(const MushroomSpec& stepped, const Individual& indivi
     spec.params.file = stepped.params.file;
     spec.params.animation = stepped.params.animation;
     spec.params.frames = stepped.params.frames;
+    spec.params.targets = stepped.params.targets;
     const bool is_known = spec.mix == stepped.mix && spec.params == stepped.params;
     std::optional<Individual> resolved;
     if (!is_known) resolved = resolve(spec, atlas, caches.morphs);

@@ -73,8 +73,15 @@ std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles, T
     return 2500 + vertices * (textured ? 44 : 24) + triangles * 3 * index_size + images;
 }
 
+void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, Textures textures,
+               const FileOptions& file) {
+    sum.vertices += vertices;
+    sum.triangles += triangles;
+    sum.bytes += estimated_bytes(vertices, triangles, textures, file, 0);
+}
+
 std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
-                        std::size_t triangles) {
+                        std::size_t triangles, const FileLevels& levels) {
     Value json = Value::object();
     json.set("canonical", Value(extras.canonical));
     json.set("effective", std::move(effective));
@@ -83,11 +90,8 @@ std::string extras_json(const Extras& extras, Value effective, const Bounds& box
     limits.set("max", corner(box.max));
     json.set("bounds_m", std::move(limits));
     json.set("triangles", Value(triangles));
+    if (levels.lods != Lods::single) json.set("levels", level_list(levels.list));
     return dump(json);
-}
-
-std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh) {
-    return extras_json(extras, std::move(effective), bounds(mesh), mesh.triangles());
 }
 
 std::string key_of_format(ImageFormat format) {

@@ -5,11 +5,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
 
 #include "core/bytes.h"
 #include "core/gltf/glb.h"
 #include "core/grow/execution_context.h"
+#include "core/grow/levels.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/mesh/mesh.h"
 #include "core/params/value.h"
@@ -49,6 +51,10 @@ struct EmbeddedImages {
     std::shared_ptr<const ImageSet> files, fallback;
 };
 
+/// Adds the mesh of a further level of detail of the same file.
+void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, Textures textures,
+               const FileOptions& file);
+
 struct Extras {
     std::string canonical;  ///< canonical URL of the request; empty for none
     ImageUrls image_urls;   ///< for Textures::linked
@@ -61,11 +67,17 @@ struct Grown {
     std::uint64_t triangles = 0;
 };
 
+/// The levels of detail of a file.
+struct FileLevels {
+    std::span<const Level> list;
+    Lods lods = Lods::single;
+};
+
 /// Returns the JSON text of asset.extras: the canonical URL, the effective parameters, the bounding
-/// box in metres and the number of triangles.
+/// box in metres, the number of triangles of the first level of detail, and all levels if the file
+/// may have several.
 [[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
-                                      std::size_t triangles);
-[[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Mesh& mesh);
+                                      std::size_t triangles, const FileLevels& levels);
 
 /// Sets the images of a material as the parameters request: embedded images, which `paint` returns
 /// in a format, linked images, or none.

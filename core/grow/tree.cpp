@@ -11,6 +11,8 @@
 
 #include "core/gltf/glb.h"
 #include "core/grow/leaf.h"
+#include "core/grow/names.h"
+#include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
@@ -148,16 +150,45 @@ Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own
     return merged_leaves(left, leaf);
 }
 
+void add_images(Estimate& e, const TreeParams& params) {
+    e.texels = texels_of(params);
+    if (params.textures == Textures::embedded) e.bytes += image_bytes(e.texels);
+}
+
+/// Returns the expected counts of both meshes at a level of detail.
+///
+/// all  number of leaves at LOD 0
+MeshCount expected_count(const TreeParams& params, int lod, double all) {
+    const TreeCount bark = count_of_bark(params.look.shape, lod);
+    const auto leaves = static_cast<std::uint64_t>(std::ceil(leaf_share(lod, all) * all));
+    const std::uint64_t triangles = leaf_triangles(lod, leaves);
+    return {static_cast<std::uint64_t>(bark.vertices) + leaves * (triangles + 2),
+            static_cast<std::uint64_t>(bark.triangles) + leaves * triangles};
+}
+
+/// Returns about how far the outline of a crown is from the true one: by how much its enlarged
+/// leaves reach farther than their own, or, on a bare tree, the length of the longest edges that are
+/// left out; metres.
+double crown_error(const TreeParams& params, const Atlas& atlas, int lod, double leaves) {
+    if (leaves > 0.0) {
+        const double length = leaf_of(params, atlas).shape.length;
+        return 0.5 * params.size * length * (1.0 / std::sqrt(leaf_share(lod, leaves)) - 1.0);
+    }
+    const std::vector<ExpectedOrder> orders = expected_orders(params.look.shape);
+    double longest = 0.0;
+    for (std::size_t i = 0; i < std::min(orders.size(), static_cast<std::size_t>(lod)); ++i)
+        longest = std::max(longest, orders[i].length);
+    return params.size * longest;
+}
+
 }  // namespace
 
-Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes) {
+Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
     const TreeParams& params = spec.params;
     Estimate e;
-    e.vertices = meshes.vertices();
-    e.triangles = meshes.triangles();
-    e.texels = texels_of(params);
-    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.file,
-                              image_bytes(e.texels));
+    for (const TreeMeshes& meshes : levels)
+        add_level(e, meshes.vertices(), meshes.triangles(), params.textures, params.file);
+    add_images(e, params);
     return e;
 }
 
@@ -176,16 +207,28 @@ Estimate estimate(const TreeSpec& spec) {
                                                 number_text(std::floor(tips + 0.5)) +
                                                 " twigs; at most " + std::to_string(most_leaves) +
                                                 " are placed");
-    const TreeCount bark = count_of_bark(look.shape, params.lod);
-    const auto leaves = static_cast<std::uint64_t>(std::ceil(leaf_share(params.lod, all) * all));
-    const std::uint64_t triangles = leaf_triangles(params.lod, leaves);
     Estimate e;
-    e.vertices = static_cast<std::uint64_t>(bark.vertices) + leaves * (triangles + 2);
-    e.triangles = static_cast<std::uint64_t>(bark.triangles) + leaves * triangles;
-    e.texels = texels_of(params);
-    e.bytes = estimated_bytes(e.vertices, e.triangles, params.textures, params.file,
-                              image_bytes(e.texels));
+    for (const int lod : levels_in_file(params.lod, params.file)) {
+        const MeshCount count = expected_count(params, lod, all);
+        add_level(e, count.vertices, count.triangles, params.textures, params.file);
+    }
+    add_images(e, params);
     return e;
+}
+
+std::vector<Level> levels_of(const TreeSpec& spec, const Atlas& atlas, const Bounds& box) {
+    static_cast<void>(estimate(spec));  // throws if the tree is too large
+    const TreeParams& params = spec.params;
+    const double leaves = expected_tips(params.look.shape.topology) * params.look.leaves.per_tip;
+    std::vector<Level> levels;
+    std::vector<double> errors;
+    for (int lod = params.lod; lod <= last_lod; ++lod) {
+        const MeshCount count = expected_count(params, lod, leaves);
+        levels.push_back({lod, count.vertices, count.triangles, 0.0});
+        errors.push_back(crown_error(params, atlas, lod, leaves));
+    }
+    set_coverages(levels, box, errors);
+    return levels;
 }
 
 LeafParams leaf_of(const TreeParams& params, const Atlas& atlas) {
@@ -197,16 +240,27 @@ LeafParams leaf_of(const TreeParams& params, const Atlas& atlas) {
 }
 
 TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas) {
-    const TreeParams& params = spec.params;
+    TreeSpec alone = spec;
+    alone.params.file.lods = Lods::single;
+    return std::move(level_meshes(alone, atlas).front());
+}
+
+std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
+    TreeParams params = spec.params;
     require_valid(params);
     const LeafParams leaf = leaf_of(params, atlas);
     static_cast<void>(estimate(spec));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
     refuse_beyond_bounds(tree);
-    TreeMeshes meshes{bark_of(tree, params.lod), leaves_of(tree, params, leaf)};
-    finish(meshes.bark, params);
-    if (!meshes.leaves.positions.empty()) finish(meshes.leaves, params);
-    return meshes;
+    std::vector<TreeMeshes> levels;
+    for (const int lod : levels_in_file(params.lod, params.file)) {
+        params.lod = lod;
+        TreeMeshes meshes{bark_of(tree, lod), leaves_of(tree, params, leaf)};
+        finish(meshes.bark, params);
+        if (!meshes.leaves.positions.empty()) finish(meshes.leaves, params);
+        levels.push_back(std::move(meshes));
+    }
+    return levels;
 }
 
 Bounds bounds(const TreeMeshes& meshes) {
@@ -236,32 +290,44 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
                 const ImageUrls& leaf_urls, const ExecutionContext& execution) {
     const TreeParams& params = spec.params;
     execution.observer(Step::build);
-    const TreeMeshes meshes = tree_meshes(spec, atlas);
+    const std::vector<TreeMeshes> meshes = level_meshes(spec, atlas);
     throw_if_cancelled(execution);
-    const std::string name = spec.preset.empty() ? "tree" : spec.preset;
+    const TreeMeshes& first = meshes.front();
+    const bool leafy = !first.leaves.positions.empty();
     GlbScene scene;
     set_options(scene, params.file);
-    scene.materials.push_back({.name = "bark", .repeats_u = true});
-    scene.meshes.push_back({name, {{&meshes.bark, 0, {}}}});
-    scene.nodes.push_back({.name = name, .mesh = 0});
-    const bool leafy = !meshes.leaves.positions.empty();
-    if (leafy) {
-        scene.materials.push_back({.name = "leaves"});
-        scene.meshes[0].primitives.push_back({&meshes.leaves, 1, {}});
-    }
+    scene.materials.push_back(
+        {.name = bark_name(spec.preset, paint_of(params), params.textures), .repeats_u = true});
     const EmbeddedImages bark_images = attach_images(
         scene.materials[0], params.textures, params.file, extras.image_urls, execution,
         [&](ImageFormat format) { return painted_images(paint_of(params), execution, format); });
     EmbeddedImages leaf_images;
-    if (leafy)
-        leaf_images = attach_images(scene.materials[1], params.textures, params.file, leaf_urls,
-                                    execution, [&](ImageFormat format) {
-                                        return painted_images(paint_of(leaf_of(params, atlas)),
-                                                              execution, format);
-                                    });
+    if (leafy) {
+        const LeafPaint paint = paint_of(leaf_of(params, atlas));
+        scene.materials.push_back(
+            {.name = leaf_material_name(params.look.leaf.id.string(), paint, params.textures)});
+        leaf_images = attach_images(
+            scene.materials[1], params.textures, params.file, leaf_urls, execution,
+            [&](ImageFormat format) { return painted_images(paint, execution, format); });
+    }
     execution.observer(Step::pack);
-    scene.extras_json = extras_json(extras, write(params), bounds(meshes), meshes.triangles());
-    return {glb(scene), meshes.vertices(), meshes.triangles()};
+    const Bounds box = bounds(first);
+    const bool is_chain = params.file.lods != Lods::single;
+    std::vector<Level> levels =
+        is_chain ? levels_of(spec, atlas, box) : std::vector<Level>{{params.lod}};
+    Grown grown;
+    std::vector<std::vector<GlbPrimitive>> primitives;
+    for (std::size_t i = 0; i < meshes.size(); ++i) {
+        primitives.push_back({{&meshes[i].bark, 0, {}}});
+        if (leafy) primitives.back().push_back({&meshes[i].leaves, 1, {}});
+        grown.vertices += levels[i].vertices = meshes[i].vertices();
+        grown.triangles += levels[i].triangles = meshes[i].triangles();
+    }
+    add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
+    scene.extras_json =
+        extras_json(extras, write(params), box, first.triangles(), {levels, params.file.lods});
+    grown.glb = glb(scene);
+    return grown;
 }
 
 }  // namespace sporeprint

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "core/atlas/atlas.h"
 #include "core/grow/execution_context.h"
@@ -40,11 +42,23 @@ struct TreeMeshes {
 /// throws  InvalidInput, also (path "/leaf") if the atlas has no such leaf; Impossible
 [[nodiscard]] TreeMeshes tree_meshes(const TreeSpec& spec, const Atlas& atlas);
 
+/// Returns the same for each level of detail of the file, finest first.
+[[nodiscard]] std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas);
+
 /// Returns the bounding box of both meshes.
 [[nodiscard]] Bounds bounds(const TreeMeshes& meshes);
 
+/// Returns the requested level of detail and all below it, with estimated counts.
+///
+/// box     of the meshes
+/// throws  as estimate()
+[[nodiscard]] std::vector<Level> levels_of(const TreeSpec& spec, const Atlas& atlas,
+                                           const Bounds& box);
+
 /// Returns the estimate of a spec whose meshes are built, with exact vertex and triangle counts.
-[[nodiscard]] Estimate measured(const TreeSpec& spec, const TreeMeshes& meshes);
+///
+/// levels  level_meshes() of the spec
+[[nodiscard]] Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels);
 
 /// Returns the cache key of the images of bark: equal keys, equal images.
 [[nodiscard]] std::string image_key(const TreePaint& paint, ImageFormat format);
@@ -56,7 +70,8 @@ struct TreeMeshes {
                                                              const ExecutionContext& execution,
                                                              ImageFormat format = ImageFormat::jpg);
 
-/// Builds a tree: one mesh of two primitives, bark and leaves, with two materials.
+/// Builds a tree: for each level of detail one mesh of two primitives, bark and leaves; two
+/// materials.
 ///
 /// extras     its image URLs are those of the bark
 /// leaf_urls  URLs of the images of its leaves, for Textures::linked

@@ -20,6 +20,19 @@ constexpr const char* name(Animation animation) {
     return nullptr;
 }
 
+/// What the morph targets of a clip move.
+enum class Targets { position_normal, position };
+
+constexpr const char* name(Targets targets) {
+    switch (targets) {
+        case Targets::position_normal:
+            return "position_normal";
+        case Targets::position:
+            return "position";
+    }
+    return nullptr;
+}
+
 /// The query parameters of /v1/mushrooms. Unset optionals take the value of the species.
 struct MushroomParams {
     std::uint32_t seed = 1;
@@ -36,6 +49,7 @@ struct MushroomParams {
     WeatheringOf<Maybe> weathering;
     Animation animation = Animation::none;
     int frames = 9;
+    Targets targets = Targets::position_normal;
 
     static constexpr void fields(auto visit) {
         using P = MushroomParams;
@@ -73,12 +87,27 @@ struct MushroomParams {
                                .max = 16,
                                .doc = "Growth stages in the clip, evenly spaced in age; only with "
                                       "animation=growth."});
+        visit(&P::targets,
+              Info{.name = "targets",
+                   .doc = "What a growth stage moves: positions and normals, or positions alone, "
+                          "for readers with at most 16 vertex attributes: two of them for each "
+                          "stage, or one; only with animation=growth."});
     }
-    /// Refuses `frames` without a clip: it would make a second URL of the same bytes.
+    /// Refuses `frames` and `targets` without a clip, which would make a second URL of the same
+    /// bytes, and a clip of several levels of detail.
     void check(const std::string& path, std::vector<Problem>& problems) const {
-        if (animation == Animation::none && frames != MushroomParams{}.frames)
-            report(problems, path + "/frames",
-                   std::to_string(frames) + " frames need a clip; ask for animation=growth too");
+        if (animation == Animation::none) {
+            if (frames != MushroomParams{}.frames)
+                report(
+                    problems, path + "/frames",
+                    std::to_string(frames) + " frames need a clip; ask for animation=growth too");
+            if (targets != MushroomParams{}.targets)
+                report(problems, path + "/targets",
+                       "targets need a clip; ask for animation=growth too");
+        } else if (file.lods != Lods::single) {
+            report(problems, path + "/lods",
+                   "a clip moves one level of detail; ask for lods=single");
+        }
     }
     bool operator==(const MushroomParams&) const = default;
 };

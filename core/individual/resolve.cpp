@@ -303,10 +303,11 @@ void resolve_swept(Individual& individual, const MushroomSpec& spec,
     };
     individual.outline =
         varied_outline(individual.set->nodes(shape_weights(sources)), own, open, size);
-    if (const auto curve = self_intersecting_curve(individual.outline, requested.lod))
-        throw Impossible(spec.model ? std::string("/model/silhouette/") + name(*curve) : "mix",
-                         "the outline crosses itself at this level of detail, near the " +
-                             std::string(name(*curve)));
+    for (const int lod : levels_in_file(requested.lod, requested.file))
+        if (const auto curve = self_intersecting_curve(individual.outline, lod))
+            throw Impossible(spec.model ? std::string("/model/silhouette/") + name(*curve) : "mix",
+                             "the outline crosses itself at level of detail " +
+                                 std::to_string(lod) + ", near the " + name(*curve));
     const auto stem = individual.outline.rings(CurveName::stem, 0);
     individual.stem_base = stem.front().y;
     individual.stem_top = stem.back().y;

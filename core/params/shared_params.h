@@ -1,6 +1,8 @@
 // Parameters that all products share: scale, level of detail and images.
 #pragma once
 
+#include <vector>
+
 #include "core/params/describe.h"
 
 namespace sporeprint {
@@ -88,15 +90,32 @@ constexpr const char* name(Profile profile) {
     return nullptr;
 }
 
+/// The levels of detail in a file.
+enum class Lods { single, nodes, msft };
+
+constexpr const char* name(Lods lods) {
+    switch (lods) {
+        case Lods::single:
+            return "single";
+        case Lods::nodes:
+            return "nodes";
+        case Lods::msft:
+            return "msft";
+    }
+    return nullptr;
+}
+
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
 inline constexpr Info size_info{
     .name = "size", .min = 0.25, .max = 4, .doc = "Scale of the whole."};
+/// The last level of detail of every product.
+inline constexpr int last_lod = 3;
 inline constexpr Info lod_info{
     .name = "lod",
     .min = 0,
-    .max = 3,
+    .max = last_lod,
     .doc = "Level of detail: the same individual with fewer triangles and smaller images.",
     .default_from = "profile"};
 inline constexpr Info texture_size_info{
@@ -113,6 +132,7 @@ struct FileOptions {
     Compression compress = Compression::none;
     ImageFormats image_format = ImageFormats::jpg;
     MaterialSet materials = MaterialSet::full;
+    Lods lods = Lods::single;
 
     static constexpr void fields(auto visit) {
         using O = FileOptions;
@@ -142,9 +162,25 @@ struct FileOptions {
                           "emission), or of core glTF alone, which is cheaper to draw.",
                    .group = "file",
                    .default_from = "profile"});
+        visit(&O::lods,
+              Info{.name = "lods",
+                   .doc = "Levels of detail in the file: that of lod alone, or all from it to the "
+                          "last with the images of the first. nodes: nodes named _LOD0 to _LOD3 at "
+                          "one place, for modelling programs (viewers draw all of them). msft: by "
+                          "MSFT_lod, where other readers show the first.",
+                   .group = "file",
+                   .default_from = "profile"});
     }
     bool operator==(const FileOptions&) const = default;
 };
+
+/// Returns the levels of detail of a file, finest first.
+[[nodiscard]] inline std::vector<int> levels_in_file(int lod, const FileOptions& file) {
+    std::vector<int> levels{lod};
+    while (file.lods != Lods::single && levels.back() < last_lod)
+        levels.push_back(levels.back() + 1);
+    return levels;
+}
 
 inline constexpr Info file_info{.name = "", .doc = "How the file is written."};
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "core/gltf/glb.h"
 #include "core/grow/mushroom.h"
 #include "core/silhouette/outline.h"
+#include "tests/support/glb_parts.h"
 
 namespace {
 

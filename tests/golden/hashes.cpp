@@ -214,7 +214,7 @@ void add_leaves(Requests& requests) {
                 spec.params.lod = lod;
                 spec.params.texture_size.value = small_side;
                 requests[line_of("leaf/" + preset.id.string(), autumn, lod, small_side)] = [spec] {
-                    return grow_leaf(spec).glb;
+                    return grow_leaf(spec, atlas()).glb;
                 };
             }
 }
@@ -294,7 +294,7 @@ void add_compressed(Requests& requests, const std::shared_ptr<const Atlas>& spec
             leaf.params.texture_size.value = small_side;
             leaf.params.file.compress = compress;
             requests[line_of(folder + "leaf", 1, lod, small_side)] = [leaf] {
-                return grow_leaf(leaf).glb;
+                return grow_leaf(leaf, atlas()).glb;
             };
         }
 }
@@ -322,6 +322,44 @@ void add_image_formats(Requests& requests, const std::shared_ptr<const Atlas>& s
         }
 }
 
+/// Adds all levels of detail of every product in one file.
+void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const Lods lods : {Lods::nodes, Lods::msft}) {
+        const std::string folder = std::string("levels/") + name(lods) + '/';
+        const auto write = [&](FileOptions& file) {
+            file.lods = lods;
+            if (lods == Lods::msft) file.compress = Compression::meshopt;
+        };
+        for (const char* id : {"amanita_muscaria", "ramaria_formosa"}) {
+            MushroomSpec spec = order_of({{id, 1000}}, 0.6, 0);
+            write(spec.params.file);
+            add_mushroom(requests, species, folder + id, spec);
+        }
+        ColonySpec colony;
+        colony.mix = {{"hypholoma_fasciculare", 1000}};
+        colony.params.count = 9;
+        colony.params.lod = 1;
+        colony.params.texture_size.value = small_side;
+        write(colony.params.file);
+        requests[line_of(folder + "colony", 9, 1, small_side)] = [colony, species] {
+            return grow_colony(colony, *species).glb;
+        };
+        TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+        tree.params.lod = 1;
+        tree.params.texture_size.value = small_side;
+        write(tree.params.file);
+        requests[line_of(folder + "tree", 1, 1, small_side)] = [tree] {
+            return grow_tree(tree, atlas()).glb;
+        };
+        LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
+        leaf.params.texture_size.value = small_side;
+        write(leaf.params.file);
+        requests[line_of(folder + "leaf", 1, 0, small_side)] = [leaf] {
+            return grow_leaf(leaf, atlas()).glb;
+        };
+    }
+}
+
 Requests golden_requests() {
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();
     Requests requests;
@@ -335,6 +373,7 @@ Requests golden_requests() {
     add_trees(requests);
     add_colonies(requests, atlas);
     add_compressed(requests, atlas);
+    add_chains(requests, atlas);
     return requests;
 }
 
@@ -499,7 +538,7 @@ void print_leaf(std::uint32_t number) {
     const std::string request =
         "leaf/" + preset.id.string() + '?' + query_text(params, params_of(preset));
     try {
-        const Grown leaf = grow_leaf(spec);
+        const Grown leaf = grow_leaf(spec, atlas());
         std::printf("%s %8zu  %s\n", hash_of(leaf.glb).c_str(), size_of(leaf.glb), request.c_str());
     } catch (const InvalidInput& refusal) {
         std::printf("refused  %s  %s\n", request.c_str(), refusal.what());

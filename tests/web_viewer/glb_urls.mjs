@@ -107,12 +107,13 @@ async function requestFactors(server) {
     const trees = await list("/v1/trees", "trees");
     const ages = ["age=0", "age=0.25", "age=0.5", "age=0.75", "age=1"];
     const storage = ["", "", "compress=quantize", "compress=meshopt"];
+    const levels = ["", "", "lods=nodes", "lods=msft"];
+    // A clip moves one level of detail.
     const clips = [
-        "",
-        "",
+        ...levels,
         "animation=growth",
         "animation=growth&frames=2",
-        "animation=growth&frames=16",
+        "animation=growth&frames=16&targets=position",
     ];
     return [
         {
@@ -141,6 +142,7 @@ async function requestFactors(server) {
                 images,
                 ["", "curl_deg=180&size=0.25", "venation.teeth=1&venation.teeth_per_vein=6"],
                 storage,
+                levels,
             ],
         },
         {
@@ -154,6 +156,7 @@ async function requestFactors(server) {
                 ["", "size=0.25", "leaves.per_tip=0"],
                 ["", "growth=drawn"],
                 storage,
+                levels,
             ],
         },
         {
@@ -166,6 +169,7 @@ async function requestFactors(server) {
                 images,
                 ["", "", "instancing=gpu"],
                 storage,
+                levels,
             ],
         },
         { route: "mushrooms", factors: [species] },

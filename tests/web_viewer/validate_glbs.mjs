@@ -30,7 +30,7 @@ async function issuesOf(source, allowed) {
     try {
         const { issues } = await packages("gltf-validator").validateBytes(await bytesOf(source), {
             uri: source,
-            maxIssues: 50,
+            maxIssues: 1000,
             writeTimestamp: false,
             externalResourceFunction: (uri) => bytesOf(new URL(uri, source).href),
         });

@@ -99,7 +99,7 @@ export function countsOf(model: Object3D): Counts {
 
 /** Returns the node of a colony's roots and stems, undefined if it has none. */
 export function stemsOf(model: Object3D): Object3D | undefined {
-    return model.children.find(({ name }) => name === "stems");
+    return model.children.find(({ name }) => name.endsWith("_stems"));
 }
 
 /** Returns the bounds of the transformed vertices, metres. */

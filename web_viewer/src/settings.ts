@@ -83,9 +83,9 @@ export class Settings {
         }
     }
 
-    /** Returns false for the frames of a clip if there is no clip. */
+    /** Returns false for the frames and targets of a clip if there is no clip. */
     applies(field: Field, replaced: ReadonlyMap<string, Value> = new Map()): boolean {
-        if (field.name !== "frames") return true;
+        if (field.name !== "frames" && field.name !== "targets") return true;
         const animation = this.field("animation");
         const chosen =
             replaced.get("animation") ?? this.values.get("animation") ?? animation?.fallback;

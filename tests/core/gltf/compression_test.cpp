@@ -18,6 +18,7 @@
 #include "core/grow/tree.h"
 #include "core/params/value.h"
 #include "tests/support/atlas.h"
+#include "tests/support/glb_parts.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 

@@ -16,6 +16,7 @@
 #include "core/grow/mushroom.h"
 #include "core/grow/painting.h"
 #include "core/params/value.h"
+#include "tests/support/glb_parts.h"
 #include "tests/support/glb_reader.h"
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"

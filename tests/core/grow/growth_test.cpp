@@ -195,6 +195,25 @@ TEST(Clip, ImagesAreThoseOfTheAge) {
     EXPECT_EQ(linked.targets.size(), 9u);
 }
 
+TEST(Clip, TargetsOfPositionsAloneLeaveTheNormals) {
+    MushroomSpec spec = growing(order_of("boletus_edulis", 0.6, 4, 2));
+    const Grown both = grow_mushroom(spec, atlas());
+    spec.params.targets = Targets::position;
+    const Grown moved = grow_mushroom(spec, atlas());
+    const Value json = json_chunk(joined(moved.glb));
+    const auto& targets = json.at_pointer("/meshes/0/primitives/0/targets")->items();
+    ASSERT_EQ(targets.size(), 9u);
+    for (const Value& target : targets) {
+        EXPECT_NE(target.find("POSITION"), nullptr);
+        EXPECT_EQ(target.find("NORMAL"), nullptr);
+    }
+    EXPECT_LT(size_of(moved.glb) + 12 * moved.vertices * targets.size(), size_of(both.glb))
+        << "and their bytes are not there";
+    spec.params.animation = Animation::none;
+    spec.params.frames = MushroomParams{}.frames;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_mushroom(spec, atlas()); }), "/targets", "growth"));
+}
+
 TEST(Clip, AClipContainsTheRequestThatMadeIt) {
     const MushroomSpec spec = growing(painted(order_of("boletus_edulis", 0.6, 7, 1)), 4);
     const Mushroom made = grow_mushroom(spec, atlas(), {"/v1/canonical", {}});

@@ -38,14 +38,15 @@ INSTANTIATE_TEST_SUITE_P(Presets, EveryLeaf, ::testing::ValuesIn(ids()),
 
 TEST_P(EveryLeaf, ReadsBackFromItsFile) {
     for (int lod = 0; lod < leaf_lods; ++lod) {
-        const Grown leaf = grow_leaf(order_of(GetParam(), lod));
+        const Grown leaf = grow_leaf(order_of(GetParam(), lod), atlas());
         const ReadBack found = expect_glb(joined(leaf.glb));
         expect_valid(found.mesh);
         EXPECT_EQ(found.mesh.positions.size(), leaf.vertices);
         EXPECT_EQ(found.mesh.triangles(), leaf.triangles);
         const int side = 128 >> lod;
         EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {side, side})));
-        EXPECT_EQ(found.node, GetParam());
+        EXPECT_TRUE(found.node.starts_with(GetParam() + "_leaf_s1_")) << found.node;
+        EXPECT_TRUE(found.node.ends_with("_LOD" + std::to_string(lod))) << found.node;
         EXPECT_EQ(found.attributes,
                   (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
     }
@@ -74,7 +75,7 @@ TEST_P(EveryLeaf, IsEstimatedBeforeAnyWork) {
     for (int lod = 0; lod < leaf_lods; ++lod) {
         const LeafSpec spec = order_of(GetParam(), lod, 256);
         const Estimate e = estimate(spec);
-        const Grown leaf = grow_leaf(spec);
+        const Grown leaf = grow_leaf(spec, atlas());
         EXPECT_GE(e.vertices, leaf.vertices);
         EXPECT_GE(e.triangles, leaf.triangles);
         EXPECT_EQ(e.texels, 3u * (256u >> lod) * (256u >> lod));
@@ -88,9 +89,9 @@ TEST_P(EveryLeaf, GivesEqualBytesTwiceAndWithManyThreads) {
     const LeafSpec spec = order_of(GetParam(), 0, 128);
     ExecutionContext threads;
     threads.parallel = in_threads;
-    const Bytes once = joined(grow_leaf(spec).glb);
-    EXPECT_EQ(joined(grow_leaf(spec, {}, threads).glb), once);
-    EXPECT_EQ(joined(grow_leaf(spec).glb), once);
+    const Bytes once = joined(grow_leaf(spec, atlas()).glb);
+    EXPECT_EQ(joined(grow_leaf(spec, atlas(), {}, threads).glb), once);
+    EXPECT_EQ(joined(grow_leaf(spec, atlas()).glb), once);
 }
 
 TEST(GrownLeaf, SizeScalesTheMesh) {
@@ -107,40 +108,40 @@ TEST(GrownLeaf, SizeScalesTheMesh) {
 
 TEST(GrownLeaf, SeedsAreIndividuals) {
     LeafSpec spec = order_of("maple", 2);
-    const Bytes one = joined(grow_leaf(spec).glb);
+    const Bytes one = joined(grow_leaf(spec, atlas()).glb);
     spec.params.seed = 2;
-    EXPECT_NE(joined(grow_leaf(spec).glb), one);
+    EXPECT_NE(joined(grow_leaf(spec, atlas()).glb), one);
 }
 
 TEST(GrownLeaf, AChangeOfShapeReusesTheImages) {
     Keeper keeper;
     LeafSpec spec = order_of("maple", 1);
-    const Grown flat = grow_leaf(spec, {}, keeper.execution);
+    const Grown flat = grow_leaf(spec, atlas(), {}, keeper.execution);
     spec.params.shape.curl_deg = 120.0;
     spec.params.shape.petiole = 1.5;
     spec.params.size = 0.5;
-    const Grown curled = grow_leaf(spec, {}, keeper.execution);
+    const Grown curled = grow_leaf(spec, atlas(), {}, keeper.execution);
     EXPECT_EQ(keeper.lookups, 2);
     EXPECT_EQ(keeper.made, 1);
     for (const Slice& file : keeper.cached.begin()->second->files) {
         EXPECT_TRUE(shares_bytes(flat.glb, file));
         EXPECT_TRUE(shares_bytes(curled.glb, file));
     }
-    EXPECT_EQ(joined(grow_leaf(spec).glb), joined(curled.glb));
+    EXPECT_EQ(joined(grow_leaf(spec, atlas()).glb), joined(curled.glb));
     spec.params.autumn = 0.5;
-    (void)grow_leaf(spec, {}, keeper.execution);
+    (void)grow_leaf(spec, atlas(), {}, keeper.execution);
     EXPECT_EQ(keeper.made, 2);
 }
 
 TEST(GrownLeaf, LinksImagesOrLeavesThemOut) {
     LeafSpec spec = order_of("oak", 2);
     spec.params.textures = Textures::linked;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec); }), "/textures", "linked"));
+    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec, atlas()); }), "/textures", "linked"));
     const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
-    const ReadBack found = expect_glb(joined(grow_leaf(spec, extras).glb));
+    const ReadBack found = expect_glb(joined(grow_leaf(spec, atlas(), extras).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
     spec.params.textures = Textures::none;
-    const ReadBack bare = expect_glb(joined(grow_leaf(spec).glb));
+    const ReadBack bare = expect_glb(joined(grow_leaf(spec, atlas()).glb));
     EXPECT_EQ(bare.attributes, (std::vector<std::string>{"NORMAL", "POSITION"}));
     EXPECT_EQ(bare.textures, 0u);
 }
@@ -148,7 +149,7 @@ TEST(GrownLeaf, LinksImagesOrLeavesThemOut) {
 TEST(GrownLeaf, DescribesItselfInExtras) {
     LeafSpec spec = order_of("birch", 1);
     spec.params.shape.venation.nodes = 11;
-    const Value json = json_chunk(joined(grow_leaf(spec, {"/v1/canonical", {}}).glb));
+    const Value json = json_chunk(joined(grow_leaf(spec, atlas(), {"/v1/canonical", {}}).glb));
     EXPECT_EQ(json.at_pointer("/asset/extras/canonical")->as_string(), "/v1/canonical");
     EXPECT_EQ(json.at_pointer("/asset/extras/effective/venation/nodes")->as_number(), 11.0);
     EXPECT_EQ(json.at_pointer("/asset/extras/triangles")->as_number(),
@@ -163,24 +164,25 @@ TEST(GrownLeaf, StopsWhenCancelled) {
     source.request_stop();
     ExecutionContext execution;
     execution.stop = source.get_token();
-    EXPECT_THROW((void)grow_leaf(order_of("fern"), {}, execution), Cancelled);
+    EXPECT_THROW((void)grow_leaf(order_of("fern"), atlas(), {}, execution), Cancelled);
 }
 
 TEST(GrownLeaf, StepsAreReportedInOrder) {
     std::vector<std::string> steps;
     ExecutionContext execution;
     execution.observer = [&](Step step) { steps.emplace_back(name(step)); };
-    (void)grow_leaf(order_of("needle", 3), {}, execution);
+    (void)grow_leaf(order_of("needle", 3), atlas(), {}, execution);
     EXPECT_EQ(steps, (std::vector<std::string>{"build", "paint", "pack"}));
 }
 
 TEST(GrownLeaf, ImpossibleParametersAreRefusedByName) {
     LeafSpec spec = order_of("maple");
     spec.params.shape.venation.lobes.value = 13;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec); }), "/venation/vein_deg", "petiole"));
+    EXPECT_TRUE(
+        names(refusal([&] { (void)grow_leaf(spec, atlas()); }), "/venation/vein_deg", "petiole"));
     spec = order_of("maple");
     spec.params.shape.length = 2.0;
-    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec); }), "/length", "outside"));
+    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec, atlas()); }), "/length", "outside"));
 }
 
 }  // namespace

@@ -1,0 +1,71 @@
+#include "core/grow/levels.h"
+
+#include <algorithm>
+#include <glm/common.hpp>
+
+#include "core/grow/names.h"
+#include "core/math/elementary.h"
+#include "core/problems.h"
+
+namespace sporeprint {
+
+double inscribed_error(int corners) {
+    const double half = pi / corners;
+    return 1.0 - sine_cosine(half).cosine;
+}
+
+void set_coverages(std::vector<Level>& levels, const Bounds& box, std::span<const double> errors) {
+    if (levels.empty() || errors.size() != levels.size())
+        throw GenerationError("each level of detail has an error");
+    const glm::vec3 size = box.max - box.min;
+    const double extent = std::max({size.x, size.y, size.z});
+    double finer = 1.0;
+    for (std::size_t i = 0; i < levels.size(); ++i) {
+        const bool is_last = i + 1 == levels.size();
+        const double pixels = is_last ? least_pixels : extent / std::max(errors[i + 1], 1e-9);
+        finer = std::min(finer, std::max(pixels, least_pixels) / screen_pixels);
+        levels[i].screen_coverage = finer;
+    }
+}
+
+Value level_list(std::span<const Level> levels) {
+    Value list = Value::array();
+    for (const Level& level : levels) {
+        Value item = Value::object();
+        item.set("lod", Value(level.lod));
+        item.set("vertices", Value(level.vertices));
+        item.set("triangles", Value(level.triangles));
+        item.set("screen_coverage", Value(level.screen_coverage));
+        list.push(std::move(item));
+    }
+    return list;
+}
+
+void link_levels(GlbScene& scene, std::span<const std::size_t> nodes, std::span<const Level> levels,
+                 Lods lods) {
+    if (lods != Lods::msft || nodes.size() < 2) return;
+    Value ids = Value::array(), coverages = Value::array();
+    for (const std::size_t node : nodes.subspan(1)) {
+        ids.push(Value(node));
+        scene.nodes[node].in_scene = false;
+    }
+    for (const Level& level : levels) coverages.push(Value(level.screen_coverage));
+    GlbNode& first = scene.nodes[nodes.front()];
+    first.extensions.push_back({"MSFT_lod", dump(Value::object().set("ids", std::move(ids)))});
+    first.extras_json = dump(Value::object().set("MSFT_screencoverage", std::move(coverages)));
+}
+
+void add_levels(GlbScene& scene, const std::string& name,
+                std::span<const std::vector<GlbPrimitive>> primitives,
+                std::span<const Level> levels, Lods lods) {
+    std::vector<std::size_t> nodes;
+    for (std::size_t i = 0; i < primitives.size(); ++i) {
+        const std::string own = level_name(name, levels[i].lod);
+        nodes.push_back(scene.nodes.size());
+        scene.nodes.push_back({.name = own, .mesh = scene.meshes.size()});
+        scene.meshes.push_back({own, primitives[i]});
+    }
+    link_levels(scene, nodes, levels, lods);
+}
+
+}  // namespace sporeprint

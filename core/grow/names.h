@@ -1,0 +1,47 @@
+// Names of meshes, nodes, materials and files. An engine keeps the parts of all files of a folder
+// by name, so equal names mean equal parts. Names have letters of ASCII, digits and '_' only.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "core/atlas/atlas.h"
+#include "core/colony/colony_spec.h"
+#include "core/individual/mushroom_spec.h"
+#include "core/params/shared_params.h"
+#include "core/plant/leaf_spec.h"
+#include "core/plant/tree_spec.h"
+
+namespace sporeprint {
+
+/// Returns the name of what a spec describes, the same at every level of detail and however its
+/// file is written: the species or the preset, the kind of product unless it is a mushroom, the
+/// seed, the age in percent, and a hash if anything else differs from its default:
+/// "amanita_muscaria_s7_a60", "maple_leaf_s7_5b0c9a1e".
+[[nodiscard]] std::string product_name(const MushroomSpec& spec);
+[[nodiscard]] std::string product_name(const ColonySpec& spec);
+[[nodiscard]] std::string product_name(const LeafSpec& spec, const Atlas& atlas);
+[[nodiscard]] std::string product_name(const TreeSpec& spec, const Atlas& atlas);
+
+/// Returns the name of a level of detail, as engines expect it: "amanita_muscaria_s7_a60_LOD1".
+[[nodiscard]] std::string level_name(const std::string& name, int lod);
+
+/// Returns the name of the file without its ending: that of its first level of detail, and how it
+/// is written: "amanita_muscaria_s7_a60_LOD0_msft_meshopt".
+[[nodiscard]] std::string file_name(const std::string& name, int lod, const FileOptions& file);
+
+/// Returns the name of the material of a mushroom, and of all individuals of a colony. Its images
+/// depend on the seed, and its resolution on the level of detail: "amanita_muscaria_s7_a60_skin_LOD1".
+[[nodiscard]] std::string skin_name(const MushroomSpec& spec);
+[[nodiscard]] std::string skin_name(const ColonySpec& spec);
+
+/// Returns the name of a material that all individuals with the same images share, from the preset
+/// and a hash of everything that the images depend on: "broadleaf_bark_5b0c9a1e".
+///
+/// textures  how the file has its images
+[[nodiscard]] std::string bark_name(const std::string& preset, const TreePaint& paint,
+                                    Textures textures);
+[[nodiscard]] std::string leaf_material_name(const std::string& preset, const LeafPaint& paint,
+                                             Textures textures);
+
+}  // namespace sporeprint
