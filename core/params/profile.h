@@ -13,7 +13,9 @@ namespace sporeprint {
     switch (profile) {
         case Profile::core:
         case Profile::blender:
+            break;
         case Profile::unreal:
+            file.lods = Lods::msft;
             break;
         case Profile::mobile:
             file.materials = MaterialSet::core;

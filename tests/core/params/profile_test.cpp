@@ -26,6 +26,13 @@ TEST(Profile, EngineThatReadsNoRequiredGeometryGetsNone) {
         EXPECT_EQ(options_of(profile).image_format, ImageFormats::jpg) << name(profile);
 }
 
+TEST(Profile, UnrealGetsAllLevelsInOneFile) {
+    for (const Profile profile : all_profiles())
+        EXPECT_EQ(options_of(profile).lods,
+                  profile == Profile::unreal ? Lods::msft : Lods::single)
+            << name(profile);
+}
+
 TEST(Profile, AQueryNamesTheProfileAndWhatDiffersFromIt) {
     for (const Profile profile : all_profiles()) {
         MushroomParams params;
