@@ -32,8 +32,7 @@ Plan plan_inspection(RouteCall& call) {
                                          "the JSON chunk of this file has " +
                                              std::to_string(json.size()) + " bytes; at most " +
                                              std::to_string(most_inspected_json) + " are read");
-    Cost cost = cost_of_json(json);
-    cost.base = 20;
+    const Cost cost = cost_of_json(json);
     // The job holds only the JSON chunk: the rest of an upload of 64 MB is never copied.
     auto run = [json = std::make_shared<const std::string>(json), bytes, &routes = context.routes](
                    const std::stop_token& stop, const Observer& observer, const Parallel&) {

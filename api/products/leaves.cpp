@@ -18,6 +18,12 @@ Measures Leaves::measure(const LeafSpec& spec, const Atlas&, const ExecutionCont
 
 Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }
 
+Cost Leaves::cost_of_describing(const LeafSpec& spec) {
+    LeafSpec all = spec;
+    all.params.file.lods = Lods::nodes;
+    return {.vertices = estimate(all).vertices};
+}
+
 Cost Leaves::cost_of_painting(const LeafSpec& spec, const Atlas&) {
     return cost_of_paint(paint_of(spec.params));
 }

@@ -27,6 +27,8 @@ struct Leaves {
     static Measures measure(const LeafSpec& spec, const Atlas& atlas,
                             const ExecutionContext& execution);
     static Cost cost_of_growing(const LeafSpec& spec);
+    /// Returns the cost of measuring all levels of detail from the requested one on.
+    static Cost cost_of_describing(const LeafSpec& spec);
     /// Returns the cost of painting these images.
     static Cost cost_of_paint(const LeafPaint& paint);
     /// Returns the cost of painting the images of a leaf.

@@ -204,6 +204,7 @@ struct Measures {
 ///   grow(spec, atlas, extras, depth, execution)    the file; depth of links to further images
 ///   measure(spec, atlas, execution)        its exact estimate, its bounds, its levels of detail
 ///   cost_of_growing(spec)                  cost beside its vertices, bytes and images
+///   cost_of_describing(spec)               optional: cost of its JSON beside that of growing
 ///   cost_of_painting(spec, atlas)          cost of painting all of its images
 ///   add_details(spec, body)                optional: adds further members to its JSON
 template <class Kind>
@@ -231,7 +232,11 @@ struct PresetProduct {
         refuse_over_budget(context.options, estimated, false, false, spec.params.file);
         Cost cost = Kind::cost_of_growing(spec);
         cost.placed_vertices = estimated.vertices;
-        if (product == Product::json) return cost;
+        if (product == Product::json) {
+            if constexpr (requires { Kind::cost_of_describing(spec); })
+                cost += Kind::cost_of_describing(spec);
+            return cost;
+        }
         cost.bytes = estimated.bytes;
         if (spec.params.textures == Textures::embedded)
             cost += cost_of_images(spec.params.file, Kind::cost_of_painting(spec, *context.atlas),
