@@ -285,6 +285,8 @@ constexpr Route routes[] = {
 Value order_schema() {
     Value schema = sporeprint::schema<SetParams>();
     Value& properties = *schema.find("properties");
+    for (const char* list : {"ages", "levels"})
+        properties.find(list)->set("minItems", 1).set("uniqueItems", true);
     const Value mushroom = sporeprint::schema<MushroomParams>();
     for (const auto& [name, property] : mushroom.find("properties")->members())
         if (std::none_of(std::begin(chosen), std::end(chosen),
@@ -325,6 +327,7 @@ void add_bodies(Value& bodies, const Atlas& atlas) {
                             {"description", "Species, or mixes as they stand in URLs."},
                             {"items", typed("string")},
                             {"minItems", 1},
+                            {"uniqueItems", true},
                             {"maxItems", most_set_species}});
     bodies.set(
         "set_order",

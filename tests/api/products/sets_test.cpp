@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include <cstring>
+#include <memory>
 #include <set>
 #include <string>
 
@@ -120,7 +120,8 @@ TEST_F(Sets, ErrorsNameWhatIsWrong) {
 
 TEST_F(Sets, LargeOnesAreRefusedBeforeAnyWork) {
     std::string species;
-    for (const AtlasEntry& entry : built_in_atlas()->entries())
+    const std::shared_ptr<const Atlas> atlas = built_in_atlas();
+    for (const AtlasEntry& entry : atlas->entries())
         (species += species.empty() ? "\"" : ",\"") += entry.species.id.string() + '"';
     const std::string body = R"({"species":[)" + species + R"(],"seeds":64})";
     EXPECT_NE(refused(body).find("422"), std::string::npos);

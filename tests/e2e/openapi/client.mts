@@ -70,6 +70,15 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     await client.HEAD("/v1/surfaces/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { texture_size: 128 } } });
     await client.GET("/v1/surfaces/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { texture_size: 128 } }, ...binary });
 
+    const scales = { params: { path: { mix: id, image: "orm" }, query: { texture_size: 128 } } } as const;
+    await both(client.HEAD("/v1/surfaces/mushrooms/{mix}/{image}.webp", scales), client.GET("/v1/surfaces/mushrooms/{mix}/{image}.webp", { ...scales, ...binary }));
+
+    const set = { species: [id, other], levels: [3], texture_size: 128 as const };
+    const { data: manifest } = await client.POST("/v1/sets.json", { body: set });
+    const url: string | undefined = manifest?.files[0]?.url;
+    if (!url) throw new Error("the manifest names no file");
+    await client.POST("/v1/sets.zip", { body: set, ...binary });
+
     const pair = { params: { path: { a: id, b: other } } };
     await client.HEAD("/v1/morphs/{a}/{b}", pair);
     const { data: correspondence } = await client.GET("/v1/morphs/{a}/{b}", pair);
@@ -94,6 +103,7 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     await client.POST("/v1/leaves.glb", { body: { ...leaf, ...small }, ...binary });
     const vein = { params: { path: { preset: "maple", image: "orm" }, query: { texture_size: 128 } } } as const;
     await both(client.HEAD("/v1/surfaces/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/surfaces/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
+    await both(client.HEAD("/v1/surfaces/leaves/{preset}/{image}.webp", vein), client.GET("/v1/surfaces/leaves/{preset}/{image}.webp", { ...vein, ...binary }));
 
     await both(client.HEAD("/v1/trees", {}), client.GET("/v1/trees", {}));
     await both(client.HEAD("/v1/trees/schema", {}), client.GET("/v1/trees/schema", {}));
@@ -106,6 +116,7 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     await client.POST("/v1/trees.glb", { body: { ...tree, ...small }, ...binary });
     const bark = { params: { path: { preset: "herb", image: "base_color" }, query: { texture_size: 128 } } } as const;
     await both(client.HEAD("/v1/surfaces/trees/{preset}/{image}.jpg", bark), client.GET("/v1/surfaces/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
+    await both(client.HEAD("/v1/surfaces/trees/{preset}/{image}.webp", bark), client.GET("/v1/surfaces/trees/{preset}/{image}.webp", { ...bark, ...binary }));
 
     const { data: inspected } = await client.POST("/v1/inspect", {
         body: made as unknown as string, // a file: its type is "string" of format "binary"

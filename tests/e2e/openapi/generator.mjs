@@ -16,7 +16,7 @@ export function random(state) {
 }
 
 /** Expensive parameters get small values. */
-const cheap = { texture_size: [128, 128, 256], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2] };
+const cheap = { texture_size: [128, 128, 256], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2], seeds: [1, 2], levels: [[3], [2, 3]] };
 
 export class Generator {
     constructor(document, lists, dice) {
@@ -41,9 +41,11 @@ export class Generator {
         if ("const" in schema) return schema.const;
         if (schema.enum) return dice.pick(schema.enum);
         if (schema.oneOf || schema.properties || schema.type === "object") return this.object(schema, name, depth);
+        if (name === "species") return this.someSpecies();
         if (schema.type === "array") {
             const length = schema.minItems ?? Math.min(schema.maxItems ?? 3, dice.below(4));
             const list = Array.from({ length }, () => this.right(schema.items, "", depth + 1));
+            if (schema.uniqueItems) return [...new Set(list)];
             return length === 2 && schema.maxItems === 2 && list.every((one) => typeof one === "number") ? list.sort((a, b) => a - b) : list;
         }
         if (schema.type === "boolean") return dice.chance(0.5);
@@ -143,7 +145,8 @@ export class Generator {
                 const schema = follow(this.document, content.schema);
                 const { properties } = schema;
                 let value = this.right(schema);
-                if ("texture_size" in properties) value = { lod: 3, texture_size: 128, ...value };
+                if ("texture_size" in properties) value = { texture_size: 128, ...value };
+                if ("lod" in properties) value = { lod: 3, ...value };
                 if ("count" in properties) value = { count: 2, ...value };
                 if (dice.chance(0.15)) {
                     const key = dice.pick(Object.keys(properties));
