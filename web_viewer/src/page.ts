@@ -279,6 +279,7 @@ export class Page {
     /** Shows what the service reports about the shown model. */
     private showEffective({ effective, matrix, made }: ModelReport): void {
         this.controls.show(effective);
+        this.toolbar.markLod(effective);
         this.matrix?.showServed(matrix);
         this.colonyCount =
             made === undefined

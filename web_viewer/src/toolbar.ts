@@ -1,6 +1,7 @@
 // The toolbar over the stage: views, levels of detail, wireframe and dusk.
 import type { ViewName } from "./camera";
 import { byId, make } from "./dom";
+import { valueAt } from "./schema";
 import type { Settings } from "./settings";
 import type { Stage } from "./stage";
 
@@ -63,9 +64,10 @@ export class Toolbar {
         button?.setAttribute("aria-pressed", String(name === "roots"));
     }
 
-    /** Marks the level of detail of the settings. */
-    markLod(): void {
-        const lod = this.settings.values.get("lod") ?? this.settings.field("lod")?.fallback;
+    /** Marks the level of detail of the settings; without one, that of the values that the server
+     *  reports as `effective`, which a profile may have chosen. */
+    markLod(effective?: unknown): void {
+        const lod = this.settings.values.get("lod") ?? valueAt(effective, "lod") ?? 0;
         for (const [level, button] of this.lods) {
             button.setAttribute("aria-pressed", String(level === lod));
         }
