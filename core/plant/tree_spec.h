@@ -53,7 +53,8 @@ struct TreeParams {
                             .min = 0,
                             .max = 3,
                             .doc = "Level of detail: the same individual with fewer branches and "
-                                   "fewer, larger leaves, and smaller images."});
+                                   "fewer, larger leaves, and smaller images.",
+                            .default_from = "profile"});
         visit(&P::texture_size, Info{.name = "texture_size",
                                      .unit = "texels",
                                      .doc = "Side of the images of bark and of those of leaves at "

@@ -155,7 +155,12 @@ inline Bytes joined(const Body& body) {
 inline MushroomParams arbitrary_params() {
     MushroomParams params;
     arbitrary(params, Info{.name = ""});
-    if (params.animation == Animation::none) params.frames = MushroomParams{}.frames;
+    if (params.animation == Animation::none) {
+        params.frames = MushroomParams{}.frames;
+        params.targets = MushroomParams{}.targets;
+    } else {
+        params.file.lods = Lods::single;
+    }
     auto& deformation = params.deformation;
     if (deformation.zone_from && deformation.zone_to &&
         *deformation.zone_to < *deformation.zone_from + 0.1)

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -104,10 +105,12 @@ TEST(Weathering, EachEffectAloneIsClosedAndAtMostDoublesTheTriangles) {
     }
 }
 
-TEST(Weathering, AmountZeroOfAnyKindIsTheUndamagedFileByteForByte) {
+TEST(Weathering, AmountZeroOfAnyKindHasTheUndamagedGeometryAndImages) {
+    // The names in a file tell requests apart, so the chunk of JSON before the rest may differ.
     const auto file_of = [](const MushroomSpec& order) {
+        const Body body = grow_mushroom(order, atlas()).glb;
         Bytes file;
-        for (const Slice& slice : grow_mushroom(order, atlas()).glb)
+        for (const Slice& slice : std::span(body).subspan(1))
             file.insert(file.end(), slice.data(), slice.data() + slice.size);
         return file;
     };
@@ -120,7 +123,8 @@ TEST(Weathering, AmountZeroOfAnyKindIsTheUndamagedFileByteForByte) {
             none.params.weathering.*amount = 0.0;
             EXPECT_EQ(file_of(none), expected) << id << ' ' << info.name;
             none.params.weathering.*amount = 1.0;
-            EXPECT_NE(file_of(none), expected) << id << ' ' << info.name;
+            const bool is_look = std::string(info.name) == "wetness";  // of the material alone
+            EXPECT_TRUE(is_look || file_of(none) != expected) << id << ' ' << info.name;
         });
     }
 }

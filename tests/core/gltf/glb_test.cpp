@@ -324,8 +324,8 @@ TEST(Glb, WebpImagesAreRequiredUnlessJpegImagesReplaceThem) {
                           .url_format = ImageFormat::webp,
                           .fallback_urls = {"a.jpg", "b.jpg", "c.jpg"}};
     const Value linked = document_of(glb(scene));
-    EXPECT_EQ(text(linked, "/images/0"), R"({"uri":"a.webp"})");
-    EXPECT_EQ(text(linked, "/images/3"), R"({"uri":"a.jpg"})");
+    EXPECT_EQ(text(linked, "/images/0"), R"({"name":"m_base_color","uri":"a.webp"})");
+    EXPECT_EQ(text(linked, "/images/3"), R"({"name":"m_base_color","uri":"a.jpg"})");
     EXPECT_EQ(text(linked, "/textures/2"),
               R"({"sampler":0,"source":5,"extensions":{"EXT_texture_webp":{"source":2}}})");
 }

@@ -189,7 +189,7 @@ TEST(Clip, ImagesAreThoseOfTheAge) {
     EXPECT_EQ(clip.attributes,
               (std::vector<std::string>{"NORMAL", "POSITION", "TANGENT", "TEXCOORD_0"}));
     spec.params.textures = Textures::linked;
-    const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
+    const Extras extras{"/v1/x", {{"/a.jpg", "/b.jpg", "/c.jpg"}, {}}};
     const ReadBack linked = expect_glb(joined(grow_mushroom(growing(spec), atlas(), extras).glb));
     EXPECT_EQ(linked.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
     EXPECT_EQ(linked.targets.size(), 9u);

@@ -137,7 +137,7 @@ TEST(GrownLeaf, LinksImagesOrLeavesThemOut) {
     LeafSpec spec = order_of("oak", 2);
     spec.params.textures = Textures::linked;
     EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(spec, atlas()); }), "/textures", "linked"));
-    const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
+    const Extras extras{"/v1/x", {{"/a.jpg", "/b.jpg", "/c.jpg"}, {}}};
     const ReadBack found = expect_glb(joined(grow_leaf(spec, atlas(), extras).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
     spec.params.textures = Textures::none;

@@ -87,7 +87,12 @@ struct Products {
 
 constexpr std::size_t whole_meshes = 4;  // products before the colony
 
-FileOptions chain(Lods lods, Compression compress = Compression::none) { return {compress, lods}; }
+FileOptions chain(Lods lods, Compression compress = Compression::none) {
+    FileOptions file;
+    file.compress = compress;
+    file.lods = lods;
+    return file;
+}
 
 TEST(Levels, OfAFileAreTheMeshesOfFilesOfTheirOwn) {
     const std::vector<Grown> chains = Products(1, chain(Lods::nodes)).grown();

@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "core/grow/names.h"
 #include "core/params/corners.h"
 #include "core/params/value.h"
 #include "tests/support/effort.h"
@@ -89,7 +90,8 @@ TEST_P(EverySpecies, IsValidOrRefusedByNameWithEachParameterAtEachEnd) {
                                          "/weathering/deliquescence",
                                          "/deformation/bend_deg",
                                          "/deformation/zone_to",
-                                         "/frames"};
+                                         "/frames",
+                                         "/targets"};
     for (const std::string& path : refused) EXPECT_TRUE(known.contains(path)) << path;
 }
 
@@ -169,7 +171,7 @@ TEST_P(EverySpecies, ReadsBackFromItsFile) {
             EXPECT_EQ(found.mesh.triangles(), mushroom.triangles);
             const int side = 128 >> lod;
             EXPECT_EQ(found.images, (std::vector<std::array<int, 2>>(3, {side, side})));
-            EXPECT_EQ(found.node, GetParam());
+            EXPECT_EQ(found.node, level_name(product_name(spec), lod));
         }
 }
 
@@ -314,7 +316,7 @@ TEST(Mushroom, AFailureOfTheCacheIsRethrown) {
 TEST(Mushroom, LinkedTexturesNeedUrls) {
     const MushroomSpec spec = textured(order_of("boletus_edulis", 0.6, 1, 2));
     EXPECT_TRUE(names(refusal([&] { (void)grow_mushroom(spec, atlas()); }), "/textures", "linked"));
-    const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
+    const Extras extras{"/v1/x", {{"/a.jpg", "/b.jpg", "/c.jpg"}, {}}};
     const ReadBack found = expect_glb(joined(grow_mushroom(spec, atlas(), extras).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
 }
@@ -339,7 +341,8 @@ TEST(Mushroom, AUserModelNeedsNoSpecies) {
     spec.mix.clear();
     spec.model = atlas().find("russula_vinosa")->species.stages[1].model;
     const ReadBack found = expect_glb(joined(grow_mushroom(spec, Atlas({})).glb));
-    EXPECT_EQ(found.node, "mushroom");
+    EXPECT_EQ(found.node, level_name(product_name(spec), 1));
+    EXPECT_TRUE(found.node.starts_with("model_s4_a50_")) << found.node;
     EXPECT_EQ(found.images.size(), 3u);
 }
 

@@ -185,9 +185,9 @@ TEST(GrownTree, LinksImagesOrLeavesThemOut) {
     TreeSpec spec = order_of("poplar", 2);
     spec.params.textures = Textures::linked;
     EXPECT_TRUE(names(refusal([&] { (void)grow_tree(spec, atlas()); }), "/textures", "linked"));
-    const Extras extras{"/v1/x", {"/a.jpg", "/b.jpg", "/c.jpg"}};
-    const ReadScene found =
-        expect_scene(joined(grow_tree(spec, atlas(), extras, {"/d.jpg", "/e.jpg", "/f.jpg"}).glb));
+    const Extras extras{"/v1/x", {{"/a.jpg", "/b.jpg", "/c.jpg"}, {}}};
+    const ReadScene found = expect_scene(
+        joined(grow_tree(spec, atlas(), extras, {{"/d.jpg", "/e.jpg", "/f.jpg"}, {}}).glb));
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg", "/d.jpg",
                                                     "/e.jpg", "/f.jpg"}));
     spec.params.textures = Textures::none;

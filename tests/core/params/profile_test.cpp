@@ -28,8 +28,7 @@ TEST(Profile, EngineThatReadsNoRequiredGeometryGetsNone) {
 
 TEST(Profile, UnrealGetsAllLevelsInOneFile) {
     for (const Profile profile : all_profiles())
-        EXPECT_EQ(options_of(profile).lods,
-                  profile == Profile::unreal ? Lods::msft : Lods::single)
+        EXPECT_EQ(options_of(profile).lods, profile == Profile::unreal ? Lods::msft : Lods::single)
             << name(profile);
 }
 
