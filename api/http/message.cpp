@@ -37,6 +37,8 @@ constexpr Term terms[] = {
     {&Cost::bark_texels, 0.1},  // 512 x 512 takes 78 ms: bark is noise of many octaves
     {&Cost::webp_texels, 0.04},
     {&Cost::pixels, 0.008},  // a PNG of 2048 x 2048 takes 26 ms when flat, 60 ms when noisy
+    {&Cost::shadow_triangles, 0.04},
+    {&Cost::samples, 0.03},
     {&Cost::json_bytes, 0.005},
     {&Cost::json_values, 0.03},
     {&Cost::bytes, 1.0 / 2048.0},

@@ -57,6 +57,7 @@ Value species_list(const Atlas& atlas, const SpeciesFilter& filter) {
         Value links = Value::object();
         links.set("self", "/v1/species/" + id);
         links.set("model", "/v1/mushrooms/" + id + ".glb");
+        links.set("image", "/v1/mushrooms/" + id + ".png");
         row.set("links", std::move(links));
         list.push(std::move(row));
     }
@@ -70,6 +71,7 @@ Value product_list(const Atlas& atlas, const std::string& product) {
         const std::string id = entry.species.id.string();
         Value links = Value::object();
         links.set("self", root + id + ".json").set("model", root + id + ".glb");
+        links.set("image", root + id + ".png");
         links.set("schema", root + "schema").set("species", "/v1/species/" + id);
         list.push(Value::object()
                       .set("id", id)

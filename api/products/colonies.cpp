@@ -7,6 +7,7 @@
 #include "api/products/catalogue.h"
 #include "api/products/mix.h"
 #include "api/products/mushrooms.h"
+#include "api/products/pictures.h"
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/colony.h"
@@ -156,6 +157,11 @@ std::optional<Cost> Colonies::guess(const ColonySpec& spec, Product product, con
     return cost_of(spec, guessed(spec), product, atlas);
 }
 
+std::uint64_t Colonies::instances_of_each(const ColonySpec& spec) {
+    const int count = spec.params.count, distinct = std::min(spec.params.distinct, count);
+    return static_cast<std::uint64_t>((count + distinct - 1) / distinct);
+}
+
 ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec, const std::string&,
                                const ExecutionContext& execution) {
     // Its images are those of a mushroom, of higher resolution than its level of detail alone would
@@ -201,6 +207,13 @@ Plan plan_from_url(RouteCall& call) {
         read_colony(call.captured[0], call.target.query, *call.context.atlas, call.errors);
     requested.product = Format;
     return plan_product<Colonies>(call.context, call.request, std::move(requested), call.errors);
+}
+
+Plan plan_picture_from_url(RouteCall& call) {
+    const PictureQuery query = read_picture_query(call.target.query, call.errors);
+    return plan_picture<Colonies>(
+        call, query,
+        read_colony(call.captured[0], query.product, *call.context.atlas, call.errors));
 }
 
 Plan plan_from_body(RouteCall& call) {
@@ -250,6 +263,14 @@ constexpr Route routes[] = {
      .response_schema = "colony_description",
      .query_schema = [](const Atlas&) { return schema<ColonyParams>(); },
      .plan = plan_from_url<Product::json>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/colonies/{mix}.png",
+     .id = "draw_colony",
+     .summary = "A picture of a colony.",
+     .media_type = "image/png",
+     .query_schema = [](const Atlas&) { return picture_schema(schema<ColonyParams>()); },
+     .plan = plan_picture_from_url},
     {.kind = RouteKind::product,
      .method = "POST",
      .pattern = "/v1/colonies.glb",

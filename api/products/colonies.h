@@ -49,6 +49,8 @@ struct Colonies {
                      const Caches& caches, Resolved& resolved);
     static Cost search(const ColonySpec& spec, const Atlas& atlas);
     static std::optional<Cost> guess(const ColonySpec& spec, Product product, const Atlas& atlas);
+    /// Returns how often each individual is drawn.
+    static std::uint64_t instances_of_each(const ColonySpec& spec);
     static ImageUrls image_urls(const Context& context, const ColonySpec& spec,
                                 const std::string& version, const ExecutionContext& execution);
     static Body grow(const Context& context, const ColonySpec& spec, Resolved& resolved,

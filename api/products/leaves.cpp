@@ -21,7 +21,7 @@ Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }
 Cost Leaves::cost_of_describing(const LeafSpec& spec) {
     LeafSpec all = spec;
     all.params.file.lods = Lods::nodes;
-    return {.vertices = estimate(all).vertices};
+    return {.base = 100, .vertices = estimate(all).vertices};
 }
 
 Cost Leaves::cost_of_painting(const LeafSpec& spec, const Atlas&) {
@@ -86,6 +86,15 @@ constexpr Route routes[] = {
      .response_schema = "leaf_description",
      .query_schema = params_schema,
      .plan = plan_preset_url<Leaves, Product::json>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/leaves/{preset}.png",
+     .id = "draw_leaf",
+     .summary = "A picture of a leaf.",
+     .media_type = "image/png",
+     .example = example_preset,
+     .query_schema = [](const Atlas& atlas) { return picture_schema(params_schema(atlas)); },
+     .plan = plan_preset_picture<Leaves>},
     {.kind = RouteKind::product,
      .method = "POST",
      .pattern = "/v1/leaves.glb",

@@ -8,6 +8,7 @@
 #include "api/http/schemas.h"
 #include "api/products/catalogue.h"
 #include "api/products/mix.h"
+#include "api/products/pictures.h"
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
 #include "core/grow/mushroom.h"
@@ -274,6 +275,13 @@ Plan plan_from_url(RouteCall& call) {
     return plan_product<Mushrooms>(call.context, call.request, std::move(requested), call.errors);
 }
 
+Plan plan_picture_from_url(RouteCall& call) {
+    const PictureQuery query = read_picture_query(call.target.query, call.errors);
+    return plan_picture<Mushrooms>(
+        call, query,
+        read_mushroom(call.captured[0], query.product, *call.context.atlas, call.errors));
+}
+
 Plan plan_from_body(RouteCall& call) {
     refuse_query(call.target, call.errors);
     return plan_product<Mushrooms>(
@@ -320,6 +328,14 @@ constexpr Route routes[] = {
      .response_schema = "mushroom_description",
      .query_schema = [](const Atlas&) { return schema<MushroomParams>(); },
      .plan = plan_from_url<Product::json>},
+    {.kind = RouteKind::product,
+     .method = "GET",
+     .pattern = "/v1/mushrooms/{mix}.png",
+     .id = "draw_mushroom",
+     .summary = "A picture of a mushroom.",
+     .media_type = "image/png",
+     .query_schema = [](const Atlas&) { return picture_schema(schema<MushroomParams>()); },
+     .plan = plan_picture_from_url},
     {.kind = RouteKind::product,
      .method = "POST",
      .pattern = "/v1/mushrooms.glb",

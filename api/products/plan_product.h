@@ -12,8 +12,8 @@
 
 namespace sporeprint::api {
 
-/// Returns the response to a request for a product, as GLB or as the JSON that describes it, or the
-/// job that computes it. Returns a problem response if `errors` is not empty. `Kind` has these
+/// Returns the response to a request for a product, as GLB or as the JSON that describes it, as a
+/// picture, or the job that computes it. Returns a problem response if `errors` is not empty. `Kind` has these
 /// static functions of a specification (`Spec`), and a type Resolved, empty at first, in which
 /// cost() may leave what it has resolved for grow() and describe():
 ///   version(spec, atlas)                   current version token

@@ -12,6 +12,7 @@
 
 #include "api/http/schemas.h"
 #include "api/products/images.h"
+#include "api/products/pictures.h"
 #include "api/products/plan_product.h"
 #include "api/products/product.h"
 #include "core/atlas/atlas.h"
@@ -185,6 +186,7 @@ Value preset_list(const Atlas& atlas) {
         const std::string id = preset.id.string();
         Value links = Value::object();
         links.set("self", root + id + ".json").set("model", root + id + ".glb");
+        links.set("image", root + id + ".png");
         links.set("schema", root + "schema");
         Value item = Value::object().set("id", id).set("name", preset.name.view());
         if constexpr (requires { Kind::tell(preset, item); }) Kind::tell(preset, item);
@@ -278,6 +280,15 @@ Plan plan_preset_url(RouteCall& call) {
     requested.product = Format;
     return plan_product<PresetProduct<Kind>>(call.context, call.request, std::move(requested),
                                              call.errors);
+}
+
+/// Handles GET /v1/{kind}/{preset}.png.
+template <class Kind>
+Plan plan_preset_picture(RouteCall& call) {
+    const PictureQuery query = read_picture_query(call.target.query, call.errors);
+    return plan_picture<PresetProduct<Kind>>(
+        call, query,
+        read_preset<Kind>(*call.context.atlas, call.captured[0], query.product, call.errors));
 }
 
 /// Handles POST /v1/{kind}.glb.

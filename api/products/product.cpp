@@ -7,10 +7,28 @@
 
 namespace sporeprint::api {
 
-const char* ending_of(Product product) { return product == Product::glb ? ".glb" : ".json"; }
+const char* ending_of(Product product) {
+    switch (product) {
+        case Product::glb:
+            return ".glb";
+        case Product::json:
+            return ".json";
+        case Product::png:
+            return ".png";
+    }
+    return "";
+}
 
 const char* type_of(Product product) {
-    return product == Product::glb ? "model/gltf-binary" : "application/json";
+    switch (product) {
+        case Product::glb:
+            return "model/gltf-binary";
+        case Product::json:
+            return "application/json";
+        case Product::png:
+            return "image/png";
+    }
+    return "";
 }
 
 std::optional<std::string> take_version(Query query,

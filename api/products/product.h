@@ -24,10 +24,10 @@ namespace sporeprint::api {
 /// The decoded names and values of a query.
 using Query = std::span<const std::pair<std::string, std::string>>;
 
-/// The file that is generated.
-enum class Product { glb, json };
+/// What is generated: a file, its description, or a picture.
+enum class Product { glb, json, png };
 
-/// Returns the extension of the file: ".glb" or ".json".
+/// Returns the extension of the file: ".glb", ".json" or ".png".
 [[nodiscard]] const char* ending_of(Product product);
 
 /// Returns the media type of the file.

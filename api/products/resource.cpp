@@ -32,7 +32,7 @@ Response unmade(const Context& context, const Request& request, Response head) {
             set_header(head, "ETag", gzip_etag(header_of(head, "ETag")));
         }
     } else {
-        set_header(head, "Vary", "Accept-Encoding");
+        if (type == glb_type) set_header(head, "Vary", "Accept-Encoding");
         set_header(head, "Accept-Ranges", "bytes");
     }
     set_header(head, "Cache-Status", missed);

@@ -113,7 +113,7 @@ void add_level(Estimate& e, const ColonySpec& spec, std::uint64_t vertices, std:
 void add_images(Estimate& e, const ColonySpec& spec) {
     const std::uint64_t texels = image_texels(spec);
     e.texels = texels * static_cast<std::uint64_t>(atlases_held(paint_mushroom_spec(spec)));
-    if (spec.params.textures == Textures::embedded) e.bytes += texels / 3;
+    add_image_bytes(e, texels / 3, spec.params.textures, spec.params.file);
 }
 
 /// Returns about how many vertices and triangles the meshes of a level of detail have.
@@ -482,7 +482,7 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
                                     instanced_triangles(colony), {levels, params.file.lods});
     add_levels(scene, colony, product_name(spec), levels, params.file.lods);
     const Estimate e = measured(spec, colony);
-    return {glb(scene), e.vertices, e.triangles};
+    return {extras.write(scene), e.vertices, e.triangles};
 }
 
 }  // namespace sporeprint

@@ -13,8 +13,9 @@
 
 namespace sporeprint {
 
-enum class Step { resolve, build, paint, pack };
-inline constexpr std::array all_steps = {Step::resolve, Step::build, Step::paint, Step::pack};
+enum class Step { resolve, build, paint, pack, draw };
+inline constexpr std::array all_steps = {Step::resolve, Step::build, Step::paint, Step::pack,
+                                         Step::draw};
 
 constexpr const char* name(Step step) {
     switch (step) {
@@ -26,6 +27,8 @@ constexpr const char* name(Step step) {
             return "paint";
         case Step::pack:
             return "pack";
+        case Step::draw:
+            return "draw";
     }
     return nullptr;
 }

@@ -20,11 +20,11 @@ std::uint64_t image_bytes(std::uint64_t texels) { return texels / 6 + 1500; }
 void add_images(Estimate& e, const LeafParams& params) {
     const auto side = static_cast<std::uint64_t>(params.texture_size) >> params.lod;
     e.texels = params.textures == Textures::none ? 0 : 3 * side * side;
-    if (params.textures == Textures::embedded) e.bytes += image_bytes(e.texels);
+    add_image_bytes(e, image_bytes(e.texels), params.textures, params.file);
 }
 
-/// Distance of the border of a level of detail from that of LOD 0, in lengths of the lamina: the
-/// largest of all presets at LOD 1 and 2; at LOD 3 that of their teeth and lobes.
+/// Estimated distance of the border of a level of detail from that of LOD 0, in lengths of the
+/// lamina: about that of the presets at LOD 1 and 2; at LOD 3 that of teeth and lobes.
 constexpr std::array<double, 4> border_errors = {0.0, 0.01, 0.03, 0.1};
 
 /// Returns the mesh of each level of detail of a file, finest first.
@@ -137,7 +137,7 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes.front()),
                                     meshes.front().triangles(), {levels, params.file.lods});
-    grown.glb = glb(scene);
+    grown.glb = extras.write(scene);
     return grown;
 }
 

@@ -68,7 +68,7 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    if (params.textures == Textures::embedded) e.bytes += images / 3;
+    add_image_bytes(e, images / 3, params.textures, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
         const std::uint64_t moved = params.targets == Targets::position ? 12 : 24;
@@ -169,7 +169,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
     scene.extras_json = extras_json(extras, write(individual.effective), box, first.triangles(),
                                     {levels, params.file.lods});
-    grown.glb = glb(scene);
+    grown.glb = extras.write(scene);
     return grown;
 }
 

@@ -53,31 +53,33 @@ std::uint64_t bytes_of_images(std::uint64_t jpg, ImageFormats formats) {
     return jpg;
 }
 
-}  // namespace
-
-std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles, Textures textures,
-                              const FileOptions& file, std::uint64_t image_bytes) {
-    const bool textured = textures != Textures::none;
-    const std::uint64_t images =
-        textures == Textures::embedded ? bytes_of_images(image_bytes, file.image_format) : 0;
+/// Returns the approximate size of a file with a mesh and no images.
+std::uint64_t bytes_of_mesh(std::uint64_t vertices, std::uint64_t triangles, bool textured,
+                            const FileOptions& file) {
     const std::uint64_t index_size = vertices > 65535 ? 4 : 2;
     switch (file.compress) {
         case Compression::none:
             break;
         case Compression::quantize:
-            return 2700 + vertices * (textured ? 24 : 16) + triangles * 3 * index_size + images;
+            return 2700 + vertices * (textured ? 24 : 16) + triangles * 3 * index_size;
         case Compression::meshopt:
             // Measured: up to 15 bytes of a vertex and 1.5 of a triangle.
-            return 3500 + vertices * (textured ? 15 : 11) + triangles * 3 / 2 + images;
+            return 3500 + vertices * (textured ? 15 : 11) + triangles * 3 / 2;
     }
-    return 2500 + vertices * (textured ? 44 : 24) + triangles * 3 * index_size + images;
+    return 2500 + vertices * (textured ? 44 : 24) + triangles * 3 * index_size;
+}
+
+}  // namespace
+
+void add_image_bytes(Estimate& sum, std::uint64_t jpg, Textures textures, const FileOptions& file) {
+    if (textures == Textures::embedded) sum.bytes += bytes_of_images(jpg, file.image_format);
 }
 
 void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, Textures textures,
                const FileOptions& file) {
     sum.vertices += vertices;
     sum.triangles += triangles;
-    sum.bytes += estimated_bytes(vertices, triangles, textures, file, 0);
+    sum.bytes += bytes_of_mesh(vertices, triangles, textures != Textures::none, file);
 }
 
 std::string extras_json(const Extras& extras, Value effective, const Bounds& box,

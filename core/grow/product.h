@@ -31,12 +31,10 @@ struct Estimate {
 /// Sets how a scene is written.
 void set_options(GlbScene& scene, const FileOptions& file);
 
-/// Returns the approximate size of a file with a mesh and images, bytes.
+/// Adds the images of a file to its size.
 ///
-/// image_bytes  size of all images as JPEG; counted for Textures::embedded only
-[[nodiscard]] std::uint64_t estimated_bytes(std::uint64_t vertices, std::uint64_t triangles,
-                                            Textures textures, const FileOptions& file,
-                                            std::uint64_t image_bytes);
+/// jpg  size of all of them as JPEG, bytes
+void add_image_bytes(Estimate& sum, std::uint64_t jpg, Textures textures, const FileOptions& file);
 
 /// URLs of the images of an atlas in each format, indexed by ImageKind.
 struct ImageUrls {
@@ -55,9 +53,13 @@ struct EmbeddedImages {
 void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, Textures textures,
                const FileOptions& file);
 
+/// Returns the bytes that a scene becomes: those of a file, or of a picture of it.
+using SceneWriter = std::function<Body(const GlbScene&)>;
+
 struct Extras {
-    std::string canonical;  ///< canonical URL of the request; empty for none
-    ImageUrls image_urls;   ///< for Textures::linked
+    std::string canonical;    ///< canonical URL of the request; empty for none
+    ImageUrls image_urls;     ///< for Textures::linked
+    SceneWriter write = glb;  ///< called once
 };
 
 /// A finished file.

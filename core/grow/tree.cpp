@@ -152,7 +152,7 @@ Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own
 
 void add_images(Estimate& e, const TreeParams& params) {
     e.texels = texels_of(params);
-    if (params.textures == Textures::embedded) e.bytes += image_bytes(e.texels);
+    add_image_bytes(e, image_bytes(e.texels), params.textures, params.file);
 }
 
 /// Returns the expected counts of both meshes at a level of detail.
@@ -326,7 +326,7 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
     scene.extras_json =
         extras_json(extras, write(params), box, first.triangles(), {levels, params.file.lods});
-    grown.glb = glb(scene);
+    grown.glb = extras.write(scene);
     return grown;
 }
 

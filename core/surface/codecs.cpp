@@ -150,6 +150,23 @@ Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality
     return {writer.mem, writer.mem + writer.size};
 }
 
+Bytes png(std::span<const std::uint8_t> rgba, int width, int height) {
+    png_image image;
+    std::memset(&image, 0, sizeof image);
+    image.version = PNG_IMAGE_VERSION;
+    image.width = static_cast<png_uint_32>(width);
+    image.height = static_cast<png_uint_32>(height);
+    image.format = PNG_FORMAT_RGBA;
+    // One filter and little compression: a third of the time for a tenth more bytes.
+    image.flags = PNG_IMAGE_FLAG_FAST;
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(image);
+    Bytes file(size);
+    if (png_image_write_to_memory(&image, file.data(), &size, 0, rgba.data(), 0, nullptr) == 0)
+        throw GenerationError(std::string("PNG encoder: ") + image.message);
+    file.resize(size);
+    return file;
+}
+
 std::uint64_t declared_pixels(std::span<const std::uint8_t> file) {
     long long width = 0, height = 0;
     if (starts_with(file, "\x89PNG\r\n\x1A\n", 8)) {

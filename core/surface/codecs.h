@@ -1,4 +1,4 @@
-// Image codecs: RGB pixels to JPEG or WebP, and an uploaded PNG, JPEG or WebP file to RGB pixels.
+// Image codecs: pixels to JPEG, WebP or PNG, and an uploaded PNG, JPEG or WebP file to RGB pixels.
 #pragma once
 
 #include <cstdint>
@@ -38,6 +38,12 @@ enum class Chroma { halved, full };
 /// quality  0..100
 /// throws   GenerationError if the encoder fails
 [[nodiscard]] Bytes webp(std::span<const std::uint8_t> rgb, int width, int height, int quality);
+
+/// Encodes an image as a PNG file.
+///
+/// rgba    4 * width * height bytes; colours are not multiplied by alpha
+/// throws  GenerationError if the encoder fails
+[[nodiscard]] Bytes png(std::span<const std::uint8_t> rgba, int width, int height);
 
 /// Returns the number of pixels that decoded_picture() will decode, as the header of the file
 /// declares it; 0 if decoded_picture() refuses the file by its header.

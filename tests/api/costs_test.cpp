@@ -203,6 +203,19 @@ void add_bodies(Cases& cases, const std::vector<std::string>& swept) {
                                           "\":1},\"lod\":3,\"textures\":\"none\"}")});
 }
 
+void add_pictures(Cases& cases, const std::vector<std::string>& swept) {
+    for (const std::string of : {"mushrooms/amanita_muscaria", "mushrooms/ramaria_formosa",
+                                 "colonies/hypholoma_fasciculare", "leaves/oak", "trees/spruce"}) {
+        const std::string png = "/v1/" + of + ".png";
+        for (int lod = 0; lod < 4; ++lod) add_get(cases, levelled(png, lod, "&textures=none"));
+        add_get(cases, levelled(png, 1));
+        add_get(cases, levelled(png, 3, "&texture_size=128&width=1024&height=1024"));
+        add_get(cases, levelled(png, 3, "&textures=none&width=16&height=16"));
+        add_get(cases, levelled(png, 2, "&texture_size=128&view=turntable"));
+    }
+    add_get(cases, "/v1/mushrooms/" + mix_of(swept, 2) + ".png?lod=2&texture_size=128");
+}
+
 void add_colonies(Cases& cases, const std::vector<std::string>& swept) {
     for (const std::string id :
          {"hypholoma_fasciculare", "pleurotus_ostreatus", "ramaria_formosa"}) {
@@ -306,6 +319,7 @@ Cases all_cases() {
     add_mushrooms(cases, swept);
     add_morphs(cases, swept);
     add_bodies(cases, swept);
+    add_pictures(cases, swept);
     add_colonies(cases, swept);
     add_plants(cases);
     add_surfaces(cases, swept);
@@ -375,9 +389,12 @@ double speed_of(std::vector<double> ratios, double least, double most) {
 // The charge is in microseconds of one machine, and this may be another, and busy. So each ratio of
 // processor time to charge is compared with the speed of this one: the requirement is that charges are
 // in proportion. Only processor time of this thread counts, not the time on the wall, and of several
-// repetitions the shortest; what lies outside is measured again before it counts as a failure.
+// repetitions the shortest; what lies outside is measured again before it counts as a failure. The
+// quick run shares caches and memory with the stages beside it, which slows some requests more than
+// others: there the limits are wider by a half.
 TEST(Costs, WhatIsChargedFollowsTheProcessorTimeOfEveryRouteKindAndLevel) {
-    constexpr double least = 0.5, most = 3.0, at_once = 1000.0;
+    const double slack = effort(100) < 100 ? 1.5 : 1.0;
+    const double least = 0.5 / slack, most = 3.0 * slack, at_once = 1000.0 * slack;
     Cases cases = all_cases();
     // Sanitizers, and code that is not optimised, take their own time by what is done: there a few
     // of the requests are only made.

@@ -44,6 +44,7 @@
 #include "core/math/random.h"
 #include "core/params/query.h"
 #include "core/params/value.h"
+#include "core/render/render.h"
 #include "tests/support/atlas.h"
 
 namespace {
@@ -360,6 +361,57 @@ void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species)
     }
 }
 
+/// Returns what makes a small picture of a product in place of its file.
+Extras pictured(View view, Background background = Background::transparent) {
+    Extras extras;
+    extras.write = [=](const GlbScene& scene) -> Body {
+        PictureParams params;
+        params.width = params.height = 64;
+        params.view = view;
+        params.background = background;
+        return {Slice(std::make_shared<const Bytes>(rendered_png(scene, params)))};
+    };
+    return extras;
+}
+
+/// Adds a picture of each species and of some products, and every view.
+void add_pictures(Requests& requests, const std::shared_ptr<const Atlas>& atlas) {
+    const auto add = [&](const std::string& id, int lod, View view, Background background) {
+        const MushroomSpec spec = order_of({{id, 1000}}, 0.6, lod);
+        requests[line_of(std::string("picture/") + name(view) + '/' + name(background) + '/' + id,
+                         0.6, lod, small_side)] = [=] {
+            return grow_mushroom(spec, *atlas, pictured(view, background)).glb;
+        };
+    };
+    for (const AtlasEntry& entry : atlas->entries())
+        add(entry.species.id.string(), 2, View::three_quarter, Background::transparent);
+    for (const View view :
+         {View::three_quarter, View::front, View::top, View::below, View::turntable})
+        for (const Background background :
+             {Background::transparent, Background::white, Background::grey, Background::black})
+            add("amanita_muscaria", 1, view, background);
+    const Extras extras = pictured(View::three_quarter);
+    ColonySpec colony;
+    colony.mix = {{"hypholoma_fasciculare", 1000}};
+    colony.params.count = 9;
+    colony.params.lod = 1;
+    colony.params.texture_size.value = small_side;
+    requests[line_of("picture/colony", 9, 1, small_side)] = [=] {
+        return grow_colony(colony, *atlas, extras).glb;
+    };
+    TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+    tree.params.lod = 1;
+    tree.params.texture_size.value = small_side;
+    requests[line_of("picture/tree", 1, 1, small_side)] = [=] {
+        return grow_tree(tree, *atlas, extras).glb;
+    };
+    LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
+    leaf.params.texture_size.value = small_side;
+    requests[line_of("picture/leaf", 1, 0, small_side)] = [=] {
+        return grow_leaf(leaf, *atlas, extras).glb;
+    };
+}
+
 Requests golden_requests() {
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();
     Requests requests;
@@ -374,6 +426,7 @@ Requests golden_requests() {
     add_colonies(requests, atlas);
     add_compressed(requests, atlas);
     add_chains(requests, atlas);
+    add_pictures(requests, atlas);
     return requests;
 }
 
@@ -506,13 +559,19 @@ MushroomSpec random_order(std::uint32_t number, const Atlas& atlas) {
     return spec;
 }
 
-/// Prints the line of one request and returns whether a mushroom was grown.
-bool print_line(const MushroomSpec& spec, const Atlas& atlas) {
+/// Prints the line of one request, and that of a picture where `is_pictured`; returns whether a
+/// mushroom was grown.
+bool print_line(const MushroomSpec& spec, const Atlas& atlas, bool is_pictured) {
     const std::string request = spec.mix.front().id + '?' + query_text(spec.params);
     try {
         const Mushroom mushroom = grow_mushroom(spec, atlas);
         std::printf("%s %8zu  %s\n", hash_of(mushroom.glb).c_str(), size_of(mushroom.glb),
                     request.c_str());
+        if (is_pictured) {
+            const Body picture = grow_mushroom(spec, atlas, pictured(View::three_quarter)).glb;
+            std::printf("%s %8zu  picture/%s\n", hash_of(picture).c_str(), size_of(picture),
+                        request.c_str());
+        }
         return true;
     } catch (const InvalidInput& refusal) {
         std::printf("refused  %s  %s\n", request.c_str(), refusal.what());
@@ -611,7 +670,7 @@ void print(std::uint32_t count) {
     const auto atlas = built_in_atlas();
     for (std::uint32_t number = 0, grown = 0; grown < count; ++number) {
         if (number > 100 * count) throw GenerationError("hardly any random request can be grown");
-        if (print_line(random_order(number, *atlas), *atlas)) ++grown;
+        if (print_line(random_order(number, *atlas), *atlas, grown % 5 == 0)) ++grown;
     }
     for (std::uint32_t number = 0; number < count / 5; ++number) print_leaf(number);
     for (std::uint32_t number = 0; number < count / 10; ++number) print_tree(number);

@@ -63,6 +63,9 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const age: number = described?.effective.age ?? Number.NaN;
     const bend: number | undefined = described?.effective.deformation.bend_deg;
     if (age !== 0.5 || bend === undefined) throw new Error("the effective parameters are not told");
+    const drawn = { width: 32, height: 32 };
+    const portrait = { params: { path: { mix: id }, query: { ...small, ...drawn, view: "below" } } } as const;
+    await both(client.HEAD("/v1/mushrooms/{mix}.png", portrait), client.GET("/v1/mushrooms/{mix}.png", { ...portrait, ...binary }));
     const { data: made } = await client.POST("/v1/mushrooms.glb", { body: { ...mushroom, ...small }, ...binary });
     if (!(made instanceof ArrayBuffer)) throw new Error("no file");
     void model;
@@ -93,6 +96,8 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const { data: stand } = await client.GET("/v1/colonies/{mix}.json", some);
     const count: number = stand?.effective.count ?? Number.NaN;
     if (count !== 3) throw new Error("the effective count is not told");
+    const group = { params: { path: { mix: id }, query: { ...small, ...drawn, count: 3 } } };
+    await both(client.HEAD("/v1/colonies/{mix}.png", group), client.GET("/v1/colonies/{mix}.png", { ...group, ...binary }));
     await client.POST("/v1/colonies.glb", { body: { ...colony, ...small, count: 3 }, ...binary });
 
     await both(client.HEAD("/v1/leaves", {}), client.GET("/v1/leaves", {}));
@@ -100,6 +105,8 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const maple = { params: { path: { preset: "maple" }, query: small } };
     await both(client.HEAD("/v1/leaves/{preset}.glb", maple), client.GET("/v1/leaves/{preset}.glb", { ...maple, ...binary }));
     await both(client.HEAD("/v1/leaves/{preset}.json", maple), client.GET("/v1/leaves/{preset}.json", maple));
+    const plate = { params: { path: { preset: "maple" }, query: { ...small, ...drawn } } };
+    await both(client.HEAD("/v1/leaves/{preset}.png", plate), client.GET("/v1/leaves/{preset}.png", { ...plate, ...binary }));
     await client.POST("/v1/leaves.glb", { body: { ...leaf, ...small }, ...binary });
     const vein = { params: { path: { preset: "maple", image: "orm" }, query: { texture_size: 128 } } } as const;
     await both(client.HEAD("/v1/surfaces/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/surfaces/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
@@ -113,6 +120,8 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const { data: plant } = await client.GET("/v1/trees/{preset}.json", herb);
     const rows: number[][] | undefined = plant?.matrix;
     if (!rows?.length) throw new Error("the matrix is not told");
+    const habit = { params: { path: { preset: "herb" }, query: { ...small, ...drawn } } };
+    await both(client.HEAD("/v1/trees/{preset}.png", habit), client.GET("/v1/trees/{preset}.png", { ...habit, ...binary }));
     await client.POST("/v1/trees.glb", { body: { ...tree, ...small }, ...binary });
     const bark = { params: { path: { preset: "herb", image: "base_color" }, query: { texture_size: 128 } } } as const;
     await both(client.HEAD("/v1/surfaces/trees/{preset}/{image}.jpg", bark), client.GET("/v1/surfaces/trees/{preset}/{image}.jpg", { ...bark, ...binary }));

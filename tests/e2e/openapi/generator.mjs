@@ -16,7 +16,7 @@ export function random(state) {
 }
 
 /** Expensive parameters get small values. */
-const cheap = { texture_size: [128, 128, 256], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2], seeds: [1, 2], levels: [[3], [2, 3]] };
+const cheap = { texture_size: [128, 128, 256], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2], seeds: [1, 2], levels: [[3], [2, 3]], width: [16, 32, 48], height: [16, 32, 48] };
 
 export class Generator {
     constructor(document, lists, dice) {

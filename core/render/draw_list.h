@@ -1,0 +1,53 @@
+// A scene as the renderer draws it: placed meshes and their materials.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <glm/mat3x3.hpp>
+#include <glm/vec3.hpp>
+#include <vector>
+
+#include "core/gltf/glb.h"
+#include "core/images.h"
+#include "core/mesh/mesh.h"
+#include "core/render/texture.h"
+
+namespace sporeprint::render {
+
+/// An affine map of a mesh into the scene.
+struct Placement {
+    glm::mat3 linear{1.0F};
+    glm::vec3 translation{0.0F};
+    glm::mat3 of_normals{1.0F};  ///< inverse transposed of `linear`
+
+    [[nodiscard]] glm::vec3 point(const glm::vec3& p) const { return linear * p + translation; }
+};
+
+/// A primitive of the scene at one place.
+struct Draw {
+    const Mesh* mesh = nullptr;
+    std::size_t material = 0;
+    Placement placement;
+};
+
+/// A material; without images it is white and rough.
+struct DrawMaterial {
+    Texture base_color, normal, orm;
+    MaterialLook look;
+};
+
+struct DrawList {
+    std::vector<Draw> draws;
+    std::vector<DrawMaterial> materials;
+    Bounds box;  ///< of all vertices
+
+    [[nodiscard]] std::uint64_t triangles() const;
+};
+
+/// Returns all primitives of a scene that viewers show. It refers to the meshes of the scene.
+///
+/// parallel  decodes the images
+/// throws    GenerationError for a scene without triangles
+[[nodiscard]] DrawList draw_list(const GlbScene& scene, const Parallel& parallel);
+
+}  // namespace sporeprint::render

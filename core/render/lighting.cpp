@@ -1,0 +1,199 @@
+#include "core/render/lighting.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/math/direction.h"
+#include "core/math/elementary.h"
+#include "core/render/triangle_raster.h"
+
+namespace sporeprint::render {
+
+namespace {
+
+// Strengths were chosen by eye: a white matt ball is just below white where it faces the lamp, and
+// about a sixth of that in its shadow.
+constexpr glm::vec3 lamp_strength(0.95F, 0.92F, 0.86F);
+constexpr glm::vec3 back_lamp_strength(0.34F, 0.36F, 0.40F);
+constexpr glm::vec3 zenith(0.46F, 0.50F, 0.56F), horizon(0.40F, 0.40F, 0.40F),
+    ground(0.15F, 0.135F, 0.11F);
+
+/// Lights of the lamp, of the lamp behind, of the sky and of the ground.
+constexpr int lamp_parts = 8, back_lamp_parts = 2, sky_parts = 20, ground_parts = 8;
+
+/// Half the angle under which the lamps are seen, radians.
+constexpr double lamp_radius = 0.13, back_lamp_radius = 0.2;
+
+constexpr double golden_angle = 2.399963229728653;
+
+/// Returns a point of a spiral in a disc of radius 1: its radius and angle.
+glm::dvec2 in_disc(int i, int count) {
+    const double radius = std::sqrt((i + 0.5) / count);
+    const auto [sine, cosine] = sine_cosine(golden_angle * i);
+    return {radius * cosine, radius * sine};
+}
+
+void add_lamp(std::vector<Light>& lights, const glm::dvec3& direction, double radius, int parts,
+              const glm::vec3& strength) {
+    const glm::dvec3 to_lamp = unit_or(direction, {0.0, 1.0, 0.0});
+    const glm::dvec3 side = square_to(to_lamp, {0.0, 1.0, 0.01});
+    const glm::dvec3 other = glm::cross(to_lamp, side);
+    for (int i = 0; i < parts; ++i) {
+        const glm::dvec2 at = in_disc(i, parts) * radius;
+        const glm::dvec3 part = unit_or(to_lamp + side * at.x + other * at.y, to_lamp);
+        lights.push_back({glm::vec3(part), strength * (1.0F / static_cast<float>(parts))});
+    }
+}
+
+/// Adds the upper or the lower half of the surroundings, in equal solid angles.
+void add_half(std::vector<Light>& lights, int parts, double sign) {
+    for (int i = 0; i < parts; ++i) {
+        const double height = (i + 0.5) / parts;
+        const double level = std::sqrt(1.0 - height * height);
+        const auto [sine, cosine] = sine_cosine(golden_angle * i + 0.4);
+        const glm::vec3 direction(glm::dvec3(level * cosine, sign * height, level * sine));
+        // A half of even light 1 illuminates a surface that faces it by 1: the mean of the cosine
+        // is 1/2.
+        lights.push_back({direction, surroundings(direction) * (2.0F / static_cast<float>(parts))});
+    }
+}
+
+}  // namespace
+
+glm::vec3 surroundings(const glm::vec3& direction) {
+    if (direction.y <= 0.0F) return ground;
+    return horizon + (zenith - horizon) * direction.y;
+}
+
+StudioLights studio_lights(const CameraAxes& axes, int detail) {
+    const auto share = [&](int parts) { return std::max(parts / detail, 2); };
+    const glm::dvec3 right(axes.right), up(axes.up), forward(axes.forward);
+    StudioLights lights;
+    add_lamp(lights.lamps, -0.62 * right + 0.72 * up - 0.66 * forward, lamp_radius,
+             share(lamp_parts), lamp_strength);
+    add_lamp(lights.lamps, 0.75 * right + 0.45 * up + 0.75 * forward, back_lamp_radius,
+             share(back_lamp_parts), back_lamp_strength);
+    add_half(lights.surroundings, share(sky_parts), 1.0);
+    add_half(lights.surroundings, share(ground_parts), -1.0);
+    return lights;
+}
+
+ShadowMap::ShadowMap(const DrawList& list, const glm::vec3& direction, int side)
+    : direction_(direction),
+      side_(side),
+      depth_(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), -1e30F) {
+    right_ = glm::vec3(square_to(glm::dvec3(direction), {1.0, 0.01, 0.0}));
+    up_ = glm::cross(direction, right_);
+    float right = -1e30F, bottom = -1e30F;
+    left_ = top_ = 1e30F;
+    for (int corner = 0; corner < 8; ++corner) {
+        const glm::vec3 at((corner & 1) != 0 ? list.box.max.x : list.box.min.x,
+                           (corner & 2) != 0 ? list.box.max.y : list.box.min.y,
+                           (corner & 4) != 0 ? list.box.max.z : list.box.min.z);
+        const float x = glm::dot(at, right_), y = -glm::dot(at, up_);
+        left_ = std::min(left_, x);
+        right = std::max(right, x);
+        top_ = std::min(top_, y);
+        bottom = std::max(bottom, y);
+    }
+    const float extent = std::max({right - left_, bottom - top_, 1e-6F});
+    scale_ = static_cast<float>(side - 2) / extent;
+    std::vector<SnappedCorner> corners;
+    for (const Draw& draw : list.draws) {
+        corners.resize(draw.mesh->positions.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::vec3 at = draw.placement.point(draw.mesh->positions[i]);
+            corners[i] =
+                snapped({(glm::dot(at, right_) - left_) * scale_ + 1.0F,
+                         (-glm::dot(at, up_) - top_) * scale_ + 1.0F, glm::dot(at, direction_)});
+        }
+        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
+        // Meshes are closed, so what stops light on one side leaves the mesh on the other. Depths
+        // are those of the far side, which is dark by itself: the near side cannot shade itself.
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+            rasterize(corners[indices[i]], corners[indices[i + 2]], corners[indices[i + 1]], side,
+                      side, [&](int x, int y, float depth) {
+                          float& nearest = depth_[static_cast<std::size_t>(y * side + x)];
+                          nearest = std::max(nearest, depth);
+                      });
+    }
+}
+
+float ShadowMap::depth_at(int x, int y) const {
+    if (x < 0 || y < 0 || x >= side_ || y >= side_) return -1e30F;
+    return depth_[static_cast<std::size_t>(y * side_ + x)];
+}
+
+float ShadowMap::light_at(const glm::vec3& point, const glm::vec3& normal) const {
+    const float texel = 1.0F / scale_;
+    const glm::vec3 at = point + normal * (0.75F * texel);
+    const float depth = glm::dot(at, direction_) + 0.75F * texel;
+    const float x = (glm::dot(at, right_) - left_) * scale_ + 0.5F,
+                y = (-glm::dot(at, up_) - top_) * scale_ + 0.5F;
+    const float floor_x = std::floor(x), floor_y = std::floor(y);
+    const float part_x = x - floor_x, part_y = y - floor_y;
+    const float limit = static_cast<float>(side_);
+    if (!(floor_x >= -1.0F && floor_y >= -1.0F && floor_x < limit && floor_y < limit)) return 1.0F;
+    const int column = static_cast<int>(floor_x), row = static_cast<int>(floor_y);
+    const auto lit = [&](int i, int j) { return depth_at(i, j) <= depth ? 1.0F : 0.0F; };
+    const float above = lit(column, row) * (1.0F - part_x) + lit(column + 1, row) * part_x;
+    const float below = lit(column, row + 1) * (1.0F - part_x) + lit(column + 1, row + 1) * part_x;
+    return above * (1.0F - part_y) + below * part_y;
+}
+
+bool ShadowMap::reaches(const glm::vec3& point, const glm::vec3& normal) const {
+    const float texel = 1.0F / scale_;
+    const glm::vec3 at = point + normal * (0.75F * texel);
+    const float x = (glm::dot(at, right_) - left_) * scale_ + 1.0F,
+                y = (-glm::dot(at, up_) - top_) * scale_ + 1.0F;
+    const auto limit = static_cast<float>(side_);
+    if (!(x >= 0.0F && y >= 0.0F && x < limit && y < limit)) return true;
+    return depth_[static_cast<std::size_t>(static_cast<int>(y) * side_ + static_cast<int>(x))] <=
+           glm::dot(at, direction_) + 0.75F * texel;
+}
+
+std::vector<ShadowMap> shadow_maps(const DrawList& list, std::span<const Light> lights, int side,
+                                   const Parallel& parallel) {
+    std::vector<ShadowMap> maps(lights.size());
+    std::vector<std::function<void()>> tasks;
+    for (std::size_t i = 0; i < lights.size(); ++i)
+        tasks.emplace_back([&, i] { maps[i] = ShadowMap(list, lights[i].direction, side); });
+    parallel(tasks);
+    return maps;
+}
+
+std::vector<std::vector<Ambient>> ambient_light(const DrawList& list, std::span<const Light> lights,
+                                                std::span<const ShadowMap> shadows,
+                                                const Parallel& parallel) {
+    constexpr std::size_t chunk = 4096;  // vertices of a task
+    std::vector<std::vector<Ambient>> found(list.draws.size());
+    std::vector<std::function<void()>> tasks;
+    for (std::size_t d = 0; d < list.draws.size(); ++d) {
+        const Draw& draw = list.draws[d];
+        const std::size_t count = draw.mesh->positions.size();
+        found[d].resize(count);
+        for (std::size_t from = 0; from < count; from += chunk)
+            tasks.emplace_back([&, d, from, count] {
+                for (std::size_t i = from; i < std::min(from + chunk, count); ++i) {
+                    const glm::vec3 at = draw.placement.point(draw.mesh->positions[i]);
+                    const glm::vec3 normal = glm::vec3(
+                        unit_or(glm::dvec3(draw.placement.of_normals * draw.mesh->normals[i]), {}));
+                    Ambient& sum = found[d][i];
+                    for (std::size_t k = 0; k < lights.size(); ++k) {
+                        const float lit = glm::dot(normal, lights[k].direction);
+                        if (lit <= 0.0F) continue;
+                        (shadows[k].reaches(at, normal) ? sum.arriving : sum.stopped) +=
+                            lights[k].strength * lit;
+                    }
+                }
+            });
+    }
+    parallel(tasks);
+    return found;
+}
+
+}  // namespace sporeprint::render

@@ -1,0 +1,85 @@
+// The light of a picture: a studio of many distant lights, and the shadows that a scene casts in it.
+#pragma once
+
+#include <cstddef>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "core/images.h"
+#include "core/render/camera.h"
+#include "core/render/draw_list.h"
+
+namespace sporeprint::render {
+
+/// A distant light. A large lamp or a part of the sky is several of them.
+struct Light {
+    glm::vec3 direction{0.0F, 1.0F, 0.0F};  ///< unit vector to the light
+    /// Light reflected by a white matt surface that faces it.
+    glm::vec3 strength{0.0F};
+};
+
+/// The lights of a picture.
+struct StudioLights {
+    std::vector<Light> lamps;         ///< a soft one before the scene and a weak one behind it
+    std::vector<Light> surroundings;  ///< the sky and the ground
+};
+
+/// Returns the lights of a picture; the lamps turn with the camera.
+///
+/// detail  1 for all of them, 2 for about half as many, and so on
+[[nodiscard]] StudioLights studio_lights(const CameraAxes& axes, int detail);
+
+/// Returns the light that a smooth surface reflects from the surroundings, without the lamps.
+///
+/// direction  unit vector
+[[nodiscard]] glm::vec3 surroundings(const glm::vec3& direction);
+
+/// The depths at which a scene stops the light of one direction.
+class ShadowMap {
+  public:
+    ShadowMap() = default;
+
+    /// cost  O(triangles + side^2)
+    ShadowMap(const DrawList& list, const glm::vec3& direction, int side);
+
+    /// Returns how much of the light reaches a point, 0..1, interpolated between four depths.
+    ///
+    /// normal  of the surface at the point; zero for a point on no surface of the scene
+    [[nodiscard]] float light_at(const glm::vec3& point, const glm::vec3& normal) const;
+
+    /// Returns true if the light reaches a point, by the nearest depth.
+    [[nodiscard]] bool reaches(const glm::vec3& point, const glm::vec3& normal) const;
+
+  private:
+    glm::vec3 right_{0.0F}, up_{0.0F}, direction_{0.0F};
+    float left_ = 0.0F, top_ = 0.0F, scale_ = 1.0F;  ///< of the image in the scene
+    int side_ = 0;
+    std::vector<float> depth_;  ///< distance towards the light, of the lowest surface that stops it
+
+    [[nodiscard]] float depth_at(int x, int y) const;
+};
+
+/// Returns the shadow maps of lights. Each is a task of its own.
+///
+/// side  of each map
+[[nodiscard]] std::vector<ShadowMap> shadow_maps(const DrawList& list,
+                                                 std::span<const Light> lights, int side,
+                                                 const Parallel& parallel);
+
+/// The light of the surroundings at a vertex.
+struct Ambient {
+    glm::vec3 arriving{0.0F};  ///< that reaches it
+    glm::vec3 stopped{0.0F};   ///< that the scene stops on its way
+};
+
+/// Returns the light of the surroundings at the vertices of each draw.
+///
+/// shadows  of the lights
+/// cost     O(vertices * lights)
+[[nodiscard]] std::vector<std::vector<Ambient>> ambient_light(const DrawList& list,
+                                                              std::span<const Light> lights,
+                                                              std::span<const ShadowMap> shadows,
+                                                              const Parallel& parallel);
+
+}  // namespace sporeprint::render

@@ -1,0 +1,457 @@
+#include "core/render/render.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/vec4.hpp>
+#include <optional>
+#include <vector>
+
+#include "core/math/elementary.h"
+#include "core/problems.h"
+#include "core/render/camera.h"
+#include "core/render/draw_list.h"
+#include "core/render/lighting.h"
+#include "core/render/shading.h"
+#include "core/render/triangle_raster.h"
+#include "core/surface/codecs.h"
+
+namespace sporeprint {
+
+namespace render {
+namespace {
+
+/// Samples of a pixel in each direction.
+constexpr int samples = 2;
+
+/// Sides of shadow maps.
+constexpr int lamp_side = 256, surroundings_side = 128;
+
+/// Rows of pixels that are shaded by one task.
+constexpr int band = 16;
+
+/// What is in front at each sample.
+struct Visibility {
+    int width = 0, height = 0;          ///< in samples
+    std::vector<float> nearness;        ///< 1 / distance; 0 for nothing
+    std::vector<std::uint32_t> draw;    ///< index into the draw list
+    std::vector<std::uint32_t> corner;  ///< index of the triangle's first corner
+
+    Visibility(int columns, int rows)
+        : width(columns),
+          height(rows),
+          nearness(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows), 0.0F),
+          draw(nearness.size()),
+          corner(nearness.size()) {}
+};
+
+Visibility visible(const DrawList& list, const Camera& camera, int columns, int rows) {
+    Visibility found(columns, rows);
+    const auto width = static_cast<float>(columns), height = static_cast<float>(rows);
+    std::vector<SnappedCorner> corners;
+    for (std::size_t d = 0; d < list.draws.size(); ++d) {
+        const Draw& draw = list.draws[d];
+        corners.resize(draw.mesh->positions.size());
+        for (std::size_t i = 0; i < corners.size(); ++i) {
+            const glm::vec3 p = camera.seen(draw.placement.point(draw.mesh->positions[i]));
+            const float nearness = 1.0F / p.z;  // the camera is outside of the scene
+            corners[i] =
+                snapped({(p.x * nearness / camera.tangent_x + 1.0F) * 0.5F * width,
+                         (1.0F - p.y * nearness / camera.tangent_y) * 0.5F * height, nearness});
+        }
+        const std::vector<std::uint32_t>& indices = draw.mesh->indices;
+        for (std::size_t i = 0; i + 2 < indices.size(); i += 3)
+            rasterize(corners[indices[i]], corners[indices[i + 1]], corners[indices[i + 2]],
+                      columns, rows, [&](int x, int y, float nearness) {
+                          const auto at = static_cast<std::size_t>(y * columns + x);
+                          if (nearness <= found.nearness[at]) return;
+                          found.nearness[at] = nearness;
+                          found.draw[at] = static_cast<std::uint32_t>(d);
+                          found.corner[at] = static_cast<std::uint32_t>(i);
+                      });
+    }
+    return found;
+}
+
+/// A triangle ready to be sampled: its corners in the axes of the camera and their attributes.
+class Facet {
+  public:
+    Facet(const DrawList& list, const Camera& camera, std::uint32_t draw, std::uint32_t corner,
+          const Visibility& size)
+        : draw_(&list.draws[draw]), material_(&list.materials[draw_->material]) {
+        const Mesh& mesh = *draw_->mesh;
+        std::array<glm::vec3, 3> seen;
+        for (std::size_t i = 0; i < 3; ++i) {
+            index_[i] = mesh.indices[corner + i];
+            seen[i] = camera.seen(draw_->placement.point(mesh.positions[index_[i]]));
+        }
+        volumes_ = {glm::cross(seen[1], seen[2]), glm::cross(seen[2], seen[0]),
+                    glm::cross(seen[0], seen[1])};
+        if (material_->base_color.empty() || mesh.texture_coordinates.empty()) return;
+        // Texels between samples: the root of the ratio of areas.
+        const auto on_screen = [&](std::size_t i) {
+            return glm::vec2(
+                seen[i].x / seen[i].z / camera.tangent_x * 0.5F * static_cast<float>(size.width),
+                seen[i].y / seen[i].z / camera.tangent_y * 0.5F * static_cast<float>(size.height));
+        };
+        const auto area = [](const glm::vec2& a, const glm::vec2& b, const glm::vec2& c) {
+            return std::abs((b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x));
+        };
+        const auto texture = [&](std::size_t i) { return mesh.texture_coordinates[index_[i]]; };
+        const float screen = area(on_screen(0), on_screen(1), on_screen(2));
+        const float image = area(texture(0), texture(1), texture(2));
+        const auto side = static_cast<float>(material_->base_color.side());
+        texels_ = side * std::sqrt(image / std::max(screen, 0.01F));
+    }
+
+    [[nodiscard]] const MaterialLook& look() const { return material_->look; }
+
+    /// Returns the weights of the corners where a ray of the camera meets the triangle.
+    [[nodiscard]] glm::vec3 weights(const glm::vec3& ray) const {
+        const glm::vec3 w(glm::dot(ray, volumes_[0]), glm::dot(ray, volumes_[1]),
+                          glm::dot(ray, volumes_[2]));
+        const float sum = w.x + w.y + w.z;
+        // A sample beside a triangle that is seen edge-on takes its nearest point.
+        if (std::abs(sum) < 1e-30F) return glm::vec3(1.0F / 3.0F);
+        const glm::vec3 inside = glm::clamp(w / sum, glm::vec3(0.0F), glm::vec3(1.0F));
+        return inside / (inside.x + inside.y + inside.z);
+    }
+
+    [[nodiscard]] glm::vec3 point(const glm::vec3& w) const {
+        return draw_->placement.point(mixed(draw_->mesh->positions, w));
+    }
+
+    /// ambient  at the vertices
+    [[nodiscard]] SurfacePoint surface(const glm::vec3& w, const glm::vec3& to_camera,
+                                       const std::vector<Ambient>& ambient) const {
+        const Mesh& mesh = *draw_->mesh;
+        SurfacePoint found;
+        found.at = point(w);
+        found.to_camera = to_camera;
+        for (std::size_t i = 0; i < 3; ++i) {
+            const auto corner = static_cast<glm::vec3::length_type>(i);
+            found.ambient.arriving += ambient[index_[i]].arriving * w[corner];
+            found.ambient.stopped += ambient[index_[i]].stopped * w[corner];
+        }
+        const glm::vec3 own = mixed(mesh.normals, w);
+        glm::vec3 normal = normalised(draw_->placement.of_normals * own, to_camera);
+        found.smooth_normal = normal;
+        if (!material_->base_color.empty() && !mesh.texture_coordinates.empty()) {
+            const glm::vec2 uv = mixed(mesh.texture_coordinates, w);
+            found.base_color = material_->base_color.at(uv, texels_);
+            const glm::vec3 orm = material_->orm.at(uv, texels_);
+            found.occlusion = orm.x;
+            found.roughness = orm.y;
+            const glm::vec3 bump = material_->normal.at(uv, texels_) * 2.0F - glm::vec3(1.0F);
+            const glm::vec4 tangent = mixed(mesh.tangents, w);
+            const glm::vec3 along = normalised(draw_->placement.linear * glm::vec3(tangent),
+                                               glm::vec3(1.0F, 0.0F, 0.0F));
+            const glm::vec3 across = glm::cross(normal, along) * (tangent.w < 0.0F ? -1.0F : 1.0F);
+            normal = normalised(along * bump.x + across * bump.y + normal * bump.z, normal);
+        }
+        found.normal = normal;
+        return found;
+    }
+
+  private:
+    const Draw* draw_;
+    const DrawMaterial* material_;
+    std::array<std::uint32_t, 3> index_{};
+    std::array<glm::vec3, 3> volumes_{};
+    float texels_ = 1.0F;
+
+    template <class T>
+    T mixed(const std::vector<T>& of, const glm::vec3& w) const {
+        return of[index_[0]] * w.x + of[index_[1]] * w.y + of[index_[2]] * w.z;
+    }
+
+    static glm::vec3 normalised(const glm::vec3& v, const glm::vec3& otherwise) {
+        const float square = glm::dot(v, v);
+        return square > 1e-20F ? v * (1.0F / std::sqrt(square)) : otherwise;
+    }
+};
+
+/// The shadow of a scene on the plane y = 0, as darkness 0..1 on a grid around it.
+class GroundShadow {
+  public:
+    GroundShadow() = default;
+    /// The light that falls on the ground: lights from above and their shadows.
+    struct Falling {
+        const std::vector<Light>& lights;
+        const std::vector<ShadowMap>& shadows;
+    };
+
+    GroundShadow(const Bounds& box, const std::array<Falling, 2>& light, const Parallel& parallel) {
+        const float height = std::max(box.max.y, 0.0F);
+        const float reach =
+            1.5F * height + 0.2F * std::max(box.max.x - box.min.x, box.max.z - box.min.z);
+        from_ = glm::vec2(box.min.x - reach, box.min.z - reach);
+        const glm::vec2 to(box.max.x + reach, box.max.z + reach);
+        step_ = (to - from_) * (1.0F / static_cast<float>(side - 1));
+        float all = 0.0F;
+        for (const Falling& some : light)
+            for (const Light& one : some.lights) all += falling(one);
+        darkness_.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
+        std::vector<std::function<void()>> tasks;
+        for (int row = 0; row < side; ++row)
+            tasks.emplace_back([&, row] {
+                for (int column = 0; column < side; ++column) {
+                    const glm::vec3 at(from_.x + step_.x * static_cast<float>(column), 0.0F,
+                                       from_.y + step_.y * static_cast<float>(row));
+                    float lit = 0.0F;
+                    for (const Falling& some : light)
+                        for (std::size_t i = 0; i < some.lights.size(); ++i)
+                            if (some.lights[i].direction.y > 0.0F)
+                                lit += falling(some.lights[i]) *
+                                       some.shadows[i].light_at(at, glm::vec3(0.0F));
+                    darkness_[static_cast<std::size_t>(row * side + column)] =
+                        std::clamp(1.0F - lit / all, 0.0F, 1.0F);
+                }
+            });
+        parallel(tasks);
+    }
+
+    /// Returns true for a picture without ground.
+    [[nodiscard]] bool empty() const { return darkness_.empty(); }
+
+    [[nodiscard]] float at(const glm::vec3& point) const {
+        const float x = (point.x - from_.x) / step_.x, y = (point.z - from_.y) / step_.y;
+        const auto last = static_cast<float>(side - 1);
+        if (!(x >= 0.0F && y >= 0.0F && x < last && y < last)) return 0.0F;
+        const int column = static_cast<int>(x), row = static_cast<int>(y);
+        const float part_x = x - static_cast<float>(column), part_y = y - static_cast<float>(row);
+        const float* const upper = &darkness_[static_cast<std::size_t>(row * side + column)];
+        const float* const lower = upper + side;
+        // The grid ends where hardly any light is stopped; the rest fades out.
+        const float edge = std::min({x, y, last - x, last - y}) / (0.15F * last);
+        return std::min(edge, 1.0F) *
+               ((upper[0] * (1.0F - part_x) + upper[1] * part_x) * (1.0F - part_y) +
+                (lower[0] * (1.0F - part_x) + lower[1] * part_x) * part_y);
+    }
+
+  private:
+    static constexpr int side = 72;
+    glm::vec2 from_{0.0F}, step_{1.0F};
+    std::vector<float> darkness_;
+
+    /// Returns how much of a light falls on level ground.
+    static float falling(const Light& light) {
+        const float total = light.strength.x + light.strength.y + light.strength.z;
+        return std::max(light.direction.y, 0.0F) * total;
+    }
+};
+
+/// sRGB of linear values in steps of 1/4095.
+std::array<std::uint8_t, 4096> srgb_table() {
+    std::array<std::uint8_t, 4096> table{};
+    for (std::size_t i = 0; i < table.size(); ++i)
+        table[i] = static_cast<std::uint8_t>(
+            linear_to_srgb(static_cast<double>(i) / 4095.0) * 255.0 + 0.5);
+    return table;
+}
+
+/// Colour and coverage of a pixel or a sample; the colour is linear and multiplied by the coverage.
+struct Pixel {
+    glm::vec3 light{0.0F};
+    float surface = 0.0F;  ///< share of samples on the product
+    float shadow = 0.0F;   ///< sum of the darkness of samples on the ground
+};
+
+/// Draws one view of a scene.
+class Drawing {
+  public:
+    Drawing(const DrawList& list, const Camera& camera, const PictureParams& params,
+            const Parallel& parallel)
+        : list_(list),
+          camera_(camera),
+          params_(params),
+          lights_(studio_lights(camera.axes, detail_of_lights(list.triangles()))),
+          lamp_shadows_(shadow_maps(list, lights_.lamps, lamp_side, parallel)),
+          shadows_(shadow_maps(list, lights_.surroundings, surroundings_side, parallel)),
+          ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
+          visible_(visible(list, camera, params.width * samples, params.height * samples)) {
+        const float height = list.box.max.y - list.box.min.y;
+        if (params.view != View::below && list.box.min.y > -0.1F * height)
+            ground_ = GroundShadow(
+                list.box, {{{lights_.lamps, lamp_shadows_}, {lights_.surroundings, shadows_}}},
+                parallel);
+    }
+
+    static int detail_of_lights(std::uint64_t triangles) {
+        return triangles > 1'000'000 ? 4 : triangles > 250'000 ? 2 : 1;
+    }
+
+    /// Draws into an image at a place.
+    void draw(RgbaImage& image, int left, int top, const Parallel& parallel) const {
+        const std::array<std::uint8_t, 4096> srgb = srgb_table();
+        std::vector<std::function<void()>> tasks;
+        for (int first = 0; first < params_.height; first += band)
+            tasks.emplace_back([&, first] {
+                const int last = std::min(first + band, params_.height);
+                for (int y = first; y < last; ++y)
+                    for (int x = 0; x < params_.width; ++x) {
+                        const auto row = static_cast<std::size_t>(top + y) *
+                                         static_cast<std::size_t>(image.width);
+                        write(pixel(x, y), srgb,
+                              &image.rgba[(row + static_cast<std::size_t>(left + x)) * 4]);
+                    }
+            });
+        parallel(tasks);
+    }
+
+  private:
+    const DrawList& list_;
+    const Camera& camera_;
+    const PictureParams& params_;
+    StudioLights lights_;
+    std::vector<ShadowMap> lamp_shadows_, shadows_;
+    std::vector<std::vector<Ambient>> ambient_;
+    Visibility visible_;
+    GroundShadow ground_;
+
+    /// Returns the direction through the middle of a sample in the axes of the camera.
+    [[nodiscard]] glm::vec3 ray(float column, float row) const {
+        return camera_.ray({column / static_cast<float>(visible_.width),
+                            row / static_cast<float>(visible_.height)});
+    }
+
+    /// Returns the darkness of the ground in a direction; 0 above the horizon.
+    [[nodiscard]] float shadow(const glm::vec3& direction) const {
+        if (ground_.empty() || direction.y >= 0.0F) return 0.0F;
+        const float distance = -camera_.position.y / direction.y;
+        return distance > 0.0F ? ground_.at(camera_.position + direction * distance) : 0.0F;
+    }
+
+    /// Returns the light of the point of a facet that a ray meets; nothing if it is below the
+    /// ground.
+    [[nodiscard]] std::optional<glm::vec3> light(const Facet& facet, std::uint32_t draw,
+                                                 const glm::vec3& ray, const Lamps& lamps,
+                                                 std::size_t group) const {
+        const glm::vec3 weights = facet.weights(ray);
+        if (!ground_.empty() && facet.point(weights).y < 0.0F) return std::nullopt;
+        const glm::vec3 direction = camera_.in_scene(ray);
+        const float length = std::sqrt(glm::dot(direction, direction));
+        return reflected(facet.surface(weights, direction * (-1.0F / length), ambient_[draw]),
+                         facet.look(), lamps, group);
+    }
+
+    [[nodiscard]] Pixel pixel(int x, int y) const {
+        constexpr std::size_t all = static_cast<std::size_t>(samples) * samples;
+        std::array<std::size_t, all> at{};
+        bool is_empty = true, is_one = true;
+        for (std::size_t i = 0; i < all; ++i) {
+            const int column = x * samples + static_cast<int>(i) % samples;
+            const int row = y * samples + static_cast<int>(i) / samples;
+            at[i] = static_cast<std::size_t>(row * visible_.width + column);
+            const bool shows = visible_.nearness[at[i]] > 0.0F;
+            is_empty = is_empty && !shows;
+            is_one = is_one && shows && visible_.draw[at[i]] == visible_.draw[at[0]] &&
+                     visible_.corner[at[i]] == visible_.corner[at[0]];
+        }
+        const auto facet_at = [&](std::size_t i) {
+            return Facet(list_, camera_, visible_.draw[at[i]], visible_.corner[at[i]], visible_);
+        };
+        // Within one triangle, and on the ground, the middle of the pixel stands for all samples.
+        const glm::vec3 middle = ray(static_cast<float>(x * samples) + 0.5F * samples,
+                                     static_cast<float>(y * samples) + 0.5F * samples);
+        if (is_empty) return {glm::vec3(0.0F), 0.0F, shadow(camera_.in_scene(middle))};
+        if (is_one) {
+            const std::optional<glm::vec3> found = light(facet_at(0), visible_.draw[at[0]], middle,
+                                                         {lights_.lamps, lamp_shadows_, 1}, 0);
+            if (found) return {*found, 1.0F, 0.0F};
+            return {glm::vec3(0.0F), 0.0F, shadow(camera_.in_scene(middle))};
+        }
+        Pixel sum;
+        std::optional<Facet> facet;
+        std::size_t of = 0;  // the sample whose facet it is
+        const Lamps lamps{lights_.lamps, lamp_shadows_, all};
+        for (std::size_t i = 0; i < all; ++i) {
+            const glm::vec3 through =
+                ray(static_cast<float>(x * samples + static_cast<int>(i) % samples) + 0.5F,
+                    static_cast<float>(y * samples + static_cast<int>(i) / samples) + 0.5F);
+            if (visible_.nearness[at[i]] > 0.0F) {
+                if (!facet || visible_.draw[at[i]] != visible_.draw[at[of]] ||
+                    visible_.corner[at[i]] != visible_.corner[at[of]]) {
+                    facet.emplace(facet_at(i));
+                    of = i;
+                }
+                if (const std::optional<glm::vec3> found =
+                        light(*facet, visible_.draw[at[i]], through, lamps, i)) {
+                    sum.light += *found;
+                    sum.surface += 1.0F;
+                    continue;
+                }
+            }
+            sum.shadow += shadow(camera_.in_scene(through));
+        }
+        constexpr float share = 1.0F / static_cast<float>(all);
+        return {sum.light * share, sum.surface * share, sum.shadow * share};
+    }
+
+    void write(const Pixel& pixel, const std::array<std::uint8_t, 4096>& srgb,
+               std::uint8_t* to) const {
+        constexpr float darkest = 0.75F;
+        const float shadow = pixel.shadow * darkest;
+        glm::vec3 colour(0.0F);
+        if (pixel.surface > 0.0F) colour = tone_mapped(pixel.light / pixel.surface);
+        float alpha = pixel.surface + shadow;
+        if (params_.background == Background::transparent) {
+            // The shadow is black.
+            if (alpha > 0.0F) colour *= pixel.surface / alpha;
+        } else {
+            const float behind = params_.background == Background::white  ? 1.0F
+                                 : params_.background == Background::grey ? 0.21F
+                                                                          : 0.0F;
+            colour = colour * pixel.surface + glm::vec3(behind * std::max(1.0F - alpha, 0.0F));
+            alpha = 1.0F;
+        }
+        for (int c = 0; c < 3; ++c)
+            to[c] =
+                srgb[static_cast<std::size_t>(std::clamp(colour[c], 0.0F, 1.0F) * 4095.0F + 0.5F)];
+        to[3] = static_cast<std::uint8_t>(std::clamp(alpha, 0.0F, 1.0F) * 255.0F + 0.5F);
+    }
+};
+
+}  // namespace
+}  // namespace render
+
+std::size_t pictured_lights(std::uint64_t triangles) {
+    const render::StudioLights lights =
+        render::studio_lights({}, render::Drawing::detail_of_lights(triangles));
+    return lights.lamps.size() + lights.surroundings.size();
+}
+
+RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Parallel& parallel) {
+    require_valid(params);
+    const render::DrawList list = render::draw_list(scene, parallel);
+    if (list.triangles() > most_pictured_triangles)
+        throw Impossible("/lod", std::to_string(list.triangles()) +
+                                     " triangles would be drawn; at most " +
+                                     std::to_string(most_pictured_triangles) + " are. Raise lod");
+    const bool is_sheet = params.view == View::turntable;
+    const int columns = is_sheet ? turntable_columns : 1, rows = is_sheet ? turntable_rows : 1;
+    std::vector<render::CameraAxes> axes;
+    for (int frame = 0; frame < columns * rows; ++frame) {
+        const glm::dvec2 angles = render::angles_of(params, frame);
+        axes.push_back(render::camera_axes(angles.x, angles.y));
+    }
+    RgbaImage image{params.width * columns, params.height * rows, {}};
+    image.rgba.resize(static_cast<std::size_t>(image.width) *
+                      static_cast<std::size_t>(image.height) * 4);
+    const std::vector<render::Camera> cameras = render::fitted_cameras(
+        list, axes, static_cast<double>(params.width) / static_cast<double>(params.height));
+    for (int frame = 0; frame < columns * rows; ++frame)
+        render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, parallel)
+            .draw(image, frame % columns * params.width, frame / columns * params.height, parallel);
+    return image;
+}
+
+Bytes rendered_png(const GlbScene& scene, const PictureParams& params, const Parallel& parallel) {
+    const RgbaImage image = rendered(scene, params, parallel);
+    return png(image.rgba, image.width, image.height);
+}
+
+}  // namespace sporeprint

@@ -1,0 +1,44 @@
+// Pictures of scenes: a rasteriser with shadows of a studio's lamps and sky. The bytes are equal on
+// every machine.
+#pragma once
+
+#include <cstdint>
+
+#include "core/bytes.h"
+#include "core/gltf/glb.h"
+#include "core/images.h"
+#include "core/render/picture_params.h"
+
+namespace sporeprint {
+
+/// Pixels of a picture: rows from top to bottom, red, green, blue and alpha of each, sRGB; colours
+/// are not multiplied by alpha.
+struct RgbaImage {
+    int width = 0;
+    int height = 0;
+    Bytes rgba;
+};
+
+/// Triangles that a picture may show, each instance counted.
+inline constexpr std::uint64_t most_pictured_triangles = 4'000'000;
+
+/// Returns the number of lights whose shadows a picture of so many triangles has.
+[[nodiscard]] std::size_t pictured_lights(std::uint64_t triangles);
+
+/// Draws a scene. Its images are those that it embeds; linked ones are white. The ground, y = 0,
+/// shows the shadow alone, and hides what is below it, except from below and where a tenth of the
+/// height is below it.
+///
+/// params    valid
+/// returns   the picture, for a turntable the sheet of all views
+/// throws    GenerationError for a scene without triangles; Impossible (path "/lod") for more than
+///           most_pictured_triangles; what `parallel` throws
+/// cost      O(lights * triangles + pixels)
+[[nodiscard]] RgbaImage rendered(const GlbScene& scene, const PictureParams& params,
+                                 const Parallel& parallel = in_turn);
+
+/// Returns the same as a PNG file.
+[[nodiscard]] Bytes rendered_png(const GlbScene& scene, const PictureParams& params,
+                                 const Parallel& parallel = in_turn);
+
+}  // namespace sporeprint

@@ -1,0 +1,114 @@
+#include "core/render/shading.h"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/math/elementary.h"
+
+namespace sporeprint::render {
+
+namespace {
+
+constexpr float pi_f = static_cast<float>(pi);
+constexpr float reflectance = 0.04F;  ///< at normal incidence, of everything that is not metal
+constexpr float emission = 4.0F;      ///< as KHR_materials_emissive_strength in our files
+
+float saturated(float x) { return std::clamp(x, 0.0F, 1.0F); }
+
+float fifth_power(float x) {
+    const float square = x * x;
+    return square * square * x;
+}
+
+/// Returns the highlight of a lamp, relative to the light of a white matt surface that faces it.
+///
+/// lit, seen  cosines of the angles of lamp and camera with the normal
+float highlight(float lit, float seen, float half, float lamp_half, float roughness) {
+    const float alpha = std::max(roughness * roughness, 0.01F), square = alpha * alpha;
+    const float spread = half * half * (square - 1.0F) + 1.0F;
+    const float distribution = square / (pi_f * spread * spread);
+    const float k = alpha * 0.5F;
+    const float visibility = 0.25F / ((lit * (1.0F - k) + k) * (seen * (1.0F - k) + k));
+    const float fresnel = reflectance + (1.0F - reflectance) * fifth_power(1.0F - lamp_half);
+    return pi_f * distribution * visibility * fresnel;
+}
+
+/// Returns the share of the surroundings that a surface reflects like a mirror.
+float mirrored(float seen, float roughness) {
+    const float grazing = std::max(1.0F - roughness, reflectance);
+    return reflectance + (grazing - reflectance) * fifth_power(1.0F - seen);
+}
+
+/// Returns how much light of open surroundings falls on a surface, relative to one that faces up.
+float brightness(const glm::vec3& normal) { return 0.65F + 0.35F * normal.y; }
+
+}  // namespace
+
+glm::vec3 reflected(const SurfacePoint& point, const MaterialLook& look, const Lamps& lamps,
+                    std::size_t group) {
+    const glm::vec3& normal = point.normal;
+    const float seen = std::max(glm::dot(normal, point.to_camera), 0.02F);
+    const float grazing = fifth_power(1.0F - seen);
+    const auto coat = static_cast<float>(look.coat);
+    const float coat_share = coat * (reflectance + (1.0F - reflectance) * grazing);
+    const float coat_roughness = std::max(0.6F * point.roughness, 0.12F);
+    // Narrow slots, which are painted as occlusion, shade the lamps too, but less.
+    const float slots = 0.4F + 0.6F * point.occlusion;
+
+    glm::vec3 matt(0.0F), shine(0.0F), stopped(0.0F);
+    const auto weight = static_cast<float>(lamps.groups) * slots;
+    for (std::size_t i = group; i < lamps.lights.size(); i += lamps.groups) {
+        const Light& light = lamps.lights[i];
+        const float lit = glm::dot(normal, light.direction);
+        if (lit <= 0.0F) continue;
+        const float visible = lamps.shadows[i].light_at(point.at, point.smooth_normal);
+        const glm::vec3 all = light.strength * (lit * weight);
+        stopped += all * (1.0F - visible);
+        if (visible <= 0.0F) continue;
+        const glm::vec3 arriving = all * visible;
+        matt += arriving;
+        const glm::vec3 sum = light.direction + point.to_camera;
+        const float length = std::sqrt(glm::dot(sum, sum));
+        if (length < 1e-3F) continue;
+        const glm::vec3 between = sum * (1.0F / length);
+        const float half = saturated(glm::dot(normal, between));
+        const float lamp_half = saturated(glm::dot(light.direction, between));
+        float highlights = highlight(lit, seen, half, lamp_half, point.roughness);
+        if (coat > 0.0F) highlights += coat * highlight(lit, seen, half, lamp_half, coat_roughness);
+        shine += arriving * highlights;
+    }
+    // The surroundings were summed for the smooth normal; the sky is brighter than the ground.
+    const float bump = brightness(normal) / brightness(point.smooth_normal) * point.occlusion;
+    const glm::vec3 around = point.ambient.arriving * bump;
+    // Of the light that neighbouring skin stops, a part arrives after it was reflected once or
+    // twice, in the colour of the skin.
+    const glm::vec3 bounced =
+        point.base_color * (point.ambient.stopped * (0.45F * bump) + stopped * 0.2F);
+    matt += around + bounced;
+    const float arriving_share =
+        around.y / std::max(point.ambient.arriving.y + point.ambient.stopped.y, 1e-3F);
+    const glm::vec3 mirror_image =
+        surroundings(normal * (2.0F * glm::dot(normal, point.to_camera)) - point.to_camera);
+    const float mirror = mirrored(seen, point.roughness) + coat_share;
+    const glm::vec3 light = point.base_color * matt * (1.0F - coat_share) + shine +
+                            mirror_image * (mirror * saturated(arriving_share)) +
+                            glm::vec3(look.sheen) * matt * (2.0F * grazing);
+    return light + point.base_color * glm::vec3(look.glow) * emission;
+}
+
+glm::vec3 tone_mapped(glm::vec3 light) {
+    constexpr float start = 0.8F - 0.04F, rest = 1.0F - start, fading = 0.15F;
+    const float least = std::min({light.x, light.y, light.z});
+    const float offset = least < 0.08F ? least - 6.25F * least * least : 0.04F;
+    light -= glm::vec3(offset);
+    const float peak = std::max({light.x, light.y, light.z});
+    if (peak < start) return glm::max(light, glm::vec3(0.0F));
+    const float shown = 1.0F - rest * rest / (peak + rest - start);
+    light *= shown / peak;
+    const float colourful = 1.0F / (fading * (peak - shown) + 1.0F);
+    return light * colourful + glm::vec3(shown * (1.0F - colourful));
+}
+
+}  // namespace sporeprint::render

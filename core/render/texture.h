@@ -1,0 +1,48 @@
+// Images of a material as the renderer samples them: decoded, with smaller copies for distance.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <span>
+#include <vector>
+
+#include "core/bytes.h"
+
+namespace sporeprint::render {
+
+/// What the bytes of an image encode.
+enum class Encoding { srgb, linear };
+
+/// A square image with copies of half, quarter, ... its side.
+class Texture {
+  public:
+    Texture() = default;
+
+    /// Decodes a JPEG or WebP file.
+    ///
+    /// repeats_u  coordinates beyond 0..1 repeat the image in u; in v they take its border
+    /// throws     GenerationError for an image that is not square
+    Texture(std::span<const std::uint8_t> file, Encoding encoding, bool repeats_u);
+
+    /// Returns the colour at a texture coordinate, interpolated between four texels; linear, 0..1.
+    ///
+    /// texels  distance of two samples in texels of the whole image: the copy is chosen where it is
+    ///         about one
+    [[nodiscard]] glm::vec3 at(const glm::vec2& coordinate, float texels) const;
+
+    [[nodiscard]] bool empty() const { return levels_.empty(); }
+    [[nodiscard]] int side() const { return levels_.empty() ? 0 : levels_.front().side; }
+
+  private:
+    struct Level {
+        int side = 0;
+        Bytes rgb;
+    };
+    std::vector<Level> levels_;
+    std::array<float, 256> light_{};  ///< linear light of each byte
+    bool repeats_u_ = false;
+};
+
+}  // namespace sporeprint::render

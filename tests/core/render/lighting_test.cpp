@@ -1,0 +1,90 @@
+#include "core/render/lighting.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <glm/geometric.hpp>
+
+#include "tests/support/solids.h"
+
+namespace sporeprint::render {
+namespace {
+
+TEST(Lighting, TheSurroundingsIlluminateAsTheirIntegralDoes) {
+    // A surface that faces up receives zenith and horizon: the integral of (h + (z - h) y) y over
+    // the upper half, divided by that of y.
+    const glm::vec3 up(0, 1, 0);
+    const glm::vec3 zenith = surroundings(up), horizon = surroundings({1.0F, 1e-6F, 0.0F});
+    float sum = 0.0F;
+    for (const Light& light : studio_lights(camera_axes(30, 18), 1).surroundings) {
+        EXPECT_NEAR(glm::length(light.direction), 1.0F, 1e-5F);
+        if (light.direction.y > 0.0F) sum += light.strength.x * glm::dot(light.direction, up);
+    }
+    EXPECT_NEAR(sum, horizon.x + (zenith.x - horizon.x) * 2.0F / 3.0F, 0.01F);
+}
+
+TEST(Lighting, FewerLightsAreAsBright) {
+    const CameraAxes axes = camera_axes(0, 0);
+    const auto total = [&](int detail) {
+        glm::vec3 sum(0.0F);
+        const StudioLights lights = studio_lights(axes, detail);
+        for (const Light& light : lights.lamps) sum += light.strength;
+        for (const Light& light : lights.surroundings) sum += light.strength;
+        return sum;
+    };
+    EXPECT_GT(studio_lights(axes, 1).surroundings.size(),
+              2 * studio_lights(axes, 4).surroundings.size());
+    EXPECT_NEAR(glm::distance(total(1), total(4)), 0.0F, 0.02F);
+}
+
+TEST(Lighting, AConvexBodyDoesNotShadeItsLitSide) {
+    const Mesh mesh = ball(0.07F, {0.1F, 0.2F, 0.3F});
+    const GlbScene scene = scene_of(mesh);
+    const DrawList list = draw_list(scene, in_turn);
+    for (const Light& light : studio_lights(camera_axes(30, 18), 1).surroundings) {
+        const ShadowMap map(list, light.direction, 128);
+        for (std::size_t i = 0; i < mesh.positions.size(); ++i)
+            if (glm::dot(mesh.normals[i], light.direction) > 0.1F) {
+                ASSERT_EQ(map.light_at(mesh.positions[i], mesh.normals[i]), 1.0F);
+                ASSERT_TRUE(map.reaches(mesh.positions[i], mesh.normals[i]));
+            }
+    }
+}
+
+TEST(Lighting, ABodyCastsAShadowOfItsOutline) {
+    const float radius = 0.05F;
+    const Mesh mesh = ball(radius, {0.0F, 0.2F, 0.0F});
+    const GlbScene scene = scene_of(mesh);
+    const DrawList list = draw_list(scene, in_turn);
+    const ShadowMap map(list, {0.0F, 1.0F, 0.0F}, 128);
+    for (const float x : {0.0F, 0.02F, 0.045F, 0.055F, 0.08F, 5.0F})
+        EXPECT_EQ(map.light_at({x, 0.0F, 0.0F}, glm::vec3(0.0F)), x < radius ? 0.0F : 1.0F) << x;
+    EXPECT_EQ(map.light_at({0.0F, 0.3F, 0.0F}, glm::vec3(0.0F)), 1.0F) << "above it";
+    EXPECT_FALSE(map.reaches({0.0F, 0.0F, 0.0F}, glm::vec3(0.0F)));
+    EXPECT_TRUE(map.reaches({5.0F, 0.0F, 0.0F}, glm::vec3(0.0F)));
+}
+
+TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
+    const Mesh mesh = ball(0.05F, {0.0F, 0.2F, 0.0F});
+    GlbScene scene = scene_of(mesh);
+    // A second ball stands on the first and shades it.
+    scene.nodes.push_back({.name = "upper", .mesh = 0, .translation = {0.0, 0.1, 0.0}});
+    const DrawList list = draw_list(scene, in_turn);
+    const std::vector<Light> lights = studio_lights(camera_axes(0, 0), 1).surroundings;
+    const auto found =
+        ambient_light(list, lights, shadow_maps(list, lights, 128, in_turn), in_turn);
+    ASSERT_EQ(found.size(), 2u);
+    float stopped = 0.0F;
+    for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
+        glm::vec3 all(0.0F);
+        for (const Light& light : lights)
+            all += light.strength * std::max(glm::dot(mesh.normals[i], light.direction), 0.0F);
+        EXPECT_NEAR(glm::distance(found[0][i].arriving + found[0][i].stopped, all), 0.0F, 1e-4F);
+        EXPECT_NEAR(glm::distance(found[1][i].arriving + found[1][i].stopped, all), 0.0F, 1e-4F);
+        stopped = std::max(stopped, found[0][i].stopped.x);
+    }
+    EXPECT_GT(stopped, 0.3F) << "where they touch";
+}
+
+}  // namespace
+}  // namespace sporeprint::render

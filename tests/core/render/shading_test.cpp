@@ -1,0 +1,77 @@
+#include "core/render/shading.h"
+
+#include <gtest/gtest.h>
+
+#include <glm/geometric.hpp>
+
+#include "tests/support/solids.h"
+
+namespace sporeprint::render {
+namespace {
+
+/// A ball far below, whose shadows reach no point of a test.
+struct OpenStudio {
+    Mesh mesh = ball(0.01F, {0.0F, -9.0F, 0.0F}, 8, 4);
+    GlbScene scene = scene_of(mesh);
+    DrawList list = draw_list(scene, in_turn);
+    std::vector<Light> lights = studio_lights(camera_axes(30, 18), 1).lamps;
+    std::vector<ShadowMap> shadows = shadow_maps(list, lights, 64, in_turn);
+};
+
+TEST(Shading, GroupsOfLightsSumToAll) {
+    const OpenStudio open;
+    SurfacePoint point;
+    point.normal = point.smooth_normal = point.to_camera = glm::normalize(glm::vec3(0.2, 0.9, 0.4));
+    point.roughness = 0.5F;
+    point.ambient.arriving = glm::vec3(0.3F);
+    const MaterialLook none;
+    const glm::vec3 all = reflected(point, none, {open.lights, open.shadows, 1}, 0);
+    glm::vec3 mean(0.0F);
+    for (std::size_t group = 0; group < 4; ++group)
+        mean += reflected(point, none, {open.lights, open.shadows, 4}, group) * 0.25F;
+    EXPECT_NEAR(glm::distance(all, mean), 0.0F, 0.01F);
+    EXPECT_GT(all.x, 0.2F);
+}
+
+TEST(Shading, BlackMattSkinReflectsLittleAndASlimyOneMore) {
+    const OpenStudio open;
+    SurfacePoint point;
+    point.base_color = glm::vec3(0.0F);
+    point.ambient.arriving = glm::vec3(0.4F);
+    point.roughness = 1.0F;
+    point.normal = point.smooth_normal = glm::vec3(0, 1, 0);
+    point.to_camera = glm::normalize(glm::vec3(0.3, 0.8, 0.5));
+    MaterialLook look;
+    const Lamps studio{open.lights, open.shadows, 1};
+    const float matt = reflected(point, look, studio, 0).y;
+    EXPECT_LT(matt, 0.1F);
+    EXPECT_GT(matt, 0.0F);
+    look.coat = 0.7;
+    EXPECT_GT(reflected(point, look, studio, 0).y, matt + 0.005F);
+}
+
+TEST(Shading, WithoutLightOnlyWhatGlowsIsSeen) {
+    SurfacePoint point;
+    point.base_color = glm::vec3(0.5F);
+    MaterialLook look;
+    EXPECT_EQ(reflected(point, look, {}, 0), glm::vec3(0.0F));
+    look.glow = glm::dvec3(0.0, 0.25, 0.0);
+    EXPECT_EQ(reflected(point, look, {}, 0), glm::vec3(0.0F, 0.5F, 0.0F));
+}
+
+TEST(Shading, ToneMappingKeepsOrderAndStaysBelowOne) {
+    glm::vec3 last(-1.0F);
+    for (float light = 0.0F; light < 50.0F; light += 0.05F) {
+        const glm::vec3 shown = tone_mapped(glm::vec3(light, 0.5F * light, 0.1F * light));
+        EXPECT_GE(shown.x, last.x - 1e-6F);
+        EXPECT_GE(shown.x, shown.y);
+        EXPECT_GE(shown.y, shown.z);
+        EXPECT_GE(shown.z, 0.0F);
+        EXPECT_LE(shown.x, 1.0F);
+        last = shown;
+    }
+    EXPECT_GT(last.x, 0.97F);
+}
+
+}  // namespace
+}  // namespace sporeprint::render
