@@ -7,7 +7,7 @@ import { launchBrowser, logEvents, ready, screenshotFolder, serverUrl } from "./
 
 const base = serverUrl();
 let browser;
-let shared; // thumbnails are rendered once
+let shared; // the gallery's pictures are drawn once
 let folder;
 let ids;
 

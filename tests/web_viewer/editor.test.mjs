@@ -67,11 +67,7 @@ const shares = (page) =>
     );
 const models = (log) =>
     log.requests
-        .filter(
-            (url) =>
-                /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url) &&
-                !/\.glb\?lod=2&texture_size=256$/.test(url),
-        )
+        .filter((url) => /\/v1\/(mushrooms|morphs)\/[^?]+\.glb/.test(url))
         .map((url) => decodeURIComponent(url));
 const arcs = (page) =>
     page

@@ -14,7 +14,7 @@ import {
 const base = serverUrl();
 const species = "boletus_edulis";
 let browser;
-let shared; // thumbnails are rendered once
+let shared; // the gallery's pictures are drawn once
 let folder;
 
 before(async () => {
@@ -40,10 +40,9 @@ const clips = (log) =>
     log.requests
         .filter((url) => /\.glb\?.*animation=growth/.test(url))
         .map((url) => new URL(url).searchParams);
-/** Returns the query of the last requested model that is no thumbnail. */
+/** Returns the query of the last requested model. */
 const lastModel = (log) =>
-    new URL(log.requests.findLast((url) => /\.glb/.test(url) && !/texture_size=256/.test(url)))
-        .searchParams;
+    new URL(log.requests.findLast((url) => /\.glb/.test(url))).searchParams;
 const parameters = (page) => new URL(page.url()).searchParams;
 const picture = (page) => page.locator("#stage").screenshot();
 

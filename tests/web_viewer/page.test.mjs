@@ -21,7 +21,7 @@ let species;
 before(async () => {
     folder = await screenshotFolder();
     browser = await launchBrowser();
-    // All tests share one storage, so that thumbnails are rendered once.
+    // All tests share one cache, so that the gallery's pictures are drawn once.
     shared = await browser.newContext({
         viewport: { width: 960, height: 560 },
         reducedMotion: "reduce",
@@ -44,12 +44,9 @@ async function open(t, query = "", viewport = undefined, from = base) {
 
 const stagePicture = (page) => page.locator("#stage").screenshot();
 const parameters = (page) => new URL(page.url()).searchParams;
-/** Returns the requested models without thumbnails. */
+/** Returns the requested models. */
 const models = (log) =>
-    log.requests.filter(
-        (url) =>
-            /\/v1\/mushrooms\/[^/]+\.glb/.test(url) && !/\.glb\?lod=2&texture_size=256$/.test(url),
-    );
+    log.requests.filter((url) => /\/v1\/mushrooms\/[^/]+\.glb/.test(url));
 const slider = (page, name) => page.locator(`input[type=range][name="${name}"]`);
 
 /** Returns the number of different colours in a picture: an empty stage has only those of a
@@ -352,18 +349,20 @@ test("an idle page sends no request and draws no frame", async (t) => {
     expectNoProblems(log);
 });
 
-test("a second visit takes the gallery's pictures from Cache Storage", async (t) => {
+test("a second visit takes the gallery's pictures from the cache of the browser", async (t) => {
     const { page, log } = await open(t);
     await galleryComplete(page);
-    const seen = [];
-    page.on("request", (request) => {
-        if (request.method() === "GET" && /[?&]lod=2/.test(request.url())) seen.push(request.url());
-    });
     await page.reload();
     await ready(page);
     await galleryComplete(page);
     assert.equal(await page.locator("#gallery img").count(), species.length);
-    assert.deepEqual(seen, []);
+    const sizes = await page.evaluate(() =>
+        performance
+            .getEntriesByType("resource")
+            .filter(({ name }) => /\.png\?/.test(name))
+            .map(({ transferSize }) => transferSize),
+    );
+    assert.deepEqual(sizes, Array(species.length).fill(0));
     expectNoProblems(log);
 });
 

@@ -1,4 +1,4 @@
-// The gallery: one button per species, with a picture that the page renders itself.
+// The gallery: one button per species, with a picture that the service draws.
 import { make } from "./dom";
 import { centimetres } from "./camera";
 
@@ -143,9 +143,20 @@ export class Gallery {
         }
     }
 
-    setPicture(id: string, address: string): void {
-        const host = this.buttons.get(id)?.querySelector(".picture");
-        host?.replaceChildren(make("img", { src: address, alt: "", width: 96, height: 96 }));
+    /** Shows the picture of each species, at the address that `address` returns for its id. Resolves
+     *  when all are loaded; one that cannot be had leaves its place empty. */
+    async showPictures(address: (id: string) => string): Promise<void> {
+        await Promise.all(
+            [...this.buttons].map(async ([id, button]) => {
+                const image = make("img", { src: address(id), alt: "", width: 96, height: 96 });
+                try {
+                    await image.decode();
+                    button.querySelector(".picture")?.replaceChildren(image);
+                } catch {
+                    // The species can still be opened.
+                }
+            }),
+        );
     }
 
     /** Scrolls the list only, never the page. */

@@ -46,7 +46,7 @@ async function open(): Promise<void> {
     });
     const page = new Page(
         { stage, links, product, schema, species },
-        { reducedMotion, withoutThumbnails: shot },
+        { reducedMotion, withoutPictures: shot },
     );
     installTestHandle(page, stage);
 }

@@ -20,7 +20,7 @@ import { NamePlate, type ColonyCount } from "./name_plate";
 import { showNumbers } from "./number_list";
 import { DraftTextures } from "./draft_textures";
 import { ProblemBox } from "./problem_box";
-import type { Product } from "./products";
+import { mushrooms, type Product } from "./products";
 import { showProgress } from "./progress_box";
 import { showScaleBar } from "./scale_bar";
 import { groupsOf, valueAt, type Schema } from "./schema";
@@ -28,7 +28,6 @@ import { Settings } from "./settings";
 import { Sheet, sheetButtons } from "./sheet";
 import type { Stage } from "./stage";
 import { announce } from "./status_line";
-import { galleryModels, makeThumbnails } from "./thumbnails";
 import { Toolbar } from "./toolbar";
 
 /** Time in which quick changes become one request, milliseconds. */
@@ -47,7 +46,7 @@ export interface PageOptions {
     /** Nothing moves by itself. */
     reducedMotion: boolean;
     /** The gallery has no pictures. */
-    withoutThumbnails: boolean;
+    withoutPictures: boolean;
 }
 
 export class Page {
@@ -71,7 +70,6 @@ export class Page {
     private readonly plate: NamePlate;
     private readonly actions: FileActions;
     private readonly problems = new ProblemBox((item) => this.showBeside(item));
-    private readonly thumbnails = new AbortController();
     private loaded: LoadedModel | undefined;
 
     constructor({ stage, links, product, schema, species }: PageParts, options: PageOptions) {
@@ -138,7 +136,7 @@ export class Page {
         byId("form").addEventListener("submit", (event) => event.preventDefault());
         addEventListener("popstate", () => this.readAddress());
         this.readAddress();
-        if (!options.withoutThumbnails) void this.makeThumbnails();
+        if (!options.withoutPictures) void this.showPictures();
     }
 
     /** Resolves when everything shown equals the settings; rejects if the model cannot be made. */
@@ -336,19 +334,15 @@ export class Page {
     }
 
     private openProduct(product: Product, id: string, query: string): void {
-        this.thumbnails.abort();
         location.assign(`?${product.queryName}=${id}${query.replace("?", "&")}`);
     }
 
-    /** Makes the gallery's pictures, once the model is shown. */
-    private async makeThumbnails(): Promise<void> {
+    /** Shows the gallery's pictures, once the model is shown. */
+    private async showPictures(): Promise<void> {
         await this.settled().catch(() => undefined);
-        await makeThumbnails(
-            galleryModels(this.settings, this.gallery.species),
-            this.product.thumbnailDirections,
-            (id, picture) => this.gallery.setPicture(id, picture),
-            this.thumbnails.signal,
-        );
+        // A product made of species shows a single mushroom of each.
+        const { path, pictureQuery } = this.product.ofSpecies ? mushrooms : this.product;
+        await this.gallery.showPictures((id) => `${path}/${id}.png?${pictureQuery}`);
         document.documentElement.dataset["gallery"] = "complete";
     }
 }

@@ -23,14 +23,16 @@ export interface Product {
     views: readonly ViewName[];
     /** Camera directions by name of a view. */
     directions: Directions;
-    /** Camera directions for the pictures of its gallery. */
-    thumbnailDirections: Directions;
+    /** Query of the pictures of its gallery, twice as large as they are shown. */
+    pictureQuery: string;
     /** It is lifted so that nothing of it is below the ground. */
     liesOnGround: boolean;
     /** It has a ramification matrix, which can be replaced by a custom one. */
     hasMatrix: boolean;
     list: () => Promise<Species[]>;
 }
+
+const pictureQuery = "lod=1&width=192&height=192";
 
 interface Preset {
     id: string;
@@ -47,7 +49,7 @@ export const mushrooms: Product = {
     ofSpecies: true,
     views: viewNames,
     directions: standing,
-    thumbnailDirections: standing,
+    pictureQuery,
     liesOnGround: false,
     hasMatrix: false,
     list: listSpecies,
@@ -64,7 +66,7 @@ export const colonies: Product = {
     ofSpecies: true,
     views: [...viewNames, "roots"],
     directions: spread,
-    thumbnailDirections: standing,
+    pictureQuery,
     liesOnGround: false,
     hasMatrix: false,
     list: listSpecies,
@@ -80,7 +82,7 @@ export const leaves: Product = {
     ofSpecies: false,
     views: viewNames,
     directions: lying,
-    thumbnailDirections: lying,
+    pictureQuery,
     liesOnGround: true,
     hasMatrix: false,
     list: async () => listed((await getJson<{ leaves: Preset[] }>("v1/leaves")).leaves),
@@ -96,7 +98,7 @@ export const trees: Product = {
     ofSpecies: false,
     views: viewNames,
     directions: standing,
-    thumbnailDirections: standing,
+    pictureQuery,
     liesOnGround: false,
     hasMatrix: true,
     list: async () => listed((await getJson<{ trees: Preset[] }>("v1/trees")).trees),

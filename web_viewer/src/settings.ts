@@ -79,7 +79,8 @@ export class Settings {
         this.mix = mix;
         this.rows = undefined;
         for (const field of this.fields) {
-            if (field.owner) this.values.delete(field.name);
+            // What follows from another parameter, such as the profile, belongs to no species.
+            if (field.owner && !this.field(field.owner)) this.values.delete(field.name);
         }
     }
 
