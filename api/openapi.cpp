@@ -18,7 +18,7 @@ namespace sporeprint::api {
 namespace {
 
 /// The tag of images, which occur in several products.
-constexpr const char* image_tag = "surfaces";
+constexpr const char* image_tag = "images";
 constexpr const char* image_tag_description = "Images that files with textures=linked point to.";
 
 const char* tag_of(const RouteGroup& group, const Route& route) {

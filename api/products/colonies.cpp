@@ -170,7 +170,7 @@ ImageUrls Colonies::image_urls(const Context& context, const ColonySpec& spec, c
         surface_spec(paint_mushroom_spec(spec), *context.atlas, execution.caches);
     SurfaceAddress image = surface_address(surface);
     image.texture_size = {spec.params.texture_size >> spec.params.lod};
-    return mushroom_image_urls(surface, image, *context.atlas);
+    return mushroom_image_urls("colonies", surface, image, *context.atlas);
 }
 
 Body Colonies::grow(const Context& context, const ColonySpec& spec, Resolved& resolved,
@@ -214,6 +214,13 @@ Plan plan_picture_from_url(RouteCall& call) {
     return plan_picture<Colonies>(
         call, query,
         read_colony(call.captured[0], query.product, *call.context.atlas, call.errors));
+}
+
+template <ImageFormat Format>
+Plan plan_image_from_url(RouteCall& call) {
+    return plan_mushroom_image(
+        call, "colonies", Format,
+        without_parameters_of_model<SurfaceAddress, ColonyParams>(call.target.query));
 }
 
 Plan plan_from_body(RouteCall& call) {
@@ -280,6 +287,22 @@ constexpr Route routes[] = {
      .body_type = json,
      .request_body = "colony_order",
      .plan = plan_from_body},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/colonies/{mix}/{image}.jpg",
+     .id = "get_colony_image",
+     .summary = "One image of a colony's atlas; what textures=linked points to.",
+     .media_type = "image/jpeg",
+     .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
+     .plan = plan_image_from_url<ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/colonies/{mix}/{image}.webp",
+     .id = "get_colony_image_webp",
+     .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
+     .media_type = "image/webp",
+     .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
+     .plan = plan_image_from_url<ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

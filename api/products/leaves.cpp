@@ -106,24 +106,24 @@ constexpr Route routes[] = {
      .plan = plan_preset_body<Leaves>},
     {.kind = RouteKind::image,
      .method = "GET",
-     .pattern = "/v1/surfaces/leaves/{preset}/{image}.jpg",
-     .id = "get_leaf_surface",
+     .pattern = "/v1/leaves/{preset}/{image}.jpg",
+     .id = "get_leaf_image",
      .summary = "One image of a leaf's atlas; what textures=linked points to.",
      .media_type = "image/jpeg",
      .example = example_preset,
      .query_schema =
          [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
-     .plan = plan_preset_image<Leaves, ImageFormat::jpg>},
+     .plan = plan_own_image<Leaves, ImageFormat::jpg>},
     {.kind = RouteKind::image,
      .method = "GET",
-     .pattern = "/v1/surfaces/leaves/{preset}/{image}.webp",
-     .id = "get_leaf_surface_webp",
+     .pattern = "/v1/leaves/{preset}/{image}.webp",
+     .id = "get_leaf_image_webp",
      .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
      .media_type = "image/webp",
      .example = example_preset,
      .query_schema =
          [](const Atlas&) { return from_preset<LeafShape, LeafPalette>(schema<LeafPaint>()); },
-     .plan = plan_preset_image<Leaves, ImageFormat::webp>},
+     .plan = plan_own_image<Leaves, ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

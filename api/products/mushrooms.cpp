@@ -234,7 +234,7 @@ Cost Mushrooms::guess(const MushroomSpec& spec, Product product, const Atlas& at
 ImageUrls Mushrooms::image_urls(const Context& context, const MushroomSpec& spec,
                                 const std::string&, const ExecutionContext& execution) {
     const MushroomSpec surface = surface_spec(spec, *context.atlas, execution.caches);
-    return mushroom_image_urls(surface, surface_address(surface), *context.atlas);
+    return mushroom_image_urls("mushrooms", surface, surface_address(surface), *context.atlas);
 }
 
 Body Mushrooms::grow(const Context& context, const MushroomSpec& spec, Resolved& resolved,
@@ -280,6 +280,13 @@ Plan plan_picture_from_url(RouteCall& call) {
     return plan_picture<Mushrooms>(
         call, query,
         read_mushroom(call.captured[0], query.product, *call.context.atlas, call.errors));
+}
+
+template <ImageFormat Format>
+Plan plan_image_from_url(RouteCall& call) {
+    return plan_mushroom_image(
+        call, "mushrooms", Format,
+        without_parameters_of_model<SurfaceAddress, MushroomParams>(call.target.query));
 }
 
 Plan plan_from_body(RouteCall& call) {
@@ -348,20 +355,20 @@ constexpr Route routes[] = {
      .plan = plan_from_body},
     {.kind = RouteKind::image,
      .method = "GET",
-     .pattern = "/v1/surfaces/mushrooms/{mix}/{image}.jpg",
-     .id = "get_surface",
+     .pattern = "/v1/mushrooms/{mix}/{image}.jpg",
+     .id = "get_mushroom_image",
      .summary = "One image of a mushroom's atlas; what textures=linked points to.",
      .media_type = "image/jpeg",
      .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
-     .plan = plan_mushroom_image<ImageFormat::jpg>},
+     .plan = plan_image_from_url<ImageFormat::jpg>},
     {.kind = RouteKind::image,
      .method = "GET",
-     .pattern = "/v1/surfaces/mushrooms/{mix}/{image}.webp",
-     .id = "get_surface_webp",
+     .pattern = "/v1/mushrooms/{mix}/{image}.webp",
+     .id = "get_mushroom_image_webp",
      .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
      .media_type = "image/webp",
      .query_schema = [](const Atlas&) { return schema<SurfaceAddress>(); },
-     .plan = plan_mushroom_image<ImageFormat::webp>},
+     .plan = plan_image_from_url<ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

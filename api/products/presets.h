@@ -141,7 +141,7 @@ std::string key_of(const Spec& spec, Product product, const std::string& version
            canonical_text(spec.params);
 }
 
-/// Reads {preset}, {image} and query of a URL under /v1/surfaces.
+/// Reads {preset}, {image} and query of the URL of an image.
 template <class Kind>
 PresetSurface<Kind> read_preset_surface(const Atlas& atlas, std::string_view id,
                                         std::string_view image, Query query,
@@ -159,21 +159,30 @@ PresetSurface<Kind> read_preset_surface(const Atlas& atlas, std::string_view id,
 }
 
 /// Returns the canonical URL of an image without version.
+///
+/// folder  of the images of all presets: "/v1/leaves/"
 template <class Kind, class Paint>
-std::string canonical_image_address(const Atlas& atlas, const std::string& preset, ImageKind kind,
-                                    ImageFormat format, const Paint& paint) {
-    return with_query(
-        std::string("/v1/surfaces/") + Kind::all + '/' + preset + '/' + file_of(kind, format),
-        query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
+std::string canonical_image_address(const Atlas& atlas, const std::string& folder,
+                                    const std::string& preset, ImageKind kind, ImageFormat format,
+                                    const Paint& paint) {
+    return with_query(folder + preset + '/' + file_of(kind, format),
+                      query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
+}
+
+/// Returns the URL of the folder of a product, in which its images are: "/v1/leaves/".
+template <class Kind>
+std::string folder_of() {
+    return std::string("/v1/") + Kind::all + '/';
 }
 
 /// Returns the URLs of the three images of an atlas, with a version token.
 template <class Kind, class Paint>
-ImageUrls preset_image_urls(const Atlas& atlas, const std::string& preset, const Paint& paint,
+ImageUrls preset_image_urls(const Atlas& atlas, const std::string& folder,
+                            const std::string& preset, const Paint& paint,
                             const std::string& version) {
     return image_urls_of([&](ImageKind kind, ImageFormat format) {
-        return with_version(canonical_image_address<Kind>(atlas, preset, kind, format, paint),
-                            version);
+        return with_version(
+            canonical_image_address<Kind>(atlas, folder, preset, kind, format, paint), version);
     });
 }
 
@@ -248,7 +257,8 @@ struct PresetProduct {
 
     static ImageUrls image_urls(const Context& context, const Spec& spec,
                                 const std::string& version, const ExecutionContext&) {
-        return preset_image_urls<Kind>(*context.atlas, spec.preset, paint_of(spec.params), version);
+        return preset_image_urls<Kind>(*context.atlas, folder_of<Kind>(), spec.preset,
+                                       paint_of(spec.params), version);
     }
 
     static Body grow(const Context& context, const Spec& spec, Resolved&, const Extras& extras,
@@ -300,13 +310,16 @@ Plan plan_preset_body(RouteCall& call) {
         read_preset<Kind>(*call.context.atlas, call.request.body, call.errors), call.errors);
 }
 
-/// Handles GET /v1/surfaces/{kind}/{preset}/{image}.jpg and .webp.
+/// Plans the response to a request for an image of a preset.
+///
+/// folder  of the images: "/v1/leaves/"
+/// query   without parameters of the model
 template <class Kind, ImageFormat Format>
-Plan plan_preset_image(RouteCall& call) {
+Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) {
     Context& context = call.context;
     const Atlas& atlas = *context.atlas;
-    const auto requested = read_preset_surface<Kind>(atlas, call.captured[0], call.captured[1],
-                                                     call.target.query, call.errors);
+    const auto requested =
+        read_preset_surface<Kind>(atlas, call.captured[0], call.captured[1], query, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
     const auto decide = [&](ValidationErrors& found) {
         const auto paint = std::make_shared<const typename Kind::Paint>(requested.paint);
@@ -326,11 +339,20 @@ Plan plan_preset_image(RouteCall& call) {
         *requested.kind,
         Format,
         preset_token<Kind>(atlas, requested.preset),
-        canonical_image_address<Kind>(atlas, requested.preset, *requested.kind, Format,
+        canonical_image_address<Kind>(atlas, folder, requested.preset, *requested.kind, Format,
                                       requested.paint),
         std::move(of),
         requested.version};
     return plan_image(context, call.request, image, decide, call.errors);
+}
+
+/// Handles GET /v1/{kind}/{preset}/{image}.jpg and .webp.
+template <class Kind, ImageFormat Format>
+Plan plan_own_image(RouteCall& call) {
+    return plan_preset_image<Kind, Format>(
+        call, folder_of<Kind>(),
+        without_parameters_of_model<typename Kind::Paint, typename Kind::Params>(
+            call.target.query));
 }
 
 /// Returns the schema of the body of POST /v1/{kind}.glb.

@@ -115,10 +115,17 @@ Response superseded(const ResponseBuilder& responses, const Request& request, co
 }
 
 std::string reference_from(int depth, std::string_view address) {
-    constexpr std::string_view root = "/v1/";
+    address.remove_prefix(std::string_view("/v1/").size());
     std::string reference;
+    if (depth == 1) {
+        address.remove_prefix(address.find('/') + 1);
+        // RFC 3986, section 4.2: what precedes a colon in the first segment would be a scheme.
+        if (address.substr(0, address.find('/')).find(':') != std::string_view::npos)
+            reference = "./";
+        return reference += address;
+    }
     for (int i = 0; i < depth; ++i) reference += "../";
-    return reference += address.substr(root.size());
+    return reference += address;
 }
 
 ImageUrls references_from(int depth, ImageUrls urls) {

@@ -105,10 +105,11 @@ void without_negative_zero(T& value) {
                                   const std::string& version, const std::string& address,
                                   ValidationErrors& errors);
 
-/// Returns a reference to a URL under /v1 from a document whose own URL has `depth` segments
-/// between /v1/ and its name. The reference is relative, so that it is valid under any prefix.
+/// Returns a reference to the URL of an image from a file whose own URL has `depth` segments between
+/// /v1/ and its name. The reference is relative, so that it is valid under any prefix; from a file
+/// at depth 1 it stays below the file's folder, which some loaders require.
 ///
-/// address  "/v1/surfaces/..."
+/// address  "/v1/mushrooms/..."; of the file's own product if depth is 1
 /// depth    0 for /v1/mushrooms.glb, 1 for /v1/mushrooms/x.glb, 2 for /v1/morphs/a/b.glb
 [[nodiscard]] std::string reference_from(int depth, std::string_view address);
 
@@ -117,6 +118,18 @@ void without_negative_zero(T& value) {
 
 /// Returns the file name of an image in its folder: "base_color.jpg".
 [[nodiscard]] std::string file_of(ImageKind kind, ImageFormat format);
+
+/// Returns a query without the parameters of `Model` that `Image` lacks: some loaders append the
+/// query of a model to the URLs of its images.
+template <class Image, class Model>
+[[nodiscard]] std::vector<std::pair<std::string, std::string>> without_parameters_of_model(
+    Query query) {
+    std::vector<std::pair<std::string, std::string>> rest;
+    for (const auto& pair : query)
+        if (is_query_name<Image>(pair.first) || !is_query_name<Model>(pair.first))
+            rest.push_back(pair);
+    return rest;
+}
 
 /// Returns the URLs of all images of an atlas; `url` returns that of one kind and format.
 [[nodiscard]] ImageUrls image_urls_of(

@@ -201,10 +201,10 @@ Response cached_response(const Context& context, const Request& request, const F
 }
 
 std::string too_many_texels(const ServiceOptions& options, std::uint64_t texels,
-                            bool of_every_species) {
+                            bool of_every_species, const char* parameter) {
     return std::to_string(texels) + " texels would be held" +
            (of_every_species ? ", those of every species" : "") + "; at most " +
-           std::to_string(options.most_texels) + " are. Lower texture_size";
+           std::to_string(options.most_texels) + " are. Lower " + parameter;
 }
 
 }  // namespace
@@ -222,14 +222,15 @@ void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, boo
     }
     if (cost.texels > options.most_texels)
         report(problems, "/texture_size",
-               too_many_texels(options, cost.texels, of_every_species) + " or raise lod");
+               too_many_texels(options, cost.texels, of_every_species, "texture_size") +
+                   " or raise lod");
     if (!problems.empty()) throw Impossible(std::move(problems));
 }
 
 void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,
                    ValidationErrors& errors) {
     if (texels > options.most_texels)
-        errors.add(422, "texture_size", too_many_texels(options, texels, of_every_species));
+        errors.add(422, "side", too_many_texels(options, texels, of_every_species, "side"));
 }
 
 std::vector<Problem> named(const InvalidInput& input, bool posted) {

@@ -57,7 +57,8 @@ struct Resource {
 void refuse_over_budget(const ServiceOptions& options, const Estimate& cost, bool of_every_species,
                         bool is_clip, const FileOptions& file);
 
-/// Adds 422 to `errors` if images have more texels than the budget of one request.
+/// Adds 422 for the parameter `side` to `errors` if images have more texels than the budget of one
+/// request.
 void refuse_texels(const ServiceOptions& options, std::uint64_t texels, bool of_every_species,
                    ValidationErrors& errors);
 

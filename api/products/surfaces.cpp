@@ -66,17 +66,20 @@ SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query 
     return request;
 }
 
-std::string canonical_address(const Mix& mix, ImageKind kind, ImageFormat format,
-                              const SurfaceAddress& address) {
-    return with_query("/v1/surfaces/mushrooms/" + mix_text(mix) + '/' + file_of(kind, format),
+std::string folder_of(const char* product) { return std::string("/v1/") + product + '/'; }
+
+std::string canonical_address(const char* product, const Mix& mix, ImageKind kind,
+                              ImageFormat format, const SurfaceAddress& address) {
+    return with_query(folder_of(product) + mix_text(mix) + '/' + file_of(kind, format),
                       query_text(address));
 }
 
-ImageUrls mushroom_image_urls(const MushroomSpec& surface, const SurfaceAddress& address,
-                              const Atlas& atlas) {
+ImageUrls mushroom_image_urls(const char* product, const MushroomSpec& surface,
+                              const SurfaceAddress& address, const Atlas& atlas) {
     const std::string version = version_token(surface.mix, atlas);
     return image_urls_of([&](ImageKind kind, ImageFormat format) {
-        return with_version(canonical_address(surface.mix, kind, format, address), version);
+        return with_version(canonical_address(product, surface.mix, kind, format, address),
+                            version);
     });
 }
 
@@ -109,13 +112,12 @@ PaintSpec painted(Context& context, const SurfaceRequest& requested, ValidationE
 
 }  // namespace
 
-template <ImageFormat Format>
-Plan plan_mushroom_image(RouteCall& call) {
+Plan plan_mushroom_image(RouteCall& call, const char* product, ImageFormat format, Query query) {
     Context& context = call.context;
     ValidationErrors& errors = call.errors;
     const Request& request = call.request;
     const SurfaceRequest requested =
-        read_surface(call.captured[0], call.captured[1], call.target.query, *context.atlas, errors);
+        read_surface(call.captured[0], call.captured[1], query, *context.atlas, errors);
     if (!errors.empty()) return context.responses.problem(request, errors);
     const auto decide = [&](ValidationErrors& found) {
         const auto paint_spec =
@@ -124,26 +126,23 @@ Plan plan_mushroom_image(RouteCall& call) {
         Cost cost{.base = 300,
                   .atlases = static_cast<std::uint64_t>(atlases_held(*paint_spec)),
                   .texels = texels_held(*paint_spec)};
-        if (Format == ImageFormat::webp) {
+        if (format == ImageFormat::webp) {
             const auto side = static_cast<std::uint64_t>(side_of(*paint_spec));
             cost.webp_texels = 3 * side * side;
         }
-        return PaintWork{image_key(*paint_spec, Format), cost,
-                         [paint_spec](const ExecutionContext& execution) {
-                             return painted_images(*paint_spec, execution, Format);
+        return PaintWork{image_key(*paint_spec, format), cost,
+                         [paint_spec, format](const ExecutionContext& execution) {
+                             return painted_images(*paint_spec, execution, format);
                          }};
     };
     const ImageResource image{
         *requested.kind,
-        Format,
+        format,
         version_token(requested.mix, *context.atlas),
-        canonical_address(requested.mix, *requested.kind, Format, requested.address),
+        canonical_address(product, requested.mix, *requested.kind, format, requested.address),
         requested.mix.front().id + '-' + std::to_string(requested.address.seed),
         requested.version};
     return plan_image(context, request, image, decide, errors);
 }
-
-template Plan plan_mushroom_image<ImageFormat::jpg>(RouteCall& call);
-template Plan plan_mushroom_image<ImageFormat::webp>(RouteCall& call);
 
 }  // namespace sporeprint::api

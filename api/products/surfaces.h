@@ -26,7 +26,9 @@ struct PaintedAmounts {
     bool operator==(const PaintedAmounts&) const = default;
 };
 
-/// Query parameters of /v1/surfaces/mushrooms: those of a mushroom on which painting depends.
+/// Query parameters of images of mushrooms and colonies: those on which painting depends. Names that
+/// are also parameters of the model have the same values there, because some loaders append the
+/// query of a model to the URLs of its images.
 struct SurfaceAddress {
     std::uint32_t seed = 1;
     double age = 38.0 / 64.0;
@@ -48,13 +50,13 @@ struct SurfaceAddress {
                  .min = 0,
                  .max = 1,
                  .doc = "From button (0) through maturity (0.6) to decay (1), in steps of 1/64."});
-        visit(&S::size, Info{.name = "size",
+        visit(&S::size, Info{.name = "size_steps",
                              .min = -70,
                              .max = 70,
                              .doc = "Scale of the whole in steps of 2 %: step n is 1.02^n times."});
         visit(&S::variation, info_of<P>("variation"));
         visit(&S::texture_size,
-              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+              Info{.name = "side", .unit = "texels", .doc = "Side of this image."});
         visit(&S::lod,
               Info{.name = "lod",
                    .min = 0,
@@ -92,25 +94,29 @@ struct SurfaceRequest {
     std::optional<std::string> version;
 };
 
-/// Reads {mix}, {image} and query of a URL under /v1/surfaces/mushrooms; weights and age are
-/// quantised.
+/// Reads {mix}, {image} and query of the URL of an image; weights and age are quantised.
 [[nodiscard]] SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query query,
                                           const Atlas& atlas, ValidationErrors& errors);
 
-/// Returns the canonical URL of an image without version.
-[[nodiscard]] std::string canonical_address(const Mix& mix, ImageKind kind, ImageFormat format,
-                                            const SurfaceAddress& address);
+/// The URL of the folder of a product, in which its images are: "/v1/mushrooms/".
+[[nodiscard]] std::string folder_of(const char* product);
 
-/// Returns the URLs of the images of a mushroom, with their version tokens.
+/// Returns the canonical URL of an image without version.
+///
+/// product  "mushrooms" or "colonies", which have the same images
+[[nodiscard]] std::string canonical_address(const char* product, const Mix& mix, ImageKind kind,
+                                            ImageFormat format, const SurfaceAddress& address);
+
+/// Returns the URLs of the images of a mushroom or colony, with their version tokens.
 ///
 /// surface  as surface_spec() returns it
-[[nodiscard]] ImageUrls mushroom_image_urls(const MushroomSpec& surface,
+[[nodiscard]] ImageUrls mushroom_image_urls(const char* product, const MushroomSpec& surface,
                                             const SurfaceAddress& address, const Atlas& atlas);
 
-/// Handles GET /v1/surfaces/mushrooms/{mix}/{image}.jpg and .webp.
-template <ImageFormat Format>
-[[nodiscard]] Plan plan_mushroom_image(RouteCall& call);
-extern template Plan plan_mushroom_image<ImageFormat::jpg>(RouteCall& call);
-extern template Plan plan_mushroom_image<ImageFormat::webp>(RouteCall& call);
+/// Plans the response to a request for an image of a mushroom or colony.
+///
+/// query  without parameters of the model
+[[nodiscard]] Plan plan_mushroom_image(RouteCall& call, const char* product, ImageFormat format,
+                                       Query query);
 
 }  // namespace sporeprint::api

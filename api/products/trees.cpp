@@ -7,6 +7,9 @@ namespace sporeprint::api {
 
 namespace {
 
+/// The folder of the images of leaves on trees, which is below that of the trees.
+constexpr const char* folder_of_leaves = "/v1/trees/leaves/";
+
 /// Returns the rows of a body; nothing if they are not lists of numbers.
 std::optional<RamificationMatrix> rows_of(const Value& given) {
     if (!given.is_array() || given.items().size() >= most_order) return std::nullopt;
@@ -68,9 +71,10 @@ Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras
     ImageUrls of_leaves;
     if (spec.params.textures == Textures::linked) {
         const std::string leaf = spec.params.look.leaf.id.string();
-        of_leaves = references_from(
-            depth, preset_image_urls<Leaves>(atlas, leaf, paint_of(leaf_of(spec.params, atlas)),
-                                             preset_token<Leaves>(atlas, leaf)));
+        of_leaves =
+            references_from(depth, preset_image_urls<Leaves>(atlas, folder_of_leaves, leaf,
+                                                             paint_of(leaf_of(spec.params, atlas)),
+                                                             preset_token<Leaves>(atlas, leaf)));
     }
     return grow_tree(spec, atlas, extras, of_leaves, execution);
 }
@@ -122,6 +126,29 @@ Value params_schema(const Atlas& atlas) { return from_preset<TreeLook>(schema(an
 constexpr const char *json = "application/json", *glb = "model/gltf-binary";
 
 std::string example_preset(const Atlas& atlas) { return atlas.trees().front().id.string(); }
+
+std::string example_leaf(const Atlas& atlas) { return atlas.leaves().front().id.string(); }
+
+/// Returns true for parameters of a tree that say nothing about its leaves: all but its autumn.
+bool is_of_tree_alone(std::string_view name) {
+    return name != "autumn" && is_query_name<TreeParams>(name);
+}
+
+Value leaf_paint_schema(const Atlas&) {
+    Value leaf = from_preset<LeafShape, LeafPalette>(schema<LeafPaint>());
+    LeafPaint::fields([&](auto, const Info& info) {
+        if (is_of_tree_alone(info.name)) leaf.find("properties")->erase(info.name);
+    });
+    return leaf;
+}
+
+template <ImageFormat Format>
+Plan plan_leaf_image(RouteCall& call) {
+    std::vector<std::pair<std::string, std::string>> query;
+    for (const auto& pair : call.target.query)
+        if (!is_of_tree_alone(pair.first)) query.push_back(pair);
+    return plan_preset_image<Leaves, Format>(call, folder_of_leaves, query);
+}
 
 constexpr Route routes[] = {
     {.kind = RouteKind::document,
@@ -185,24 +212,42 @@ constexpr Route routes[] = {
      .plan = plan_preset_body<Trees>},
     {.kind = RouteKind::image,
      .method = "GET",
-     .pattern = "/v1/surfaces/trees/{preset}/{image}.jpg",
-     .id = "get_tree_surface",
+     .pattern = "/v1/trees/{preset}/{image}.jpg",
+     .id = "get_tree_image",
      .summary =
          "One image of a tree's bark; what textures=linked points to, beside those of its leaves.",
      .media_type = "image/jpeg",
      .example = example_preset,
      .query_schema = [](const Atlas&) { return from_preset<TreeLook>(schema<TreePaint>()); },
-     .plan = plan_preset_image<Trees, ImageFormat::jpg>},
+     .plan = plan_own_image<Trees, ImageFormat::jpg>},
     {.kind = RouteKind::image,
      .method = "GET",
-     .pattern = "/v1/surfaces/trees/{preset}/{image}.webp",
-     .id = "get_tree_surface_webp",
+     .pattern = "/v1/trees/{preset}/{image}.webp",
+     .id = "get_tree_image_webp",
      .summary =
          "One image of a tree's bark; what textures=linked points to, beside those of its leaves.",
      .media_type = "image/webp",
      .example = example_preset,
      .query_schema = [](const Atlas&) { return from_preset<TreeLook>(schema<TreePaint>()); },
-     .plan = plan_preset_image<Trees, ImageFormat::webp>},
+     .plan = plan_own_image<Trees, ImageFormat::webp>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/trees/leaves/{preset}/{image}.jpg",
+     .id = "get_tree_leaf_image",
+     .summary = "One image of a tree's leaves; what textures=linked points to, beside its bark.",
+     .media_type = "image/jpeg",
+     .example = example_leaf,
+     .query_schema = leaf_paint_schema,
+     .plan = plan_leaf_image<ImageFormat::jpg>},
+    {.kind = RouteKind::image,
+     .method = "GET",
+     .pattern = "/v1/trees/leaves/{preset}/{image}.webp",
+     .id = "get_tree_leaf_image_webp",
+     .summary = "The same as WebP; what textures=linked points to with image_format=webp.",
+     .media_type = "image/webp",
+     .example = example_leaf,
+     .query_schema = leaf_paint_schema,
+     .plan = plan_leaf_image<ImageFormat::webp>},
 };
 
 void add_links(Value& links, const Atlas&) {

@@ -103,6 +103,13 @@ bool value_from_query(const std::string& text, Value& value, const std::string& 
     return true;
 }
 
+/// True for structs and variants, whose members have names of their own in a query, and for optional
+/// ones.
+template <class T>
+inline constexpr bool has_query_members = Described<T> || is_variant<T>;
+template <class T>
+inline constexpr bool has_query_members<std::optional<T>> = Described<T> || is_variant<T>;
+
 /// Reads the members of a described struct or variant into `out`. In the query, their names are
 /// preceded by `prefix`, such as "cap.".
 template <class T>
@@ -166,6 +173,32 @@ void read_query(QueryPairs pairs, T& out, std::vector<Problem>& problems) {
     if (problems.size() != before) return;
     for (Problem& problem : problems_in(out))
         report(problems, query_name(problem.path), std::move(problem.message));
+}
+
+/// Returns true if read_query() knows a name.
+///
+/// prefix  of all names, such as "cap."
+template <class T>
+bool is_query_name(std::string_view name, const std::string& prefix = "") {
+    if constexpr (is_optional<T>) {
+        return is_query_name<typename T::value_type>(name, prefix);
+    } else if constexpr (is_variant<T>) {
+        return name == prefix + form_key || [&]<class... Forms>(const std::variant<Forms...>*) {
+            return (is_query_name<Forms>(name, prefix) || ...);
+        }(static_cast<const T*>(nullptr));
+    } else {
+        bool found = false;
+        const T* const none = nullptr;
+        T::fields([&](auto member, const Info& sub) {
+            using Member = std::remove_cvref_t<decltype(none->*member)>;
+            const std::string own = prefix + sub.name;
+            if constexpr (has_query_members<Member>)
+                found = found || is_query_name<Member>(name, sub.name[0] ? own + '.' : prefix);
+            else
+                found = found || name == own;
+        });
+        return found;
+    }
 }
 
 /// Appends the members of `value` that differ from `defaults`; see `query_text`.

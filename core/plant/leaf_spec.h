@@ -72,7 +72,7 @@ struct LeafPaint {
         visit(&P::variation, info_of<L>("variation"));
         visit(&P::autumn, info_of<L>("autumn"));
         visit(&P::texture_size,
-              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+              Info{.name = "side", .unit = "texels", .doc = "Side of this image."});
         visit(&P::relief, info_of<LeafShape>("relief"));
         visit(&P::venation, info_of<LeafShape>("venation"));
         visit(&P::palette, Info{.name = ""});

@@ -75,7 +75,7 @@ struct TreePaint {
     static constexpr void fields(auto visit) {
         using P = TreePaint;
         visit(&P::texture_size,
-              Info{.name = "texture_size", .unit = "texels", .doc = "Side of this image."});
+              Info{.name = "side", .unit = "texels", .doc = "Side of this image."});
         visit(&P::bark, info_of<TreeLook>("bark"));
     }
     bool operator==(const TreePaint&) const = default;

@@ -254,8 +254,7 @@ void add_plants(Cases& cases) {
         add_get(cases, levelled(of + ".glb", 0, "&texture_size=1024"));
         add_get(cases, levelled(of + ".glb", 3, "&texture_size=128"));
         for (const int lod : {0, 3}) add_get(cases, levelled(of + ".json", lod));
-        add_get(cases,
-                "/v1/surfaces/leaves/" + preset.id.string() + "/normal.jpg?texture_size=256");
+        add_get(cases, "/v1/leaves/" + preset.id.string() + "/normal.jpg?side=256");
     }
     for (const TreePreset& preset : tree_presets()) {
         const std::string of = "/v1/trees/" + preset.id.string();
@@ -263,7 +262,7 @@ void add_plants(Cases& cases) {
             add_get(cases, levelled(of + ".glb", lod, "&textures=none"));
         add_get(cases, levelled(of + ".glb", 3, "&texture_size=1024"));
         for (const int lod : {0, 3}) add_get(cases, levelled(of + ".json", lod));
-        add_get(cases, "/v1/surfaces/trees/" + preset.id.string() + "/normal.jpg?texture_size=512");
+        add_get(cases, "/v1/trees/" + preset.id.string() + "/normal.jpg?side=512");
     }
     cases.push_back({"own matrix", post("{\"preset\":\"broadleaf\",\"lod\":2,\"textures\":\"none\","
                                         "\"rows\":[[0.6,0.4],[0.3,0.4,0.3],[0.1,0.3,0.4,0.2]]}",
@@ -275,7 +274,7 @@ void add_surfaces(Cases& cases, const std::vector<std::string>& swept) {
         for (const std::string& of :
              {std::string("amanita_muscaria"), std::string("ramaria_formosa"), mix_of(swept, 2),
               mix_of(swept, 8)})
-            add_get(cases, "/v1/surfaces/mushrooms/" + of + "/orm.jpg?texture_size=" + size);
+            add_get(cases, "/v1/mushrooms/" + of + "/orm.jpg?side=" + size);
 }
 
 std::string glb_of(std::string json, std::size_t binary) {

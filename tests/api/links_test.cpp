@@ -30,6 +30,7 @@ TEST(Resolved, GoesUpAndDownAsClientsDo) {
     EXPECT_EQ(resolved("../b/c:d.jpg?x=../y", "/v1/a/x.glb?q=/z"), "/v1/b/c:d.jpg?x=../y");
     EXPECT_EQ(resolved("b/c.jpg", "/v1/a.glb"), "/v1/b/c.jpg");
     EXPECT_EQ(resolved("../../b", "/p/v1/m/a/b.glb"), "/p/v1/b");
+    EXPECT_EQ(resolved("./a:1/b.jpg", "/v1/m/x.glb"), "/v1/m/a:1/b.jpg");
 }
 
 TEST_F(LinksTest, HoldWhereverAFileWasFetchedFrom) {
@@ -73,12 +74,45 @@ TEST_F(LinksTest, HoldWhereverAFileWasFetchedFrom) {
             const std::vector<std::string> images = linked_images(file, from);
             EXPECT_EQ(images.size(), one.images);
             for (const std::string& address : images) {
-                EXPECT_TRUE(address.starts_with(base + "/v1/surfaces/")) << address;
+                EXPECT_TRUE(address.starts_with(base + "/v1/")) << address;
                 const Response image = handle(service, get(address));
                 EXPECT_EQ(image.status, 200) << address << text_of(image);
                 EXPECT_EQ(header(image, "Content-Type"), "image/jpeg");
                 EXPECT_EQ(header(image, "Content-Location"), address);
             }
+        }
+    }
+}
+
+// Loaders of web engines accept references to what is below the folder of a file, and some of them
+// append the query of the file.
+TEST_F(LinksTest, OfAFileThatWasGotAreBelowItsFolderAndIgnoreItsParameters) {
+    Service service(built_in_atlas(), {});
+    const std::string query = "lod=2&texture_size=256&textures=linked&seed=7&size=1.5&profile=web";
+    const std::string of_mushrooms = "&deformation.bend_deg=9&ornaments.ring=0.2&age=0.55";
+    for (const std::string& file :
+         {"/v1/mushrooms/amanita_muscaria:0.7,boletus_edulis:0.3.glb?" + query + of_mushrooms,
+          "/v1/colonies/amanita_muscaria.glb?count=2&distinct=1&" + query,
+          "/v1/leaves/oak.glb?autumn=0.3&curl_deg=4&" + query,
+          "/v1/trees/herb.glb?leaves.droop=0.5&" + query}) {
+        const Response response = handle(service, get(file));
+        ASSERT_EQ(response.status, 200) << file << text_of(response);
+        for (const std::string& reference : references_in(response)) {
+            EXPECT_FALSE(reference.starts_with("../")) << reference;
+            const std::string address = resolved(reference, file);
+            const Response image = handle(service, get(address));
+            ASSERT_EQ(image.status, 200) << address << text_of(image);
+            std::string appended = address;
+            const std::string own = address.substr(address.find('?'));
+            for (const auto& pair : {std::string("lod=2"), std::string("texture_size=256"),
+                                     std::string("textures=linked"), std::string("seed=7"),
+                                     std::string("size=1.5"), std::string("profile=web")})
+                if (own.find(pair.substr(0, pair.find('=') + 1)) == std::string::npos ||
+                    pair.starts_with("size="))
+                    appended += '&' + pair;
+            const Response again = handle(service, get(appended));
+            ASSERT_EQ(again.status, 200) << appended << text_of(again);
+            EXPECT_EQ(header(again, "ETag"), header(image, "ETag")) << appended;
         }
     }
 }

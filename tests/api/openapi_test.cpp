@@ -103,13 +103,13 @@ TEST(OpenApi, NamesEveryQueryParameter) {
     };
     EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}.glb")), mushroom);
     EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}.json")), mushroom);
-    EXPECT_EQ(query_names(get("/v1/surfaces/mushrooms/{mix}/{image}.jpg")), surface);
+    EXPECT_EQ(query_names(get("/v1/mushrooms/{mix}/{image}.jpg")), surface);
     EXPECT_EQ(query_names(get("/v1/leaves/{preset}.glb")), leaf);
     EXPECT_EQ(query_names(get("/v1/leaves/{preset}.json")), leaf);
-    EXPECT_EQ(query_names(get("/v1/surfaces/leaves/{preset}/{image}.jpg")), leaf_surface);
+    EXPECT_EQ(query_names(get("/v1/leaves/{preset}/{image}.jpg")), leaf_surface);
     EXPECT_EQ(query_names(get("/v1/trees/{preset}.glb")), tree);
     EXPECT_EQ(query_names(get("/v1/trees/{preset}.json")), tree);
-    EXPECT_EQ(query_names(get("/v1/surfaces/trees/{preset}/{image}.jpg")), tree_surface);
+    EXPECT_EQ(query_names(get("/v1/trees/{preset}/{image}.jpg")), tree_surface);
     EXPECT_EQ(query_names(get("/v1/morphs/{a}/{b}")), (std::set<std::string>{"age", "v"}));
     EXPECT_EQ(query_names(get("/v1/species")),
               (std::set<std::string>{"form", "family", "substrate", "habit", "month", "colour",

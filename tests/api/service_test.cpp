@@ -278,10 +278,9 @@ TEST(ServiceBudget, WhatCostsTooMuchIs422BeforeAnyWork) {
     expect_problem(clip, 422);
     EXPECT_TRUE(names(clip, "lod"));
     EXPECT_TRUE(names(clip, "frames"));
-    const Response image =
-        handle(service, get("/v1/surfaces/mushrooms/" + first_species() + "/normal.jpg"));
+    const Response image = handle(service, get("/v1/mushrooms/" + first_species() + "/normal.jpg"));
     expect_problem(image, 422);
-    EXPECT_TRUE(names(image, "texture_size"));
+    EXPECT_TRUE(names(image, "side"));
     EXPECT_EQ(service.counters().generated, 0u);
 }
 
@@ -893,8 +892,8 @@ TEST_F(ServiceTest, LinkedTexturesAreWhereTheFileSays) {
 }
 
 TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneJob) {
-    const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
-    const std::string query = ".jpg?texture_size=128";
+    const std::string path = "/v1/mushrooms/" + first_species() + "/";
+    const std::string query = ".jpg?side=128";
     auto colour = plan_here(service_, get(path + "base_color" + query)),
          normal = plan_here(service_, get(path + "normal" + query));
     ASSERT_TRUE(std::holds_alternative<Job>(colour));
@@ -917,11 +916,11 @@ TEST_F(ServiceTest, TheThreeImagesOfAnAtlasAreOneJob) {
 }
 
 TEST_F(ServiceTest, ErrorsOfImageUrlsAreNamed) {
-    const std::string path = "/v1/surfaces/mushrooms/" + first_species() + "/";
+    const std::string path = "/v1/mushrooms/" + first_species() + "/";
     expect_problem(ask(path + "colour.jpg"), 404);
-    expect_problem(ask("/v1/surfaces/mushrooms/xyzzy/normal.jpg"), 404);
-    for (const char* query : {"age=2", "texture_size=100", "textures=none", "weathering.waves=0.5",
-                              "size=1.5", "size=71", "metrics.cap=1", "seed=1&seed=1"})
+    expect_problem(ask("/v1/mushrooms/xyzzy/normal.jpg"), 404);
+    for (const char* query :
+         {"age=2", "side=100", "size_steps=1.5", "size_steps=71", "metrics.cap=1", "seed=1&seed=1"})
         expect_problem(ask(path + "normal.jpg?" + query), 400);
     const Response old = ask(path + "normal.jpg?age=0.6&v=x");
     expect_problem(old, 410);

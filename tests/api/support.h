@@ -143,7 +143,7 @@ inline std::string resolved(const std::string& reference, const std::string& bas
         rest.erase(0, end);
         if (segment == "/..")
             out.erase(std::min(out.rfind('/'), out.size()));
-        else
+        else if (segment != "/.")
             out += segment;
     }
     return out + reference.substr(spot);

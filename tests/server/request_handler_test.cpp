@@ -370,7 +370,7 @@ TEST(RequestHandler, ChargesForReadingABodyThatIsRefused) {
 TEST(RequestHandler, ComputesCorrespondencesOnThePoolAndChargesThem) {
     const std::string mix = "/v1/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5.glb?lod=3";
     const std::string image =
-        "/v1/surfaces/mushrooms/amanita_muscaria:0.5,russula_vinosa:0.5/normal.jpg?texture_size=64";
+        "/v1/mushrooms/amanita_muscaria:0.5,russula_vinosa:0.5/normal.jpg?side=64";
     Harness alone, harness;
     alone.ask(mix, "HEAD");
     alone.ask(image);
@@ -429,8 +429,7 @@ TEST(RequestHandler, BoundsTheFreshnessOfSignedUrls) {
         EXPECT_TRUE(given.starts_with(begin) && given.ends_with(end)) << given;
         return std::stoll(given.substr(begin.size()));
     };
-    const std::string image =
-        "/v1/surfaces/mushrooms/amanita_muscaria/orm.jpg?texture_size=64&seed=";
+    const std::string image = "/v1/mushrooms/amanita_muscaria/orm.jpg?side=64&seed=";
     int seed = 0;
     for (const std::string& target : {small, image}) {
         for (const char* method : {"HEAD", "GET", "GET", "HEAD"})  // generated, then cached

@@ -167,7 +167,7 @@ test("a dragged shape does not wait for its textures", async (t) => {
     const released = new Promise((resolve) => {
         release = resolve;
     });
-    await page.route(/\/v1\/surfaces\//, async (route) => {
+    await page.route(/\/v1\/mushrooms\/[^/]+\/\w+\.jpg/, async (route) => {
         textureRequests += 1;
         await released;
         await route.continue().catch(() => undefined);
@@ -188,7 +188,7 @@ test("a dragged shape does not wait for its textures", async (t) => {
     );
     assert.ok(textureRequests <= 3, "one set of textures is requested");
     release();
-    await page.unroute(/\/v1\/surfaces\//, { behavior: "ignoreErrors" });
+    await page.unroute(/\/v1\/mushrooms\/[^/]+\/\w+\.jpg/, { behavior: "ignoreErrors" });
     await page.mouse.up();
     await ready(page);
 });

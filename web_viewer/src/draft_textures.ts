@@ -37,7 +37,7 @@ interface LinkedJson {
 const wrappings: Record<number, Wrapping> = { 33071: 1001, 33648: 1002, 10497: 1000 };
 
 /** Returns the role of an image by its file name: "base_color" for
- *  "../surfaces/mushrooms/amanita_muscaria/base_color.jpg?…". */
+ *  "amanita_muscaria/base_color.jpg?…". */
 function roleOf(uri: string): string {
     return /([^/?]+)\.\w+(?:\?|$)/.exec(uri)?.[1] ?? uri;
 }

@@ -57,9 +57,8 @@ TEST(Conditions, IfRangeIsTheStrongTagAndNothingElse) {
 class ConditionalRequest : public test::RequestedService {};
 
 TEST_F(ConditionalRequest, EveryLineOfIfNoneMatchCounts) {
-    for (const std::string& target :
-         {small(), std::string("/v1/species"),
-          "/v1/surfaces/mushrooms/" + first_species() + "/normal.jpg"}) {
+    for (const std::string& target : {small(), std::string("/v1/species"),
+                                      "/v1/mushrooms/" + first_species() + "/normal.jpg"}) {
         const std::string tag = header(ask(request("HEAD", target)), "ETag");
         EXPECT_EQ(ask(target, {{"If-None-Match", "\"x\""}, {"If-None-Match", tag}}).status, 304)
             << target;
@@ -71,7 +70,7 @@ TEST_F(ConditionalRequest, AFailingIfMatchIs412AndMakesNothing) {
     for (const std::string& target :
          {small(), std::string("/v1/species"), std::string("/v1/mushrooms/schema"),
           "/v1/mushrooms/" + first_species() + ".json", std::string("/"),
-          "/v1/surfaces/mushrooms/" + first_species() + "/orm.jpg?texture_size=64"}) {
+          "/v1/mushrooms/" + first_species() + "/orm.jpg?side=64"}) {
         const std::string etag = header(ask(request("HEAD", target)), "ETag");
         for (const char* method : {"GET", "HEAD"}) {
             expect_problem(ask(request(method, target, {{"If-Match", "\"x\""}})), 412);

@@ -75,8 +75,7 @@ class RangeRequest : public test::RequestedService {
 };
 
 TEST_F(RangeRequest, OfWhatIsCachedIsA206ThatCopiesNothing) {
-    const std::string image =
-        "/v1/surfaces/mushrooms/" + first_species() + "/normal.jpg?texture_size=64";
+    const std::string image = "/v1/mushrooms/" + first_species() + "/normal.jpg?side=64";
     for (const std::string& target : {small(), image}) {
         const Response first = range_of(target, "bytes=0-9");
         EXPECT_EQ(first.status, 200) << "it had to be made";

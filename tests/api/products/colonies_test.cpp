@@ -87,7 +87,7 @@ TEST_F(ColoniesTest, LinkImagesThatAreThoseTheyWouldEmbed) {
     const std::vector<std::string> linked = linked_images(ask(small("&textures=linked")), small());
     ASSERT_EQ(linked.size(), 3U);
     const std::string& address = linked[0];
-    EXPECT_TRUE(address.starts_with("/v1/surfaces/mushrooms/armillaria_mellea/base_color.jpg?"));
+    EXPECT_TRUE(address.starts_with("/v1/colonies/armillaria_mellea/base_color.jpg?"));
     const Response image = ask(address);
     ASSERT_EQ(image.status, 200) << address;
     EXPECT_NE(text_of(ask(small())).find(text_of(image)), std::string::npos)

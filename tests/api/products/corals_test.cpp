@@ -54,8 +54,7 @@ TEST_F(CoralsTest, FamiliesDoNotMixAndAreNamed) {
                       "Ramaria formosa branches; Boletus edulis does not: a mix needs one family"))
         << text_of(response);
     expect_problem(ask("/v1/colonies/boletus_edulis:0.5,ramaria_formosa:0.5.glb"), 422);
-    expect_problem(ask("/v1/surfaces/mushrooms/boletus_edulis:0.5,ramaria_formosa:0.5/normal.jpg"),
-                   422);
+    expect_problem(ask("/v1/mushrooms/boletus_edulis:0.5,ramaria_formosa:0.5/normal.jpg"), 422);
 }
 
 TEST_F(CoralsTest, WhatACoralCannotHaveIs422InWords) {

@@ -135,7 +135,7 @@ TEST_F(LeavesTest, LinkedImagesAreThoseEmbedded) {
     const Response linked = ask(small("&autumn=0.4&variation=1&textures=linked"));
     EXPECT_EQ(header(linked, "Cache-Status"), "sporeprint; fwd=miss; stored");
     for (const std::string& address : expect_linked_images(service_, linked, embedded)) {
-        EXPECT_TRUE(address.starts_with("/v1/surfaces/leaves/maple/")) << address;
+        EXPECT_TRUE(address.starts_with("/v1/leaves/maple/")) << address;
         EXPECT_NE(header(ask(address), "Content-Disposition").find("maple-1-"), std::string::npos);
     }
 }
@@ -165,7 +165,7 @@ TEST_F(LeavesTest, WhatIsImpossibleTogetherIs422) {
     const Response posted = ask(body(R"({"preset":"maple","venation":{"lobes":13}})"));
     expect_problem(posted, 422);
     EXPECT_TRUE(names(posted, "/venation/vein_deg", "petiole"));
-    const Response flat = ask("/v1/surfaces/leaves/ivy/normal.jpg?venation.side_deg=15");
+    const Response flat = ask("/v1/leaves/ivy/normal.jpg?venation.side_deg=15");
     expect_problem(flat, 422);
     EXPECT_TRUE(names(flat, "venation.side_deg", "too flat"));
     EXPECT_EQ(ask(maple + "?venation.lobes=13&venation.vein_deg=20&lod=3&texture_size=128").status,
@@ -202,13 +202,14 @@ TEST_F(LeavesTest, VersionsOfYesterdayAre410WithTheAddressOfToday) {
     expect_problem(old, 410);
     EXPECT_EQ(json_of(old).find("canonical")->as_string(), canonical);
     EXPECT_EQ(ask(canonical).status, 200);
-    const std::string image = "/v1/surfaces/leaves/maple/normal.jpg";
+    const std::string image = "/v1/leaves/maple/normal.jpg";
     const Response painted = ask(image + "?v=x");
     expect_problem(painted, 410);
     EXPECT_TRUE(json_of(painted).find("canonical")->as_string().starts_with(image + "?v="));
-    expect_problem(ask("/v1/surfaces/leaves/maple/colour.jpg"), 404);
-    expect_problem(ask("/v1/surfaces/leaves/elm/normal.jpg"), 404);
-    expect_problem(ask(image + "?curl_deg=3"), 400);
+    expect_problem(ask("/v1/leaves/maple/colour.jpg"), 404);
+    expect_problem(ask("/v1/leaves/elm/normal.jpg"), 404);
+    EXPECT_EQ(ask(image + "?curl_deg=3").status, 200) << "of the leaf that links to it";
+    expect_problem(ask(image + "?colour=3"), 400);
 }
 
 TEST(LeavesBudget, WhatCostsTooMuchIs422BeforeAnyWork) {
@@ -221,9 +222,9 @@ TEST(LeavesBudget, WhatCostsTooMuchIs422BeforeAnyWork) {
     EXPECT_TRUE(names(response, "lod", "at most 100"));
     EXPECT_TRUE(names(response, "texture_size"));
     EXPECT_TRUE(names(handle(service, body(R"({"preset":"maple"})")), "/lod"));
-    const Response image = handle(service, get("/v1/surfaces/leaves/maple/normal.jpg"));
+    const Response image = handle(service, get("/v1/leaves/maple/normal.jpg"));
     expect_problem(image, 422);
-    EXPECT_TRUE(names(image, "texture_size"));
+    EXPECT_TRUE(names(image, "side"));
     EXPECT_EQ(handle(service, get(small())).status, 200);
     EXPECT_EQ(service.counters().generated, 1u);
 }
@@ -282,7 +283,7 @@ RC_GTEST_PROP(LeafAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
     // Its images are painted from their address alone.
     const LeafPaint paint = paint_of(requested.spec.params);
     const std::string image = canonical_image_address<Leaves>(
-        atlas(), preset.id.string(), ImageKind::orm, ImageFormat::jpg, paint);
+        atlas(), folder_of<Leaves>(), preset.id.string(), ImageKind::orm, ImageFormat::jpg, paint);
     RC_ASSERT(image.size() <= longest_target);
     const Target there = split_target(image, problems);
     RC_ASSERT(problems.empty());

@@ -60,9 +60,9 @@ TEST_F(MixesTest, AMixIsGrownAndCarriesAllItsHeaders) {
 TEST_F(MixesTest, ResponsesThatNeedACorrespondenceHaveAWarmUpJob) {
     const std::string mix = a_ + ":0.7," + b_ + ":0.3";
     const Request head = request("HEAD", glb(mix));
-    const std::vector<Request> requested = {
-        head, get(glb(mix), {{"If-None-Match", "*"}}), get(glb(mix, "&v=old")),
-        get("/v1/surfaces/mushrooms/" + mix + "/normal.jpg?texture_size=128")};
+    const std::vector<Request> requested = {head, get(glb(mix), {{"If-None-Match", "*"}}),
+                                            get(glb(mix, "&v=old")),
+                                            get("/v1/mushrooms/" + mix + "/normal.jpg?side=128")};
     std::set<Key> keys;
     for (const Request& one : requested) {
         const auto planned = test::plan(service_, one);

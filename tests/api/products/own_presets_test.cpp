@@ -89,7 +89,7 @@ TEST_F(OwnPresetsTest, GrowLikeOthers) {
         service_,
         post(R"({"preset":"wych_elm","leaf":"elm","lod":3,"textures":"linked"})", "/v1/trees.glb"));
     ASSERT_EQ(posted.status, 200) << text_of(posted);
-    EXPECT_NE(text_of(posted).find("surfaces/leaves/elm/"), std::string::npos);
+    EXPECT_NE(text_of(posted).find("trees/leaves/elm/"), std::string::npos);
 }
 
 TEST_F(OwnPresetsTest, OthersAreUnknown) {

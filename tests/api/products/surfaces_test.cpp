@@ -59,7 +59,7 @@ RC_GTEST_PROP(SurfaceAddressProperty, AnAddressPaintsWhatItsOrderPaints, ()) {
 
     // Through its text and back, as another server reads it.
     const std::string text =
-        canonical_address(surface.mix, ImageKind::normal, ImageFormat::jpg, address);
+        canonical_address("colonies", surface.mix, ImageKind::normal, ImageFormat::jpg, address);
     RC_ASSERT(text.size() <= longest_target);
     std::vector<Problem> problems;
     const Target target = split_target(text, problems);
@@ -67,12 +67,13 @@ RC_GTEST_PROP(SurfaceAddressProperty, AnAddressPaintsWhatItsOrderPaints, ()) {
     ValidationErrors errors;
     const std::string image = target.segments.back().substr(0, target.segments.back().rfind('.'));
     const SurfaceRequest read =
-        read_surface(target.segments[3], image, target.query, *atlas, errors);
+        read_surface(target.segments[2], image, target.query, *atlas, errors);
     RC_ASSERT(errors.empty());
     RC_ASSERT(read.kind == ImageKind::normal);
     RC_ASSERT(read.mix == surface.mix);
     RC_ASSERT(read.address == address);
-    RC_ASSERT(canonical_address(read.mix, *read.kind, ImageFormat::jpg, read.address) == text);
+    RC_ASSERT(canonical_address("colonies", read.mix, *read.kind, ImageFormat::jpg, read.address) ==
+              text);
 
     const PaintSpec again = painted_at(read.address, read.mix, *atlas);
     RC_ASSERT(image_key(again, ImageFormat::jpg) == image_key(painted, ImageFormat::jpg));
@@ -101,17 +102,18 @@ TEST(SurfaceAddress, WeightsComeInStepsOfASixtyFourth) {
         ValidationErrors errors;
         const SurfaceRequest read = read_surface(mix, "normal", {}, *atlas, errors);
         EXPECT_TRUE(errors.empty()) << mix;
-        return canonical_address(read.mix, ImageKind::normal, ImageFormat::jpg, read.address);
+        return canonical_address("mushrooms", read.mix, ImageKind::normal, ImageFormat::jpg,
+                                 read.address);
     };
-    const std::string half = "/v1/surfaces/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5";
+    const std::string half = "/v1/mushrooms/amanita_muscaria:0.5,boletus_edulis:0.5";
     EXPECT_EQ(canonical("amanita_muscaria:1,boletus_edulis:1"), half + "/normal.jpg");
     EXPECT_EQ(canonical("boletus_edulis:0.503,amanita_muscaria:0.497"), half + "/normal.jpg");
     EXPECT_EQ(canonical("amanita_muscaria:0.7,boletus_edulis:0.3"),
-              "/v1/surfaces/mushrooms/amanita_muscaria:0.703,boletus_edulis:0.297/normal.jpg");
+              "/v1/mushrooms/amanita_muscaria:0.703,boletus_edulis:0.297/normal.jpg");
     EXPECT_EQ(canonical("amanita_muscaria:0.703,boletus_edulis:0.297"),
-              "/v1/surfaces/mushrooms/amanita_muscaria:0.703,boletus_edulis:0.297/normal.jpg");
+              "/v1/mushrooms/amanita_muscaria:0.703,boletus_edulis:0.297/normal.jpg");
     EXPECT_EQ(canonical("amanita_muscaria:0.996,boletus_edulis:0.004"),
-              "/v1/surfaces/mushrooms/amanita_muscaria/normal.jpg");
+              "/v1/mushrooms/amanita_muscaria/normal.jpg");
 }
 
 /// Images of a mix: those inside the file, those at the addresses that another file names, and those of another server.

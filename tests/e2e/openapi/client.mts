@@ -70,11 +70,11 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     if (!(made instanceof ArrayBuffer)) throw new Error("no file");
     void model;
 
-    await client.HEAD("/v1/surfaces/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { texture_size: 128 } } });
-    await client.GET("/v1/surfaces/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { texture_size: 128 } }, ...binary });
+    await client.HEAD("/v1/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { side: 128 } } });
+    await client.GET("/v1/mushrooms/{mix}/{image}.jpg", { params: { path: { mix: id, image: "normal" }, query: { side: 128 } }, ...binary });
 
-    const scales = { params: { path: { mix: id, image: "orm" }, query: { texture_size: 128 } } } as const;
-    await both(client.HEAD("/v1/surfaces/mushrooms/{mix}/{image}.webp", scales), client.GET("/v1/surfaces/mushrooms/{mix}/{image}.webp", { ...scales, ...binary }));
+    const scales = { params: { path: { mix: id, image: "orm" }, query: { side: 128 } } } as const;
+    await both(client.HEAD("/v1/mushrooms/{mix}/{image}.webp", scales), client.GET("/v1/mushrooms/{mix}/{image}.webp", { ...scales, ...binary }));
 
     const set = { species: [id, other], levels: [3], texture_size: 128 as const };
     const { data: manifest } = await client.POST("/v1/sets.json", { body: set });
@@ -98,6 +98,9 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     if (count !== 3) throw new Error("the effective count is not told");
     const group = { params: { path: { mix: id }, query: { ...small, ...drawn, count: 3 } } };
     await both(client.HEAD("/v1/colonies/{mix}.png", group), client.GET("/v1/colonies/{mix}.png", { ...group, ...binary }));
+    const cap = { params: { path: { mix: id, image: "normal" }, query: { side: 128 } } } as const;
+    await both(client.HEAD("/v1/colonies/{mix}/{image}.jpg", cap), client.GET("/v1/colonies/{mix}/{image}.jpg", { ...cap, ...binary }));
+    await both(client.HEAD("/v1/colonies/{mix}/{image}.webp", cap), client.GET("/v1/colonies/{mix}/{image}.webp", { ...cap, ...binary }));
     await client.POST("/v1/colonies.glb", { body: { ...colony, ...small, count: 3 }, ...binary });
 
     await both(client.HEAD("/v1/leaves", {}), client.GET("/v1/leaves", {}));
@@ -108,9 +111,9 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const plate = { params: { path: { preset: "maple" }, query: { ...small, ...drawn } } };
     await both(client.HEAD("/v1/leaves/{preset}.png", plate), client.GET("/v1/leaves/{preset}.png", { ...plate, ...binary }));
     await client.POST("/v1/leaves.glb", { body: { ...leaf, ...small }, ...binary });
-    const vein = { params: { path: { preset: "maple", image: "orm" }, query: { texture_size: 128 } } } as const;
-    await both(client.HEAD("/v1/surfaces/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/surfaces/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
-    await both(client.HEAD("/v1/surfaces/leaves/{preset}/{image}.webp", vein), client.GET("/v1/surfaces/leaves/{preset}/{image}.webp", { ...vein, ...binary }));
+    const vein = { params: { path: { preset: "maple", image: "orm" }, query: { side: 128 } } } as const;
+    await both(client.HEAD("/v1/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
+    await both(client.HEAD("/v1/leaves/{preset}/{image}.webp", vein), client.GET("/v1/leaves/{preset}/{image}.webp", { ...vein, ...binary }));
 
     await both(client.HEAD("/v1/trees", {}), client.GET("/v1/trees", {}));
     await both(client.HEAD("/v1/trees/schema", {}), client.GET("/v1/trees/schema", {}));
@@ -123,9 +126,11 @@ export async function callAll(baseUrl: string): Promise<Map<string, number>> {
     const habit = { params: { path: { preset: "herb" }, query: { ...small, ...drawn } } };
     await both(client.HEAD("/v1/trees/{preset}.png", habit), client.GET("/v1/trees/{preset}.png", { ...habit, ...binary }));
     await client.POST("/v1/trees.glb", { body: { ...tree, ...small }, ...binary });
-    const bark = { params: { path: { preset: "herb", image: "base_color" }, query: { texture_size: 128 } } } as const;
-    await both(client.HEAD("/v1/surfaces/trees/{preset}/{image}.jpg", bark), client.GET("/v1/surfaces/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
-    await both(client.HEAD("/v1/surfaces/trees/{preset}/{image}.webp", bark), client.GET("/v1/surfaces/trees/{preset}/{image}.webp", { ...bark, ...binary }));
+    await both(client.HEAD("/v1/trees/leaves/{preset}/{image}.jpg", vein), client.GET("/v1/trees/leaves/{preset}/{image}.jpg", { ...vein, ...binary }));
+    await both(client.HEAD("/v1/trees/leaves/{preset}/{image}.webp", vein), client.GET("/v1/trees/leaves/{preset}/{image}.webp", { ...vein, ...binary }));
+    const bark = { params: { path: { preset: "herb", image: "base_color" }, query: { side: 128 } } } as const;
+    await both(client.HEAD("/v1/trees/{preset}/{image}.jpg", bark), client.GET("/v1/trees/{preset}/{image}.jpg", { ...bark, ...binary }));
+    await both(client.HEAD("/v1/trees/{preset}/{image}.webp", bark), client.GET("/v1/trees/{preset}/{image}.webp", { ...bark, ...binary }));
 
     const { data: inspected } = await client.POST("/v1/inspect", {
         body: made as unknown as string, // a file: its type is "string" of format "binary"

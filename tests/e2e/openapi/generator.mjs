@@ -16,7 +16,7 @@ export function random(state) {
 }
 
 /** Expensive parameters get small values. */
-const cheap = { texture_size: [128, 128, 256], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2], seeds: [1, 2], levels: [[3], [2, 3]], width: [16, 32, 48], height: [16, 32, 48] };
+const cheap = { texture_size: [128, 128, 256], side: [16, 128], lod: [3, 3, 2], count: [1, 2, 7], distinct: [1, 2], trunks: [1, 2], frames: [2, 3], order: [2, 3, 4], per_tip: [0, 1, 2], seeds: [1, 2], levels: [[3], [2, 3]], width: [16, 32, 48], height: [16, 32, 48] };
 
 export class Generator {
     constructor(document, lists, dice) {
@@ -104,7 +104,7 @@ export class Generator {
             return ids.length === 1 ? ids[0] : ids.map((id) => `${id}:${(dice.uniform() + 0.05).toFixed(2)}`).join(",");
         }
         if (name === "id" || name === "a" || name === "b") return dice.pick(dice.pick(lists.families));
-        if (name === "preset") return dice.pick(path.includes("/trees/") ? lists.trees : lists.leaves);
+        if (name === "preset") return dice.pick(path.startsWith("/v1/trees/{") ? lists.trees : lists.leaves);
         if (name === "type") return dice.pick(lists.types);
         if (name === "name") return dice.pick(["favicon.svg", "index.html"]);
         return undefined;
