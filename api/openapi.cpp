@@ -203,8 +203,9 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
 /// demand. A range of a response to POST is never sent.
 bool has_ranges(const Route& route) {
     const std::string_view type = route.media_type;
-    return is_get(route) && (type == "model/gltf-binary" || type == "image/jpeg" ||
-                             type == "application/octet-stream");
+    return is_get(route) &&
+           (type == "model/gltf-binary" || type == "image/jpeg" || type == "image/webp" ||
+            type == "image/png" || type == "application/octet-stream");
 }
 
 Value success_headers(const Route& route, bool is_signed) {

@@ -111,6 +111,7 @@ struct GlbScene {
     const WeightClip* clip = nullptr;      ///< animates the targets of the first node
     GlbGeometry geometry = GlbGeometry::floats;
     bool material_extensions = true;  ///< whether materials have their optional extensions
+    bool stands_on_ground = true;     ///< at y = 0; for pictures, not part of the file
 };
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture

@@ -461,6 +461,7 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     GlbScene scene;
     set_options(scene, params.file);
     scene.materials.push_back({.name = skin_name(spec), .look = look_of(typical.model)});
+    scene.stands_on_ground = !colony_traits(spec, atlas).lateral;
     const EmbeddedImages images = attach_images(
         scene.materials.front(), params.textures, params.file, extras.image_urls, execution,
         [&](ImageFormat format) {

@@ -120,6 +120,7 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     throw_if_cancelled(execution);
     const std::vector<Level> levels = sized_levels(params, meshes);
     GlbScene scene;
+    scene.stands_on_ground = false;
     set_options(scene, params.file);
     const LeafPaint paint = paint_of(params);
     scene.materials.push_back({.name = leaf_material_name(spec.preset, paint, params.textures)});

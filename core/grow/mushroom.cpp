@@ -34,6 +34,11 @@ std::vector<Mesh> level_meshes(MushroomSpec spec, const Individual& individual,
 
 }  // namespace
 
+bool grows_from_wall(const Model& model) {
+    const auto* const swept = std::get_if<Swept>(&model.shape);
+    return swept && swept->azimuth.lateral > 0.25;
+}
+
 MaterialLook look_of(const Model& model) {
     const Material& material = model.material;
     const auto light = [](Colour colour) {
@@ -148,6 +153,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     GlbScene scene;
     set_options(scene, params.file);
     scene.materials.push_back({.name = skin_name(spec), .look = look_of(individual.model)});
+    scene.stands_on_ground = !grows_from_wall(individual.model);
     GrowthClip growth;
     if (params.animation == Animation::growth) {
         growth = growth_clip(spec, atlas, first, execution);

@@ -44,6 +44,9 @@ namespace sporeprint {
 [[nodiscard]] std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individual,
                                            const Bounds& box);
 
+/// Returns true for a model that grows forwards from a wall: a bracket.
+[[nodiscard]] bool grows_from_wall(const Model& model);
+
 /// Returns the material beyond its images. Slime and water are a clear coat; velvet shines in the
 /// cap's own colours.
 [[nodiscard]] MaterialLook look_of(const Model& model);

@@ -263,8 +263,9 @@ struct Pixel {
 /// Draws one view of a scene.
 class Drawing {
   public:
+    /// has_ground  the plane y = 0 hides what is below it and shows the shadow
     Drawing(const DrawList& list, const Camera& camera, const PictureParams& params,
-            const Parallel& parallel)
+            bool has_ground, const Parallel& parallel)
         : list_(list),
           camera_(camera),
           params_(params),
@@ -273,8 +274,7 @@ class Drawing {
           shadows_(shadow_maps(list, lights_.surroundings, surroundings_side, parallel)),
           ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
           visible_(visible(list, camera, params.width * samples, params.height * samples)) {
-        const float height = list.box.max.y - list.box.min.y;
-        if (params.view != View::below && list.box.min.y > -0.1F * height)
+        if (has_ground)
             ground_ = GroundShadow(
                 list.box, {{{lights_.lamps, lamp_shadows_}, {lights_.surroundings, shadows_}}},
                 parallel);
@@ -443,8 +443,12 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
                       static_cast<std::size_t>(image.height) * 4);
     const std::vector<render::Camera> cameras = render::fitted_cameras(
         list, axes, static_cast<double>(params.width) / static_cast<double>(params.height));
+    const float height = list.box.max.y - list.box.min.y;
+    const bool has_ground =
+        scene.stands_on_ground && params.view != View::below && list.box.min.y > -0.4F * height;
     for (int frame = 0; frame < columns * rows; ++frame)
-        render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, parallel)
+        render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,
+                        parallel)
             .draw(image, frame % columns * params.width, frame / columns * params.height, parallel);
     return image;
 }
