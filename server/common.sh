@@ -22,10 +22,7 @@ build() { # preset [target ...]
 
 # Builds web_viewer/dist if a file of the page has changed since the last build.
 build_page() {
-    local lock now held
-    mkdir -p build
-    exec {held}>build/page.lock # stages that need the page run beside each other
-    flock "$held"
+    local lock now
     lock=$(sha256sum web_viewer/package-lock.json)
     if [ "$(cat build/page-modules.stamp 2>/dev/null)" != "$lock" ] || [ ! -d web_viewer/node_modules ]; then
         (cd web_viewer && npm ci --no-audit --no-fund --loglevel=error)
@@ -37,5 +34,4 @@ build_page() {
         (cd web_viewer && npm run --silent build)
         echo "$now" >build/page.stamp
     fi
-    exec {held}>&-
 }

@@ -67,8 +67,8 @@ Cost cost_of_drawing(const PictureParams& picture, std::uint64_t triangles) {
     const std::uint64_t views = is_sheet ? turntable_columns * turntable_rows : 1;
     const std::uint64_t samples = static_cast<std::uint64_t>(picture.width) *
                                   static_cast<std::uint64_t>(picture.height) * samples_of_pixel;
-    return {.base = 2000 * views,
-            .shadow_triangles = triangles * views * (1 + pictured_lights(triangles)),
+    return {.base = 1700 * views,
+            .shadow_triangles = triangles * views * (1 + pictured_lights(picture, triangles)),
             // What is seen from all sides fills less of each view.
             .samples = is_sheet ? samples * views / 2 : samples};
 }

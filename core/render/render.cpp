@@ -182,6 +182,12 @@ class GroundShadow {
     struct Falling {
         const std::vector<Light>& lights;
         const std::vector<ShadowMap>& shadows;
+        bool is_sharp = false;  ///< shadows of lamps have edges, which are interpolated
+
+        [[nodiscard]] float light_at(std::size_t i, const glm::vec3& at) const {
+            if (is_sharp) return shadows[i].light_at(at, glm::vec3(0.0F));
+            return shadows[i].reaches(at, glm::vec3(0.0F)) ? 1.0F : 0.0F;
+        }
     };
 
     GroundShadow(const Bounds& box, const std::array<Falling, 2>& light, const Parallel& parallel) {
@@ -196,6 +202,7 @@ class GroundShadow {
             for (const Light& one : some.lights) all += falling(one);
         darkness_.resize(static_cast<std::size_t>(side) * static_cast<std::size_t>(side));
         std::vector<std::function<void()>> tasks;
+        tasks.reserve(static_cast<std::size_t>(side));
         for (int row = 0; row < side; ++row)
             tasks.emplace_back([&, row] {
                 for (int column = 0; column < side; ++column) {
@@ -205,8 +212,7 @@ class GroundShadow {
                     for (const Falling& some : light)
                         for (std::size_t i = 0; i < some.lights.size(); ++i)
                             if (some.lights[i].direction.y > 0.0F)
-                                lit += falling(some.lights[i]) *
-                                       some.shadows[i].light_at(at, glm::vec3(0.0F));
+                                lit += falling(some.lights[i]) * some.light_at(i, at);
                     darkness_[static_cast<std::size_t>(row * side + column)] =
                         std::clamp(1.0F - lit / all, 0.0F, 1.0F);
                 }
@@ -269,19 +275,22 @@ class Drawing {
         : list_(list),
           camera_(camera),
           params_(params),
-          lights_(studio_lights(camera.axes, detail_of_lights(list.triangles()))),
+          lights_(studio_lights(camera.axes, detail_of_lights(params, list.triangles()))),
           lamp_shadows_(shadow_maps(list, lights_.lamps, lamp_side, parallel)),
           shadows_(shadow_maps(list, lights_.surroundings, surroundings_side, parallel)),
           ambient_(ambient_light(list, lights_.surroundings, shadows_, parallel)),
           visible_(visible(list, camera, params.width * samples, params.height * samples)) {
         if (has_ground)
             ground_ = GroundShadow(
-                list.box, {{{lights_.lamps, lamp_shadows_}, {lights_.surroundings, shadows_}}},
+                list.box,
+                {{{lights_.lamps, lamp_shadows_, true}, {lights_.surroundings, shadows_}}},
                 parallel);
     }
 
-    static int detail_of_lights(std::uint64_t triangles) {
-        return triangles > 1'000'000 ? 4 : triangles > 250'000 ? 2 : 1;
+    static int detail_of_lights(const PictureParams& params, std::uint64_t triangles) {
+        // In a small picture, the edges of the shadows of single lights are not resolved.
+        const bool is_small = params.width * params.height <= 320 * 320;
+        return triangles > 1'000'000 ? 4 : triangles > 250'000 || is_small ? 2 : 1;
     }
 
     /// Draws into an image at a place.
@@ -369,9 +378,10 @@ class Drawing {
         std::size_t of = 0;  // the sample whose facet it is
         const Lamps lamps{lights_.lamps, lamp_shadows_, all};
         for (std::size_t i = 0; i < all; ++i) {
+            const int column = x * samples + static_cast<int>(i) % samples;
+            const int row = y * samples + static_cast<int>(i) / samples;
             const glm::vec3 through =
-                ray(static_cast<float>(x * samples + static_cast<int>(i) % samples) + 0.5F,
-                    static_cast<float>(y * samples + static_cast<int>(i) / samples) + 0.5F);
+                ray(static_cast<float>(column) + 0.5F, static_cast<float>(row) + 0.5F);
             if (visible_.nearness[at[i]] > 0.0F) {
                 if (!facet || visible_.draw[at[i]] != visible_.draw[at[of]] ||
                     visible_.corner[at[i]] != visible_.corner[at[of]]) {
@@ -418,9 +428,9 @@ class Drawing {
 }  // namespace
 }  // namespace render
 
-std::size_t pictured_lights(std::uint64_t triangles) {
+std::size_t pictured_lights(const PictureParams& params, std::uint64_t triangles) {
     const render::StudioLights lights =
-        render::studio_lights({}, render::Drawing::detail_of_lights(triangles));
+        render::studio_lights({}, render::Drawing::detail_of_lights(params, triangles));
     return lights.lamps.size() + lights.surroundings.size();
 }
 

@@ -22,8 +22,9 @@ struct RgbaImage {
 /// Triangles that a picture may show, each instance counted.
 inline constexpr std::uint64_t most_pictured_triangles = 4'000'000;
 
-/// Returns the number of lights whose shadows a picture of so many triangles has.
-[[nodiscard]] std::size_t pictured_lights(std::uint64_t triangles);
+/// Returns the number of lights whose shadows a picture of so many triangles has: fewer for small
+/// pictures and for many triangles.
+[[nodiscard]] std::size_t pictured_lights(const PictureParams& params, std::uint64_t triangles);
 
 /// Draws a scene. Its images are those that it embeds; linked ones are white. The ground, y = 0,
 /// shows the shadow alone, and hides what is below it, except from below, where more than two fifths

@@ -9,6 +9,7 @@
 #include "core/math/random.h"
 #include "core/ramification/ramification.h"
 #include "core/skeleton/skin.h"
+#include "tests/support/glb_parts.h"
 
 namespace {
 
@@ -57,7 +58,7 @@ void skeleton_to_glb(benchmark::State& state) {
         const SkinnedSkeleton generated =
             skinned(cleaned(skeleton).skeleton, 2, SkinPlaces::omitted);
         bytes =
-            size_of(glb(generated.mesh, {.name = "roots", .image_urls = {}, .extras_json = ""}));
+            size_of(glb(generated.mesh, {.name = "roots", .image_urls = {}, .extras_json = {}}));
     }
     state.counters["bytes"] = static_cast<double>(bytes);
 }
