@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "api/http/documents.h"
 #include "api/http/errors.h"
 #include "api/http/routes.h"
 #include "api/http/schemas.h"
@@ -201,12 +202,7 @@ std::set<int> problems_of(const Route& route, bool is_signed) {
 
 /// Returns true if ranges of the body may be requested: for files that are not compressed on
 /// demand. A range of a response to POST is never sent.
-bool has_ranges(const Route& route) {
-    const std::string_view type = route.media_type;
-    return is_get(route) &&
-           (type == "model/gltf-binary" || type == "image/jpeg" || type == "image/webp" ||
-            type == "image/png" || type == "application/octet-stream");
-}
+bool has_ranges(const Route& route) { return is_get(route) && !compressible(route.media_type); }
 
 Value success_headers(const Route& route, bool is_signed) {
     Value headers = Value::object();

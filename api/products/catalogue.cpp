@@ -5,6 +5,7 @@
 
 #include "api/http/schemas.h"
 #include "api/http/text.h"
+#include "api/products/product.h"
 #include "core/params/reader.h"
 
 namespace sporeprint::api {
@@ -65,7 +66,7 @@ Value species_list(const Atlas& atlas, const SpeciesFilter& filter) {
 }
 
 Value product_list(const Atlas& atlas, const std::string& product) {
-    const std::string root = "/v1/" + product + '/';
+    const std::string root = folder_of(product);
     Value list = Value::array();
     for (const AtlasEntry& entry : atlas.entries()) {
         const std::string id = entry.species.id.string();

@@ -129,7 +129,7 @@ template <class Kind, class Spec>
 std::string canonical_address(const Atlas& atlas, const Spec& spec, Product product) {
     if constexpr (requires { Kind::has_address(spec, atlas); })
         if (!Kind::has_address(spec, atlas)) return {};
-    return with_query(std::string("/v1/") + Kind::all + '/' + spec.preset + ending_of(product),
+    return with_query(folder_of(Kind::all) + spec.preset + ending_of(product),
                       query_text(spec.params, with_profile(own_params<Kind>(atlas, spec.preset),
                                                            spec.params.file.profile)));
 }
@@ -169,12 +169,6 @@ std::string canonical_image_address(const Atlas& atlas, const std::string& folde
                       query_text(paint, paint_of(own_params<Kind>(atlas, preset))));
 }
 
-/// Returns the URL of the folder of a product, in which its images are: "/v1/leaves/".
-template <class Kind>
-std::string folder_of() {
-    return std::string("/v1/") + Kind::all + '/';
-}
-
 /// Returns the URLs of the three images of an atlas, with a version token.
 template <class Kind, class Paint>
 ImageUrls preset_image_urls(const Atlas& atlas, const std::string& folder,
@@ -189,7 +183,7 @@ ImageUrls preset_image_urls(const Atlas& atlas, const std::string& folder,
 /// Returns the document that lists all presets: {"leaves":[{"id","name","links"}]} for leaves.
 template <class Kind>
 Value preset_list(const Atlas& atlas) {
-    const std::string root = std::string("/v1/") + Kind::all + '/';
+    const std::string root = folder_of(Kind::all);
     Value list = Value::array();
     for (const auto& preset : Kind::presets(atlas)) {
         const std::string id = preset.id.string();
@@ -257,7 +251,7 @@ struct PresetProduct {
 
     static ImageUrls image_urls(const Context& context, const Spec& spec,
                                 const std::string& version, const ExecutionContext&) {
-        return preset_image_urls<Kind>(*context.atlas, folder_of<Kind>(), spec.preset,
+        return preset_image_urls<Kind>(*context.atlas, folder_of(Kind::all), spec.preset,
                                        paint_of(spec.params), version);
     }
 
@@ -350,7 +344,7 @@ Plan plan_preset_image(RouteCall& call, const std::string& folder, Query query) 
 template <class Kind, ImageFormat Format>
 Plan plan_own_image(RouteCall& call) {
     return plan_preset_image<Kind, Format>(
-        call, folder_of<Kind>(),
+        call, folder_of(Kind::all),
         without_parameters_of_model<typename Kind::Paint, typename Kind::Params>(
             call.target.query));
 }

@@ -97,6 +97,8 @@ std::string with_query(std::string path, const std::string& query) {
     return query.empty() ? path : std::move(path) + '?' + query;
 }
 
+std::string folder_of(std::string_view product) { return "/v1/" + std::string(product) + '/'; }
+
 std::string with_version(std::string address, std::string_view version) {
     address += address.find('?') == std::string::npos ? '?' : '&';
     return (address += "v=") += version;

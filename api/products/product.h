@@ -93,6 +93,9 @@ void without_negative_zero(T& value) {
 /// Returns a path with its query, if there is one.
 [[nodiscard]] std::string with_query(std::string path, const std::string& query);
 
+/// Returns the URL of the folder of a product: "/v1/mushrooms/" for "mushrooms".
+[[nodiscard]] std::string folder_of(std::string_view product);
+
 /// Appends `v` as the last parameter of a URL.
 [[nodiscard]] std::string with_version(std::string address, std::string_view version);
 

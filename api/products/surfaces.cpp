@@ -66,8 +66,6 @@ SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query 
     return request;
 }
 
-std::string folder_of(const char* product) { return std::string("/v1/") + product + '/'; }
-
 std::string canonical_address(const char* product, const Mix& mix, ImageKind kind,
                               ImageFormat format, const SurfaceAddress& address) {
     return with_query(folder_of(product) + mix_text(mix) + '/' + file_of(kind, format),

@@ -98,9 +98,6 @@ struct SurfaceRequest {
 [[nodiscard]] SurfaceRequest read_surface(std::string_view mix, std::string_view image, Query query,
                                           const Atlas& atlas, ValidationErrors& errors);
 
-/// The URL of the folder of a product, in which its images are: "/v1/mushrooms/".
-[[nodiscard]] std::string folder_of(const char* product);
-
 /// Returns the canonical URL of an image without version.
 ///
 /// product  "mushrooms" or "colonies", which have the same images

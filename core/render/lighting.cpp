@@ -128,32 +128,32 @@ float ShadowMap::depth_at(int x, int y) const {
     return depth_[static_cast<std::size_t>(y * side_ + x)];
 }
 
+ShadowMap::Place ShadowMap::place_of(const glm::vec3& point, const glm::vec3& normal) const {
+    const float off = 0.75F / scale_;
+    const glm::vec3 at = point + normal * off;
+    return {(glm::dot(at, right_) - left_) * scale_ + 0.5F,
+            (-glm::dot(at, up_) - top_) * scale_ + 0.5F, glm::dot(at, direction_) + off};
+}
+
 float ShadowMap::light_at(const glm::vec3& point, const glm::vec3& normal) const {
-    const float texel = 1.0F / scale_;
-    const glm::vec3 at = point + normal * (0.75F * texel);
-    const float depth = glm::dot(at, direction_) + 0.75F * texel;
-    const float x = (glm::dot(at, right_) - left_) * scale_ + 0.5F,
-                y = (-glm::dot(at, up_) - top_) * scale_ + 0.5F;
-    const float floor_x = std::floor(x), floor_y = std::floor(y);
-    const float part_x = x - floor_x, part_y = y - floor_y;
-    const float limit = static_cast<float>(side_);
+    const Place place = place_of(point, normal);
+    const float floor_x = std::floor(place.x), floor_y = std::floor(place.y);
+    const float part_x = place.x - floor_x, part_y = place.y - floor_y;
+    const auto limit = static_cast<float>(side_);
     if (!(floor_x >= -1.0F && floor_y >= -1.0F && floor_x < limit && floor_y < limit)) return 1.0F;
     const int column = static_cast<int>(floor_x), row = static_cast<int>(floor_y);
-    const auto lit = [&](int i, int j) { return depth_at(i, j) <= depth ? 1.0F : 0.0F; };
+    const auto lit = [&](int i, int j) { return depth_at(i, j) <= place.depth ? 1.0F : 0.0F; };
     const float above = lit(column, row) * (1.0F - part_x) + lit(column + 1, row) * part_x;
     const float below = lit(column, row + 1) * (1.0F - part_x) + lit(column + 1, row + 1) * part_x;
     return above * (1.0F - part_y) + below * part_y;
 }
 
 bool ShadowMap::reaches(const glm::vec3& point, const glm::vec3& normal) const {
-    const float texel = 1.0F / scale_;
-    const glm::vec3 at = point + normal * (0.75F * texel);
-    const float x = (glm::dot(at, right_) - left_) * scale_ + 1.0F,
-                y = (-glm::dot(at, up_) - top_) * scale_ + 1.0F;
+    const Place place = place_of(point, normal);
+    const float x = place.x + 0.5F, y = place.y + 0.5F;
     const auto limit = static_cast<float>(side_);
     if (!(x >= 0.0F && y >= 0.0F && x < limit && y < limit)) return true;
-    return depth_[static_cast<std::size_t>(static_cast<int>(y) * side_ + static_cast<int>(x))] <=
-           glm::dot(at, direction_) + 0.75F * texel;
+    return depth_at(static_cast<int>(x), static_cast<int>(y)) <= place.depth;
 }
 
 std::vector<ShadowMap> shadow_maps(const DrawList& list, std::span<const Light> lights, int side,

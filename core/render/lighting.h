@@ -57,6 +57,14 @@ class ShadowMap {
     int side_ = 0;
     std::vector<float> depth_;  ///< distance towards the light, of the lowest surface that stops it
 
+    /// A point in the image: texels from the centre of the first one, and its depth.
+    struct Place {
+        float x = 0.0F, y = 0.0F, depth = 0.0F;
+    };
+
+    /// Returns the place of a point, moved off its surface and towards the light by three quarters
+    /// of a texel.
+    [[nodiscard]] Place place_of(const glm::vec3& point, const glm::vec3& normal) const;
     [[nodiscard]] float depth_at(int x, int y) const;
 };
 

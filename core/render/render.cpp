@@ -250,9 +250,11 @@ class GroundShadow {
     }
 };
 
-/// sRGB of linear values in steps of 1/4095.
-std::array<std::uint8_t, 4096> srgb_table() {
-    std::array<std::uint8_t, 4096> table{};
+using SrgbTable = std::array<std::uint8_t, 4096>;
+
+/// Returns sRGB of linear values in steps of 1/4095.
+SrgbTable srgb_table() {
+    SrgbTable table{};
     for (std::size_t i = 0; i < table.size(); ++i)
         table[i] = static_cast<std::uint8_t>(
             linear_to_srgb(static_cast<double>(i) / 4095.0) * 255.0 + 0.5);
@@ -294,8 +296,8 @@ class Drawing {
     }
 
     /// Draws into an image at a place.
-    void draw(RgbaImage& image, int left, int top, const Parallel& parallel) const {
-        const std::array<std::uint8_t, 4096> srgb = srgb_table();
+    void draw(RgbaImage& image, int left, int top, const SrgbTable& srgb,
+              const Parallel& parallel) const {
         std::vector<std::function<void()>> tasks;
         for (int first = 0; first < params_.height; first += band)
             tasks.emplace_back([&, first] {
@@ -401,8 +403,7 @@ class Drawing {
         return {sum.light * share, sum.surface * share, sum.shadow * share};
     }
 
-    void write(const Pixel& pixel, const std::array<std::uint8_t, 4096>& srgb,
-               std::uint8_t* to) const {
+    void write(const Pixel& pixel, const SrgbTable& srgb, std::uint8_t* to) const {
         constexpr float darkest = 0.75F;
         const float shadow = pixel.shadow * darkest;
         glm::vec3 colour(0.0F);
@@ -456,10 +457,12 @@ RgbaImage rendered(const GlbScene& scene, const PictureParams& params, const Par
     const float height = list.box.max.y - list.box.min.y;
     const bool has_ground =
         scene.stands_on_ground && params.view != View::below && list.box.min.y > -0.4F * height;
+    const render::SrgbTable srgb = render::srgb_table();
     for (int frame = 0; frame < columns * rows; ++frame)
         render::Drawing(list, cameras[static_cast<std::size_t>(frame)], params, has_ground,
                         parallel)
-            .draw(image, frame % columns * params.width, frame / columns * params.height, parallel);
+            .draw(image, frame % columns * params.width, frame / columns * params.height, srgb,
+                  parallel);
     return image;
 }
 

@@ -282,8 +282,9 @@ RC_GTEST_PROP(LeafAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
 
     // Its images are painted from their address alone.
     const LeafPaint paint = paint_of(requested.spec.params);
-    const std::string image = canonical_image_address<Leaves>(
-        atlas(), folder_of<Leaves>(), preset.id.string(), ImageKind::orm, ImageFormat::jpg, paint);
+    const std::string image =
+        canonical_image_address<Leaves>(atlas(), folder_of(Leaves::all), preset.id.string(),
+                                        ImageKind::orm, ImageFormat::jpg, paint);
     RC_ASSERT(image.size() <= longest_target);
     const Target there = split_target(image, problems);
     RC_ASSERT(problems.empty());

@@ -391,8 +391,9 @@ RC_GTEST_PROP(TreeAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
 
     // Its images are painted from their address alone.
     const TreePaint paint = paint_of(requested.spec.params);
-    const std::string image = canonical_image_address<Trees>(
-        atlas(), folder_of<Trees>(), preset.id.string(), ImageKind::orm, ImageFormat::jpg, paint);
+    const std::string image =
+        canonical_image_address<Trees>(atlas(), folder_of(Trees::all), preset.id.string(),
+                                       ImageKind::orm, ImageFormat::jpg, paint);
     RC_ASSERT(image.size() <= longest_target);
     const Target there = split_target(image, problems);
     RC_ASSERT(problems.empty());
