@@ -23,7 +23,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/effort.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::costs_test {
 namespace {
 
 using test::get;
@@ -484,4 +484,4 @@ TEST(Costs, UploadedImagesAreChargedByTheirHeadsBeforeAnyIsDecoded) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::costs_test

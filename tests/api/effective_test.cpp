@@ -3,7 +3,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api::test {
+namespace sporeprint::api::test::effective_test {
 namespace {
 
 class EffectiveTest : public RequestedService {
@@ -94,4 +94,4 @@ TEST_F(EffectiveTest, MushroomsAndColoniesHaveTheSameShape) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api::test
+}  // namespace sporeprint::api::test::effective_test

@@ -4,7 +4,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api::test {
+namespace sporeprint::api::test::links_test {
 namespace {
 
 class LinksTest : public RequestedService {};
@@ -239,4 +239,4 @@ TEST_F(BasePathTest, BodiesAreAsLargeAsElsewhere) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api::test
+}  // namespace sporeprint::api::test::links_test

@@ -15,7 +15,7 @@
 #include "core/individual/mushroom_spec.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::openapi_test {
 namespace {
 
 Value document(bool signed_urls = false) {
@@ -335,4 +335,4 @@ TEST(MushroomSchema, HasEveryParameterAndNoVersion) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::openapi_test

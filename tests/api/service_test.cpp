@@ -20,7 +20,7 @@
 #include "core/params/reader.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::service_test {
 namespace {
 
 using test::errors_of;
@@ -1061,4 +1061,4 @@ TEST_F(ServiceTest, AnyThreadMayAskAtAnyTime) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::service_test

@@ -19,7 +19,7 @@
 #include "server/operations/signatures.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::canonical_key_test {
 namespace {
 
 using api::Key;
@@ -253,4 +253,4 @@ RC_GTEST_PROP(CanonicalKeyProperty, IncludesNeitherSignatureNorExpiry, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::canonical_key_test

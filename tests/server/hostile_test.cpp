@@ -17,7 +17,7 @@
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::hostile_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -463,4 +463,4 @@ TEST(HostileLimits, RunningOutOfDescriptorsIsSurvived) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::hostile_test

@@ -15,7 +15,7 @@
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::reload_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -193,4 +193,4 @@ TEST_F(Reload, DoesNotDisturbConcurrentRequests) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::reload_test

@@ -17,7 +17,7 @@
 #include "server/operations/machine.h"
 #include "tests/server/raw_client.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::request_handler_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -513,4 +513,4 @@ TEST(RequestHandler, RefusesWithProblemJson) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::request_handler_test

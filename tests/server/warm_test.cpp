@@ -11,7 +11,7 @@
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::warm_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -137,4 +137,4 @@ TEST_F(WarmStart, IsAliveButNotReadyMeanwhileAndStopsOnSigterm) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::warm_test

@@ -30,7 +30,8 @@ Part part_at(const glm::vec2& place) {
     return Part::cap;
 }
 
-Drawing drawn(const Mesh& mesh, const View& view, const Canvas& canvas, std::uint32_t parts) {
+Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& canvas,
+              std::uint32_t parts) {
     constexpr double degree = 3.14159265358979323846 / 180.0;
     const double ca = std::cos(view.azimuth * degree), sa = std::sin(view.azimuth * degree);
     const double ce = std::cos(view.elevation * degree), se = std::sin(view.elevation * degree);

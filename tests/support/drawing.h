@@ -12,12 +12,12 @@
 namespace sporeprint {
 
 /// A direction of view, degrees: azimuth round the axis, elevation above the ground.
-struct View {
+struct ViewDirection {
     double azimuth = 0.0, elevation = 0.0;
 };
 
 /// A square of the image plane through `middle`: `side` metres over `pixels` pixels.
-struct Canvas {
+struct ImagePlane {
     glm::vec3 middle{0.0F};
     double side = 1.0;
     int pixels = 256;
@@ -44,7 +44,7 @@ struct Drawing {
 [[nodiscard]] Part part_at(const glm::vec2& place);
 
 /// Draws the triangles of the parts in the bit set `parts` with a depth buffer.
-[[nodiscard]] Drawing drawn(const Mesh& mesh, const View& view, const Canvas& canvas,
+[[nodiscard]] Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& canvas,
                             std::uint32_t parts = (1U << part_count) - 1U);
 
 /// Returns the number of pixels covered by exactly one of two drawings.

@@ -9,7 +9,7 @@
 #include <set>
 #include <thread>
 
-namespace sporeprint::api {
+namespace sporeprint::api::cache_cache_test {
 namespace {
 
 using Sized = std::shared_ptr<const std::size_t>;
@@ -296,4 +296,4 @@ TEST(ComputingCache, AWaiterWhoIsStoppedLeaves) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::cache_cache_test

@@ -12,7 +12,7 @@
 #include "api/service.h"
 #include "core/problems.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::cache_directory_store_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -373,4 +373,4 @@ TEST(ServiceWithAStore, BeginsWarmWithTheSameBytesAndHeaders) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::cache_directory_store_test

@@ -8,7 +8,7 @@
 
 #include "core/silhouette/morph_set.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::cache_store_test {
 namespace {
 
 Morph a_morph() {
@@ -117,4 +117,4 @@ TEST_F(StoreTest, FailuresAreNotCached) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::cache_store_test

@@ -9,7 +9,7 @@
 #include "core/problems.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_compression_test {
 namespace {
 
 using test::first_species;
@@ -203,4 +203,4 @@ TEST_F(GzipOfGlb, IsNotMadeOfSmallFilesNorOfImages) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_compression_test

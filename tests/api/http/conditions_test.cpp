@@ -8,7 +8,7 @@
 #include "api/http/encoding.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_conditions_test {
 namespace {
 
 using test::expect_problem;
@@ -131,4 +131,4 @@ TEST_F(ConditionalRequest, ConditionsAreAllowedAndTheirResponsesExposedToOtherOr
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_conditions_test

@@ -5,7 +5,7 @@
 
 #include "api/http/documents.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_encoding_test {
 namespace {
 
 std::string gunzipped(const Slice& slice) {
@@ -80,4 +80,4 @@ TEST(Assets, TypesFollowTheEnding) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_encoding_test

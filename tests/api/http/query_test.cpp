@@ -5,7 +5,7 @@
 
 #include "core/params/messages.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_query_test {
 namespace {
 
 using Pairs = std::vector<std::pair<std::string, std::string>>;
@@ -72,4 +72,4 @@ RC_GTEST_PROP(TargetProperty, AnyBytesAreTakenWithoutHarm, (const std::string& b
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_query_test

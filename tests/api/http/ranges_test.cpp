@@ -8,7 +8,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_ranges_test {
 namespace {
 
 using test::expect_problem;
@@ -152,4 +152,4 @@ TEST_F(RangeRequest, OfJsonAndOfAPostIsIgnored) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_ranges_test

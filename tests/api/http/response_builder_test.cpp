@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_response_builder_test {
 namespace {
 
 std::string bounded(std::string cache_control, std::int64_t seconds_left) {
@@ -27,4 +27,4 @@ TEST(ResponseBuilder, MaxAgeIsNeverMoreThanWhatIsLeftOfTheUrl) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_response_builder_test

@@ -11,7 +11,7 @@
 #include "api/http/query.h"
 #include "api/routes.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_routes_test {
 namespace {
 
 std::vector<std::string> segments(std::string_view path) {
@@ -117,4 +117,4 @@ TEST(Routes, NoOtherFileNamesAProduct) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_routes_test

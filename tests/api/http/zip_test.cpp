@@ -10,7 +10,7 @@
 
 #include "core/problems.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::http_zip_test {
 namespace {
 
 std::string text_of(const Body& body) {
@@ -74,4 +74,4 @@ TEST(Zip, TooManyFilesAreRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::http_zip_test

@@ -6,7 +6,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_colonies_test {
 namespace {
 
 using test::expect_problem;
@@ -147,4 +147,4 @@ TEST_F(ColoniesTest, AreDescribedByASchema) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_colonies_test

@@ -7,7 +7,7 @@
 #include "core/params/reader.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_corals_test {
 namespace {
 
 using test::expect_linked_images;
@@ -108,4 +108,4 @@ TEST_F(CoralsTest, TheSchemaOffersBothForms) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_corals_test

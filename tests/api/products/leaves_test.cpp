@@ -16,7 +16,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_leaves_test {
 namespace {
 
 using test::errors_of;
@@ -296,4 +296,4 @@ RC_GTEST_PROP(LeafAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_leaves_test

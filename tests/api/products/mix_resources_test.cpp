@@ -7,7 +7,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_mix_resources_test {
 namespace {
 
 using test::get;
@@ -72,4 +72,4 @@ TEST_F(MixResources, AMixIsItselfInAnyOrderAndAtAnyScale) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_mix_resources_test

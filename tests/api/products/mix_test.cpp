@@ -6,7 +6,7 @@
 #include "core/params/messages.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_mix_test {
 namespace {
 
 int total(const Mix& mix) {
@@ -133,4 +133,4 @@ TEST(ReadMix, OfABodyRefusesWhatIsNoObjectOfNumbers) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_mix_test

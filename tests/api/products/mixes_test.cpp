@@ -10,7 +10,7 @@
 #include "core/params/messages.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_mixes_test {
 namespace {
 
 using test::expect_problem;
@@ -321,4 +321,4 @@ RC_GTEST_PROP(MixesProperty, EqualMeaningGivesEqualKeys, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_mixes_test

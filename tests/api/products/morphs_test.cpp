@@ -11,7 +11,7 @@
 #include "core/params/messages.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_morphs_test {
 namespace {
 
 using test::errors_of;
@@ -422,4 +422,4 @@ RC_GTEST_PROP(MorphsProperty, EqualMeaningGivesEqualKeys, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_morphs_test

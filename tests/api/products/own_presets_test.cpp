@@ -14,7 +14,7 @@
 #include "tests/api/support.h"
 #include "tests/support/atlas.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_own_presets_test {
 namespace {
 
 using test::expect_problem;
@@ -119,4 +119,4 @@ TEST(PresetVersions, DependOnTheLeavesOfTheAtlas) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_own_presets_test

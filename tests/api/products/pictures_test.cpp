@@ -10,7 +10,7 @@
 #include "core/surface/codecs.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_pictures_test {
 namespace {
 
 using test::expect_problem;
@@ -134,4 +134,4 @@ TEST_F(PicturesTest, LargerPicturesAndMoreTrianglesCostMore) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_pictures_test

@@ -6,7 +6,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_profiles_test {
 namespace {
 
 using test::get;
@@ -115,4 +115,4 @@ TEST(Profiles, OfPhonesHaveNoOptionalMaterialExtensions) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_profiles_test

@@ -8,7 +8,7 @@
 
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_sets_test {
 namespace {
 
 using test::header;
@@ -132,4 +132,4 @@ TEST_F(Sets, LargeOnesAreRefusedBeforeAnyWork) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_sets_test

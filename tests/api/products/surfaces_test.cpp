@@ -11,7 +11,7 @@
 #include "api/products/mix.h"
 #include "tests/api/support.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_surfaces_test {
 namespace {
 
 double share() { return *rc::gen::inRange(0, 1001) / 1000.0; }
@@ -156,4 +156,4 @@ TEST(SurfaceAddress, AgesComeInStepsOfASixtyFourth) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_surfaces_test

@@ -16,7 +16,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/draws.h"
 
-namespace sporeprint::api {
+namespace sporeprint::api::products_trees_test {
 namespace {
 
 using test::errors_of;
@@ -405,4 +405,4 @@ RC_GTEST_PROP(TreeAddressProperty, AnAddressMeansWhatItsOrderMeans, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::api
+}  // namespace sporeprint::api::products_trees_test

@@ -17,7 +17,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::atlas_atlas_test {
 namespace {
 
 /// A temporary folder of one test, removed when the test ends.
@@ -396,4 +396,4 @@ TEST(Atlas, InvalidFilesOfLeavesAndTreesAreNamed) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::atlas_atlas_test

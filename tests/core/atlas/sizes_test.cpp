@@ -13,7 +13,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::atlas_sizes_test {
 namespace {
 
 struct Sizes {
@@ -185,4 +185,4 @@ TEST(Sizes, IndividualsSpanTheRecordedRange) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::atlas_sizes_test

@@ -12,7 +12,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::colony_cap_test {
 namespace {
 
 std::vector<std::string> with_stems() {
@@ -127,4 +127,4 @@ TEST(Cap, KeepsItsRingOnTheStemOfTheColony) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::colony_cap_test

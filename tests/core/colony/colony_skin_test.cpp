@@ -11,7 +11,7 @@
 #include "core/surface/charts.h"
 #include "tests/support/meshes.h"
 
-namespace sporeprint {
+namespace sporeprint::colony_colony_skin_test {
 namespace {
 
 constexpr const Chart& chart = swept_charts[static_cast<std::size_t>(Part::stem)];
@@ -148,4 +148,4 @@ TEST(ColonySkin, WithoutStemsOrRootsThereIsNone) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::colony_colony_skin_test

@@ -7,7 +7,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::colony_colony_spec_test {
 namespace {
 
 ColonySpec colony_of(const std::string& id) {
@@ -95,4 +95,4 @@ TEST(ColonySpec, IncompatibleParametersAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::colony_colony_spec_test

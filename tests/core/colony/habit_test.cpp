@@ -8,7 +8,7 @@
 #include <map>
 #include <vector>
 
-namespace sporeprint {
+namespace sporeprint::colony_habit_test {
 namespace {
 
 // A mushroom with a cap of 60 mm on a stem of 80 x 8 mm.
@@ -194,4 +194,4 @@ TEST(ColonyHabit, RequestedValuesOverrideThoseOfTheSpecies) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::colony_habit_test

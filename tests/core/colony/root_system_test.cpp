@@ -14,7 +14,7 @@
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::colony_root_system_test {
 namespace {
 
 glm::dvec2 ground(const ColonySkeleton& colony, std::uint32_t node) {
@@ -260,4 +260,4 @@ TEST(ColonyRoots, TheSameSeedGivesTheSameColony) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::colony_root_system_test

@@ -12,7 +12,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::colony_separation_test {
 namespace {
 
 Mesh cap_of(const char* id, double age = 0.6) {
@@ -136,4 +136,4 @@ TEST_F(TwoStems, TheSecondAtTheSamePlaceIsLeftOut) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::colony_separation_test

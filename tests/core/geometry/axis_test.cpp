@@ -8,7 +8,7 @@
 
 #include "core/math/elementary.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_axis_test {
 namespace {
 
 using Vectors = std::vector<glm::dvec3>;
@@ -225,4 +225,4 @@ TEST(Axis, ATemplateAxisWithoutPointsIsStraight) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_axis_test

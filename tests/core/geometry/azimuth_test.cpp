@@ -17,7 +17,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_azimuth_test {
 namespace {
 
 /// Returns a random azimuth inside its ranges.
@@ -301,4 +301,4 @@ TEST(Azimuth, WeightsMoveVerticesAndNeverTheirNumberAndNeverFar) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_azimuth_test

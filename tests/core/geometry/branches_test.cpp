@@ -13,7 +13,7 @@
 #include "tests/support/mixes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_branches_test {
 namespace {
 
 /// Returns mixes of two and of all branched species.
@@ -136,4 +136,4 @@ TEST(Branches, FamiliesDoNotMixAndTheRefusalNamesThem) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_branches_test

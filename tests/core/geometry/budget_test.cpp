@@ -6,7 +6,7 @@
 #include "tests/support/mixes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_budget_test {
 namespace {
 
 Budget budget_at(const Mix& mix, double age, int lod) {
@@ -96,4 +96,4 @@ TEST(Budget, CountsWhatIsBuilt) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_budget_test

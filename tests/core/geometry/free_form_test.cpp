@@ -11,7 +11,7 @@
 
 #include "core/math/random.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_free_form_test {
 namespace {
 
 glm::dvec3 random_vector(Random& random, double reach) {
@@ -241,4 +241,4 @@ TEST(FreeForm, InvalidLatticesAreRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_free_form_test

@@ -13,7 +13,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_hymenium_test {
 namespace {
 
 constexpr const char* bladed[] = {"amanita_muscaria", "cantharellus_cibarius", "coprinus_comatus",
@@ -307,4 +307,4 @@ TEST(Hymenium, CoarseLevelsOfDetailHaveNoSolids) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_hymenium_test

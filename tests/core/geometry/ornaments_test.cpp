@@ -14,7 +14,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_ornaments_test {
 namespace {
 
 Mesh amanita(double warts, double ring, int lod = 0, std::uint32_t seed = 4) {
@@ -293,4 +293,4 @@ TEST(Ornaments, ScalesOfTheBulbStayOnItsSurfaceWhileTheStemGrows) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_ornaments_test

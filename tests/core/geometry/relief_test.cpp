@@ -19,7 +19,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_relief_test {
 namespace {
 
 /// Returns one kind of relief after another, and all at once.
@@ -257,4 +257,4 @@ TEST(Relief, PaintingIsDarkWhereTheMeshIsDeep) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_relief_test

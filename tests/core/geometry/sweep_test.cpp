@@ -23,7 +23,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_sweep_test {
 namespace {
 
 /// A model that is its outline and nothing else.
@@ -637,4 +637,4 @@ TEST(Sweep, RandomOutlinesSweepToValidMeshes) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_sweep_test

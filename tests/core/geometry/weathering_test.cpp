@@ -24,7 +24,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/surfaces.h"
 
-namespace sporeprint {
+namespace sporeprint::geometry_weathering_test {
 namespace {
 
 using Amount = std::optional<double> WeatheringOf<Maybe>::*;
@@ -330,4 +330,4 @@ TEST(Weathering, ImpossibleDamageIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::geometry_weathering_test

@@ -22,7 +22,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::gltf_compression_test {
 namespace {
 
 /// A GLB whose buffer views are decompressed.
@@ -272,4 +272,4 @@ TEST(Compression, BothPartsOfATreeHaveOneScale) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::gltf_compression_test

@@ -21,7 +21,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::gltf_glb_test {
 namespace {
 
 const std::vector<std::string> plain = {"NORMAL", "POSITION"};
@@ -496,4 +496,4 @@ TEST(Glb, AnEmptyMeshIsRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::gltf_glb_test

@@ -14,7 +14,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::gltf_inspect_test {
 namespace {
 
 const std::string address = "/v1/mushrooms/amanita_muscaria.glb?seed=7";
@@ -242,4 +242,4 @@ TEST(Inspect, DamagedFilesAreReadOrRefusedNeverCrash) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::gltf_inspect_test

@@ -21,7 +21,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_colony_test {
 namespace {
 
 ExecutionContext with_cached_morphs() {
@@ -434,4 +434,4 @@ TEST(ColonyCorners, AreValidOrRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_colony_test

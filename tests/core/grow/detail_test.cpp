@@ -15,13 +15,13 @@
 #include "tests/support/effort.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_detail_test {
 namespace {
 
 // Size on screen that each level of detail is made for, in pixels of its larger side.
 constexpr std::array<int, 4> made_for = {512, 256, 96, 32};
 
-constexpr std::array<View, 4> views = {{{20, 0}, {110, 15}, {200, 40}, {290, -25}}};
+constexpr std::array<ViewDirection, 4> views = {{{20, 0}, {110, 15}, {200, 40}, {290, -25}}};
 
 struct Level {
     Mesh mesh;
@@ -39,7 +39,7 @@ std::vector<Level> levels_of(const std::string& id, double age, std::uint32_t se
     return levels;
 }
 
-Canvas canvas_of(const Mesh& mesh, int pixels) {
+ImagePlane canvas_of(const Mesh& mesh, int pixels) {
     const Bounds box = bounds(mesh);
     const glm::vec3 size = box.max - box.min;
     const double larger = std::max({size.x, size.y, size.z});
@@ -62,8 +62,8 @@ TEST_P(Detail, SilhouettesOfNeighboursAgreeWithinAPixel) {
     for (const double age : std::span(ages).first(effort(4, 1, 4))) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
         for (std::size_t k = 0; k + 1 < levels.size(); ++k)
-            for (const View& view : views) {
-                const Canvas canvas = canvas_of(levels[0].mesh, made_for[k + 1]);
+            for (const ViewDirection& view : views) {
+                const ImagePlane canvas = canvas_of(levels[0].mesh, made_for[k + 1]);
                 const Drawing fine = drawn(levels[k].mesh, view, canvas);
                 const Drawing coarse = drawn(levels[k + 1].mesh, view, canvas);
                 EXPECT_LT(symmetric_difference(fine, coarse), outline_length(fine))
@@ -84,8 +84,8 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
         const std::vector<Level> levels = levels_of(GetParam(), age, 3);
         std::vector<std::array<MeanColour, 2>> means(levels.size());
         for (std::size_t k = 0; k < levels.size(); ++k)
-            for (const View& view : views) {
-                const Canvas canvas = canvas_of(levels[0].mesh, 160);
+            for (const ViewDirection& view : views) {
+                const ImagePlane canvas = canvas_of(levels[0].mesh, 160);
                 const Drawing all = drawn(levels[k].mesh, view, canvas);
                 const Drawing bare = drawn(levels[k].mesh, view, canvas, body);
                 for (std::size_t i = 0; i < all.seen.size(); ++i) {
@@ -111,7 +111,7 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
 // pixels is detected.
 TEST(Drawing, MeasuresOutlinesAndSeesSteps) {
     const Mesh mesh = mesh_of(textured(order_of(species_ids().front())));
-    const Canvas canvas = canvas_of(mesh, 96);
+    const ImagePlane canvas = canvas_of(mesh, 96);
     Mesh moved = mesh;
     const auto step = static_cast<float>(3.0 * canvas.side / canvas.pixels);
     for (glm::vec3& position : moved.positions) position += glm::vec3(step, step, 0.0F);
@@ -142,4 +142,4 @@ TEST(MeanColour, IsThatOfItsLight) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_detail_test

@@ -9,7 +9,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/surfaces.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_growth_properties_test {
 namespace {
 
 class Growth : public ::testing::TestWithParam<std::string> {};
@@ -66,4 +66,4 @@ TEST_P(Growth, HasNoJumpAtAnyStepSize) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_growth_properties_test

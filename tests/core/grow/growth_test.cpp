@@ -20,7 +20,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_growth_test {
 namespace {
 
 class EverySpeciesClip : public ::testing::TestWithParam<std::string> {};
@@ -292,4 +292,4 @@ TEST(Clip, StopsWhenCancelled) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_growth_test

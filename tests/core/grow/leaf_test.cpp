@@ -15,7 +15,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_leaf_test {
 namespace {
 
 LeafSpec order_of(const std::string& preset, int lod = 0, int side = 128) {
@@ -186,4 +186,4 @@ TEST(GrownLeaf, ImpossibleParametersAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_leaf_test

@@ -19,7 +19,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_levels_test {
 namespace {
 
 const Bounds box_of_one{glm::vec3(0.0F), glm::vec3(0.1F, 1.0F, 0.2F)};
@@ -212,4 +212,4 @@ TEST(Levels, AreNotAnimated) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_levels_test

@@ -10,7 +10,7 @@
 #include "core/silhouette/proof.h"
 #include "tests/support/mixes.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_morph_outlines_test {
 namespace {
 
 /// Returns the set of control shapes that mixes of these species consist of.
@@ -143,4 +143,4 @@ TEST_P(RandomOutlines, OfAHundredThousandMixesAreSimple) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_morph_outlines_test

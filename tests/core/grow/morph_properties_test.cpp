@@ -12,7 +12,7 @@
 #include "tests/support/mixes.h"
 #include "tests/support/surfaces.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_morph_properties_test {
 namespace {
 
 /// Tolerance that a deviation is compared with.
@@ -266,4 +266,4 @@ TEST(Morph, TheOrderOfSpeciesDoesNotMatter) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_morph_properties_test

@@ -22,7 +22,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/mixes.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_mushroom_test {
 namespace {
 
 class EverySpecies : public ::testing::TestWithParam<std::string> {};
@@ -358,4 +358,4 @@ TEST(Mushroom, CrossingModelsAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_mushroom_test

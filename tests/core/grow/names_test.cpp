@@ -18,7 +18,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_names_test {
 namespace {
 
 MushroomSpec fly_agaric() {
@@ -156,4 +156,4 @@ TEST(Names, AreNoneOnWhichAnEditorActs) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_names_test

@@ -20,7 +20,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_painting_test {
 namespace {
 
 /// An execution context that caches paintings and images by their keys, and counts what was
@@ -387,4 +387,4 @@ TEST(Painting, StopsWhenCancelled) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_painting_test

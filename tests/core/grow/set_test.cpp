@@ -9,7 +9,7 @@
 #include "core/grow/mushroom.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_set_test {
 namespace {
 
 SetSpec small_set() {
@@ -131,4 +131,4 @@ TEST(Set, RepeatedOrMissingValuesAreProblems) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_set_test

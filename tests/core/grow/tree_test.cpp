@@ -19,7 +19,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::grow_tree_test {
 namespace {
 
 TreeSpec order_of(const std::string& preset, int lod = 0, int side = 128) {
@@ -271,4 +271,4 @@ TEST(GrownTree, ImpossibleParametersAreRefusedByNameBeforeAnyWork) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::grow_tree_test

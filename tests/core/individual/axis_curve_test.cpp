@@ -9,7 +9,7 @@
 #include "core/geometry/axis.h"
 #include "core/math/elementary.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_axis_curve_test {
 namespace {
 
 /// Returns an arc of a circle that turns by `angle` towards azimuth `towards`.
@@ -109,4 +109,4 @@ TEST(AxisCurve, FollowsReversals) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_axis_curve_test

@@ -11,7 +11,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_branch_graph_test {
 namespace {
 
 Branched forks(int spec, MatrixKind matrix = MatrixKind::perfect) {
@@ -201,4 +201,4 @@ TEST(Branched, TooManyTipsAndNoForkAreRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_branch_graph_test

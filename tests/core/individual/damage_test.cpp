@@ -8,7 +8,7 @@
 #include "core/silhouette/morph_set.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_damage_test {
 namespace {
 
 constexpr std::uint32_t many_seeds = 40;
@@ -159,4 +159,4 @@ TEST(Damage, FurrowsBeginAndEndOnTheStem) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_damage_test

@@ -7,7 +7,7 @@
 #include <set>
 #include <vector>
 
-namespace sporeprint {
+namespace sporeprint::individual_gill_layout_test {
 namespace {
 
 int there(const BladeRow& row) {
@@ -126,4 +126,4 @@ TEST(GillLayout, SpineCountsFollowTheirSpacingUpToTheLimit) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_gill_layout_test

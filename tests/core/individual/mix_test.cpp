@@ -14,7 +14,7 @@
 #include "core/silhouette/weights.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_mix_test {
 namespace {
 
 std::vector<glm::dvec2> places_of(const Individual& individual) {
@@ -258,4 +258,4 @@ TEST(Mix, CacheKeysOfTheCorrespondenceCoverItsInputs) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_mix_test

@@ -7,7 +7,7 @@
 #include "core/math/elementary.h"
 #include "core/math/purposes.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_patches_test {
 namespace {
 
 PatchStyle warts() {
@@ -126,4 +126,4 @@ TEST(Patches, ShrinkToZeroWithTheAmount) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_patches_test

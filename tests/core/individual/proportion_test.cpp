@@ -8,7 +8,7 @@
 #include "core/math/random.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_proportion_test {
 namespace {
 
 /// The outline of a species' mature template, in metres.
@@ -154,4 +154,4 @@ TEST(Proportion, FindsTheSelfIntersectingCurve) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_proportion_test

@@ -15,7 +15,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::individual_resolve_test {
 namespace {
 
 Model model_of(const MushroomSpec& spec) { return resolve(spec, atlas()).model; }
@@ -376,4 +376,4 @@ TEST(Resolve, NaturalBendsNeverFoldTheStem) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::individual_resolve_test

@@ -7,7 +7,7 @@
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 
-namespace sporeprint {
+namespace sporeprint::math_direction_test {
 namespace {
 
 glm::dvec3 drawn(Random& random) {
@@ -51,4 +51,4 @@ TEST(Direction, PerpendicularVectorsRotateRightHanded) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::math_direction_test

@@ -8,7 +8,7 @@
 
 #include "core/math/random.h"
 
-namespace sporeprint {
+namespace sporeprint::math_elementary_test {
 namespace {
 
 // The reference is libm in long double (64 bits of mantissa).
@@ -160,4 +160,4 @@ TEST(Elementary, SmoothStepHasZeroEndSlopesAndIsSymmetric) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::math_elementary_test

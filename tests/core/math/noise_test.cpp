@@ -9,7 +9,7 @@
 
 #include "core/problems.h"
 
-namespace sporeprint {
+namespace sporeprint::math_noise_test {
 namespace {
 
 struct Points {
@@ -149,4 +149,4 @@ TEST_F(Noise, AnUnknownInstructionSetIsRefusedAndNamed) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::math_noise_test

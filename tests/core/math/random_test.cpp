@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <set>
 
-namespace sporeprint {
+namespace sporeprint::math_random_test {
 namespace {
 
 using Block = std::array<std::uint32_t, 4>;
@@ -91,4 +91,4 @@ TEST(Random, NormalDrawsHaveMeanZeroAndDeviationOne) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::math_random_test

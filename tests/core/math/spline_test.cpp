@@ -9,7 +9,7 @@
 #include "core/silhouette/outline.h"
 #include "core/silhouette/proof.h"
 
-namespace sporeprint {
+namespace sporeprint::math_spline_test {
 namespace {
 
 using Points = std::vector<glm::dvec3>;
@@ -143,4 +143,4 @@ TEST(Spline, FollowsACircleToFourthOrder) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::math_spline_test

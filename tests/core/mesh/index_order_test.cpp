@@ -11,7 +11,7 @@
 #include "tests/support/mixes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::mesh_index_order_test {
 namespace {
 
 using Triangles = std::vector<std::array<std::uint32_t, 3>>;
@@ -92,4 +92,4 @@ TEST(IndexOrder, AppliesToEveryMushroom) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::mesh_index_order_test

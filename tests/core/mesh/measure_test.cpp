@@ -9,7 +9,7 @@
 
 #include "tests/support/meshes.h"
 
-namespace sporeprint {
+namespace sporeprint::mesh_measure_test {
 namespace {
 
 /// Returns a cube of the given side, each face with vertices of its own: closed once welded.
@@ -106,4 +106,4 @@ TEST(Measure, TheListOfDefectsIsBounded) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::mesh_measure_test

@@ -12,7 +12,7 @@
 #include "core/math/elementary.h"
 #include "core/math/random.h"
 
-namespace sporeprint {
+namespace sporeprint::mesh_surfaces_test {
 namespace {
 
 glm::dvec3 random_point(Random& random) {
@@ -149,4 +149,4 @@ TEST(Surfaces, AJumpIsTheLargestMoveOrTheSizeOfANewPiece) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::mesh_surfaces_test

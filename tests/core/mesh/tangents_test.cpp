@@ -4,7 +4,7 @@
 
 #include <glm/geometric.hpp>
 
-namespace sporeprint {
+namespace sporeprint::mesh_tangents_test {
 namespace {
 
 // Returns a square in the plane z = 0 that faces +z with an upright image: u to +x, v down.
@@ -45,4 +45,4 @@ TEST(Tangents, ArePerpendicularToTheNormalAlsoWithoutAnImage) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::mesh_tangents_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::model_species_test {
 namespace {
 
 Species fly_agaric() { return atlas().find("amanita_muscaria")->species; }
@@ -92,4 +92,4 @@ TEST(Species, OneStageIsEnough) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::model_species_test

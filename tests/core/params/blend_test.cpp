@@ -9,7 +9,7 @@
 #include "tests/core/params/arbitrary.h"
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_blend_test {
 namespace {
 
 using sample::Request;
@@ -167,4 +167,4 @@ TEST(Overlay, ProofRefusesDifferentStructs) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_blend_test

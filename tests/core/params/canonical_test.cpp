@@ -10,7 +10,7 @@
 #include "tests/core/params/arbitrary.h"
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_canonical_test {
 namespace {
 
 using sample::Request;
@@ -68,4 +68,4 @@ TEST(Canonical, TextIsEscapedSoThatItCannotImitateOtherFields) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_canonical_test

@@ -7,7 +7,7 @@
 
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_corners_test {
 namespace {
 
 using sample::Request;
@@ -41,4 +41,4 @@ TEST(Corners, VisitEveryLeafAtItsExtremesAndRestoreIt) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_corners_test

@@ -8,7 +8,7 @@
 
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_describe_test {
 namespace {
 
 using sample::Request;
@@ -206,4 +206,4 @@ TEST(Describe, FormsAreSelectedByNameAndKeepTheirValues) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_describe_test

@@ -14,7 +14,7 @@
 #include "core/params/schema.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::params_id_choice_test {
 namespace {
 
 struct Garden {
@@ -105,4 +105,4 @@ TEST(IdChoice, CornersAreAllOfItsIds) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_id_choice_test

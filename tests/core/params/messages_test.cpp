@@ -12,7 +12,7 @@
 
 #include "core/params/value.h"
 
-namespace sporeprint {
+namespace sporeprint::params_messages_test {
 namespace {
 
 TEST(Messages, NumbersAreShortest) {
@@ -95,4 +95,4 @@ TEST(Messages, TitlesAreWords) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_messages_test

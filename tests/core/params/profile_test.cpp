@@ -8,7 +8,7 @@
 #include "core/individual/mushroom_spec.h"
 #include "core/params/query.h"
 
-namespace sporeprint {
+namespace sporeprint::params_profile_test {
 namespace {
 
 std::vector<Profile> all_profiles() {
@@ -51,4 +51,4 @@ TEST(Profile, AQueryNamesTheProfileAndWhatDiffersFromIt) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_profile_test

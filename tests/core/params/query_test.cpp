@@ -10,7 +10,7 @@
 #include "tests/core/params/arbitrary.h"
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_query_test {
 namespace {
 
 using sample::Request;
@@ -184,4 +184,4 @@ TEST(Query, ArbitraryPairsAreHandled) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_query_test

@@ -9,7 +9,7 @@
 #include "tests/core/params/arbitrary.h"
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_reader_test {
 namespace {
 
 using sample::Request;
@@ -184,4 +184,4 @@ TEST(Reader, WritesAllValuesInOrderWithoutEmptyOnes) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_reader_test

@@ -6,7 +6,7 @@
 
 #include "tests/core/params/sample.h"
 
-namespace sporeprint {
+namespace sporeprint::params_schema_test {
 namespace {
 
 using sample::Request;
@@ -123,4 +123,4 @@ TEST(Schema, DefaultsComeFromTheGivenObject) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_schema_test

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-namespace sporeprint {
+namespace sporeprint::params_types_test {
 namespace {
 
 std::vector<std::uint8_t> bytes_of(std::string_view text) { return {text.begin(), text.end()}; }
@@ -72,4 +72,4 @@ TEST(Types, DigestsFollowTheStandard) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_types_test

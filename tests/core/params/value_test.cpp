@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-namespace sporeprint {
+namespace sporeprint::params_value_test {
 namespace {
 
 std::vector<Problem> problems_of(std::string_view text) {
@@ -156,4 +156,4 @@ TEST(Value, CanBeBuiltInCode) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::params_value_test

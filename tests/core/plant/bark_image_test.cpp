@@ -9,7 +9,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_bark_image_test {
 namespace {
 
 constexpr std::size_t side = 64;
@@ -62,4 +62,4 @@ TEST(BarkImage, OfPresetsDifferAndRepeat) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_bark_image_test

@@ -9,7 +9,7 @@
 #include "core/plant/leaf.h"
 #include "tests/support/atlas.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_leaf_colour_test {
 namespace {
 
 glm::dvec3 linear(const Colour& colour) {
@@ -112,4 +112,4 @@ TEST(LeafColour, LeavesTurnEarlierAndLaterThanTheirTree) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_leaf_colour_test

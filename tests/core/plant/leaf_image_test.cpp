@@ -11,7 +11,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_leaf_image_test {
 namespace {
 
 constexpr int side = 128;
@@ -117,4 +117,4 @@ TEST(LeafImage, InvalidRequestsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_leaf_image_test

@@ -12,7 +12,7 @@
 #include "tests/support/draws.h"
 #include "tests/support/effort.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_leaf_spec_test {
 namespace {
 
 TEST(LeafSpec, APresetHasItsOwnParametersByDefault) {
@@ -125,4 +125,4 @@ TEST(LeafSpec, CountsNeverExceedTheEstimate) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_leaf_spec_test

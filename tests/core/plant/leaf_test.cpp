@@ -15,7 +15,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_leaf_test {
 namespace {
 
 // Returns the same leaf without fold, curl and waves.
@@ -179,4 +179,4 @@ TEST(Leaf, InvalidRequestsAreRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_leaf_test

@@ -12,7 +12,7 @@
 #include "core/plant/tree.h"
 #include "tests/support/atlas.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_params_test {
 namespace {
 
 template <class T>
@@ -55,4 +55,4 @@ TEST(PlantParams, OwnMatricesComeInAsJson) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_params_test

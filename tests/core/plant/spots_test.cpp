@@ -8,7 +8,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_spots_test {
 namespace {
 
 class Spots : public ::testing::Test {
@@ -72,4 +72,4 @@ TEST_F(Spots, ArePointsOfTheirArea) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_spots_test

@@ -12,7 +12,7 @@
 #include "tests/support/atlas.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_tree_spec_test {
 namespace {
 
 TEST(TreeSpec, APresetHasItsOwnParametersByDefault) {
@@ -150,4 +150,4 @@ TEST(TreeSpec, OrdersAreExpectedAsTheyGrow) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_tree_spec_test

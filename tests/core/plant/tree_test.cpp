@@ -16,7 +16,7 @@
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_tree_test {
 namespace {
 
 // Returns a tree without variation and tropisms.
@@ -383,4 +383,4 @@ TEST(Tree, ImpossibleTreesAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_tree_test

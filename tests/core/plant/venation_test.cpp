@@ -14,7 +14,7 @@
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::plant_venation_test {
 namespace {
 
 double cross(const glm::dvec2& a, const glm::dvec2& b) { return a.x * b.y - a.y * b.x; }
@@ -284,4 +284,4 @@ TEST(Venation, ImpossibleLeavesAreRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::plant_venation_test

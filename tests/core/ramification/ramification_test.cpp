@@ -12,7 +12,7 @@
 #include "tests/support/effort.h"
 #include "tests/support/refusals.h"
 
-namespace sporeprint {
+namespace sporeprint::ramification_ramification_test {
 namespace {
 
 constexpr std::size_t plenty = 1'000'000;
@@ -206,4 +206,4 @@ TEST(Ramification, ErrorsOfMatricesAreNamed) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::ramification_ramification_test

@@ -8,7 +8,7 @@
 
 #include "tests/support/solids.h"
 
-namespace sporeprint::render {
+namespace sporeprint::render::render_camera_test {
 namespace {
 
 TEST(Camera, ItsAxesAreARightHandedFrame) {
@@ -73,4 +73,4 @@ TEST(Camera, ViewsOfATurntableHaveOneScale) {
 }
 
 }  // namespace
-}  // namespace sporeprint::render
+}  // namespace sporeprint::render::render_camera_test

@@ -7,7 +7,7 @@
 #include "core/problems.h"
 #include "tests/support/solids.h"
 
-namespace sporeprint::render {
+namespace sporeprint::render::render_draw_list_test {
 namespace {
 
 TEST(DrawList, NodesTurnScaleAndMoveTheirMeshesAsTheirParentsDo) {
@@ -48,4 +48,4 @@ TEST(DrawList, HiddenNodesAreLeftOutAndInstancesAreDrawnEach) {
 }
 
 }  // namespace
-}  // namespace sporeprint::render
+}  // namespace sporeprint::render::render_draw_list_test

@@ -7,7 +7,7 @@
 
 #include "tests/support/solids.h"
 
-namespace sporeprint::render {
+namespace sporeprint::render::render_lighting_test {
 namespace {
 
 TEST(Lighting, TheSurroundingsIlluminateAsTheirIntegralDoes) {
@@ -87,4 +87,4 @@ TEST(Lighting, WhatArrivesAndWhatIsStoppedIsAllOfIt) {
 }
 
 }  // namespace
-}  // namespace sporeprint::render
+}  // namespace sporeprint::render::render_lighting_test

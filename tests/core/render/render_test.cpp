@@ -13,7 +13,7 @@
 #include "tests/support/refusals.h"
 #include "tests/support/solids.h"
 
-namespace sporeprint {
+namespace sporeprint::render_render_test {
 namespace {
 
 PictureParams square(int side, View view = View::three_quarter) {
@@ -135,4 +135,4 @@ TEST(Render, WhatIsTooLargeIsRefusedByName) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::render_render_test

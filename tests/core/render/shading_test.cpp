@@ -6,7 +6,7 @@
 
 #include "tests/support/solids.h"
 
-namespace sporeprint::render {
+namespace sporeprint::render::render_shading_test {
 namespace {
 
 /// A ball far below, whose shadows reach no point of a test.
@@ -74,4 +74,4 @@ TEST(Shading, ToneMappingKeepsOrderAndStaysBelowOne) {
 }
 
 }  // namespace
-}  // namespace sporeprint::render
+}  // namespace sporeprint::render::render_shading_test

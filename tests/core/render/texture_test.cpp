@@ -5,7 +5,7 @@
 #include "core/problems.h"
 #include "core/surface/codecs.h"
 
-namespace sporeprint::render {
+namespace sporeprint::render::render_texture_test {
 namespace {
 
 /// Returns a JPEG of the best quality whose left half is of one grey and whose right of another.
@@ -46,4 +46,4 @@ TEST(Texture, AnImageThatIsNotSquareIsRefused) {
 }
 
 }  // namespace
-}  // namespace sporeprint::render
+}  // namespace sporeprint::render::render_texture_test

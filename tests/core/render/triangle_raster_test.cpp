@@ -9,7 +9,7 @@
 
 #include "tests/support/draws.h"
 
-namespace sporeprint::render {
+namespace sporeprint::render::render_triangle_raster_test {
 namespace {
 
 constexpr int side = 64;
@@ -84,4 +84,4 @@ RC_GTEST_PROP(TriangleRaster, CornersBeyondTheImageAreNoHarm, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::render
+}  // namespace sporeprint::render::render_triangle_raster_test

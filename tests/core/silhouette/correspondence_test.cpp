@@ -11,7 +11,7 @@
 #include "core/math/random.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::silhouette_correspondence_test {
 namespace {
 
 Edges random_edges(Random& random, std::size_t count) {
@@ -217,4 +217,4 @@ TEST(ShareMap, DerivativeIsContinuousAndCorrect) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::silhouette_correspondence_test

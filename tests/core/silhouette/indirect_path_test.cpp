@@ -4,7 +4,7 @@
 
 #include "core/math/random.h"
 
-namespace sporeprint {
+namespace sporeprint::silhouette_indirect_path_test {
 namespace {
 
 /// Returns the value at t of a polynomial given via its Bernstein coefficients, via de Casteljau's
@@ -50,4 +50,4 @@ TEST(IndirectPaths, WeightsAlongAPathAreTheWeightsOfItsMixes) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::silhouette_indirect_path_test

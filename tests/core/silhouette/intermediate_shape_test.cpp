@@ -6,7 +6,7 @@
 
 #include "core/silhouette/outline.h"
 
-namespace sporeprint {
+namespace sporeprint::silhouette_intermediate_shape_test {
 namespace {
 
 /// Returns a straight stem and cap from one height to another.
@@ -37,4 +37,4 @@ TEST(IntermediateShape, LiesOnOneSideOfTheAxisForShapesOfEitherDirection) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::silhouette_intermediate_shape_test

@@ -15,7 +15,7 @@
 #include "core/silhouette/weights.h"
 #include "tests/support/mixes.h"
 
-namespace sporeprint {
+namespace sporeprint::silhouette_morph_set_test {
 namespace {
 
 double greatest(const Silhouette& s) {
@@ -559,4 +559,4 @@ TEST(MorphSet, RandomShapesAreRefusedOrNeverCross) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::silhouette_morph_set_test

@@ -10,7 +10,7 @@
 #include "tests/support/effort.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::silhouette_outline_test {
 namespace {
 
 /// Returns a plain agaric, 10 cm high.
@@ -253,4 +253,4 @@ TEST(Outline, NoIndividualOfTheAtlasCrossesItselfAtAnyAge) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::silhouette_outline_test

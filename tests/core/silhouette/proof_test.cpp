@@ -11,7 +11,7 @@
 
 #include "core/math/random.h"
 
-namespace sporeprint {
+namespace sporeprint::silhouette_proof_test {
 namespace {
 
 /// Returns true if closed segments share a point, in integer arithmetic.
@@ -418,4 +418,4 @@ TEST(Proof, ATurningPairIsCertifiedByASeparatingLine) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::silhouette_proof_test

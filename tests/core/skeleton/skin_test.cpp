@@ -18,7 +18,7 @@
 #include "tests/support/meshes.h"
 #include "tests/support/orders.h"
 
-namespace sporeprint {
+namespace sporeprint::skeleton_skin_test {
 namespace {
 
 Skeleton straight(double length, double from, double to) {
@@ -326,4 +326,4 @@ TEST(SkinnedSkeleton, RefusesInvalidGraphs) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::skeleton_skin_test

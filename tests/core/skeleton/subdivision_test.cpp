@@ -11,7 +11,7 @@
 #include "core/math/random.h"
 #include "core/problems.h"
 
-namespace sporeprint {
+namespace sporeprint::skeleton_subdivision_test {
 namespace {
 
 const QuadMesh cube = {
@@ -143,4 +143,4 @@ TEST(Subdivision, RefusesOpenMeshes) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::skeleton_subdivision_test

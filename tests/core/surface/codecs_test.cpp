@@ -10,7 +10,7 @@
 
 #include "core/problems.h"
 
-namespace sporeprint {
+namespace sporeprint::surface_codecs_test {
 namespace {
 
 // A smooth gradient of colours, which lossy codecs reproduce closely.
@@ -171,4 +171,4 @@ TEST(Codecs, WebpRefusesWhatItCannotHold) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::surface_codecs_test

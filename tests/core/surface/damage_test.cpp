@@ -13,7 +13,7 @@
 #include "tests/support/instruction_sets.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint {
+namespace sporeprint::surface_damage_test {
 namespace {
 
 using P = PaintedWeathering<Plain>;
@@ -183,4 +183,4 @@ TEST(PaintedDamage, CracksAreRadialWhereTheCapHasOpenedAndANetElsewhere) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::surface_damage_test

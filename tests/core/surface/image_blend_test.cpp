@@ -21,7 +21,7 @@
 #include "tests/support/orders.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint {
+namespace sporeprint::surface_image_blend_test {
 namespace {
 
 // Returns uncorrelated paintings: other colours, patterns, patches and reliefs.
@@ -410,4 +410,4 @@ TEST_F(ImageBlend, RefusesInvalidInput) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::surface_image_blend_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sporeprint {
+namespace sporeprint::surface_metrics_test {
 namespace {
 
 TEST(Metrics, EveryStepIsTheNearestToItsOwnLength) {
@@ -31,4 +31,4 @@ TEST(Metrics, InvalidLengthsCountAsTheShortest) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::surface_metrics_test

@@ -17,7 +17,7 @@
 #include "tests/support/instruction_sets.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint {
+namespace sporeprint::surface_paint_test {
 namespace {
 
 constexpr HymeniumPattern all_patterns[] = {HymeniumPattern::smooth, HymeniumPattern::gills,
@@ -556,4 +556,4 @@ TEST(Paint, AnUnreadableImageIsRefusedByItsPath) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::surface_paint_test

@@ -12,7 +12,7 @@
 #include "core/surface/codecs.h"
 #include "tests/support/paintings.h"
 
-namespace sporeprint {
+namespace sporeprint::surface_uploaded_image_test {
 namespace {
 
 // Returns a cap seen from above: nine rays of uneven width, rotated by a number of turns.
@@ -136,4 +136,4 @@ TEST(UploadedImages, AnUnreadableImageIsRefusedByItsPath) {
 }
 
 }  // namespace
-}  // namespace sporeprint
+}  // namespace sporeprint::surface_uploaded_image_test

@@ -5,7 +5,7 @@
 
 #include "core/problems.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_addresses_test {
 namespace {
 
 const std::string xff = "X-Forwarded-For", fwd = "Forwarded";
@@ -178,4 +178,4 @@ RC_GTEST_PROP(Proxies, IgnoreForgedElements, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_addresses_test

@@ -8,7 +8,7 @@
 #include <random>
 #include <vector>
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_deadlines_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -83,4 +83,4 @@ TEST(Deadlines, AgreeWithASortedList) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_deadlines_test

@@ -4,7 +4,7 @@
 
 #include <random>
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_head_test {
 namespace {
 
 using State = Scan::State;
@@ -127,4 +127,4 @@ TEST(Head, ScansArbitraryBytesTheSameInParts) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_head_test

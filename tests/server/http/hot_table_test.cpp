@@ -5,7 +5,7 @@
 #include <map>
 #include <random>
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_hot_table_test {
 namespace {
 
 Sending sending_of(std::size_t body, std::string more = {}) {
@@ -207,4 +207,4 @@ TEST(HotTable, RetainsAHotEntryInAScan) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_hot_table_test

@@ -13,7 +13,7 @@
 #include "tests/server/raw_client.h"
 #include "tests/server/real_server.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_limits_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -216,4 +216,4 @@ TEST(Limits, AreOffByDefault) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_limits_test

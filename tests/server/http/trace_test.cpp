@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_trace_test {
 namespace {
 
 const std::string trace = "4bf92f3577b34da6a3ce929d0e0e4736", parent = "00f067aa0ba902b7";
@@ -57,4 +57,4 @@ RC_GTEST_PROP(Trace, ContainsOnlyDigits, ()) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_trace_test

@@ -16,7 +16,7 @@
 #include "server/http/deadlines.h"
 #include "tests/server/raw_client.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::http_transport_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -1064,4 +1064,4 @@ TEST(Transport, ServesManyConcurrentClients) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::http_transport_test

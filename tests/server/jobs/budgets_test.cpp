@@ -6,7 +6,7 @@
 #include <thread>
 #include <vector>
 
-namespace sporeprint::server {
+namespace sporeprint::server::jobs_budgets_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -158,4 +158,4 @@ TEST(Budgets, AreSharedByAllThreads) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::jobs_budgets_test

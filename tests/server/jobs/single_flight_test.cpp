@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <thread>
 
-namespace sporeprint::server {
+namespace sporeprint::server::jobs_single_flight_test {
 namespace {
 
 using namespace std::chrono_literals;
@@ -369,4 +369,4 @@ TEST(SingleFlight, SurvivesManyJoinsAndCancellations) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::jobs_single_flight_test

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-namespace sporeprint::server {
+namespace sporeprint::server::operations_log_test {
 namespace {
 
 TEST(Log, WritesOneLinePerRequestForAnyBytes) {
@@ -96,4 +96,4 @@ TEST(Log, RedactsSignatures) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::operations_log_test

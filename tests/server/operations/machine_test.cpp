@@ -10,7 +10,7 @@
 #include "server/http/transport.h"
 #include "server/operations/health.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::operations_machine_test {
 namespace {
 
 TEST(Machine, ReadsQuotas) {
@@ -74,4 +74,4 @@ TEST(Health, IsTheStatusOfTheResponse) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::operations_machine_test

@@ -6,7 +6,7 @@
 
 #include "core/problems.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::operations_options_test {
 namespace {
 
 Options read(std::string_view file, const Given& environment = {}, const Given& flags = {}) {
@@ -236,4 +236,4 @@ TEST(Options, HaveHelpTexts) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::operations_options_test

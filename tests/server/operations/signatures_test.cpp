@@ -7,7 +7,7 @@
 
 #include "core/problems.h"
 
-namespace sporeprint::server {
+namespace sporeprint::server::operations_signatures_test {
 namespace {
 
 std::string bytes_from(char first) {
@@ -178,4 +178,4 @@ TEST(Signatures, EveryInvalidLineIsReportedWithoutSecrets) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::operations_signatures_test

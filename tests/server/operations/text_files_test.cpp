@@ -8,7 +8,7 @@
 #include <optional>
 #include <string>
 
-namespace sporeprint::server {
+namespace sporeprint::server::operations_text_files_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,4 +40,4 @@ TEST(TextFiles, AreReadWholeOrNotAtAll) {
 }
 
 }  // namespace
-}  // namespace sporeprint::server
+}  // namespace sporeprint::server::operations_text_files_test
