@@ -51,6 +51,26 @@ Value levels_schema() {
                             {"screen_coverage", std::move(coverage)}}));
 }
 
+Value with_collision(Value description) {
+    const Value number = typed("number");
+    Value shape = objects({{"part", typed("string")}});
+    shape.find("properties")
+        ->set("capsule", objects({{"radius_m", number}, {"height_m", number}}))
+        .set("convex", objects({{"points_m", list_of(triple())}}));
+    const Value collider = objects({{"shape", typed("integer")},
+                                    {"translation_m", triple()},
+                                    {"rotation", list_of(number)},
+                                    {"scale", number}});
+    Value collision =
+        objects({{"shapes", list_of(std::move(shape))}, {"colliders", list_of(collider)}});
+    collision.set("description",
+                  "Present unless the request says collision=none. A shape is a capsule along +y "
+                  "whose height includes its round ends, or the convex hull of points; a collider "
+                  "is a shape at a place, its rotation a unit quaternion x, y, z, w.");
+    description.find("properties")->set("collision", std::move(collision));
+    return description;
+}
+
 Value version_member() {
     return object(
         {{"type", "string"}, {"description", "Version token; another than today's is 410."}});

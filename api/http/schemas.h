@@ -40,6 +40,9 @@ namespace sporeprint::api {
 /// Returns the schema of the levels of detail of a product: the requested one and those below it.
 [[nodiscard]] Value levels_schema();
 
+/// Adds the optional member "collision" to the schema of the description of a product.
+[[nodiscard]] Value with_collision(Value description);
+
 /// Returns the schema of the member "v" of a request body, the version token.
 [[nodiscard]] Value version_member();
 

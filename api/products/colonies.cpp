@@ -80,6 +80,7 @@ Cost cost_of(const ColonySpec& spec, const Estimate& estimated, Product product,
     cost.vertices = distinct * spacing_vertices;
     cost.placed_vertices = estimated.vertices;
     cost.members = static_cast<std::uint64_t>(spec.params.count);
+    if (spec.params.file.collision != CollisionFormat::none) cost.solids = distinct;
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
@@ -196,6 +197,8 @@ Value Colonies::describe(const Context& context, const ColonySpec& spec, Resolve
     const Bounds box = bounds(colony);
     body.set("bounds_m", description(box));
     body.set("levels", level_list(levels_of(spec, typical, *context.atlas, box)));
+    if (spec.params.file.collision != CollisionFormat::none)
+        body.set("collision", collision_value(colony.collision));
     return body;
 }
 
@@ -313,14 +316,15 @@ void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string");
     schemas.set("colony_params", as_written(schema<ColonyParams>()))
         .set("colony_list", objects({{"colonies", product_list_schema()}}))
-        .set("colony_description", objects({{"canonical", text},
-                                            {"v", text},
-                                            {"mix", mix_list_schema()},
-                                            {"made", typed("integer")},
-                                            {"effective", reference("schemas/colony_params")},
-                                            {"estimate", estimate_schema()},
-                                            {"bounds_m", bounds_schema()},
-                                            {"levels", levels_schema()}}));
+        .set("colony_description",
+             with_collision(objects({{"canonical", text},
+                                     {"v", text},
+                                     {"mix", mix_list_schema()},
+                                     {"made", typed("integer")},
+                                     {"effective", reference("schemas/colony_params")},
+                                     {"estimate", estimate_schema()},
+                                     {"bounds_m", bounds_schema()},
+                                     {"levels", levels_schema()}})));
 }
 
 void add_bodies(Value& bodies, const Atlas& atlas) {

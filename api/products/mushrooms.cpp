@@ -11,6 +11,7 @@
 #include "api/products/pictures.h"
 #include "api/products/plan_product.h"
 #include "api/products/surfaces.h"
+#include "core/grow/collision.h"
 #include "core/grow/mushroom.h"
 #include "core/grow/names.h"
 #include "core/params/canonical.h"
@@ -139,6 +140,7 @@ Cost cost_of(const MushroomSpec& spec, const Estimate& estimated, Product produc
         cost_of_individuals(spec.mix, branches, product == Product::glb ? 1 + frames_of(spec) : 1);
     cost.base = 220;
     cost.vertices = estimated.vertices;
+    if (spec.params.file.collision != CollisionFormat::none) cost.solids = 1;
     if (product == Product::json) return cost;
     cost.bytes = estimated.bytes;
     if (spec.params.textures != Textures::embedded) return cost;
@@ -261,6 +263,8 @@ Value Mushrooms::describe(const Context& context, const MushroomSpec& spec, Reso
     body.set("estimate", description(estimate(spec, individual)));
     body.set("bounds_m", description(box));
     body.set("levels", level_list(levels_of(spec, individual, box)));
+    if (spec.params.file.collision != CollisionFormat::none)
+        body.set("collision", collision_value(body_of(collision_shapes(individual))));
     body.set("certificate", write(certificate(spec, individual, atlas, execution.caches.morphs)));
     return body;
 }
@@ -379,14 +383,15 @@ void add_schemas(Value& schemas, const Atlas&) {
     const Value text = typed("string");
     schemas.set("mushroom_params", as_written(schema<MushroomParams>()))
         .set("mushroom_list", objects({{"mushrooms", product_list_schema()}}))
-        .set("mushroom_description", objects({{"canonical", text},
-                                              {"v", text},
-                                              {"mix", mix_list_schema()},
-                                              {"effective", reference("schemas/mushroom_params")},
-                                              {"estimate", estimate_schema()},
-                                              {"bounds_m", bounds_schema()},
-                                              {"levels", levels_schema()},
-                                              {"certificate", reference("schemas/certificate")}}))
+        .set("mushroom_description",
+             with_collision(objects({{"canonical", text},
+                                     {"v", text},
+                                     {"mix", mix_list_schema()},
+                                     {"effective", reference("schemas/mushroom_params")},
+                                     {"estimate", estimate_schema()},
+                                     {"bounds_m", bounds_schema()},
+                                     {"levels", levels_schema()},
+                                     {"certificate", reference("schemas/certificate")}})))
         .set("certificate", as_written(schema<Certificate>()));
 }
 

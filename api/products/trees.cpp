@@ -1,6 +1,7 @@
 #include "api/products/trees.h"
 
 #include "api/products/leaves.h"
+#include "core/grow/collision.h"
 #include "core/params/schema.h"
 
 namespace sporeprint::api {
@@ -90,7 +91,9 @@ Measures Trees::measure(const TreeSpec& spec, const Atlas& atlas,
 
 Cost Trees::cost_of_growing(const TreeSpec& spec) {
     const double twigs = expected_tips(spec.params.look.shape.topology);
-    const std::size_t levels = levels_in_file(spec.params.lod, spec.params.file).size();
+    // Its trunk is grown once more.
+    const std::size_t levels = levels_in_file(spec.params.lod, spec.params.file).size() +
+                               (spec.params.file.collision != CollisionFormat::none ? 1 : 0);
     return {.base = 100, .twigs = levels * static_cast<std::uint64_t>(twigs)};
 }
 
@@ -105,6 +108,8 @@ void Trees::add_details(const TreeSpec& spec, Value& body) {
     const TreeTopology& topology = spec.params.look.shape.topology;
     body.set("matrix", write(matrix_of(topology).rows));
     body.set("expected_twigs", expected_tips(topology));
+    if (spec.params.file.collision != CollisionFormat::none)
+        body.set("collision", collision_value(trunk_collision(spec)));
 }
 
 Cost Trees::cost_of_paint(const TreePaint& paint) {
@@ -267,7 +272,7 @@ void add_schemas(Value& schemas, const Atlas& atlas) {
                                                               {"name", text},
                                                               {"order", whole},
                                                               {"links", map_of(text)}}))}}))
-        .set("tree_description", std::move(description));
+        .set("tree_description", with_collision(std::move(description)));
 }
 
 void add_bodies(Value& bodies, const Atlas& atlas) {

@@ -169,9 +169,10 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, 
         const float step = steps[i];
         std::string primitives;
         for (const GlbPrimitive& primitive : mesh.primitives) {
-            if (primitive.material >= scene.materials.size())
+            const bool has_material = primitive.material != GlbPrimitive::no_material;
+            if (has_material && primitive.material >= scene.materials.size())
                 throw GenerationError("a primitive wears a material that there is not");
-            const bool textured = is_textured(scene.materials[primitive.material]);
+            const bool textured = has_material && is_textured(scene.materials[primitive.material]);
             Geometry shape = geometry_of(*primitive.mesh, textured, storage, step, tables);
             geometries.emplace_back(std::move(shape.bytes));
             TargetData morph = target_data(primitive.targets, primitive.mesh->positions.size(),
@@ -179,7 +180,7 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, 
             if (morph.bytes) geometries.emplace_back(std::move(morph.bytes));
             (primitives += separator(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
             append(primitives += "\"indices\":", shape.indices_accessor);
-            append(primitives += ",\"material\":", primitive.material);
+            if (has_material) append(primitives += ",\"material\":", primitive.material);
             primitives += morph.targets + "}";
         }
         if (primitives.empty()) throw GenerationError("a mesh has no primitives");

@@ -52,8 +52,11 @@ struct GlbMaterial {
 
 /// A part of a mesh with one material: one draw call.
 struct GlbPrimitive {
+    /// The material of what is not meant to be seen: a file states none.
+    static constexpr std::size_t no_material = ~std::size_t{0};
+
     const Mesh* mesh = nullptr;
-    std::size_t material = 0;                   ///< index into the scene's
+    std::size_t material = 0;                   ///< index into the scene's, or no_material
     std::span<const MorphTarget> targets = {};  ///< weights are 0 until a viewer sets them
 };
 

@@ -1,8 +1,10 @@
 #include "core/grow/colony.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/common.hpp>
+#include <glm/geometric.hpp>
 #include <span>
 #include <string>
 #include <utility>
@@ -193,6 +195,54 @@ glm::dvec4 quaternion_of(const glm::dmat3& m) {
     return row / std::sqrt(row.x * row.x + row.y * row.y + row.z * row.z + row.w * row.w);
 }
 
+/// Returns the product of two unit quaternions x, y, z, w: first `b`, then `a`.
+glm::dvec4 product_of(const glm::dvec4& a, const glm::dvec4& b) {
+    const glm::dvec3 u(a), v(b);
+    return {a.w * v + b.w * u + glm::cross(u, v), a.w * b.w - glm::dot(u, v)};
+}
+
+/// Returns the solids of all members: those of their models at their places, and capsules along
+/// their stems.
+///
+/// members  with the poses of the file
+/// shapes   of each model
+Collision colony_collision(const ColonySite& site, const std::vector<ColonyMember>& members,
+                           const std::vector<std::vector<CollisionShape>>& shapes,
+                           const ColonyParams& params, const ColonyTraits& traits) {
+    std::vector<Collision> models;
+    for (const std::vector<CollisionShape>& of_model : shapes) models.push_back(body_of(of_model));
+    Collision collision;
+    std::vector<std::size_t> first_of(models.size());
+    for (std::size_t i = 0; i < models.size(); ++i) {
+        first_of[i] = collision.shapes.size();
+        collision.shapes.insert(collision.shapes.end(), models[i].shapes.begin(),
+                                models[i].shapes.end());
+    }
+    for (const ColonyMember& member : members) {
+        const Pose& pose = member.pose;
+        for (const Collider& own : models[member.model].colliders) {
+            const glm::dvec4 turn = product_of(quaternion_of(pose.turn), own.place.rotation);
+            collision.colliders.push_back(
+                {first_of[member.model] + own.shape,
+                 {pose.world(own.place.translation), turn, glm::dvec3(pose.scale)}});
+        }
+        if (!traits.capped) continue;
+        const ColonyPlace& place = site.places[member.place];
+        // The chords of n equal pieces are at most a quarter of the swing / n^2 off the stem.
+        const double off = 0.25 * glm::length(member.swing) / (0.5 * place.radius);
+        const int pieces = std::clamp(static_cast<int>(std::ceil(std::sqrt(off))), 1, 6);
+        std::vector<glm::dvec3> points;
+        for (int i = 0; i <= pieces; ++i) {
+            const double t = static_cast<double>(i) / pieces;
+            points.push_back(params.size * (place.foot + t * member.rise + t * t * member.swing));
+        }
+        const std::vector<double> radii(points.size(), params.size * place.radius);
+        for (CollisionShape& stem : capsules_along("stem", points, radii, pieces))
+            collision.add(std::move(stem));
+    }
+    return collision;
+}
+
 /// Adds one node for each member, or one instanced node for each model.
 ///
 /// mesh_of  of each model
@@ -265,15 +315,19 @@ void add_levels(GlbScene& scene, const Colony& colony, const std::string& name,
     link_levels(scene, nodes, levels, lods);
 }
 
+/// What placement and collision need of the distinct individuals of a colony.
+struct ModelSet {
+    std::vector<ColonyModel> models;
+    std::vector<std::vector<CollisionShape>> shapes;  ///< empty unless the file has collision
+};
+
 /// Adds the meshes of the distinct individuals of a colony.
 ///
 /// fit      of the typical individual; enlarged to the widest mesh if mushrooms stand as a whole
-/// returns  what placement needs of each
-std::vector<ColonyModel> add_models(const ColonySpec& spec, const ColonyTraits& traits,
-                                    const Atlas& atlas, const ExecutionContext& execution,
-                                    Colony& colony, StemFit& fit) {
+ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const Atlas& atlas,
+                    const ExecutionContext& execution, Colony& colony, StemFit& fit) {
     const ColonyParams& params = spec.params;
-    std::vector<ColonyModel> models;
+    ModelSet models;
     for (int which = 0; which < params.distinct; ++which) {
         throw_if_cancelled(execution);
         const MushroomSpec own = individual_spec(spec, which);
@@ -301,8 +355,12 @@ std::vector<ColonyModel> add_models(const ColonySpec& spec, const ColonyTraits& 
         const Mesh near = own_lod == placement_lod ? Mesh() : grown(placement_lod, false);
         const Mesh& footprint_mesh = own_lod == placement_lod ? own_mesh : near;
         if (!traits.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
-        models.push_back(
+        models.models.push_back(
             {OccupancyGrid(footprint_mesh), traits.capped ? stem_fit(one).radius : fit.radius});
+        if (params.file.collision != CollisionFormat::none)
+            models.shapes.push_back(traits.capped ? fitted_shapes("cap", footprint_mesh.positions,
+                                                                  footprint_mesh.indices)
+                                                  : collision_shapes(one));
     }
     return models;
 }
@@ -318,6 +376,7 @@ Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const 
 Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas& atlas) {
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
+    refuse_impossible(params.file);
     const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
@@ -368,12 +427,12 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     execution.observer(Step::build);
     Colony colony;
     colony.farther.resize(levels_in_file(params.lod, params.file).size() - 1);
-    const std::vector<ColonyModel> models = add_models(spec, traits, atlas, execution, colony, fit);
+    const ModelSet models = add_models(spec, traits, atlas, execution, colony, fit);
     throw_if_cancelled(execution);
 
     const ColonyRoots growth = growth_of(params, traits, fit);
     const ColonySite site = colony_site(params, traits, growth, fit);
-    colony.members = placed_members(site, models, params, traits);
+    colony.members = placed_members(site, models.models, params, traits);
     const auto skin = [&](int lod) {
         throw_if_cancelled(execution);
         ColonyParams at = params;
@@ -396,6 +455,8 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
         member.pose.scale *= params.size;
         shown[member.model] = true;
     }
+    if (params.file.collision != CollisionFormat::none)
+        colony.collision = colony_collision(site, colony.members, models.shapes, params, traits);
     for (std::size_t i = 0; i < shown.size(); ++i) {
         if (shown[i]) continue;
         colony.models[i] = {};
@@ -482,6 +543,9 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     scene.extras_json = extras_json(extras, write(colony.effective), box,
                                     instanced_triangles(colony), {levels, params.file.lods});
     add_levels(scene, colony, product_name(spec), levels, params.file.lods);
+    Collision collision = colony.collision;
+    add_collision(scene, collision, level_name(product_name(spec), params.lod),
+                  params.file.collision);
     const Estimate e = measured(spec, colony);
     return {extras.write(scene), e.vertices, e.triangles};
 }

@@ -7,6 +7,7 @@
 #include "core/atlas/atlas.h"
 #include "core/colony/colony_spec.h"
 #include "core/colony/separation.h"
+#include "core/grow/collision.h"
 #include "core/grow/painting.h"
 #include "core/grow/product.h"
 
@@ -39,6 +40,7 @@ struct Colony {
     std::vector<ColonyMember> members;  ///< with the poses of the file
     std::vector<ColonyLevel> farther;  ///< further levels of detail of the file, with these members
     ColonyParams effective;  ///< every parameter resolved; requesting it gives the same colony
+    Collision collision;     ///< of all members, if the file has it
     double junction = 0.0;   ///< radius of the stem at size 1 where caps are cut off
 };
 

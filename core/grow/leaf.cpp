@@ -27,6 +27,12 @@ void add_images(Estimate& e, const LeafParams& params) {
 /// lamina: about that of the presets at LOD 1 and 2; at LOD 3 that of teeth and lobes.
 constexpr std::array<double, 4> border_errors = {0.0, 0.01, 0.03, 0.1};
 
+void refuse_collision(const FileOptions& file) {
+    if (file.collision != CollisionFormat::none)
+        throw Impossible("/collision", std::string("'") + name(file.collision) +
+                                           "' is impossible: a leaf has no solid; ask for none");
+}
+
 /// Returns the mesh of each level of detail of a file, finest first.
 std::vector<Mesh> level_meshes(LeafSpec spec) {
     std::vector<Mesh> meshes;
@@ -55,6 +61,7 @@ std::vector<Level> sized_levels(const LeafParams& params, std::span<const Mesh> 
 
 Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
     const LeafParams& params = spec.params;
+    refuse_collision(params.file);
     Estimate e;
     for (const Level& level : levels.first(levels_in_file(params.lod, params.file).size()))
         add_level(e, level.vertices, level.triangles, params.textures, params.file);
@@ -64,6 +71,7 @@ Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
 
 Estimate estimate(const LeafSpec& spec) {
     const LeafParams& params = spec.params;
+    refuse_collision(params.file);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         const LeafCount most = most_of_leaf(params.shape.venation, lod);
@@ -115,6 +123,7 @@ std::shared_ptr<const ImageSet> painted_images(const LeafPaint& paint,
 Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
                 const ExecutionContext& execution) {
     const LeafParams& params = spec.params;
+    refuse_collision(params.file);
     execution.observer(Step::build);
     const std::vector<Mesh> meshes = level_meshes(spec);
     throw_if_cancelled(execution);

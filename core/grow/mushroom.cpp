@@ -7,6 +7,7 @@
 #include "core/geometry/branches.h"
 #include "core/geometry/budget.h"
 #include "core/gltf/glb.h"
+#include "core/grow/collision.h"
 #include "core/grow/growth.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
@@ -64,6 +65,7 @@ Estimate estimate(const MushroomSpec& spec, const Atlas& atlas, const Caches& ca
 Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const MushroomParams& params = spec.params;
     const bool grows = params.animation != Animation::none;
+    refuse_impossible(params.file);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         const MeshCount mesh = body_count(individual, lod, grows);
@@ -145,6 +147,10 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     execution.observer(Step::build);
     const MushroomParams& params = spec.params;
     const std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
+    Collision collision;
+    if (params.file.collision != CollisionFormat::none)
+        collision = body_of(collision_shapes(individual));
+    throw_if_cancelled(execution);
     const Mesh& first = meshes.front();
     const Bounds box = bounds(first);
     const bool is_chain = params.file.lods != Lods::single;
@@ -175,6 +181,8 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
     scene.extras_json = extras_json(extras, write(individual.effective), box, first.triangles(),
                                     {levels, params.file.lods});
+    add_collision(scene, collision, level_name(product_name(spec), params.lod),
+                  params.file.collision);
     grown.glb = extras.write(scene);
     return grown;
 }

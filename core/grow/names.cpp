@@ -123,8 +123,10 @@ std::string file_name(const std::string& name, int lod, const FileOptions& file)
     std::string out = level_name(name, lod);
     FileOptions::fields([&](auto option, const Info&) {
         using Option = std::remove_cvref_t<decltype(file.*option)>;
-        if (file.*option != FileOptions{}.*option)
-            (out += '_') += sporeprint::name(static_cast<Option>(file.*option));
+        if (file.*option == FileOptions{}.*option) return;
+        // The levels of detail may be nodes too.
+        if constexpr (std::is_same_v<Option, CollisionFormat>) out += "_collision";
+        (out += '_') += sporeprint::name(static_cast<Option>(file.*option));
     });
     return out;
 }

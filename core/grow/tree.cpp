@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/gltf/glb.h"
+#include "core/grow/collision.h"
 #include "core/grow/leaf.h"
 #include "core/grow/names.h"
 #include "core/mesh/detail.h"
@@ -195,6 +196,7 @@ Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
 Estimate estimate(const TreeSpec& spec) {
     const TreeParams& params = spec.params;
     const TreeLook& look = params.look;
+    refuse_impossible(params.file);
     const double tips = expected_tips(look.shape.topology);
     if (tips > static_cast<double>(most_tips))
         throw Impossible("/order", "the tree would have about " +
@@ -326,6 +328,10 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
     scene.extras_json =
         extras_json(extras, write(params), box, first.triangles(), {levels, params.file.lods});
+    Collision collision;
+    if (params.file.collision != CollisionFormat::none) collision = trunk_collision(spec);
+    add_collision(scene, collision, level_name(product_name(spec, atlas), params.lod),
+                  params.file.collision);
     grown.glb = extras.write(scene);
     return grown;
 }

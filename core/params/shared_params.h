@@ -105,6 +105,21 @@ constexpr const char* name(Lods lods) {
     return nullptr;
 }
 
+/// How a file describes the solids of a physics engine.
+enum class CollisionFormat { none, nodes, omi };
+
+constexpr const char* name(CollisionFormat collision) {
+    switch (collision) {
+        case CollisionFormat::none:
+            return "none";
+        case CollisionFormat::nodes:
+            return "nodes";
+        case CollisionFormat::omi:
+            return "omi";
+    }
+    return nullptr;
+}
+
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
@@ -133,6 +148,7 @@ struct FileOptions {
     ImageFormats image_format = ImageFormats::jpg;
     MaterialSet materials = MaterialSet::full;
     Lods lods = Lods::single;
+    CollisionFormat collision = CollisionFormat::none;
 
     static constexpr void fields(auto visit) {
         using O = FileOptions;
@@ -170,6 +186,15 @@ struct FileOptions {
                           "MSFT_lod, where other readers show the first.",
                    .group = "file",
                    .default_from = "profile"});
+        visit(&O::collision,
+              Info{.name = "collision",
+                   .doc = "Solids for a physics engine, the same at every level of detail: a "
+                          "capsule or convex meshes for stem and cap, for each individual of a "
+                          "colony, and for the trunk of a tree. nodes: meshes named UCX_..., as "
+                          "Unreal Engine expects, which viewers show. omi: a static body by "
+                          "OMI_physics_body and OMI_physics_shape, which Godot reads, with "
+                          "geometry as floats only. A leaf has none.",
+                   .group = "file"});
     }
     bool operator==(const FileOptions&) const = default;
 };

@@ -60,6 +60,18 @@ static_assert([] {
     return true;
 }());
 
+/// Returns the part whose rectangle of the image atlas contains a texture coordinate; the first of
+/// two that share a border.
+[[nodiscard]] constexpr Part part_at(double u, double v) {
+    for (const Part part : all_parts) {
+        const Chart& chart = swept_charts[index_of(part)];
+        if (u >= chart.u && u <= chart.u + chart.width && v >= chart.v &&
+            v <= chart.v + chart.height)
+            return part;
+    }
+    return Part::cap;
+}
+
 /// Radius of the stem's edge in the hymenium's disc.
 inline constexpr double hymenium_inner_share = 0.15;
 

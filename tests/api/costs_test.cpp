@@ -123,6 +123,12 @@ void add_mushrooms(Cases& cases, const std::vector<std::string>& swept) {
         add_get(cases, levelled(glb, 3, "&textures=none&animation=growth&frames=16"));
         for (const int lod : {0, 3}) add_get(cases, levelled("/v1/mushrooms/" + id + ".json", lod));
     }
+    for (const char* id :
+         {"amanita_muscaria", "cantharellus_cibarius", "mycena_sanguinolenta", "ramaria_formosa"})
+        for (const char* end : {".glb?collision=omi&lod=3&textures=none", ".json?collision=nodes"})
+            add_get(cases, std::string("/v1/mushrooms/") + id + end);
+    add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?collision=omi&lod=2&textures=none");
+    add_get(cases, "/v1/trees/birch.glb?collision=nodes&lod=3&textures=none");
     for (int lod = 0; lod < 4; ++lod)
         cases.push_back(
             {"another seed at lod=" + std::to_string(lod),

@@ -323,6 +323,34 @@ void add_image_formats(Requests& requests, const std::shared_ptr<const Atlas>& s
         }
 }
 
+/// Adds products with solids for collision.
+void add_collisions(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const CollisionFormat format : {CollisionFormat::nodes, CollisionFormat::omi}) {
+        const std::string folder = std::string("collision/") + name(format) + '/';
+        for (const char* id : {"amanita_muscaria", "cantharellus_cibarius", "ramaria_formosa"}) {
+            MushroomSpec spec = order_of({{id, 1000}}, 0.6, 1);
+            spec.params.file.collision = format;
+            add_mushroom(requests, species, folder + id, spec);
+        }
+        ColonySpec colony;
+        colony.mix = {{"hypholoma_fasciculare", 1000}};
+        colony.params.count = 9;
+        colony.params.lod = 1;
+        colony.params.texture_size.value = small_side;
+        colony.params.file.collision = format;
+        requests[line_of(folder + "colony", 9, 1, small_side)] = [colony, species] {
+            return grow_colony(colony, *species).glb;
+        };
+        TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+        tree.params.lod = 1;
+        tree.params.texture_size.value = small_side;
+        tree.params.file.collision = format;
+        requests[line_of(folder + "tree", 1, 1, small_side)] = [tree] {
+            return grow_tree(tree, atlas()).glb;
+        };
+    }
+}
+
 /// Adds all levels of detail of every product in one file.
 void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const Lods lods : {Lods::nodes, Lods::msft}) {
@@ -426,6 +454,7 @@ Requests golden_requests() {
     add_colonies(requests, atlas);
     add_compressed(requests, atlas);
     add_chains(requests, atlas);
+    add_collisions(requests, atlas);
     add_pictures(requests, atlas);
     return requests;
 }

@@ -20,16 +20,6 @@ double linear_light(int byte) {
 
 }  // namespace
 
-Part part_at(const glm::vec2& place) {
-    for (std::size_t i = 0; i < part_count; ++i) {
-        const Chart& chart = swept_charts[i];
-        if (place.x >= chart.u && place.x <= chart.u + chart.width && place.y >= chart.v &&
-            place.y <= chart.v + chart.height)
-            return static_cast<Part>(i);
-    }
-    return Part::cap;
-}
-
 Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& canvas,
               std::uint32_t parts) {
     constexpr double degree = 3.14159265358979323846 / 180.0;
@@ -58,7 +48,7 @@ Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& can
             (mesh.texture_coordinates[corners[0]] + mesh.texture_coordinates[corners[1]] +
              mesh.texture_coordinates[corners[2]]) /
             3.0F;
-        if ((parts >> static_cast<unsigned>(part_at(centre)) & 1U) == 0) continue;
+        if ((parts >> static_cast<unsigned>(part_at(centre.x, centre.y)) & 1U) == 0) continue;
         const Projected &a = points[corners[0]], &b = points[corners[1]], &c = points[corners[2]];
         const double area = (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
         if (area == 0.0) continue;

@@ -40,9 +40,6 @@ struct Drawing {
     }
 };
 
-/// Returns the part whose rectangle of the image atlas contains a texture coordinate.
-[[nodiscard]] Part part_at(const glm::vec2& place);
-
 /// Draws the triangles of the parts in the bit set `parts` with a depth buffer.
 [[nodiscard]] Drawing drawn(const Mesh& mesh, const ViewDirection& view, const ImagePlane& canvas,
                             std::uint32_t parts = (1U << part_count) - 1U);

@@ -107,6 +107,8 @@ async function requestFactors(server) {
     const trees = await list("/v1/trees", "trees");
     const ages = ["age=0", "age=0.25", "age=0.5", "age=0.75", "age=1"];
     const storage = ["", "", "compress=quantize", "compress=meshopt"];
+    // OMI_physics_shape needs geometry as floats.
+    const solid = [...storage, "collision=omi", "compress=meshopt&collision=nodes"];
     const levels = ["", "", "lods=nodes", "lods=msft"];
     // A clip moves one level of detail.
     const clips = [
@@ -125,7 +127,7 @@ async function requestFactors(server) {
                 ["seed=7", "seed=8", "seed=9&variation=1"],
                 images,
                 clips,
-                storage,
+                solid,
             ],
         },
         {
@@ -155,7 +157,7 @@ async function requestFactors(server) {
                 images,
                 ["", "size=0.25", "leaves.per_tip=0"],
                 ["", "growth=drawn"],
-                storage,
+                solid,
                 levels,
             ],
         },
@@ -168,7 +170,7 @@ async function requestFactors(server) {
                 ["seed=7", "seed=8"],
                 images,
                 ["", "", "instancing=gpu"],
-                storage,
+                solid,
                 levels,
             ],
         },

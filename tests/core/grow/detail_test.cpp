@@ -91,7 +91,7 @@ TEST_P(Detail, MeanColoursOfCapAndStemAgree) {
                 for (std::size_t i = 0; i < all.seen.size(); ++i) {
                     if (!all.seen[i] || !bare.seen[i]) continue;
                     for (std::size_t p = 0; p < parts.size(); ++p)
-                        if (part_at(bare.seen[i]->place) == parts[p])
+                        if (part_at(bare.seen[i]->place.x, bare.seen[i]->place.y) == parts[p])
                             means[k][p].add(levels[k].images, all.seen[i]->place);
                 }
             }
