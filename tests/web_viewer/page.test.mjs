@@ -513,6 +513,17 @@ test("wireframe and named views change the picture, not the address", async (t) 
     expectNoProblems(log);
 });
 
+test("solids for collision are drawn as edges and are no draw calls", async (t) => {
+    const query = `?species=${species[0].id}&lod=1`;
+    const { page } = await open(t, query);
+    const plain = await page.evaluate(() => window.sporeprint.counts);
+    const picture = await stagePicture(page);
+    const { page: solid, log } = await open(t, `${query}&collision=nodes`);
+    assert.deepEqual(await solid.evaluate(() => window.sporeprint.counts), plain);
+    assert.notDeepEqual(await stagePicture(solid), picture);
+    expectNoProblems(log);
+});
+
 test("a request to a busy server is repeated after Retry-After, which is shown", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}`);
     await galleryComplete(page);

@@ -1,7 +1,10 @@
 // Parsed GLBs: reading, measuring, counting and disposing.
 import {
     Box3,
+    EdgesGeometry,
     InstancedMesh,
+    LineBasicMaterial,
+    LineSegments,
     Mesh,
     MeshStandardMaterial,
     Texture,
@@ -54,6 +57,28 @@ function useDerivativeTangents(mesh: Mesh): void {
     }
 }
 
+/** The colour of the edges of solids for collision, which differs from those of mushrooms. */
+const solidColour = 0x1f7a8c;
+
+/** Replaces the solids for collision by their edges: engines do not draw them, and here they would
+ *  hide what they stand for. */
+function outlineSolids(scene: Object3D): void {
+    for (const mesh of meshesOf(scene)) {
+        if (mesh.userData["collision"] === undefined) continue;
+        const outline = new LineSegments(
+            new EdgesGeometry(mesh.geometry),
+            new LineBasicMaterial({ color: solidColour }),
+        );
+        outline.name = mesh.name;
+        outline.userData = mesh.userData;
+        outline.position.copy(mesh.position);
+        outline.quaternion.copy(mesh.quaternion);
+        outline.scale.copy(mesh.scale);
+        mesh.parent?.add(outline);
+        mesh.removeFromParent();
+    }
+}
+
 /** Returns the addresses of the linked images that a draft does not have yet, by role. */
 export function linkedImagesOf(model: Object3D): Map<string, string> {
     return (
@@ -75,6 +100,7 @@ export async function parseModel(
     const { scene, animations } = await loader.parseAsync(bytes, new URL(".", from).href);
     scene.animations = animations;
     scene.userData["linkedImages"] = linkedImages;
+    outlineSolids(scene);
     for (const mesh of meshesOf(scene)) {
         if (mesh.geometry.morphAttributes.position) useDerivativeTangents(mesh);
         mesh.castShadow = true;
@@ -130,4 +156,10 @@ export function disposeModel(model: Object3D): void {
         mesh.geometry.dispose();
         for (const material of materialsOf(mesh)) material.dispose();
     }
+    model.traverse((node) => {
+        if (!(node instanceof LineSegments)) return;
+        const { geometry, material } = node as LineSegments<EdgesGeometry, LineBasicMaterial>;
+        geometry.dispose();
+        material.dispose();
+    });
 }
