@@ -19,9 +19,9 @@ Measures Leaves::measure(const LeafSpec& spec, const Atlas&, const ExecutionCont
 Cost Leaves::cost_of_growing(const LeafSpec&) { return {.base = 150}; }
 
 Cost Leaves::cost_of_describing(const LeafSpec& spec) {
-    LeafSpec all = spec;
-    all.params.file.lods = Lods::nodes;
-    return {.base = 100, .vertices = estimate(all).vertices};
+    LeafSpec chain = spec;
+    chain.params.file.lods = Lods::nodes;
+    return {.base = 100, .vertices = estimate(chain).vertices};
 }
 
 Cost Leaves::cost_of_painting(const LeafSpec& spec, const Atlas&) {

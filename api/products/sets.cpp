@@ -350,25 +350,25 @@ SetRequest read_set(std::string_view body, const Atlas& atlas, ValidationErrors&
     SetRequest request;
     std::optional<Value> read_json = read_body(body, errors);
     if (!read_json) return request;
-    Value& json = *read_json;
+    Value& order = *read_json;
     std::vector<Problem> problems;
-    request.spec.species = read_species(json, atlas, errors, problems);
-    json.erase("species");
-    request.version = take_version(json, problems);
+    request.spec.species = read_species(order, atlas, errors, problems);
+    order.erase("species");
+    request.version = take_version(order, problems);
     for (const auto& [name, instead] : chosen)
-        if (json.find(name)) {
+        if (order.find(name)) {
             report(problems, std::string("/") + name,
                    std::string("is chosen by the set; give ") + instead);
-            json.erase(name);
+            order.erase(name);
         }
     errors.add(400, problems);
     problems.clear();
-    const Value own = taken_set_params(json);
+    const Value own = taken_set_params(order);
     read(own, request.spec.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.params, "", true, errors);
     problems.clear();
-    apply_profile(requested_profile(json), request.spec.mushroom);
-    read(json, request.spec.mushroom, Info{.name = ""}, "", problems);
+    apply_profile(requested_profile(order), request.spec.mushroom);
+    read(order, request.spec.mushroom, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.mushroom, "", true, errors);
     without_negative_zero(request.spec.params);
     without_negative_zero(request.spec.mushroom);
