@@ -154,8 +154,9 @@ glm::dvec4 rotation_of(const Capsule& capsule) {
 }
 
 Mesh hull_of(const Capsule& capsule) {
+    static const std::vector<glm::dvec3> few = directions(12, 3);
     std::vector<glm::vec3> points;
-    for (const glm::dvec3& direction : corner_directions()) {
+    for (const glm::dvec3& direction : few) {
         const double along = glm::dot(direction, capsule.to - capsule.from);
         if (along >= 0.0) points.emplace_back(capsule.to + capsule.radius * direction);
         if (along <= 0.0) points.emplace_back(capsule.from + capsule.radius * direction);

@@ -27,7 +27,7 @@ struct Capsule {
 /// x, y, z, w; none for a sphere.
 [[nodiscard]] glm::dvec4 rotation_of(const Capsule& capsule);
 
-/// Returns a convex mesh of at most 130 corners, all on the surface of a capsule.
+/// Returns a convex mesh of at most 50 corners, all on the surface of a capsule.
 [[nodiscard]] Mesh hull_of(const Capsule& capsule);
 
 /// A solid that stands for a part of an individual.

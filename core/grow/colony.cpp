@@ -118,6 +118,13 @@ void add_images(Estimate& e, const ColonySpec& spec) {
     add_image_bytes(e, texels / 3, spec.params.textures, spec.params.file);
 }
 
+void add_solids(Estimate& e, const ColonySpec& spec) {
+    // A stem has one to six capsules.
+    const auto members = static_cast<std::uint64_t>(spec.params.count);
+    add_solid_bytes(e, static_cast<std::uint64_t>(spec.params.distinct), 3 * members,
+                    spec.params.file);
+}
+
 /// Returns about how many vertices and triangles the meshes of a level of detail have.
 MeshCount expected_count(const ColonySpec& spec, const Individual& typical,
                          const ColonyTraits& traits, const ColonyRoots& growth, int lod) {
@@ -385,6 +392,7 @@ Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas
                   static_cast<std::uint64_t>(params.count));
     }
     add_images(e, spec);
+    add_solids(e, spec);
     return e;
 }
 
@@ -414,6 +422,7 @@ Estimate measured(const ColonySpec& spec, const Colony& colony) {
     add(count_of(colony.skin, colony.models));
     for (const ColonyLevel& level : colony.farther) add(count_of(level.skin, level.models));
     add_images(e, spec);
+    add_solids(e, spec);
     return e;
 }
 

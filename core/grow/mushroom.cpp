@@ -76,6 +76,7 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
     add_image_bytes(e, images / 3, params.textures, params.file);
+    add_solid_bytes(e, 1, 0, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
         const std::uint64_t moved = params.targets == Targets::position ? 12 : 24;

@@ -75,6 +75,20 @@ void add_image_bytes(Estimate& sum, std::uint64_t jpg, Textures textures, const 
     if (textures == Textures::embedded) sum.bytes += bytes_of_images(jpg, file.image_format);
 }
 
+void add_solid_bytes(Estimate& sum, std::uint64_t individuals, std::uint64_t capsules,
+                     const FileOptions& file) {
+    switch (file.collision) {
+        case CollisionFormat::none:
+            return;
+        case CollisionFormat::nodes:
+            sum.bytes += 11'000 * individuals + 3'000 * capsules;
+            return;
+        case CollisionFormat::omi:
+            sum.bytes += 11'000 * individuals + 450 * capsules;
+            return;
+    }
+}
+
 void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, Textures textures,
                const FileOptions& file) {
     sum.vertices += vertices;

@@ -36,6 +36,13 @@ void set_options(GlbScene& scene, const FileOptions& file);
 /// jpg  size of all of them as JPEG, bytes
 void add_image_bytes(Estimate& sum, std::uint64_t jpg, Textures textures, const FileOptions& file);
 
+/// Adds the solids for collision of a file to its size.
+///
+/// individuals  to which convex solids are fitted
+/// capsules     about how many capsules stand for stems and trunks
+void add_solid_bytes(Estimate& sum, std::uint64_t individuals, std::uint64_t capsules,
+                     const FileOptions& file);
+
 /// URLs of the images of an atlas in each format, indexed by ImageKind.
 struct ImageUrls {
     std::array<std::string, 3> jpg, webp;

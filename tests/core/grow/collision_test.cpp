@@ -306,6 +306,31 @@ TEST(Collision, OfATreeIsItsTrunk) {
     }
 }
 
+TEST(Collision, IsPartOfTheEstimate) {
+    for (const CollisionFormat format : {CollisionFormat::nodes, CollisionFormat::omi}) {
+        MushroomSpec spec = fly_agaric(format);
+        const double mushroom = static_cast<double>(size_of(grow_mushroom(spec, atlas()).glb));
+        spec.params.file.collision = CollisionFormat::none;
+        const double plain = static_cast<double>(size_of(grow_mushroom(spec, atlas()).glb));
+        const double expected = static_cast<double>(estimate(fly_agaric(format), atlas()).bytes) -
+                                static_cast<double>(estimate(spec, atlas()).bytes);
+        EXPECT_GT(expected, 0.7 * (mushroom - plain));
+        EXPECT_LT(expected, 2.0 * (mushroom - plain));
+        ColonySpec colony;
+        colony.mix = {{"hypholoma_fasciculare", 1000}};
+        colony.params.textures = Textures::none;
+        colony.params.file.collision = format;
+        const Individual typical = typical_individual(colony, atlas());
+        const double more = static_cast<double>(estimate(colony, typical, atlas()).bytes);
+        const double size = static_cast<double>(size_of(grow_colony(colony, atlas()).glb));
+        colony.params.file.collision = CollisionFormat::none;
+        const double less = static_cast<double>(estimate(colony, typical, atlas()).bytes);
+        const double without = static_cast<double>(size_of(grow_colony(colony, atlas()).glb));
+        EXPECT_GT(more - less, 0.7 * (size - without));
+        EXPECT_LT(more - less, 2.0 * (size - without));
+    }
+}
+
 TEST(Collision, WhatIsImpossibleIsRefusedByName) {
     LeafSpec leaf{"maple", params_of(*atlas().find_leaf("maple"))};
     leaf.params.file.collision = CollisionFormat::nodes;
