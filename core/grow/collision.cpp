@@ -17,8 +17,7 @@ constexpr const char *physics_shape = "OMI_physics_shape", *physics_body = "OMI_
 
 /// The level of detail of the meshes that solids are fitted to.
 constexpr int fitted_lod = 1;
-/// The most capsules along a trunk, and the radius at which it ends, in that of its foot.
-constexpr int most_trunk_capsules = 4;
+/// The radius at which a trunk ends, in that of its foot.
 constexpr double trunk_end = 0.4;
 
 /// Returns a length, or a coordinate of a rotation, as JSON: in steps of a millionth.

@@ -35,6 +35,9 @@ struct Collision {
 /// cost  that of the mesh at LOD 1, and some ten milliseconds
 [[nodiscard]] std::vector<CollisionShape> collision_shapes(const Individual& individual);
 
+/// The most capsules along a trunk.
+inline constexpr int most_trunk_capsules = 4;
+
 /// Returns capsules along the trunk of a tree, up to where its radius is less than two fifths of
 /// that of its foot.
 ///

@@ -526,7 +526,7 @@ Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extr
 Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
                   const Extras& extras, const ExecutionContext& execution) {
     const ColonyParams& params = spec.params;
-    const Colony colony = colony_parts(spec, typical, atlas, execution);
+    Colony colony = colony_parts(spec, typical, atlas, execution);
     const Bounds box = bounds(colony);
     GlbScene scene;
     set_options(scene, params.file);
@@ -552,8 +552,7 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
     scene.extras_json = extras_json(extras, write(colony.effective), box,
                                     instanced_triangles(colony), {levels, params.file.lods});
     add_levels(scene, colony, product_name(spec), levels, params.file.lods);
-    Collision collision = colony.collision;
-    add_collision(scene, collision, level_name(product_name(spec), params.lod),
+    add_collision(scene, colony.collision, level_name(product_name(spec), params.lod),
                   params.file.collision);
     const Estimate e = measured(spec, colony);
     return {extras.write(scene), e.vertices, e.triangles};

@@ -61,7 +61,6 @@ std::vector<Level> sized_levels(const LeafParams& params, std::span<const Mesh> 
 
 Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
     const LeafParams& params = spec.params;
-    refuse_collision(params.file);
     Estimate e;
     for (const Level& level : levels.first(levels_in_file(params.lod, params.file).size()))
         add_level(e, level.vertices, level.triangles, params.textures, params.file);

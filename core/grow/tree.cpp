@@ -35,9 +35,6 @@ std::uint64_t texels_of(const TreeParams& params) {
     return params.textures == Textures::none ? 0 : kinds * 3 * side * side;
 }
 
-// Capsules of a trunk, at most.
-constexpr std::uint64_t most_capsules = 4;
-
 void finish(Mesh& mesh, const TreeParams& params) {
     for (glm::vec3& place : mesh.positions) place *= static_cast<float>(params.size);
     if (params.textures == Textures::none) {
@@ -193,7 +190,7 @@ Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
     for (const TreeMeshes& meshes : levels)
         add_level(e, meshes.vertices(), meshes.triangles(), params.textures, params.file);
     add_images(e, params);
-    add_solid_bytes(e, 0, most_capsules, params.file);
+    add_solid_bytes(e, 0, most_trunk_capsules, params.file);
     return e;
 }
 
@@ -219,7 +216,7 @@ Estimate estimate(const TreeSpec& spec) {
         add_level(e, count.vertices, count.triangles, params.textures, params.file);
     }
     add_images(e, params);
-    add_solid_bytes(e, 0, most_capsules, params.file);
+    add_solid_bytes(e, 0, most_trunk_capsules, params.file);
     return e;
 }
 

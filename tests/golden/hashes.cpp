@@ -323,31 +323,38 @@ void add_image_formats(Requests& requests, const std::shared_ptr<const Atlas>& s
         }
 }
 
+/// Adds a small colony and a small tree that are written with these options.
+void add_written(Requests& requests, const std::shared_ptr<const Atlas>& species,
+                 const std::string& folder, const FileOptions& file) {
+    ColonySpec colony;
+    colony.mix = {{"hypholoma_fasciculare", 1000}};
+    colony.params.count = 9;
+    colony.params.lod = 1;
+    colony.params.texture_size.value = small_side;
+    colony.params.file = file;
+    requests[line_of(folder + "colony", 9, 1, small_side)] = [colony, species] {
+        return grow_colony(colony, *species).glb;
+    };
+    TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+    tree.params.lod = 1;
+    tree.params.texture_size.value = small_side;
+    tree.params.file = file;
+    requests[line_of(folder + "tree", 1, 1, small_side)] = [tree] {
+        return grow_tree(tree, atlas()).glb;
+    };
+}
+
 /// Adds products with solids for collision.
 void add_collisions(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const CollisionFormat format : {CollisionFormat::nodes, CollisionFormat::omi}) {
         const std::string folder = std::string("collision/") + name(format) + '/';
+        const FileOptions file{.collision = format};
         for (const char* id : {"amanita_muscaria", "cantharellus_cibarius", "ramaria_formosa"}) {
             MushroomSpec spec = order_of({{id, 1000}}, 0.6, 1);
-            spec.params.file.collision = format;
+            spec.params.file = file;
             add_mushroom(requests, species, folder + id, spec);
         }
-        ColonySpec colony;
-        colony.mix = {{"hypholoma_fasciculare", 1000}};
-        colony.params.count = 9;
-        colony.params.lod = 1;
-        colony.params.texture_size.value = small_side;
-        colony.params.file.collision = format;
-        requests[line_of(folder + "colony", 9, 1, small_side)] = [colony, species] {
-            return grow_colony(colony, *species).glb;
-        };
-        TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
-        tree.params.lod = 1;
-        tree.params.texture_size.value = small_side;
-        tree.params.file.collision = format;
-        requests[line_of(folder + "tree", 1, 1, small_side)] = [tree] {
-            return grow_tree(tree, atlas()).glb;
-        };
+        add_written(requests, species, folder, file);
     }
 }
 
@@ -355,34 +362,17 @@ void add_collisions(Requests& requests, const std::shared_ptr<const Atlas>& spec
 void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const Lods lods : {Lods::nodes, Lods::msft}) {
         const std::string folder = std::string("levels/") + name(lods) + '/';
-        const auto write = [&](FileOptions& file) {
-            file.lods = lods;
-            if (lods == Lods::msft) file.compress = Compression::meshopt;
-        };
+        FileOptions file{.lods = lods};
+        if (lods == Lods::msft) file.compress = Compression::meshopt;
         for (const char* id : {"amanita_muscaria", "ramaria_formosa"}) {
             MushroomSpec spec = order_of({{id, 1000}}, 0.6, 0);
-            write(spec.params.file);
+            spec.params.file = file;
             add_mushroom(requests, species, folder + id, spec);
         }
-        ColonySpec colony;
-        colony.mix = {{"hypholoma_fasciculare", 1000}};
-        colony.params.count = 9;
-        colony.params.lod = 1;
-        colony.params.texture_size.value = small_side;
-        write(colony.params.file);
-        requests[line_of(folder + "colony", 9, 1, small_side)] = [colony, species] {
-            return grow_colony(colony, *species).glb;
-        };
-        TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
-        tree.params.lod = 1;
-        tree.params.texture_size.value = small_side;
-        write(tree.params.file);
-        requests[line_of(folder + "tree", 1, 1, small_side)] = [tree] {
-            return grow_tree(tree, atlas()).glb;
-        };
+        add_written(requests, species, folder, file);
         LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
         leaf.params.texture_size.value = small_side;
-        write(leaf.params.file);
+        leaf.params.file = file;
         requests[line_of(folder + "leaf", 1, 0, small_side)] = [leaf] {
             return grow_leaf(leaf, atlas()).glb;
         };

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstring>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <nlohmann/json.hpp>
@@ -29,12 +28,7 @@ namespace {
 
 using nlohmann::json;
 
-json document_of(const Body& body) {
-    const Bytes bytes = joined(body);
-    std::uint32_t length = 0;
-    std::memcpy(&length, bytes.data() + 12, 4);
-    return json::parse(bytes.begin() + 20, bytes.begin() + 20 + length);
-}
+json document_of(const Body& body) { return json::parse(dump(json_chunk(joined(body)))); }
 
 bool contains(const CollisionShape& shape, const glm::dvec3& point) {
     if (const auto* const capsule = std::get_if<Capsule>(&shape.solid))
