@@ -186,7 +186,9 @@ Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>
                                  root_strides[static_cast<std::size_t>(params.lod)], node_of);
     }
     if (!traits.capped) return skeleton;
+    std::uint32_t stem = 0;
     for (const ColonyMember& member : members) {
+        ++stem;
         const ColonyPlace& place = site.places[member.place];
         const auto at = [&](double t) {
             return place.foot + t * member.rise + t * t * member.swing;
@@ -212,7 +214,7 @@ Skeleton colony_skeleton(const ColonySite& site, const std::vector<ColonyMember>
         for (int i = 1; i <= count; ++i) {
             const auto above = static_cast<std::uint32_t>(skeleton.nodes.size());
             skeleton.nodes.push_back({at(end * i / count), i == count ? top : place.radius});
-            skeleton.segments.push_back({below, above});
+            skeleton.segments.push_back({below, above, stem});
             below = above;
         }
     }
@@ -223,14 +225,14 @@ int skin_levels(std::size_t nodes, int lod) {
     return std::max((nodes <= most_near_nodes ? 2 : 1) - lod, 0);
 }
 
-Mesh colony_skin(const Skeleton& segments, const SkinOptions& options) {
+ColonySkin colony_skin(const Skeleton& segments, const SkinOptions& options) {
     if (segments.nodes.empty()) return {};
     SkinnedSkeleton made =
         skinned(cleaned(segments).skeleton, skin_levels(segments.nodes.size(), options.lod),
                 options.textured ? SkinPlaces::included : SkinPlaces::omitted);
     if (options.textured) add_texture_coordinates(made, options.painted_length);
     order_for_vertex_cache(made.mesh);
-    return std::move(made.mesh);
+    return {std::move(made.mesh), std::move(made.labels)};
 }
 
 }  // namespace sporeprint

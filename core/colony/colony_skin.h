@@ -1,6 +1,9 @@
 // The skin of a colony: roots and stems as one closed mesh, textured as the stem of the species.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/colony/separation.h"
 #include "core/mesh/mesh.h"
 
@@ -13,7 +16,8 @@ namespace sporeprint {
 /// params    its level of detail determines how many nodes of the roots remain
 /// segments  greatest number of segments of a stem; short stems have fewer
 /// returns   metres at size 1. A stem has the radius of its place up to its last node, which lies
-///           inside the neck of its cap and is no thicker than the neck
+///           inside the neck of its cap and is no thicker than the neck. The label of a segment is 0
+///           on a root and 1 + the index of its member on a stem
 [[nodiscard]] Skeleton colony_skeleton(const ColonySite& site,
                                        const std::vector<ColonyMember>& members,
                                        const ColonyParams& params, const ColonyTraits& traits,
@@ -34,7 +38,14 @@ struct SkinOptions {
     bool textured = true;         ///< makes texture coordinates and tangents
 };
 
-/// Cleans a skeleton and returns the mesh of its surface. The texture coordinates of a stem cover
+/// The surface of the skeleton of a colony.
+struct ColonySkin {
+    Mesh mesh;
+    std::vector<std::uint32_t>
+        stems;  ///< by vertex: 0 on a root, 1 + index of its member on a stem
+};
+
+/// Cleans a skeleton and returns its surface. The texture coordinates of a stem cover
 /// the whole image of one stem, from ground to top. Along a root the image is repeated once per
 /// painted_length with mirrored repeat; it is mirrored at the ring of vertices nearest to the end
 /// of each image.
@@ -42,6 +53,6 @@ struct SkinOptions {
 /// segments  result of colony_skeleton()
 /// returns   a closed mesh; empty for an empty skeleton
 /// throws    InvalidInput with validation_errors()
-[[nodiscard]] Mesh colony_skin(const Skeleton& segments, const SkinOptions& options);
+[[nodiscard]] ColonySkin colony_skin(const Skeleton& segments, const SkinOptions& options);
 
 }  // namespace sporeprint

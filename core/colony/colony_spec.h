@@ -73,6 +73,7 @@ struct ColonyParams {
     int lod = 0;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
+    ImageShare share = ImageShare::individual;
     FileOptions file;
     Instancing instancing = Instancing::nodes;
 
@@ -124,6 +125,7 @@ struct ColonyParams {
         visit(&P::lod, info_of<M>("lod"));
         visit(&P::texture_size, info_of<M>("texture_size"));
         visit(&P::textures, info_of<M>("textures"));
+        visit(&P::share, share_info);
         visit(&P::file, file_info);
         visit(&P::instancing,
               Info{.name = "instancing",

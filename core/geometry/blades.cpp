@@ -154,7 +154,7 @@ std::vector<SpeciesBlades> species_blades(const Individual& individual) {
         const HymeniumOf<Plain>& hymenium = part.model.hymenium;
         out.push_back({part.weight, &hymenium, pattern == HymeniumPattern::ridges,
                        BladeRow(slot_assignment(0, pattern, hymenium.blades, hymenium.tiers),
-                                pattern, hymenium.forking, individual.effective.seed,
+                                pattern, hymenium.forking, individual.painted_seed,
                                 individual.gill_layout.blades << individual.blade_tiers)});
     }
     return out;
@@ -494,7 +494,7 @@ void Builder::blades(const BladeBudget& budget) {
     const SubCurve& stem = context_.outline.stem;
     const BladeShape shape = blade_shape(all, face_.at(1.0).r);
     for_each_blade(individual_, budget, [&](int slot) {
-        const SlotBlend blend = blended_slot(all, slot, slots, individual_.effective.seed);
+        const SlotBlend blend = blended_slot(all, slot, slots, individual_.painted_seed);
         // The height of a slightly decurrent blade is limited to that of a taper.
         const double beyond = budget.below > 0
                                   ? std::min(protrusion * length * blend.protruding,
@@ -557,7 +557,7 @@ void Builder::place_vein(const CrossVein& vein, double most) {
 
 // A vein is a low blade across the gap: both its ends lie inside the ridges that it joins.
 void Builder::veins(const BladeBudget& budget) {
-    const std::uint32_t seed = individual_.effective.seed;
+    const std::uint32_t seed = individual_.painted_seed;
     for (const SpeciesShare& part : individual_.parts) {
         const HymeniumOf<Plain>& hymenium = part.model.hymenium;
         const std::vector<CrossVein> all = built_veins(part, budget, seed);

@@ -74,8 +74,7 @@ void add_cells_of(const Attachment& attachment, HymeniumPattern pattern, const S
     for (const SpeciesShare& part : attachment.individual.parts) {
         if (part.cells.rows == 0 || part.model.surface.hymenium.pattern != pattern) continue;
         const HymeniumOf<Plain>& hymenium = part.model.hymenium;
-        for (const CellPlace& place :
-             cell_places(part.cells, attachment.individual.effective.seed)) {
+        for (const CellPlace& place : cell_places(part.cells, attachment.individual.painted_seed)) {
             const LowerFace::Place at = attachment.face.at(place.share);
             const double depth = part.weight * length * hymenium.depth *
                                  depth_envelope(hymenium, place.share) *

@@ -44,7 +44,7 @@ double scaled_share(double share, double fixed, double last) {
 
 // Returns the notches of a level of detail, in the order of their onset.
 std::vector<Notch> notches_of(const Individual& individual, const LodLimits& limits) {
-    const std::uint32_t seed = individual.effective.seed;
+    const std::uint32_t seed = individual.painted_seed;
     std::vector<Notch> out;
     const auto add = [&out](const std::vector<Notch>& all, int most) {
         const auto count = std::min(all.size(), static_cast<std::size_t>(most));
@@ -82,7 +82,7 @@ MarginCuts::MarginCuts(const Individual& individual, int lod) {
     }
     if (melts_) {
         melted_ = melted(amounts.deliquescence) * cap_length_;
-        phase_ = Random(individual.effective.seed, purposes::ragged).uniform(0.0, whole_turn);
+        phase_ = Random(individual.painted_seed, purposes::ragged).uniform(0.0, whole_turn);
     }
     place_columns(notches, amounts, limits.inside, detail_of(lod).columns);
     placed_turns_ = turns_;

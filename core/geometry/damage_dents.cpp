@@ -35,7 +35,7 @@ Dents::Dents(const Individual& individual)
       bumps_(individual.damage.amounts.bumps),
       creases_(individual.damage.amounts.creases),
       clubs_(individual.damage.clubs) {
-    const std::uint32_t seed = individual.effective.seed;
+    const std::uint32_t seed = individual.painted_seed;
     if (bumps_ > 0.0) {
         cap_lumps_ = damage_spots(DamageSpotKind::lump, CurveName::cap, seed);
         stem_lumps_ = damage_spots(DamageSpotKind::lump, CurveName::stem, seed);

@@ -138,7 +138,7 @@ void DamageSolids::add_rolls() {
     const double most = individual_.model.surface.damage.peel_reach;
     const double length = individual_.outline.cap.length();
     int left = limits_.rolls;
-    for (const Tongue& tongue : tongues(individual_.effective.seed)) {
+    for (const Tongue& tongue : tongues(individual_.painted_seed)) {
         if (left-- <= 0) break;
         const double scale = begun(tongue.onset, amounts_.peel) * (most > 0.0 ? 1.0 : 0.0);
         const double deep = std::min(tongue.reach * most * scale, 0.95);
@@ -184,7 +184,7 @@ void DamageSolids::add_drips() {
     if (!individual_.damage.melts || limits_.drips == 0) return;
     const double length = individual_.outline.cap.length();
     for (int i = 0; i < limits_.drips; ++i) {
-        Random random(individual_.effective.seed, purposes::drips, static_cast<std::uint32_t>(i));
+        Random random(individual_.painted_seed, purposes::drips, static_cast<std::uint32_t>(i));
         const double round = random.symmetric();
         const double size = random.uniform(0.5, 1.0);
         const double hang = random.uniform(1.6, 4.2);
@@ -218,7 +218,7 @@ void DamageSolids::add_drops() {
     const double length = individual_.outline.cap.length();
     int left = limits_.drops;
     for (const DamageSpot& spot :
-         damage_spots(DamageSpotKind::dew, CurveName::cap, individual_.effective.seed)) {
+         damage_spots(DamageSpotKind::dew, CurveName::cap, individual_.painted_seed)) {
         if (left-- <= 0) break;
         const double scale = begun(spot.onset, amounts_.dew);
         const double radius = std::max(spot.radius * 1.15 * scale * length, 0.0);

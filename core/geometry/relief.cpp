@@ -141,7 +141,7 @@ PitSample pit_sample(const ReliefStyle& style, double turn, double row, std::uin
 
 Relief::Relief(const Individual& individual, const Detail& detail)
     : styles_(individual.reliefs),
-      seeds_(relief_seeds(individual.effective.seed)),
+      seeds_(relief_seeds(individual.painted_seed)),
       meridian_(individual.outline.cap.length()) {
     for (ReliefStyle& style : styles_) {
         const CarriedRelief carried = carried_relief(style, detail.columns, detail.cap_rings);

@@ -214,7 +214,7 @@ void Deformer::apply(std::span<glm::dvec3> places, const AxisStation& station) c
 Mesh swept_mesh(const Individual& individual, int lod, const SweepOptions& options) {
     const Outline& outline = individual.outline;
     const Detail& detail = detail_of(lod);
-    const std::uint32_t seed = individual.effective.seed;
+    const std::uint32_t seed = individual.painted_seed;
     const Deformer deformer(individual);
     const RestSurface rest_surface(individual, detail);
     const MarginCuts cuts(individual, lod);

@@ -223,7 +223,7 @@ class Weatherer {
         const double length = curve.length();
         if (length <= 0.0) return;
         const double girth = whole_turn * mean_radius(individual_.outline.stem);
-        for (const DamageSpot& spot : damage_spots(kind, part, individual_.effective.seed)) {
+        for (const DamageSpot& spot : damage_spots(kind, part, individual_.painted_seed)) {
             const double scale = grown(spot.onset, amount);
             if (scale <= 0.0) continue;
             const double unit = stem ? girth : length;
@@ -269,7 +269,7 @@ class Weatherer {
 
     void add_furrows(const FaceGrid& face, bool stem) {
         const double radius = mean_radius(individual_.outline.stem);
-        for (const Furrow& furrow : furrows(individual_.effective.seed)) {
+        for (const Furrow& furrow : furrows(individual_.painted_seed)) {
             const double scale = grown(furrow.onset, amounts_.creases);
             if (scale <= 0.0) continue;
             for (std::size_t i = 0; i < face.shares.size(); ++i) {

@@ -173,7 +173,8 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, 
             if (has_material && primitive.material >= scene.materials.size())
                 throw GenerationError("a primitive wears a material that there is not");
             const bool textured = has_material && is_textured(scene.materials[primitive.material]);
-            Geometry shape = geometry_of(*primitive.mesh, textured, storage, step, tables);
+            Geometry shape =
+                geometry_of(*primitive.mesh, textured, scene.sway, storage, step, tables);
             geometries.emplace_back(std::move(shape.bytes));
             TargetData morph = target_data(primitive.targets, primitive.mesh->positions.size(),
                                            storage, step, tables);

@@ -104,6 +104,13 @@ enum class GlbGeometry {
     compressed  ///< quantised, and compressed by EXT_meshopt_compression, which they must support
 };
 
+/// Where the sway of vertices is stored; each as normalised integers.
+enum class GlbSway {
+    texture_coordinates,  ///< TEXCOORD_1: bend, phase; TEXCOORD_2: flutter, branch; u16
+    attribute,            ///< _WIND: bend, flutter, phase, branch; u8
+    color                 ///< COLOR_0: the same; viewers multiply the base colour by it
+};
+
 /// The content of a file.
 struct GlbScene {
     std::vector<GlbMaterial> materials;
@@ -113,8 +120,9 @@ struct GlbScene {
     std::string extras_json;               ///< a JSON object for asset.extras; empty for none
     const WeightClip* clip = nullptr;      ///< animates the targets of the first node
     GlbGeometry geometry = GlbGeometry::floats;
-    bool material_extensions = true;  ///< whether materials have their optional extensions
-    bool stands_on_ground = true;     ///< at y = 0; for pictures, not part of the file
+    GlbSway sway = GlbSway::attribute;  ///< of the meshes that have it
+    bool material_extensions = true;    ///< whether materials have their optional extensions
+    bool stands_on_ground = true;       ///< at y = 0; for pictures, not part of the file
 };
 
 /// Writes core glTF 2.0 with optional material extensions; positions and normals as floats, texture
@@ -132,7 +140,9 @@ struct GlbScene {
 ///          padding
 /// throws   GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
 ///          material needs, an index of no mesh, material or node, a node with a mesh and children,
-///          a node with two parents, a rotation that is no unit quaternion, a zero scale, targets or a clip that do not fit, or a file of more than 2^32 - 1 bytes
+///          a node with two parents, a rotation that is no unit quaternion, a zero scale,
+///          targets or a clip that do not fit, sway as texture coordinates of a mesh without others,
+///          or a file of more than 2^32 - 1 bytes
 [[nodiscard]] Body glb(const GlbScene& scene);
 
 }  // namespace sporeprint

@@ -20,13 +20,18 @@ void check_mesh(const Mesh& mesh, bool textured) {
     const std::size_t n = mesh.positions.size();
     if (n == 0 || mesh.indices.empty()) throw GenerationError("an empty mesh cannot be written");
     if (mesh.normals.size() != n ||
-        (textured && (mesh.tangents.size() != n || mesh.texture_coordinates.size() != n)))
+        (textured && (mesh.tangents.size() != n || mesh.texture_coordinates.size() != n)) ||
+        (!mesh.sway.empty() && mesh.sway.size() != n))
         throw GenerationError("a mesh lacks what its material needs of each vertex");
 }
 
 std::array<std::uint16_t, 2> normalized_coordinates(const glm::vec2& uv) {
     return {static_cast<std::uint16_t>(std::floor(uv.x * 65535.0F + 0.5F)),
             static_cast<std::uint16_t>(std::floor(uv.y * 65535.0F + 0.5F))};
+}
+
+std::uint8_t normalized_byte(float value) {
+    return static_cast<std::uint8_t>(std::floor(value * 255.0F + 0.5F));
 }
 
 /// Returns the bytes of a vector of items without padding between their members.
@@ -57,13 +62,44 @@ std::size_t add_quantized(std::span<const glm::vec3> values, float step, bool co
                          compressed, out);
 }
 
+/// Adds the sway of all vertices, if the mesh has it.
+///
+/// throws  GenerationError for texture coordinates of a mesh without others, which have to precede
+void add_sway(const Mesh& mesh, bool textured, GlbSway format, bool compressed, Tables& tables,
+              Geometry& geometry, Bytes& out) {
+    const std::size_t n = mesh.sway.size();
+    if (n == 0) return;
+    if (format != GlbSway::texture_coordinates) {
+        std::vector<std::array<std::uint8_t, 4>> items;
+        items.reserve(n);
+        for (const Sway& of : mesh.sway)
+            items.push_back({normalized_byte(of.bend), normalized_byte(of.flutter),
+                             normalized_byte(of.phase), normalized_byte(of.branch)});
+        return geometry.attribute(
+            format == GlbSway::color ? "COLOR_0" : "_WIND",
+            tables.stream(bytes_of(items), n, u8_component, "VEC4", normalized, compressed, out));
+    }
+    if (!textured)
+        throw GenerationError("sway as texture coordinates needs a mesh that has others");
+    std::vector<std::array<std::uint16_t, 2>> first, second;
+    first.reserve(n);
+    second.reserve(n);
+    for (const Sway& of : mesh.sway) {
+        first.push_back(normalized_coordinates({of.bend, of.phase}));
+        second.push_back(normalized_coordinates({of.flutter, of.branch}));
+    }
+    for (const auto& [name, items] : {std::pair("TEXCOORD_1", &first), {"TEXCOORD_2", &second}})
+        geometry.attribute(name, tables.stream(bytes_of(*items), n, u16_component, "VEC2",
+                                               normalized, compressed, out));
+}
+
 constexpr const char* octahedral = "OCTAHEDRAL";
 
 /// Writes quantised geometry.
 ///
 /// step  of the positions
-Geometry quantized_geometry(const Mesh& mesh, bool textured, float step, bool compressed,
-                            Tables& tables) {
+Geometry quantized_geometry(const Mesh& mesh, bool textured, GlbSway sway, float step,
+                            bool compressed, Tables& tables) {
     check_mesh(mesh, textured);
     const std::size_t n = mesh.positions.size();
     const auto bytes = std::make_shared<Bytes>();
@@ -85,6 +121,7 @@ Geometry quantized_geometry(const Mesh& mesh, bool textured, float step, bool co
         out.attribute("TEXCOORD_0", tables.stream(bytes_of(coordinates), n, u16_component, "VEC2",
                                                   normalized, compressed, *bytes));
     }
+    add_sway(mesh, textured, sway, compressed, tables, out, *bytes);
     const bool small = n <= 65535;
     const int component = small ? u16_component : u32_component;
     if (compressed) {
@@ -106,12 +143,15 @@ Geometry quantized_geometry(const Mesh& mesh, bool textured, float step, bool co
     return out;
 }
 
-Geometry float_geometry(const Mesh& mesh, bool textured, Tables& tables) {
+Geometry float_geometry(const Mesh& mesh, bool textured, GlbSway sway, Tables& tables) {
     check_mesh(mesh, textured);
     const std::size_t n = mesh.positions.size();
     const bool small = n <= 65535;
     const std::size_t index_bytes = mesh.indices.size() * (small ? 2 : 4);
-    Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0)) + padded(index_bytes));
+    const std::size_t sway_size = mesh.sway.empty()                      ? 0
+                                  : sway == GlbSway::texture_coordinates ? 8
+                                                                         : 4;
+    Chunk chunk(n * (12 + 12 + (textured ? 16 + 4 : 0) + sway_size) + padded(index_bytes));
     Geometry out;
     chunk.append(std::span<const glm::vec3>(mesh.positions));
     out.attribute("POSITION", tables.positions(mesh.positions));
@@ -127,6 +167,9 @@ Geometry float_geometry(const Mesh& mesh, bool textured, Tables& tables) {
         out.attribute("TEXCOORD_0",
                       tables.accessor(n, u16_component, "VEC2", n * 4, vertex_target, normalized));
     }
+    Bytes weights;
+    add_sway(mesh, textured, sway, false, tables, out, weights);
+    chunk.append(std::span<const std::uint8_t>(weights));
     if (small)
         for (const std::uint32_t i : mesh.indices) put(chunk.at, static_cast<std::uint16_t>(i));
     else
@@ -140,11 +183,11 @@ Geometry float_geometry(const Mesh& mesh, bool textured, Tables& tables) {
 
 }  // namespace
 
-Geometry geometry_of(const Mesh& mesh, bool textured, GlbGeometry storage, float step,
+Geometry geometry_of(const Mesh& mesh, bool textured, GlbSway sway, GlbGeometry storage, float step,
                      Tables& tables) {
     return storage == GlbGeometry::floats
-               ? float_geometry(mesh, textured, tables)
-               : quantized_geometry(mesh, textured, step, storage == GlbGeometry::compressed,
+               ? float_geometry(mesh, textured, sway, tables)
+               : quantized_geometry(mesh, textured, sway, step, storage == GlbGeometry::compressed,
                                     tables);
 }
 

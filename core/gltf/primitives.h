@@ -27,10 +27,11 @@ struct Geometry {
 /// Writes the geometry of a mesh.
 ///
 /// textured  texture coordinates and tangents are written
+/// sway      where that of the mesh is written, if it has one
 /// step      of the positions; 1 for floats
 /// throws    GenerationError for a mesh that is empty or lacks what its material needs
-[[nodiscard]] Geometry geometry_of(const Mesh& mesh, bool textured, GlbGeometry storage, float step,
-                                   Tables& tables);
+[[nodiscard]] Geometry geometry_of(const Mesh& mesh, bool textured, GlbSway sway,
+                                   GlbGeometry storage, float step, Tables& tables);
 
 /// The morph targets of a primitive.
 struct TargetData {

@@ -13,8 +13,8 @@
 
 namespace sporeprint::gltf {
 
-constexpr int float_component = 5126, u16_component = 5123, u32_component = 5125,
-              i16_component = 5122, i8_component = 5120;
+constexpr int float_component = 5126, u8_component = 5121, u16_component = 5123,
+              u32_component = 5125, i16_component = 5122, i8_component = 5120;
 constexpr int vertex_target = 34962, index_target = 34963;
 constexpr const char* normalized = ",\"normalized\":true";
 constexpr const char* meshopt_compression = "EXT_meshopt_compression";

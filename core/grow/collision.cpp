@@ -220,11 +220,4 @@ Value collision_value(const Collision& collision) {
     return Value::object().set("shapes", std::move(shapes)).set("colliders", std::move(colliders));
 }
 
-void refuse_impossible(const FileOptions& file) {
-    if (file.collision == CollisionFormat::omi && file.compress != Compression::none)
-        throw Impossible("/collision",
-                         "'omi' needs geometry as floats, because a physics shape has no scale; "
-                         "ask for compress=none, or for collision=nodes");
-}
-
 }  // namespace sporeprint

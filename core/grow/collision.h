@@ -64,8 +64,4 @@ void add_collision(GlbScene& scene, Collision& collision, const std::string& nam
 /// {"part","convex":{"points_m"}}], "colliders":[{"shape","translation","rotation","scale"}]}.
 [[nodiscard]] Value collision_value(const Collision& collision);
 
-/// Throws Impossible (path "/collision") for OMI_physics_shape with quantised geometry, which a
-/// shape cannot scale.
-void refuse_impossible(const FileOptions& file);
-
 }  // namespace sporeprint

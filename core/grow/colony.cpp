@@ -250,6 +250,105 @@ Collision colony_collision(const ColonySite& site, const std::vector<ColonyMembe
     return collision;
 }
 
+/// Returns the length of a member's stem, metres at size 1.
+double stem_length(const ColonyMember& member) { return glm::length(member.rise + member.swing); }
+
+/// Returns the sway of each model at the top of its stem. All members of a model have that of one
+/// mesh, and their stems have the same, so that no cap leaves its stem.
+///
+/// stems  of the models, for those that have their own
+std::vector<Sway> sway_of_models(const std::vector<ColonyMember>& members,
+                                 const ColonyTraits& traits, std::span<const SwayingStem> stems) {
+    std::vector<double> heights(stems.size(), 0.0);
+    for (std::size_t i = 0; i < stems.size(); ++i) {
+        if (!traits.capped) {
+            heights[i] = stems[i].top;
+            continue;
+        }
+        double sum = 0.0, count = 0.0;
+        for (const ColonyMember& member : members) {
+            if (member.model != i) continue;
+            sum += stem_length(member);
+            count += 1.0;
+        }
+        heights[i] = count > 0.0 ? sum / count : 0.0;
+    }
+    const double most = *std::max_element(heights.begin(), heights.end());
+    std::vector<Sway> sway;
+    for (std::size_t i = 0; i < stems.size(); ++i) {
+        sway.push_back({.bend = static_cast<float>(most > 0.0 ? heights[i] / most : 0.0),
+                        .phase = phase_of(i),
+                        .branch = static_cast<float>(i % 255 + 1) / 255.0F});
+        if (traits.lateral) sway.back().bend = 0.0F;
+    }
+    return sway;
+}
+
+/// Sets the sway of the meshes of all models: that of the top of their stems, or, of whole
+/// individuals, zero at the ground and rising to it.
+void add_sway(Colony& colony, const ColonyTraits& traits, std::span<const SwayingStem> stems,
+              std::span<const Sway> tops) {
+    const auto add = [&](std::vector<Mesh>& models) {
+        for (std::size_t i = 0; i < models.size(); ++i) {
+            Mesh& mesh = models[i];
+            if (traits.capped) {
+                mesh.sway.assign(mesh.positions.size(), tops[i]);
+                continue;
+            }
+            mesh.sway = sway_of(mesh, stems[i]);
+            for (Sway& sway : mesh.sway) {
+                sway.bend *= tops[i].bend;
+                sway.phase = tops[i].phase;
+                sway.branch = tops[i].branch;
+            }
+        }
+    };
+    add(colony.models);
+    for (ColonyLevel& level : colony.farther) add(level.models);
+}
+
+/// Returns the sway of roots and stems: zero on roots, and along a stem from zero to that of its
+/// model.
+std::vector<Sway> sway_of(const ColonySkin& skin, const ColonySite& site,
+                          const std::vector<ColonyMember>& members, std::span<const Sway> tops) {
+    std::vector<Sway> sway(skin.stems.size());
+    for (std::size_t i = 0; i < sway.size(); ++i) {
+        if (skin.stems[i] == 0) continue;
+        const ColonyMember& member = members[skin.stems[i] - 1];
+        const ColonyPlace& place = site.places[member.place];
+        const double length = stem_length(member);
+        // What is within two radii of the foot belongs to the root.
+        const double rigid = std::min(2.0 * place.radius, 0.5 * length);
+        const double along =
+            glm::dot(glm::dvec3(skin.mesh.positions[i]) - place.foot, member.rise + member.swing) /
+            length;
+        sway[i] = tops[member.model];
+        sway[i].bend *= static_cast<float>(
+            deflection(std::clamp((along - rigid) / (length - rigid), 0.0, 1.0)));
+    }
+    return sway;
+}
+
+/// Returns how far wind moves a colony: by its longest stem.
+///
+/// typical  stem of the typical individual
+Wind wind_of(const ColonySite& site, const std::vector<ColonyMember>& members,
+             const ColonyTraits& traits, SwayingStem typical, const ColonyParams& params) {
+    if (traits.lateral) return {params.file.wind, 0.0, 0.0};
+    if (traits.capped) {
+        const double cap = typical.top - typical.length;
+        typical.length = 0.0;
+        for (const ColonyMember& member : members)
+            if (const double length = stem_length(member); length > typical.length) {
+                typical.length = length;
+                typical.radius = site.places[member.place].radius;
+            }
+        typical.top = typical.length + cap;
+        typical.cap_radius *= params.cap_scale;
+    }
+    return {params.file.wind, params.size * displacement_of_top(typical), 0.0};
+}
+
 /// Adds one node for each member, or one instanced node for each model.
 ///
 /// mesh_of  of each model
@@ -322,9 +421,10 @@ void add_levels(GlbScene& scene, const Colony& colony, const std::string& name,
     link_levels(scene, nodes, levels, lods);
 }
 
-/// What placement and collision need of the distinct individuals of a colony.
+/// What placement, collision and wind need of the distinct individuals of a colony.
 struct ModelSet {
     std::vector<ColonyModel> models;
+    std::vector<SwayingStem> stems;  ///< of the whole individuals; empty unless the file has wind
     std::vector<std::vector<CollisionShape>> shapes;  ///< empty unless the file has collision
 };
 
@@ -342,6 +442,7 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
         // All members use the images of one mushroom, so features drawn by its seed are where they
         // are painted.
         one.effective.seed = params.seed;
+        one.painted_seed = painted_seed(params.seed, params.share);
         // Placement uses one level of detail, so that members are moved or skipped alike at every
         // level.
         const auto grown = [&](int lod, bool with_texture) {
@@ -364,6 +465,7 @@ ModelSet add_models(const ColonySpec& spec, const ColonyTraits& traits, const At
         if (!traits.capped) fit = wide_enough(fit, footprint_mesh, which == 0);
         models.models.push_back(
             {OccupancyGrid(footprint_mesh), traits.capped ? stem_fit(one).radius : fit.radius});
+        if (params.file.wind != WindFormat::none) models.stems.push_back(swaying_stem(one));
         if (params.file.collision != CollisionFormat::none)
             models.shapes.push_back(traits.capped ? fitted_shapes("cap", footprint_mesh.positions,
                                                                   footprint_mesh.indices)
@@ -383,7 +485,7 @@ Individual typical_individual(const ColonySpec& spec, const Atlas& atlas, const 
 Estimate estimate(const ColonySpec& spec, const Individual& typical, const Atlas& atlas) {
     const ColonyParams& params = spec.params;
     const ColonyTraits traits = colony_traits(spec, atlas);
-    refuse_impossible(params.file);
+    refuse_impossible(params.file, params.textures);
     const ColonyRoots growth = growth_of(params, traits, fit_of(typical, traits));
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
@@ -442,15 +544,22 @@ Colony colony_parts(const ColonySpec& spec, const Individual& typical, const Atl
     const ColonyRoots growth = growth_of(params, traits, fit);
     const ColonySite site = colony_site(params, traits, growth, fit);
     colony.members = placed_members(site, models.models, params, traits);
+    std::vector<Sway> sway;  // of each model at its top
+    if (params.file.wind != WindFormat::none) {
+        sway = sway_of_models(colony.members, traits, models.stems);
+        add_sway(colony, traits, models.stems, sway);
+        colony.wind = wind_of(site, colony.members, traits, swaying_stem(typical), params);
+    }
     const auto skin = [&](int lod) {
         throw_if_cancelled(execution);
         ColonyParams at = params;
         at.lod = lod;
         const Skeleton skeleton =
             colony_skeleton(site, colony.members, at, traits, segments_of(growth, lod));
-        Mesh mesh = colony_skin(skeleton, {lod, painted_length, textured(spec)});
-        for (glm::vec3& place : mesh.positions) place *= static_cast<float>(params.size);
-        return mesh;
+        ColonySkin made = colony_skin(skeleton, {lod, painted_length, textured(spec)});
+        if (!sway.empty()) made.mesh.sway = sway_of(made, site, colony.members, sway);
+        for (glm::vec3& place : made.mesh.positions) place *= static_cast<float>(params.size);
+        return std::move(made.mesh);
     };
     colony.skin = skin(params.lod);
     for (std::size_t i = 0; i < colony.farther.size(); ++i)
@@ -501,6 +610,7 @@ MushroomSpec paint_mushroom_spec(const ColonySpec& spec) {
     MushroomSpec own;
     own.mix = spec.mix;
     own.params.seed = spec.params.seed;
+    own.params.share = spec.params.share;
     own.params.age = spec.params.age;
     own.params.lod = cap_lod(spec.params.lod);
     own.params.texture_size = spec.params.texture_size;
@@ -549,8 +659,9 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
             levels[i].triangles = count.triangles;
         }
     }
-    scene.extras_json = extras_json(extras, write(colony.effective), box,
-                                    instanced_triangles(colony), {levels, params.file.lods});
+    scene.extras_json =
+        extras_json(extras, write(colony.effective), box, instanced_triangles(colony),
+                    {levels, params.file.lods}, colony.wind);
     add_levels(scene, colony, product_name(spec), levels, params.file.lods);
     add_collision(scene, colony.collision, level_name(product_name(spec), params.lod),
                   params.file.collision);

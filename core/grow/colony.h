@@ -41,7 +41,8 @@ struct Colony {
     std::vector<ColonyLevel> farther;  ///< further levels of detail of the file, with these members
     ColonyParams effective;  ///< every parameter resolved; requesting it gives the same colony
     Collision collision;     ///< of all members, if the file has it
-    double junction = 0.0;   ///< radius of the stem at size 1 where caps are cut off
+    Wind wind;
+    double junction = 0.0;  ///< radius of the stem at size 1 where caps are cut off
 };
 
 /// Builds the parts: `distinct` individuals of the mix, from the oldest to those of half its age,

@@ -8,6 +8,7 @@
 #include "core/params/canonical.h"
 #include "core/params/reader.h"
 #include "core/plant/leaf_image.h"
+#include "core/plant/tree_sway.h"
 
 namespace sporeprint {
 
@@ -71,6 +72,7 @@ Estimate measured(const LeafSpec& spec, std::span<const Level> levels) {
 Estimate estimate(const LeafSpec& spec) {
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
+    refuse_impossible(params.file, params.textures);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         const LeafCount most = most_of_leaf(params.shape.venation, lod);
@@ -124,7 +126,16 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
     execution.observer(Step::build);
-    const std::vector<Mesh> meshes = level_meshes(spec);
+    std::vector<Mesh> meshes = level_meshes(spec);
+    Wind wind{params.file.wind};
+    if (wind.format != WindFormat::none) {
+        const double length = params.shape.length * params.size;
+        wind.sway = leaf_sway * length;
+        wind.flutter = leaf_flutter * length;
+        for (Mesh& mesh : meshes)
+            for (const float share : flutter_of(mesh))
+                mesh.sway.push_back({.bend = share, .flutter = share});
+    }
     throw_if_cancelled(execution);
     const std::vector<Level> levels = sized_levels(params, meshes);
     GlbScene scene;
@@ -145,7 +156,7 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
     }
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
     scene.extras_json = extras_json(extras, write(params), bounds(meshes.front()),
-                                    meshes.front().triangles(), {levels, params.file.lods});
+                                    meshes.front().triangles(), {levels, params.file.lods}, wind);
     grown.glb = extras.write(scene);
     return grown;
 }

@@ -65,7 +65,7 @@ Estimate estimate(const MushroomSpec& spec, const Atlas& atlas, const Caches& ca
 Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const MushroomParams& params = spec.params;
     const bool grows = params.animation != Animation::none;
-    refuse_impossible(params.file);
+    refuse_impossible(params.file, params.textures);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         const MeshCount mesh = body_count(individual, lod, grows);
@@ -147,7 +147,13 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                        const Extras& extras, const ExecutionContext& execution) {
     execution.observer(Step::build);
     const MushroomParams& params = spec.params;
-    const std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
+    std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
+    Wind wind{params.file.wind};
+    if (wind.format != WindFormat::none) {
+        const SwayingStem stem = swaying_stem(individual);
+        wind.sway = displacement_of_top(stem);
+        for (Mesh& mesh : meshes) mesh.sway = sway_of(mesh, stem);
+    }
     Collision collision;
     if (params.file.collision != CollisionFormat::none)
         collision = body_of(collision_shapes(individual));
@@ -181,7 +187,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
     }
     add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
     scene.extras_json = extras_json(extras, write(individual.effective), box, first.triangles(),
-                                    {levels, params.file.lods});
+                                    {levels, params.file.lods}, wind);
     add_collision(scene, collision, level_name(product_name(spec), params.lod),
                   params.file.collision);
     grown.glb = extras.write(scene);

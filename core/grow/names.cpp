@@ -124,21 +124,25 @@ std::string file_name(const std::string& name, int lod, const FileOptions& file)
     FileOptions::fields([&](auto option, const Info&) {
         using Option = std::remove_cvref_t<decltype(file.*option)>;
         if (file.*option == FileOptions{}.*option) return;
-        // The levels of detail may be nodes too.
+        // Other options have values of the same names.
         if constexpr (std::is_same_v<Option, CollisionFormat>) out += "_collision";
+        if constexpr (std::is_same_v<Option, WindFormat>) out += "_wind";
         (out += '_') += sporeprint::name(static_cast<Option>(file.*option));
     });
     return out;
 }
 
 std::string skin_name(const MushroomSpec& spec) {
-    return level_name(product_name(spec) + "_skin", spec.params.lod);
+    MushroomSpec painted = spec;
+    painted.params.seed = painted_seed(spec.params.seed, spec.params.share);
+    return level_name(product_name(painted) + "_skin", spec.params.lod);
 }
 
 std::string skin_name(const ColonySpec& spec) {
     MushroomSpec painted;
     painted.mix = spec.mix;
-    painted.params.seed = spec.params.seed;
+    painted.params.seed = painted_seed(spec.params.seed, spec.params.share);
+    painted.params.share = spec.params.share;
     painted.params.age = spec.params.age;
     painted.params.texture_size = spec.params.texture_size;
     painted.params.textures = spec.params.textures;

@@ -168,6 +168,8 @@ MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Ca
     MushroomParams& params = stepped.params;
     params.age = std::floor(params.age * whole + 0.5) / whole;
     params.size = length_of_step(quantised_length(params.size));
+    params.seed = painted_seed(params.seed, params.share);
+    params.share = ImageShare::individual;
     stepped.arcs.clear();
     if (spec.model) return stepped;
     params.deformation = {};
@@ -247,8 +249,8 @@ PaintSpec paint_spec_of(const MushroomSpec& spec, const Atlas& atlas, const Cach
         // Parts are sorted by id, whatever the order of the mix.
         for (std::size_t k = 0; k < stepped.mix.size(); ++k)
             if (stepped.mix[k].id == part.id) share.sixty_fourths = parts[k];
-        set_painting(spec.params, part, species_paint(stepped, individual, part.id, atlas, caches),
-                     share.painting);
+        set_painting(stepped.params, part,
+                     species_paint(stepped, individual, part.id, atlas, caches), share.painting);
         // A species with the common gill layout is painted as if it were alone.
         const bool on_common_layout =
             has_blades(part.model) && part.model.hymenium.blades != gill_layout;

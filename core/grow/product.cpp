@@ -16,6 +16,19 @@ Value corner(const glm::vec3& p) {
     return list;
 }
 
+GlbSway place_of(WindFormat wind) {
+    switch (wind) {
+        case WindFormat::uv:
+            return GlbSway::texture_coordinates;
+        case WindFormat::color:
+            return GlbSway::color;
+        case WindFormat::none:
+        case WindFormat::attribute:
+            break;
+    }
+    return GlbSway::attribute;
+}
+
 GlbGeometry storage_of(Compression compress) {
     switch (compress) {
         case Compression::none:
@@ -33,6 +46,18 @@ GlbGeometry storage_of(Compression compress) {
 void set_options(GlbScene& scene, const FileOptions& file) {
     scene.geometry = storage_of(file.compress);
     scene.material_extensions = file.materials == MaterialSet::full;
+    scene.sway = place_of(file.wind);
+}
+
+void refuse_impossible(const FileOptions& file, Textures textures) {
+    if (file.collision == CollisionFormat::omi && file.compress != Compression::none)
+        throw Impossible("/collision",
+                         "'omi' needs geometry as floats, because a physics shape has no scale; "
+                         "ask for compress=none, or for collision=nodes");
+    if (file.wind == WindFormat::uv && textures == Textures::none)
+        throw Impossible("/wind",
+                         "'uv' needs a file with texture coordinates of its images; ask for "
+                         "textures other than none, or for wind=attribute");
 }
 
 namespace {
@@ -53,20 +78,35 @@ std::uint64_t bytes_of_images(std::uint64_t jpg, ImageFormats formats) {
     return jpg;
 }
 
+/// Returns the size of the sway of a vertex.
+std::uint64_t bytes_of_sway(WindFormat wind) {
+    switch (wind) {
+        case WindFormat::none:
+            return 0;
+        case WindFormat::uv:
+            return 8;
+        case WindFormat::attribute:
+        case WindFormat::color:
+            break;
+    }
+    return 4;
+}
+
 /// Returns the approximate size of a file with a mesh and no images.
 std::uint64_t bytes_of_mesh(std::uint64_t vertices, std::uint64_t triangles, bool textured,
                             const FileOptions& file) {
     const std::uint64_t index_size = vertices > 65535 ? 4 : 2;
+    const std::uint64_t sway = bytes_of_sway(file.wind);
     switch (file.compress) {
         case Compression::none:
             break;
         case Compression::quantize:
-            return 2700 + vertices * (textured ? 24 : 16) + triangles * 3 * index_size;
+            return 2700 + vertices * ((textured ? 24 : 16) + sway) + triangles * 3 * index_size;
         case Compression::meshopt:
             // Measured: up to 15 bytes of a vertex and 1.5 of a triangle.
-            return 3500 + vertices * (textured ? 15 : 11) + triangles * 3 / 2;
+            return 3500 + vertices * ((textured ? 15 : 11) + sway) + triangles * 3 / 2;
     }
-    return 2500 + vertices * (textured ? 44 : 24) + triangles * 3 * index_size;
+    return 2500 + vertices * ((textured ? 44 : 24) + sway) + triangles * 3 * index_size;
 }
 
 }  // namespace
@@ -97,7 +137,7 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
 }
 
 std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
-                        std::size_t triangles, const FileLevels& levels) {
+                        std::size_t triangles, const FileLevels& levels, const Wind& wind) {
     Value json = Value::object();
     json.set("canonical", Value(extras.canonical));
     json.set("effective", std::move(effective));
@@ -107,6 +147,7 @@ std::string extras_json(const Extras& extras, Value effective, const Bounds& box
     json.set("bounds_m", std::move(limits));
     json.set("triangles", Value(triangles));
     if (levels.lods != Lods::single) json.set("levels", level_list(levels.list));
+    if (wind.format != WindFormat::none) json.set("wind", wind_value(wind));
     return dump(json);
 }
 

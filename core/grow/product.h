@@ -12,6 +12,7 @@
 #include "core/gltf/glb.h"
 #include "core/grow/execution_context.h"
 #include "core/grow/levels.h"
+#include "core/grow/wind.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/mesh/mesh.h"
 #include "core/params/value.h"
@@ -30,6 +31,11 @@ struct Estimate {
 
 /// Sets how a scene is written.
 void set_options(GlbScene& scene, const FileOptions& file);
+
+/// Throws Impossible for options that exclude each other: (path "/collision") OMI_physics_shape with
+/// quantised geometry, which a shape cannot scale; (path "/wind") texture coordinates of wind without
+/// those of images, which have to precede them.
+void refuse_impossible(const FileOptions& file, Textures textures);
 
 /// Adds the images of a file to its size.
 ///
@@ -83,10 +89,11 @@ struct FileLevels {
 };
 
 /// Returns the JSON text of asset.extras: the canonical URL, the effective parameters, the bounding
-/// box in metres, the number of triangles of the first level of detail, and all levels if the file
-/// may have several.
+/// box in metres, the number of triangles of the first level of detail, all levels if the file may
+/// have several, and the channels of wind if it has them.
 [[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
-                                      std::size_t triangles, const FileLevels& levels);
+                                      std::size_t triangles, const FileLevels& levels,
+                                      const Wind& wind);
 
 /// Sets the images of a material as the parameters request: embedded images, which `paint` returns
 /// in a format, linked images, or none.

@@ -6,6 +6,7 @@
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -18,6 +19,7 @@
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
+#include "core/plant/tree_sway.h"
 
 namespace sporeprint {
 
@@ -134,13 +136,20 @@ void keep_within(const Box& box, const Mesh& mesh, std::vector<PlacedLeaf>& leav
 /// Returns the mesh of the leaves at a level of detail. At coarse levels a leaf represents others
 /// near it: it is enlarged about its middle, not away from its twig, and the crown keeps its
 /// extent.
-Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own_leaf) {
+///
+/// sway  of the tree; null for leaves without it
+Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own_leaf,
+               const TreeSway* sway) {
     const LeafShape shape = shape_of(own_leaf);
     std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
     if (all.empty()) return {};
     const auto count = static_cast<double>(all.size());
-    if (params.lod == 0)
-        return merged_leaves(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
+    const auto merged = [&](std::span<const PlacedLeaf> leaves, const Mesh& leaf) {
+        Mesh mesh = merged_leaves(leaves, leaf);
+        if (sway) mesh.sway = sway_of(leaves, leaf, *sway);
+        return mesh;
+    };
+    if (params.lod == 0) return merged(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
     const Box box = farthest_first(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
     std::vector<PlacedLeaf> left = thinned(all, leaf_share(params.lod, count));
     if (params.lod >= 2)
@@ -148,7 +157,7 @@ Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own
             left[i].place -= 0.5 * shape.length * (left[i].size - all[i].size) * left[i].along;
     const Mesh leaf = foliage_leaf(shape, leaf_triangles(params.lod, left.size()));
     keep_within(box, leaf, left);
-    return merged_leaves(left, leaf);
+    return merged(left, leaf);
 }
 
 void add_images(Estimate& e, const TreeParams& params) {
@@ -197,7 +206,7 @@ Estimate measured(const TreeSpec& spec, std::span<const TreeMeshes> levels) {
 Estimate estimate(const TreeSpec& spec) {
     const TreeParams& params = spec.params;
     const TreeLook& look = params.look;
-    refuse_impossible(params.file);
+    refuse_impossible(params.file, params.textures);
     const double tips = expected_tips(look.shape.topology);
     if (tips > static_cast<double>(most_tips))
         throw Impossible("/order", "the tree would have about " +
@@ -256,10 +265,21 @@ std::vector<TreeMeshes> level_meshes(const TreeSpec& spec, const Atlas& atlas) {
     static_cast<void>(estimate(spec));  // throws if the tree is too large
     const Tree tree = grown_tree(params.look.shape, params.seed);
     refuse_beyond_bounds(tree);
+    std::optional<TreeSway> sway;
+    Wind wind{params.file.wind};
+    if (wind.format != WindFormat::none) {
+        sway.emplace(tree);
+        wind.sway = tree_sway * params.size * sway->reach();
+        wind.flutter =
+            leaf_flutter * params.size * params.look.leaves.leaf_size * leaf.shape.length;
+    }
     std::vector<TreeMeshes> levels;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         params.lod = lod;
-        TreeMeshes meshes{bark_of(tree, lod), leaves_of(tree, params, leaf)};
+        Bark bark = bark_of(tree, lod);
+        if (sway) bark.mesh.sway = sway_of(bark, *sway);
+        TreeMeshes meshes{std::move(bark.mesh),
+                          leaves_of(tree, params, leaf, sway ? &*sway : nullptr), wind};
         finish(meshes.bark, params);
         if (!meshes.leaves.positions.empty()) finish(meshes.leaves, params);
         levels.push_back(std::move(meshes));
@@ -328,8 +348,8 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
-    scene.extras_json =
-        extras_json(extras, write(params), box, first.triangles(), {levels, params.file.lods});
+    scene.extras_json = extras_json(extras, write(params), box, first.triangles(),
+                                    {levels, params.file.lods}, first.wind);
     Collision collision;
     if (params.file.collision != CollisionFormat::none) collision = trunk_collision(spec);
     add_collision(scene, collision, level_name(product_name(spec, atlas), params.lod),

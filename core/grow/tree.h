@@ -25,6 +25,7 @@ namespace sporeprint {
 /// The meshes of a tree; each is one draw call. `leaves` is empty for a bare tree.
 struct TreeMeshes {
     Mesh bark, leaves;
+    Wind wind;  ///< the same at every level of detail
 
     [[nodiscard]] std::size_t vertices() const {
         return bark.positions.size() + leaves.positions.size();

@@ -52,6 +52,8 @@ struct Individual {
     /// The parameters in effect: every optional that a species of the mix can have is set to the
     /// individual's value, all others are empty.
     MushroomParams effective;
+    /// The seed of all features that are both in the mesh and in the images, such as warts.
+    std::uint32_t painted_seed = 1;
     /// The scale factor of a swept individual: shapes at size 1 are multiplied by it.
     double size = 0.0;
     double lightness = 1.0;           ///< factor on the linear colour of the cap

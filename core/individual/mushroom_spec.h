@@ -42,6 +42,7 @@ struct MushroomParams {
     int lod = 0;
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
+    ImageShare share = ImageShare::individual;
     FileOptions file;
     DeformationOf<Maybe> deformation;
     OrnamentsOf<Maybe> ornaments;
@@ -71,6 +72,7 @@ struct MushroomParams {
         visit(&P::lod, lod_info);
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);
+        visit(&P::share, share_info);
         visit(&P::file, file_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});

@@ -417,6 +417,7 @@ Individual resolve(const MushroomSpec& spec, const Atlas& atlas,
 
     Individual individual;
     individual.effective = requested;
+    individual.painted_seed = painted_seed(requested.seed, requested.share);
     const auto everyone = [](const Source&) { return true; };
     const Spread spread =
         blend_among(sources, everyone, [](const Source& s) -> const Spread& { return s.spread; });

@@ -10,13 +10,29 @@
 
 namespace sporeprint {
 
+/// How wind moves a vertex; all 0..1.
+struct Sway {
+    float bend = 0.0F;     ///< share of the largest displacement; 0 at the ground
+    float flutter = 0.0F;  ///< share of the largest oscillation; 0 but on leaves
+    float phase = 0.0F;    ///< of the oscillations, periods; continuous where surfaces meet
+    float branch = 0.0F;   ///< number of the main branch or individual / 255; 0: trunk or roots
+    bool operator==(const Sway&) const = default;
+};
+
+/// Returns the phase of one of many things that sway, 0..1: those of consecutive indices are far
+/// apart.
+///
+/// source  multiples of the golden ratio, modulo 1
+[[nodiscard]] float phase_of(std::size_t index);
+
 /// Indexed triangles, counter-clockwise from outside; metres, +Y up. Texture coordinates and
-/// tangents may both be empty.
+/// tangents may both be empty, and so may sway.
 struct Mesh {
     std::vector<glm::vec3> positions;
     std::vector<glm::vec3> normals;
     std::vector<glm::vec4> tangents;
     std::vector<glm::vec2> texture_coordinates;
+    std::vector<Sway> sway;  ///< how wind moves each vertex; usually empty
     std::vector<std::uint32_t> indices;
 
     [[nodiscard]] std::size_t triangles() const { return indices.size() / 3; }

@@ -1,6 +1,7 @@
 // Parameters that all products share: scale, level of detail and images.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/params/describe.h"
@@ -20,6 +21,24 @@ constexpr const char* name(Textures textures) {
             return "none";
     }
     return nullptr;
+}
+
+/// Which individuals have the same images.
+enum class ImageShare { individual, species };
+
+constexpr const char* name(ImageShare share) {
+    switch (share) {
+        case ImageShare::individual:
+            return "individual";
+        case ImageShare::species:
+            return "species";
+    }
+    return nullptr;
+}
+
+/// Returns the seed of what is painted on an individual.
+[[nodiscard]] constexpr std::uint32_t painted_seed(std::uint32_t seed, ImageShare share) {
+    return share == ImageShare::species ? 1 : seed;
 }
 
 /// How geometry is stored in a file.
@@ -120,6 +139,23 @@ constexpr const char* name(CollisionFormat collision) {
     return nullptr;
 }
 
+/// Where a file has the weights by which wind moves its vertices.
+enum class WindFormat { none, uv, attribute, color };
+
+constexpr const char* name(WindFormat wind) {
+    switch (wind) {
+        case WindFormat::none:
+            return "none";
+        case WindFormat::uv:
+            return "uv";
+        case WindFormat::attribute:
+            return "attribute";
+        case WindFormat::color:
+            return "color";
+    }
+    return nullptr;
+}
+
 /// The side of the LOD 0 atlas in texels.
 using TextureSize = Choice<128, 256, 512, 1024, 2048>;
 
@@ -140,6 +176,13 @@ inline constexpr Info texture_size_info{
 inline constexpr Info textures_info{.name = "textures",
                                     .doc = "Images inside the file, linked by address, or none."};
 
+inline constexpr Info share_info{
+    .name = "share",
+    .doc =
+        "species: individuals that differ in seed alone have the same images, those of seed 1, "
+        "and with them warts, scales and gills at the same places; the shapes still differ.",
+    .group = "file"};
+
 /// How a file is written for the program that reads it. It belongs to every product and does not
 /// change what grows.
 struct FileOptions {
@@ -149,6 +192,7 @@ struct FileOptions {
     MaterialSet materials = MaterialSet::full;
     Lods lods = Lods::single;
     CollisionFormat collision = CollisionFormat::none;
+    WindFormat wind = WindFormat::none;
 
     static constexpr void fields(auto visit) {
         using O = FileOptions;
@@ -194,6 +238,15 @@ struct FileOptions {
                           "Unreal Engine expects, which viewers show. omi: a static body by "
                           "OMI_physics_body and OMI_physics_shape, which Godot reads, with "
                           "geometry as floats only. A leaf has none.",
+                   .group = "file"});
+        visit(&O::wind,
+              Info{.name = "wind",
+                   .doc = "Weights by which a shader moves the vertices in wind: bend (0 at the "
+                          "ground), flutter of leaves, phase, number of the branch. uv: as "
+                          "TEXCOORD_1 and TEXCOORD_2, which most engines import. attribute: as "
+                          "_WIND, for three.js and Blender. color: as COLOR_0, by which viewers "
+                          "multiply the colours. extras.wind of the file names the channels and "
+                          "states the displacements in metres.",
                    .group = "file"});
     }
     bool operator==(const FileOptions&) const = default;

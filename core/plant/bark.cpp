@@ -76,8 +76,8 @@ class PartBuilder {
     }
 
     // Adds a segment to a new node, with nodes in between where it is longer than `gap` radii;
-    // returns the index of the new node.
-    std::uint32_t add_segment(std::uint32_t from, const Skeleton::Node& to) {
+    // returns the index of the new node. The label is the edge of the tree.
+    std::uint32_t add_segment(std::uint32_t from, const Skeleton::Node& to, std::uint32_t label) {
         const Skeleton::Node start = part_.nodes[from];
         const double length = glm::distance(start.place, to.place);
         const double steps = std::floor(length / (gap_ * std::max(start.radius, to.radius)));
@@ -88,11 +88,11 @@ class PartBuilder {
             const double t = step / (steps + 1.0);
             const std::uint32_t between = add({start.place + t * (to.place - start.place),
                                                start.radius + t * (to.radius - start.radius)});
-            part_.segments.push_back({from, between});
+            part_.segments.push_back({from, between, label});
             from = between;
         }
         const std::uint32_t end = add(to);
-        part_.segments.push_back({from, end});
+        part_.segments.push_back({from, end, label});
         return end;
     }
 
@@ -143,23 +143,25 @@ Skeleton part_of(const Tree& tree, const Group& group, double tolerance) {
                 continue;
             }
         }
-        place[i] = part.add_segment(from, here);
+        place[i] = part.add_segment(from, here, i);
     }
     return std::move(part).take();
 }
 
 }  // namespace
 
-Mesh bark_of(const Tree& tree, int lod) {
+Bark bark_of(const Tree& tree, int lod) {
     if (lod < 0 || lod >= tree_lods)
         throw InvalidInput("/lod",
                            std::to_string(lod) + " is outside 0.." + std::to_string(tree_lods - 1));
-    Mesh bark;
+    Bark made;
+    Mesh& bark = made.mesh;
     for (const Group& group : groups_of(tree.ramification.nodes[0].order, lod)) {
         const Skeleton part = part_of(tree, group, 0.25 * (1 + lod));
         if (part.segments.empty()) continue;
         const SkinnedSkeleton skin = skinned(cleaned(part).skeleton, group.levels);
         append(bark, skin.mesh);
+        made.edges.insert(made.edges.end(), skin.labels.begin(), skin.labels.end());
         for (std::size_t s = 0; s < skin.strips.size(); ++s) {
             const double girth = 2.0 * pi * skin.strips[s].radius;
             for (std::uint32_t i = skin.begins[s]; i < skin.begins[s + 1]; ++i) {
@@ -172,7 +174,7 @@ Mesh bark_of(const Tree& tree, int lod) {
         }
     }
     add_tangents(bark);
-    return bark;
+    return made;
 }
 
 TreeCount count_of_bark(const TreeShape& shape, int lod) {

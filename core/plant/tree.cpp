@@ -384,6 +384,7 @@ std::vector<PlacedLeaf> placed_leaves(const Tree& tree, const LeafStyle& style,
             leaf.up = square_to(leaf.along, upwards + leaf_tilt * glm::dvec3(tilt_x, 0.0, tilt_z));
             leaf.size = style.leaf_size * (1.0 + style.size_spread * size_drawn);
             leaf.id = i * ids_per_tip + static_cast<std::uint32_t>(k);
+            leaf.twig = i;
             leaves.push_back(leaf);
         }
     }

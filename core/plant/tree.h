@@ -190,7 +190,14 @@ struct Tree {
 /// The number of levels of detail of a tree.
 inline constexpr int tree_lods = 4;
 
-/// Returns the mesh of trunk, branches and twigs. High orders are subdivided, twigs are not; each
+/// The surface of trunk, branches and twigs.
+struct Bark {
+    Mesh mesh;
+    std::vector<std::uint32_t>
+        edges;  ///< by vertex: the node of the ramification that its edge enters
+};
+
+/// Returns the surface of trunk, branches and twigs. High orders are subdivided, twigs are not; each
 /// level of detail drops one more of the low orders and subdivides less; of a low tree the trunk
 /// and its branches always remain.
 ///
@@ -198,7 +205,7 @@ inline constexpr int tree_lods = 4;
 ///          image and back (mirrored repeat), in girths of the segment, so that bark is not
 ///          stretched anywhere
 /// throws   Impossible (path "/twig_radius") for more than most_skeleton_nodes rings
-[[nodiscard]] Mesh bark_of(const Tree& tree, int lod);
+[[nodiscard]] Bark bark_of(const Tree& tree, int lod);
 
 struct TreeCount {
     double vertices = 0.0, triangles = 0.0;
@@ -249,7 +256,8 @@ static_assert(well_described<LeafStyle>());
 struct PlacedLeaf {
     glm::dvec3 place{0.0}, along{0.0, 0.0, 1.0}, up{0.0, 1.0, 0.0};
     double size = 1.0;
-    std::uint32_t id = 0;  ///< key of its own random stream
+    std::uint32_t id = 0;    ///< key of its own random stream
+    std::uint32_t twig = 0;  ///< node of the ramification that its edge enters
 };
 
 /// The largest number of leaves of a tree.

@@ -46,6 +46,7 @@ struct Step {
 struct Station {
     glm::dvec3 place{0.0}, along{0.0};
     double radius = 0.0, at = 0.0;  // of the skin; metres along the strip
+    std::uint32_t label = 0;        // of the segment before it; of the first one, after it
 };
 
 class Builder {
@@ -121,7 +122,7 @@ class Builder {
         constexpr std::array<std::array<std::size_t, 4>, 6> faces = {
             {{0, 4, 6, 2}, {1, 3, 7, 5}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 2, 3, 1}, {4, 5, 7, 6}}};
         for (const auto& face : faces)
-            cap({corner[face[0]], corner[face[1]], corner[face[2]], corner[face[3]]}, 0.0);
+            cap({corner[face[0]], corner[face[1]], corner[face[2]], corner[face[3]]}, 0.0, 0);
         finish(strip, 0);
     }
 
@@ -198,8 +199,12 @@ class Builder {
             const double radius = a.radius + (b.radius - a.radius) * (s / length);
             if (last >= 0.0 && s - last < ring_gap * radius) continue;
             last = s;
-            stations.push_back({a.place + s * along, along, radius, start + s});
+            stations.push_back({a.place + s * along, along, radius, start + s, label(step)});
         }
+    }
+
+    [[nodiscard]] std::uint32_t label(const Step& step) const {
+        return skeleton_.segments[step.segment].label;
     }
 
     void add_strip(const std::vector<Step>& steps) {
@@ -218,7 +223,8 @@ class Builder {
                     along = glm::normalize(along + direction(steps[i - 1].from, step.from));
                 else if (closed)
                     along = glm::normalize(along + direction(steps.back().from, start));
-                stations.push_back({node(step.from).place, along, node(step.from).radius, at});
+                stations.push_back({node(step.from).place, along, node(step.from).radius, at,
+                                    label(steps[i > 0 ? i - 1 : i])});
             }
             add_between(stations, step, at);
             at += length;
@@ -227,8 +233,8 @@ class Builder {
         strip.length = at;
         strip.radius = weighted_radius / at;
         if (forks_[end] == none && !closed)
-            stations.push_back(
-                {node(end).place, direction(steps.back().from, end), node(end).radius, at});
+            stations.push_back({node(end).place, direction(steps.back().from, end),
+                                node(end).radius, at, label(steps.back())});
         add_rings(strip, steps, stations, closed);
     }
 
@@ -284,7 +290,7 @@ class Builder {
             const std::array<std::uint32_t, 4> next =
                 ring_at(station, side, twist.rest * station.at / strip.length);
             if (i > 0 || from_fork)
-                join(ring, next, at, station.at);
+                join(ring, next, at, station.at, station.label);
             else
                 first = next;
             ring = next;
@@ -294,7 +300,7 @@ class Builder {
             const std::array<std::uint32_t, 4>& target = to_fork ? last : first;
             std::array<std::uint32_t, 4> turned{};
             for (std::size_t k = 0; k < 4; ++k) turned[k] = target[(k + 4 - twist.quarters) % 4];
-            join(ring, turned, at, strip.length);
+            join(ring, turned, at, strip.length, label(steps.back()));
         }
         const auto tube = static_cast<std::uint32_t>(result_.quads.size()) - strip.first;
         if (!from_fork && !closed) close(stations.front(), first, -1.0);
@@ -350,7 +356,8 @@ class Builder {
     }
 
     void join(const std::array<std::uint32_t, 4>& a, const std::array<std::uint32_t, 4>& b,
-              double from, double to) {
+              double from, double to, std::uint32_t label) {
+        result_.labels.insert(result_.labels.end(), 4, label);
         for (std::size_t k = 0; k < 4; ++k) {
             const std::size_t n = (k + 1) % 4;
             const double u = 0.25 * static_cast<double>(k);
@@ -367,15 +374,16 @@ class Builder {
                          sign * cap_height * station.radius * station.along);
         const double beyond = station.at + sign * station.radius;
         if (sign > 0.0) {
-            join(ring, tip, station.at, beyond);
-            cap(tip, beyond);
+            join(ring, tip, station.at, beyond, station.label);
+            cap(tip, beyond, station.label);
         } else {
-            join(tip, ring, beyond, station.at);
-            cap({tip[0], tip[3], tip[2], tip[1]}, beyond);
+            join(tip, ring, beyond, station.at, station.label);
+            cap({tip[0], tip[3], tip[2], tip[1]}, beyond, station.label);
         }
     }
 
-    void cap(const std::array<std::uint32_t, 4>& ring, double at) {
+    void cap(const std::array<std::uint32_t, 4>& ring, double at, std::uint32_t label) {
+        result_.labels.push_back(label);
         result_.quads.push_back(ring);
         result_.places.push_back({{{0.0, at}, {0.25, at}, {0.25, at}, {0.0, at}}});
     }

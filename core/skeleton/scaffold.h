@@ -27,6 +27,7 @@ struct Scaffold {
     std::vector<glm::dvec3> points;
     std::vector<std::array<std::uint32_t, 4>> quads;
     std::vector<std::array<Place, 4>> places;  ///< by quad and corner
+    std::vector<std::uint32_t> labels;         ///< by quad: of its segment
     std::vector<Strip> strips;
 };
 

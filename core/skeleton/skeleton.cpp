@@ -259,7 +259,8 @@ CleanSkeleton cleaned(const Skeleton& skeleton, const SkinLimits& limits) {
               [](const auto& a, const auto& b) { return a.second < b.second; });
     for (const auto& [segment, original] : segments) {
         const std::uint32_t from = result.node_of[skeleton.segments[original].from];
-        clean.segments.push_back({from, segment.from == from ? segment.to : segment.from});
+        clean.segments.push_back({from, segment.from == from ? segment.to : segment.from,
+                                  skeleton.segments[original].label});
     }
 
     std::vector<End> detached;

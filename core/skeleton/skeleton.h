@@ -18,6 +18,7 @@ struct Skeleton {
     };
     struct Segment {
         std::uint32_t from = 0, to = 0;
+        std::uint32_t label = 0;  ///< of the caller, for what is made of the segment
         bool operator==(const Segment&) const = default;
     };
     std::vector<Node> nodes;

@@ -121,6 +121,7 @@ SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int lev
     mesh.positions.reserve(vertex_estimate);
     mesh.normals.reserve(vertex_estimate);
     if (places == SkinPlaces::included) made.places.reserve(vertex_estimate);
+    made.labels.reserve(vertex_estimate);
     made.begins.push_back(0);
     for (const Scaffold::Strip& strip : coarse.strips) {
         copies.begin_strip(made.begins.back());
@@ -139,6 +140,7 @@ SkinnedSkeleton cut_open(const Scaffold& coarse, const Subdivided& fine, int lev
                 mesh.positions.emplace_back(fine.points[point]);
                 mesh.normals.emplace_back(normals[point]);
                 if (places == SkinPlaces::included) made.places.push_back(place);
+                made.labels.push_back(coarse.labels[p / patches_per_quad]);
             }
             for (const auto& [a, b, c, d] : Patch::quads)
                 for (const std::size_t corner : {a, b, c, a, c, d}) *index++ = vertices[corner];

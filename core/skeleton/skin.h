@@ -1,6 +1,9 @@
 // The smooth surface of a skeleton.
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include "core/mesh/mesh.h"
 #include "core/skeleton/scaffold.h"
 
@@ -12,6 +15,7 @@ struct SkinnedSkeleton {
     /// Positions, unit normals (weighted by area, equal on both sides of a seam) and indices.
     Mesh mesh;
     std::vector<Scaffold::Place> places;  ///< one per vertex; empty if not requested
+    std::vector<std::uint32_t> labels;    ///< one per vertex: of the segment that it lies on
     std::vector<Scaffold::Strip> strips;
     /// The vertices of strip s are begins[s]..begins[s + 1].
     std::vector<std::uint32_t> begins;

@@ -38,7 +38,7 @@ void tree_of_order_7(benchmark::State& state) {
     std::size_t triangles = 0;
     for (auto _ : state) {
         const Tree tree = grown_tree(shape, 1);
-        const Mesh bark = bark_of(tree, static_cast<int>(state.range(0)));
+        const Mesh bark = bark_of(tree, static_cast<int>(state.range(0))).mesh;
         const Mesh leaves = merged_leaves(placed_leaves(tree, {.per_tip = 1}, 1), foliage);
         triangles = bark.triangles() + leaves.triangles();
         benchmark::DoNotOptimize(leaves.positions.data());

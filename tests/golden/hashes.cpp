@@ -358,6 +358,40 @@ void add_collisions(Requests& requests, const std::shared_ptr<const Atlas>& spec
     }
 }
 
+/// Adds products with weights of wind.
+void add_winds(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const WindFormat format : {WindFormat::uv, WindFormat::attribute, WindFormat::color}) {
+        const std::string folder = std::string("wind/") + name(format) + '/';
+        const FileOptions file{.wind = format};
+        for (const char* id : {"mycena_sanguinolenta", "fomes_fomentarius", "ramaria_formosa"}) {
+            MushroomSpec spec = order_of({{id, 1000}}, 0.6, 1);
+            spec.params.textures = Textures::embedded;
+            spec.params.texture_size.value = small_side;
+            spec.params.file = file;
+            add_mushroom(requests, species, folder + id, spec);
+        }
+        add_written(requests, species, folder, file);
+        LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
+        leaf.params.texture_size.value = small_side;
+        leaf.params.file = file;
+        requests[line_of(folder + "leaf", 1, 0, small_side)] = [leaf] {
+            return grow_leaf(leaf, atlas()).glb;
+        };
+    }
+}
+
+/// Adds individuals that have the images of seed 1.
+void add_shared(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const char* id : {"amanita_muscaria", "morchella_esculenta", "boletus_edulis"}) {
+        MushroomSpec spec = order_of({{id, 1000}}, 0.6, 1);
+        spec.params.seed = 8;
+        spec.params.textures = Textures::embedded;
+        spec.params.texture_size.value = small_side;
+        spec.params.share = ImageShare::species;
+        add_mushroom(requests, species, std::string("share/") + id, spec);
+    }
+}
+
 /// Adds all levels of detail of every product in one file.
 void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const Lods lods : {Lods::nodes, Lods::msft}) {
@@ -445,6 +479,8 @@ Requests golden_requests() {
     add_compressed(requests, atlas);
     add_chains(requests, atlas);
     add_collisions(requests, atlas);
+    add_winds(requests, atlas);
+    add_shared(requests, atlas);
     add_pictures(requests, atlas);
     return requests;
 }

@@ -80,9 +80,10 @@ export function product(sizes) {
 const small = "texture_size=128";
 const images = [
     small,
-    `${small}&image_format=webp`,
-    `${small}&image_format=webp_jpg`,
+    `${small}&image_format=webp&wind=uv`,
+    `${small}&image_format=webp_jpg&wind=color`,
     "textures=none",
+    "textures=none&wind=attribute",
 ];
 const lods = ["", "lod=1", "lod=2", "lod=3"];
 
@@ -124,7 +125,7 @@ async function requestFactors(server) {
                 species,
                 ages,
                 lods,
-                ["seed=7", "seed=8", "seed=9&variation=1"],
+                ["seed=7", "seed=8&share=species", "seed=9&variation=1"],
                 images,
                 clips,
                 solid,
@@ -166,7 +167,7 @@ async function requestFactors(server) {
             factors: [
                 [...species, "amanita_muscaria:0.5,boletus_edulis:0.5"],
                 lods,
-                ["count=9&distinct=3", "count=3&distinct=1"],
+                ["count=9&distinct=3", "count=3&distinct=1&share=species"],
                 ["seed=7", "seed=8"],
                 images,
                 ["", "", "instancing=gpu"],

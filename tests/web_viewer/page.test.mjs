@@ -524,6 +524,29 @@ test("solids for collision are drawn as edges and are no draw calls", async (t) 
     expectNoProblems(log);
 });
 
+test("weights of wind move the model in a breeze and are shown as colours", async (t) => {
+    const still = `?species=mycena_sanguinolenta&lod=2&texture_size=128`;
+    const { page: plain } = await open(t, still);
+    assert.ok(await plain.locator("#breeze").isHidden());
+    assert.ok(await plain.locator("#wind-weights").isHidden());
+    const picture = await stagePicture(plain);
+    for (const format of ["uv", "attribute", "color"]) {
+        const { page, log } = await open(t, `${still}&wind=${format}`);
+        assert.deepEqual(await stagePicture(page), picture, `${format}: at rest as without wind`);
+        await page.locator("#wind-weights").click();
+        await page.evaluate(() => window.sporeprint.ready());
+        assert.notDeepEqual(await stagePicture(page), picture);
+        await page.locator("#wind-weights").click();
+        const before = await page.evaluate(() => window.sporeprint.renderer.frames);
+        await page.locator("#breeze").click();
+        await page.waitForFunction((n) => window.sporeprint.renderer.frames > n + 3, before);
+        await page.locator("#breeze").click();
+        await page.evaluate(() => window.sporeprint.ready());
+        assert.deepEqual(await stagePicture(page), picture, `${format}: still again`);
+        expectNoProblems(log);
+    }
+});
+
 test("a request to a busy server is repeated after Retry-After, which is shown", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}`);
     await galleryComplete(page);

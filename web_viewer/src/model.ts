@@ -13,6 +13,7 @@ import {
 } from "three";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { windOf, type WindExtras } from "../clients/three/wind";
 import type { DraftTextures } from "./draft_textures";
 
 export interface Counts {
@@ -87,6 +88,11 @@ export function linkedImagesOf(model: Object3D): Map<string, string> {
     );
 }
 
+/** Returns what the file of a model states about wind. */
+export function modelWind(model: Object3D): WindExtras | undefined {
+    return model.userData["wind"] as WindExtras | undefined;
+}
+
 /** Parses a GLB. Links to images are relative to the address `from`; they are fetched now, or later
  *  if shared textures are given. */
 export async function parseModel(
@@ -97,8 +103,9 @@ export async function parseModel(
     const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
     const linkedImages = new Map<string, string>();
     if (sharedTextures) loader.register(sharedTextures.plugin(linkedImages, from));
-    const { scene, animations } = await loader.parseAsync(bytes, new URL(".", from).href);
+    const { scene, animations, asset } = await loader.parseAsync(bytes, new URL(".", from).href);
     scene.animations = animations;
+    scene.userData["wind"] = windOf(asset);
     scene.userData["linkedImages"] = linkedImages;
     outlineSolids(scene);
     for (const mesh of meshesOf(scene)) {

@@ -15,7 +15,7 @@ import { asRequestFailed, type ProblemItem, type RequestFailed } from "./http";
 import { MatrixTable } from "./matrix";
 import { readShares } from "./mix";
 import type { ModeLinks } from "./mode_links";
-import { countsOf, linkedImagesOf, type Counts } from "./model";
+import { countsOf, linkedImagesOf, modelWind, type Counts } from "./model";
 import { NamePlate, type ColonyCount } from "./name_plate";
 import { showNumbers } from "./number_list";
 import { DraftTextures } from "./draft_textures";
@@ -255,6 +255,7 @@ export class Page {
         this.editor.clearRefusals();
         if (this.player.ready) this.controls.show();
         this.player.take(loaded.model);
+        this.toolbar.offerWind(modelWind(loaded.model) !== undefined);
         if (!loaded.draft) {
             this.controls.clearErrors();
             this.matrix?.clearErrors();

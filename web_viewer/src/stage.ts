@@ -19,8 +19,12 @@ import { RoomEnvironment } from "three/addons/environments/RoomEnvironment.js";
 import { fittingDistance, pixelsPerMetre, type Directions, type ViewName } from "./camera";
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
-import { boundsOf, disposeModel, setWireframe, stemsOf, texturesOf } from "./model";
+import { Wind } from "../clients/three/wind";
+import { boundsOf, disposeModel, modelWind, setWireframe, stemsOf, texturesOf } from "./model";
 import { niceStep } from "./schema";
+
+/** Speed of the wind in which models sway, m/s. */
+const breezeSpeed = 3;
 
 /** Light from the upper left, as in the plates of field guides. */
 const sunDirection = new Vector3(-0.55, 1.3, 0.66).normalize();
@@ -112,6 +116,8 @@ export class Stage {
     private frameRequested = false;
     private movement = 0;
     private wireframe_ = false;
+    private readonly wind = new Wind();
+    private swaying_ = false;
     private waiters: (() => void)[] = [];
 
     constructor(
@@ -127,6 +133,7 @@ export class Stage {
         this.ground.visible = false;
         this.contact.visible = false;
         this.controls = new OrbitControls(this.camera, canvas);
+        this.wind.velocity.set(0, 0);
         this.controls.enableDamping = !style.reducedMotion;
         this.controls.dampingFactor = 0.12;
         this.controls.zoomToCursor = true;
@@ -172,10 +179,25 @@ export class Stage {
         this.draw();
     }
 
+    /** Lets models with weights of wind move in a breeze. */
+    set swaying(on: boolean) {
+        this.swaying_ = on;
+        this.wind.velocity.set(on ? breezeSpeed : 0, 0);
+        this.draw();
+    }
+
+    /** Shows weights of wind as colours. */
+    set weightsShown(on: boolean) {
+        this.wind.weightsShown = on;
+        this.draw();
+    }
+
     /** Replaces the shown model, once the graphics card has the new one; returns false, and
      *  disposes of it, if it is no longer current. */
     async show(model: Object3D, refit: boolean, current: () => boolean): Promise<boolean> {
         setWireframe(model, this.wireframe_);
+        const wind = modelWind(model);
+        if (wind) this.wind.attach(model, wind);
         for (const texture of texturesOf(model)) this.renderer.initTexture(texture);
         if (this.renderer.getContext().getExtension("KHR_parallel_shader_compile")) {
             await this.renderer.compileAsync(model, this.camera, this.scene);
@@ -263,11 +285,13 @@ export class Stage {
     private frame(): void {
         this.frameRequested = false;
         this.controls.update();
+        this.wind.update(performance.now() / 1000);
         this.renderer.render(this.scene, this.camera);
         this.onFrame();
         const done = this.waiters;
         this.waiters = [];
         for (const resolve of done) resolve();
+        if (this.swaying_ && this.model && modelWind(this.model)) this.draw();
     }
 
     private resize(): void {

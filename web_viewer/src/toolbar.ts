@@ -1,4 +1,4 @@
-// The toolbar over the stage: views, levels of detail, wireframe and dusk.
+// The toolbar over the stage: views, levels of detail, wireframe, wind and dusk.
 import type { ViewName } from "./camera";
 import { byId, make } from "./dom";
 import { valueAt } from "./schema";
@@ -54,6 +54,8 @@ export class Toolbar {
         this.makeViews();
         this.makeLods();
         makeToggle("wireframe", (on) => (stage.wireframe = on));
+        makeToggle("breeze", (on) => (stage.swaying = on));
+        makeToggle("wind-weights", (on) => (stage.weightsShown = on));
         makeToggle("night", (on) => setDusk(stage, on));
         setDusk(stage, false);
     }
@@ -62,6 +64,11 @@ export class Toolbar {
     markView(name: ViewName): void {
         const button = byId("views").querySelector('[data-view="roots"]');
         button?.setAttribute("aria-pressed", String(name === "roots"));
+    }
+
+    /** Shows the buttons of wind if the model has its weights. */
+    offerWind(offered: boolean): void {
+        for (const id of ["breeze", "wind-weights"]) byId(id).hidden = !offered;
     }
 
     /** Marks the level of detail of the settings; without one, that of the values that the server

@@ -55,7 +55,8 @@ TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
     ASSERT_GT(members.size(), 5U);
     for (int lod = 0; lod < 4; ++lod) {
         const Mesh mesh =
-            colony_skin(colony_skeleton(site, members, params, traits, 5), {lod, fit.length, true});
+            colony_skin(colony_skeleton(site, members, params, traits, 5), {lod, fit.length, true})
+                .mesh;
         expect_valid(mesh);
         for (const glm::vec2& at : mesh.texture_coordinates) {
             EXPECT_GT(static_cast<double>(at.x), chart.u + 0.9 * chart.inset * chart.width);
@@ -68,7 +69,7 @@ TEST(ColonySkin, IsClosedAndUsesTheImageOfTheStem) {
 
 TEST(ColonySkin, AStemShowsOneImageFromTheGroundToItsTop) {
     for (const double way : {1.0, -1.0}) {
-        const Mesh mesh = colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true});
+        const Mesh mesh = colony_skin(pole(0.2, 6, {0.0, way, 0.0}), {0, 0.085, true}).mesh;
         const double low = std::min(0.0, 0.2 * way);
         for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
             const double height = (static_cast<double>(mesh.positions[i].y) - low) / 0.2;
@@ -81,7 +82,7 @@ TEST(ColonySkin, AStemShowsOneImageFromTheGroundToItsTop) {
 // Along a root the image is repeated and mirrored at its own scale, and is constant nowhere.
 TEST(ColonySkin, ARootShowsImagesWithMirroredRepeat) {
     constexpr double painted = 0.085, length = 3.4 * painted;
-    const Mesh mesh = colony_skin(pole(length, 12, {1.0, 0.0, 0.0}), {0, painted, true});
+    const Mesh mesh = colony_skin(pole(length, 12, {1.0, 0.0, 0.0}), {0, painted, true}).mesh;
     std::map<int, double> by_ring;  // distance in tenths of millimetres -> place on the image
     for (std::size_t i = 0; i < mesh.positions.size(); ++i) {
         const double x = mesh.positions[i].x;
@@ -121,7 +122,8 @@ TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
                 colony_site(params, traits, colony_growth(params, traits, fit), fit);
             const std::vector<ColonyMember> members = unmoved(site);
             const Mesh mesh = colony_skin(colony_skeleton(site, members, params, traits, 8),
-                                          {0, fit.length, true});
+                                          {0, fit.length, true})
+                                  .mesh;
             expect_valid(mesh);
             EXPECT_EQ(pieces(mesh).size(), members.size())
                 << name(habit) << " " << thick << ": no stem falls apart";
@@ -144,7 +146,7 @@ TEST(ColonySkin, EachStemIsOnePieceThatEndsInsideItsNeck) {
 }
 
 TEST(ColonySkin, WithoutStemsOrRootsThereIsNone) {
-    EXPECT_TRUE(colony_skin({}, {}).positions.empty());
+    EXPECT_TRUE(colony_skin({}, {}).mesh.positions.empty());
 }
 
 }  // namespace

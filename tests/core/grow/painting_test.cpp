@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/grow/mushroom.h"
+#include "core/grow/names.h"
 #include "core/surface/codecs.h"
 #include "core/surface/image_blend.h"
 #include "tests/support/orders.h"
@@ -384,6 +385,23 @@ TEST(Painting, StopsWhenCancelled) {
     ExecutionContext execution;
     execution.stop = source.get_token();
     EXPECT_THROW((void)painted_images(pair(32), execution), Cancelled);
+}
+
+TEST(PaintSpec, IsTheSameForAllSeedsOfASpeciesThatShareImages) {
+    for (const char* id : {"amanita_muscaria", "boletus_edulis", "ramaria_formosa"}) {
+        MushroomSpec first = order_of(id), fifth = order_of(id, 0.6, 5);
+        EXPECT_NE(paint_spec_of(first, atlas()), paint_spec_of(fifth, atlas()));
+        const PaintSpec own = paint_spec_of(first, atlas());
+        first.params.share = fifth.params.share = ImageShare::species;
+        EXPECT_EQ(paint_spec_of(first, atlas()), own);
+        EXPECT_EQ(paint_spec_of(fifth, atlas()), own);
+        EXPECT_EQ(skin_name(first), skin_name(fifth));
+        // What is both built and painted is where it is painted; all else differs.
+        EXPECT_EQ(resolve(fifth, atlas()).painted_seed, 1U);
+        EXPECT_NE(resolve(fifth, atlas()).model.deformation.lean_deg,
+                  resolve(first, atlas()).model.deformation.lean_deg);
+        EXPECT_EQ(resolve(fifth, atlas()).effective.seed, 5U);
+    }
 }
 
 }  // namespace

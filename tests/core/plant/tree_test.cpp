@@ -283,7 +283,7 @@ TEST(Tree, BarkIsClosedAtEveryLevelOfDetail) {
         const Tree tree = grown_tree(preset.shape, 1);
         std::size_t before = 400'000;
         for (int lod = 0; lod < tree_lods; ++lod) {
-            const Mesh bark = bark_of(tree, lod);
+            const Mesh bark = bark_of(tree, lod).mesh;
             const std::vector<std::string> found = defects(bark);
             EXPECT_TRUE(found.empty()) << lod << ": " << found.front();
             EXPECT_GT(volume(bark), 0.0);
@@ -303,7 +303,7 @@ TEST(Tree, TreesAtTheEndsOfTheirRangesAreClosedOrRefused) {
         check(shape, Info{.name = ""}, "", problems);
         if (!problems.empty()) return;
         try {
-            const Mesh bark = bark_of(grown_tree(shape, 1), 0);
+            const Mesh bark = bark_of(grown_tree(shape, 1), 0).mesh;
             const std::vector<std::string> found = defects(bark);
             EXPECT_TRUE(found.empty()) << path << ": " << found.front();
         } catch (const Impossible& refused) {
@@ -319,7 +319,7 @@ TEST(Tree, TheSameSeedGivesTheSameTree) {
     EXPECT_EQ(one.headings, again.headings);
     EXPECT_NE(one.headings, other.headings);
     EXPECT_EQ(one.ramification.leaves(), other.ramification.leaves());
-    EXPECT_EQ(bark_of(one, 2).positions, bark_of(again, 2).positions);
+    EXPECT_EQ(bark_of(one, 2).mesh.positions, bark_of(again, 2).mesh.positions);
 }
 
 TEST(Foliage, LeavesHaveTheRequestedNumberAndFewTriangles) {
