@@ -91,16 +91,6 @@ Mix canonical_mix(Weights weights) {
     return mix;
 }
 
-std::string mix_text(const Mix& mix) {
-    if (mix.size() == 1) return mix.front().id;
-    std::string out;
-    for (const MixPart& part : mix) {
-        if (!out.empty()) out += ',';
-        ((out += part.id) += ':') += number_text(part.weight / 1000.0);
-    }
-    return out;
-}
-
 std::string unknown_species(std::string_view id, const Atlas& atlas) {
     std::vector<std::string> ids;
     for (const AtlasEntry& entry : atlas.entries()) ids.push_back(entry.species.id.string());

@@ -8,6 +8,7 @@
 
 #include "api/http/errors.h"
 #include "core/atlas/atlas.h"
+#include "core/grow/names.h"
 #include "core/individual/mushroom_spec.h"
 
 namespace sporeprint::api {
@@ -23,9 +24,6 @@ using Weights = std::vector<std::pair<std::string, double>>;
 ///
 /// weights  positive and finite, ids distinct, not empty
 [[nodiscard]] Mix canonical_mix(Weights weights);
-
-/// Returns the mix as it stands in a URL: no weight for a single species, no trailing zeros.
-[[nodiscard]] std::string mix_text(const Mix& mix);
 
 /// Reads the {mix} of a URL. Errors name the parameter "mix": 400 for syntax and weights, 404 for
 /// species that are not in the atlas (with a suggestion).

@@ -4,6 +4,7 @@
 #include <memory>
 #include <utility>
 
+#include "api/http/compression.h"
 #include "api/http/encoding.h"
 #include "api/http/schemas.h"
 #include "api/http/zip.h"
@@ -11,6 +12,7 @@
 #include "api/products/mushrooms.h"
 #include "api/products/resource.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/set_file.h"
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/profile.h"
@@ -21,7 +23,37 @@ namespace sporeprint::api {
 
 namespace {
 
-/// Largest archive that is generated, bytes. A larger set is fetched by the URLs of its manifest.
+/// What a route responds with.
+enum class Output { manifest, archive, file };
+
+constexpr const char* ending_of(Output output) {
+    switch (output) {
+        case Output::manifest:
+            return ".json";
+        case Output::archive:
+            return ".zip";
+        case Output::file:
+            return ".glb";
+    }
+    return nullptr;
+}
+
+constexpr const char* json = "application/json";
+
+constexpr const char* type_of(Output output) {
+    switch (output) {
+        case Output::manifest:
+            return json;
+        case Output::archive:
+            return "application/zip";
+        case Output::file:
+            return glb_type;
+    }
+    return nullptr;
+}
+
+/// Largest archive or file that is generated, bytes. A larger set is fetched by the URLs of its
+/// manifest.
 constexpr std::uint64_t most_archive_bytes = 256'000'000;
 
 /// Parameters of a mushroom that a set chooses itself, and what a client gives instead.
@@ -181,8 +213,8 @@ Body archive(const Context& context, const SetSpec& spec, const SetPlan& plan,
 
 /// Returns the approximate cost of a set, from its counts alone.
 ///
-/// archived  its files are generated, not only listed
-Cost guessed_cost(const SetSpec& spec, bool archived, const Atlas& atlas) {
+/// is_made  its files are generated, not only listed
+Cost guessed_cost(const SetSpec& spec, bool is_made, const Atlas& atlas) {
     Cost cost{.base = 200};
     for (const Mix& mix : spec.species) {
         MushroomSpec file{.mix = mix, .model = {}, .params = spec.mushroom};
@@ -191,58 +223,90 @@ Cost guessed_cost(const SetSpec& spec, bool archived, const Atlas& atlas) {
             spec.params.ages.size() * static_cast<std::uint64_t>(spec.params.seeds);
         cost += cost_of_individuals(mix, is_branched(mix, atlas), 2 * of_mix);
         cost.vertices += 400 * of_mix;  // of the farthest level
-        if (!archived) continue;
-        for (const int level : spec.params.levels) {
-            file.params.lod = level;
-            const Cost one = Mushrooms::guess(file, Product::glb, atlas);
-            for (std::uint64_t i = 0; i < of_mix; ++i) cost += one;
+        if (!is_made) continue;
+        if (spec.packing == SetPacking::one_file) file.params.file.lods = Lods::single;
+        for (std::size_t level = 0; level < spec.params.levels.size(); ++level) {
+            file.params.lod = spec.params.levels[level];
+            file.params.textures = spec.mushroom.textures;
+            for (int seed = 0; seed < spec.params.seeds; ++seed) {
+                if (file.params.textures == Textures::embedded &&
+                    !has_own_images(spec, seed, level))
+                    file.params.textures = Textures::linked;
+                const Cost one = Mushrooms::guess(file, Product::glb, atlas);
+                for (std::size_t age = 0; age < spec.params.ages.size(); ++age) cost += one;
+            }
         }
     }
     return cost;
 }
 
 /// Throws Impossible for more files than one request may have.
-void refuse_large(const SetSpec& spec, const Cost& cost, bool archived) {
+void refuse_large(const SetSpec& spec, const Cost& cost, bool is_made) {
     if (const std::uint64_t files = most_files(spec); files > most_set_files)
         throw Impossible("/seeds", std::to_string(files) + " files; at most " +
                                        std::to_string(most_set_files) +
                                        " are made. Lower seeds, ages or levels, or ask for some "
                                        "of the species");
-    if (archived && spec.params.megabytes == 0.0 && cost.bytes > most_archive_bytes)
+    if (is_made && spec.params.megabytes == 0.0 && cost.bytes > most_archive_bytes)
         throw Impossible("/megabytes",
-                         "the archive would have about " + std::to_string(cost.bytes / 1'000'000) +
+                         "it would have about " + std::to_string(cost.bytes / 1'000'000) +
                              " MB; at most " + std::to_string(most_archive_bytes / 1'000'000) +
                              " are made. Give a budget of megabytes, lower seeds "
                              "or levels, or fetch the files of the manifest");
-    if (archived && spec.params.megabytes * 1e6 > static_cast<double>(most_archive_bytes))
+    if (is_made && spec.params.megabytes * 1e6 > static_cast<double>(most_archive_bytes))
         throw Impossible("/megabytes",
-                         number_text(spec.params.megabytes) + " MB in one archive; at most " +
+                         number_text(spec.params.megabytes) + " MB in one response; at most " +
                              std::to_string(most_archive_bytes / 1'000'000) + " are made");
 }
 
-template <bool Archived>
+/// Throws Impossible for a file of more vertices than one request may have.
+void refuse_over_budget(const ServiceOptions& options, const SetPlan& plan) {
+    if (const std::uint64_t vertices = plan.total().vertices; vertices > options.most_vertices)
+        throw Impossible("/seeds", std::to_string(vertices) +
+                                       " vertices would be made in one file; at most " +
+                                       std::to_string(options.most_vertices) +
+                                       " are. Lower seeds, ages or levels, or fetch the files of "
+                                       "the manifest");
+}
+
+/// Returns one file of a set.
+///
+/// depth  link_depth() of the request
+Body file_of(const Context& context, const SetSpec& spec, const SetPlan& plan, int depth,
+             const ExecutionContext& execution) {
+    const auto links = [&](const MushroomSpec& one) {
+        return references_from(depth, Mushrooms::image_urls(context, one, {}, execution));
+    };
+    return grow_set(spec, plan, *context.atlas, links, execution).glb;
+}
+
+template <Output output>
 Plan plan_set(RouteCall& call) {
     Context& context = call.context;
     refuse_query(call.target, call.errors);
     SetRequest requested = read_set(call.request.body, *context.atlas, call.errors);
     if (!call.errors.empty()) return context.responses.problem(call.request, call.errors);
-    const char* const ending = Archived ? ".zip" : ".json";
+    constexpr bool is_made = output != Output::manifest;
+    if (output == Output::file) requested.spec.packing = SetPacking::one_file;
     const auto spec = std::make_shared<const SetSpec>(std::move(requested.spec));
     Resource resource;
     resource.version = version_of(*spec, *context.atlas);
-    resource.key = key_of(*spec, ending, resource.version);
-    resource.type = Archived ? "application/zip" : "application/json";
-    resource.file_name = std::string("mushrooms") + ending;
+    resource.key = key_of(*spec, ending_of(output), resource.version);
+    resource.type = type_of(output);
+    resource.file_name = std::string("mushrooms") + ending_of(output);
+    resource.is_linked = output == Output::file && spec->mushroom.textures == Textures::linked;
     resource.requested_version = std::move(requested.version);
     resource.estimate_cost = [&context, spec](const Caches&) {
-        const Cost cost = guessed_cost(*spec, Archived, *context.atlas);
-        if (Archived && spec->mushroom.textures == Textures::linked)
+        const Cost cost = guessed_cost(*spec, is_made, *context.atlas);
+        if (output == Output::file) refuse_in_one_file(*spec);
+        if (output == Output::archive && spec->mushroom.textures == Textures::linked)
             throw Impossible("/textures",
                              "links of files in an archive lead nowhere; ask for embedded or none");
-        refuse_large(*spec, cost, Archived);
+        refuse_large(*spec, cost, is_made);
         return cost;
     };
-    resource.make = [&context, spec](JobContext& job) -> Body {
+    resource.make = [&context, spec,
+                     depth = link_depth(context, call.request)](JobContext& job) -> Body {
         const ExecutionContext& execution = job.execution();
         execution.observer(Step::resolve);
         const SetPlan plan = planned_set(*spec, *context.atlas, execution);
@@ -250,13 +314,15 @@ Plan plan_set(RouteCall& call) {
             for (const Estimate& file : one.files)
                 refuse_over_budget(context.options, file, false, false, spec->mushroom.file);
         execution.observer(Step::build);
-        if (Archived) return archive(context, *spec, plan, execution);
+        if (output == Output::archive) return archive(context, *spec, plan, execution);
+        if (output == Output::file) {
+            refuse_over_budget(context.options, plan);
+            return file_of(context, *spec, plan, depth, execution);
+        }
         return {slice_of(dump(manifest(context, *spec, plan, {}, execution)))};
     };
     return plan_resource(context, call.request, std::move(resource), call.errors);
 }
-
-constexpr const char* json = "application/json";
 
 constexpr Route routes[] = {
     {.kind = RouteKind::product,
@@ -269,7 +335,7 @@ constexpr Route routes[] = {
      .body_type = json,
      .response_schema = "set_manifest",
      .request_body = "set_order",
-     .plan = plan_set<false>},
+     .plan = plan_set<Output::manifest>},
     {.kind = RouteKind::product,
      .method = "POST",
      .pattern = "/v1/sets.zip",
@@ -278,7 +344,17 @@ constexpr Route routes[] = {
      .media_type = "application/zip",
      .body_type = json,
      .request_body = "set_order",
-     .plan = plan_set<true>},
+     .plan = plan_set<Output::archive>},
+    {.kind = RouteKind::product,
+     .method = "POST",
+     .pattern = "/v1/sets.glb",
+     .id = "post_set_file",
+     .summary = "A set in one file: individuals on a grid at all their levels, those with the same "
+                "images with one material; asset.extras lists them.",
+     .media_type = glb_type,
+     .body_type = json,
+     .request_body = "set_order",
+     .plan = plan_set<Output::file>},
 };
 
 /// Returns the schema of the parameters of a body beside its species.
@@ -367,6 +443,7 @@ SetRequest read_set(std::string_view body, const Atlas& atlas, ValidationErrors&
     read(own, request.spec.params, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.params, "", true, errors);
     problems.clear();
+    std::sort(request.spec.params.levels.begin(), request.spec.params.levels.end());
     apply_profile(requested_profile(order), request.spec.mushroom);
     read(order, request.spec.mushroom, Info{.name = ""}, "", problems);
     add_problems(problems, request.spec.mushroom, "", true, errors);

@@ -660,8 +660,8 @@ Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas
         }
     }
     scene.extras_json =
-        extras_json(extras, write(colony.effective), box, instanced_triangles(colony),
-                    {levels, params.file.lods}, colony.wind);
+        dump(extras_value(extras, write(colony.effective), box, instanced_triangles(colony),
+                          {levels, params.file.lods}, colony.wind));
     add_levels(scene, colony, product_name(spec), levels, params.file.lods);
     add_collision(scene, colony.collision, level_name(product_name(spec), params.lod),
                   params.file.collision);

@@ -155,8 +155,9 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
         grown.triangles += mesh.triangles();
     }
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
-    scene.extras_json = extras_json(extras, write(params), bounds(meshes.front()),
-                                    meshes.front().triangles(), {levels, params.file.lods}, wind);
+    scene.extras_json =
+        dump(extras_value(extras, write(params), bounds(meshes.front()), meshes.front().triangles(),
+                          {levels, params.file.lods}, wind));
     grown.glb = extras.write(scene);
     return grown;
 }

@@ -186,8 +186,8 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }
     add_levels(scene, product_name(spec), primitives, levels, params.file.lods);
-    scene.extras_json = extras_json(extras, write(individual.effective), box, first.triangles(),
-                                    {levels, params.file.lods}, wind);
+    scene.extras_json = dump(extras_value(extras, write(individual.effective), box,
+                                          first.triangles(), {levels, params.file.lods}, wind));
     add_collision(scene, collision, level_name(product_name(spec), params.lod),
                   params.file.collision);
     grown.glb = extras.write(scene);

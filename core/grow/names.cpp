@@ -10,6 +10,7 @@
 #include <utility>
 
 #include "core/params/canonical.h"
+#include "core/params/messages.h"
 
 namespace sporeprint {
 
@@ -88,6 +89,16 @@ std::string with_hash(std::string name, const std::string& text) {
 }
 
 }  // namespace
+
+std::string mix_text(const Mix& mix) {
+    if (mix.size() == 1) return mix.front().id;
+    std::string text;
+    for (const MixPart& part : mix) {
+        if (!text.empty()) text += ',';
+        ((text += part.id) += ':') += number_text(part.weight / 1000.0);
+    }
+    return text;
+}
 
 std::string product_name(const MushroomSpec& spec) {
     std::string text = unnamed(spec.params, MushroomParams{}) + unlisted(spec.mix);

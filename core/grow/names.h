@@ -14,6 +14,10 @@
 
 namespace sporeprint {
 
+/// Returns a mix as it stands in a URL: no weight for a single species, no trailing zeros:
+/// "amanita_muscaria:0.7,boletus_edulis:0.3".
+[[nodiscard]] std::string mix_text(const Mix& mix);
+
 /// Returns the name of what a spec describes, the same at every level of detail and however its
 /// file is written: the species or the preset, the kind of product unless it is a mushroom, the
 /// seed, the age in percent, and a hash if anything else differs from its default:

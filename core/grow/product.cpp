@@ -136,19 +136,20 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
     sum.bytes += bytes_of_mesh(vertices, triangles, textures != Textures::none, file);
 }
 
-std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
-                        std::size_t triangles, const FileLevels& levels, const Wind& wind) {
+Value bounds_value(const Bounds& box) {
+    return Value::object().set("min", corner(box.min)).set("max", corner(box.max));
+}
+
+Value extras_value(const Extras& extras, Value effective, const Bounds& box, std::size_t triangles,
+                   const FileLevels& levels, const Wind& wind) {
     Value json = Value::object();
     json.set("canonical", Value(extras.canonical));
     json.set("effective", std::move(effective));
-    Value limits = Value::object();
-    limits.set("min", corner(box.min));
-    limits.set("max", corner(box.max));
-    json.set("bounds_m", std::move(limits));
+    json.set("bounds_m", bounds_value(box));
     json.set("triangles", Value(triangles));
     if (levels.lods != Lods::single) json.set("levels", level_list(levels.list));
     if (wind.format != WindFormat::none) json.set("wind", wind_value(wind));
-    return dump(json);
+    return json;
 }
 
 std::string key_of_format(ImageFormat format) {

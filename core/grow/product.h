@@ -88,12 +88,15 @@ struct FileLevels {
     Lods lods = Lods::single;
 };
 
-/// Returns the JSON text of asset.extras: the canonical URL, the effective parameters, the bounding
-/// box in metres, the number of triangles of the first level of detail, all levels if the file may
-/// have several, and the channels of wind if it has them.
-[[nodiscard]] std::string extras_json(const Extras& extras, Value effective, const Bounds& box,
-                                      std::size_t triangles, const FileLevels& levels,
-                                      const Wind& wind);
+/// Returns a bounding box as JSON: {"min":[x,y,z],"max":[x,y,z]}, whose numbers are exactly those of
+/// the vertices.
+[[nodiscard]] Value bounds_value(const Bounds& box);
+
+/// Returns asset.extras: the canonical URL, the effective parameters, the bounding box in metres,
+/// the number of triangles of the first level of detail, all levels if the file may have several,
+/// and the channels of wind if it has them.
+[[nodiscard]] Value extras_value(const Extras& extras, Value effective, const Bounds& box,
+                                 std::size_t triangles, const FileLevels& levels, const Wind& wind);
 
 /// Sets the images of a material as the parameters request: embedded images, which `paint` returns
 /// in a format, linked images, or none.

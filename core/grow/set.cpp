@@ -100,7 +100,14 @@ MushroomSpec file_spec(const SetSpec& spec, const SetIndividual& individual, std
     one.mix = spec.species[individual.species];
     one.params = individual.params;
     one.params.lod = spec.params.levels[level];
+    // The levels of one file are those of the set.
+    if (spec.packing == SetPacking::one_file) one.params.file.lods = Lods::single;
     return one;
+}
+
+bool has_own_images(const SetSpec& spec, int seed, std::size_t level) {
+    return spec.packing == SetPacking::files ||
+           (level == 0 && (seed == 0 || spec.mushroom.share == ImageShare::individual));
 }
 
 SetPlan planned_set(const SetSpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
@@ -131,8 +138,13 @@ SetPlan planned_set(const SetSpec& spec, const Atlas& atlas, const ExecutionCont
                 for (const int side : sizes) {
                     std::vector<Estimate>& files = one.by_size.emplace_back();
                     one.individual.params.texture_size.value = side;
-                    for (std::size_t level = 0; level < params.levels.size(); ++level)
-                        files.push_back(estimate(file_spec(spec, one.individual, level), resolved));
+                    for (std::size_t level = 0; level < params.levels.size(); ++level) {
+                        MushroomSpec file = file_spec(spec, one.individual, level);
+                        if (file.params.textures == Textures::embedded &&
+                            !has_own_images(spec, seed, level))
+                            file.params.textures = Textures::linked;
+                        files.push_back(estimate(file, resolved));
+                    }
                 }
                 row.push_back(std::move(one));
             }

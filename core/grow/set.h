@@ -70,11 +70,15 @@ struct SetParams {
     bool operator==(const SetParams&) const = default;
 };
 
+/// Whether each level of each individual is a file of its own.
+enum class SetPacking { files, one_file };
+
 /// The request for a set.
 struct SetSpec {
     std::vector<Mix> species;  ///< different, at least one
     SetParams params;
     MushroomParams mushroom;  ///< what all have in common; its seed, age and lod are not used
+    SetPacking packing = SetPacking::files;
 };
 
 /// One different individual of a set.
@@ -103,6 +107,13 @@ struct SetPlan {
 /// level  index into SetParams::levels
 [[nodiscard]] MushroomSpec file_spec(const SetSpec& spec, const SetIndividual& individual,
                                      std::size_t level);
+
+/// Returns true if a file has the images of its individual itself: every one of files, and of one
+/// file the first level of the first individual with these images.
+///
+/// seed   index of its seed, from 0
+/// level  index into SetParams::levels
+[[nodiscard]] bool has_own_images(const SetSpec& spec, int seed, std::size_t level);
 
 /// Returns the individuals of a set: all combinations of species, ages and seeds, in this order,
 /// with as many seeds and as large images as the budget allows.

@@ -348,8 +348,8 @@ Grown grow_tree(const TreeSpec& spec, const Atlas& atlas, const Extras& extras,
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }
     add_levels(scene, product_name(spec, atlas), primitives, levels, params.file.lods);
-    scene.extras_json = extras_json(extras, write(params), box, first.triangles(),
-                                    {levels, params.file.lods}, first.wind);
+    scene.extras_json = dump(extras_value(extras, write(params), box, first.triangles(),
+                                          {levels, params.file.lods}, first.wind));
     Collision collision;
     if (params.file.collision != CollisionFormat::none) collision = trunk_collision(spec);
     add_collision(scene, collision, level_name(product_name(spec, atlas), params.lod),

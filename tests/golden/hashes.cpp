@@ -39,6 +39,7 @@
 #include "core/grow/colony.h"
 #include "core/grow/leaf.h"
 #include "core/grow/mushroom.h"
+#include "core/grow/set_file.h"
 #include "core/grow/tree.h"
 #include "core/math/noise.h"
 #include "core/math/random.h"
@@ -380,6 +381,25 @@ void add_winds(Requests& requests, const std::shared_ptr<const Atlas>& species) 
     }
 }
 
+/// Adds sets in one file.
+void add_sets(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const Lods lods : {Lods::nodes, Lods::msft})
+        for (const CollisionFormat collision : {CollisionFormat::nodes, CollisionFormat::omi}) {
+            SetSpec spec;
+            spec.species = {{{"amanita_muscaria", 1000}}, {{"mycena_sanguinolenta", 1000}}};
+            spec.params.seeds = 2;
+            spec.params.levels = {2, 3};
+            spec.mushroom.texture_size.value = small_side;
+            spec.mushroom.share = ImageShare::species;
+            spec.mushroom.file = {.lods = lods, .collision = collision, .wind = WindFormat::uv};
+            spec.packing = SetPacking::one_file;
+            const std::string folder = std::string("set/") + name(lods) + '/' + name(collision);
+            requests[line_of(folder, 4, 2, small_side)] = [spec, species] {
+                return grow_set(spec, planned_set(spec, *species, {}), *species).glb;
+            };
+        }
+}
+
 /// Adds individuals that have the images of seed 1.
 void add_shared(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const char* id : {"amanita_muscaria", "morchella_esculenta", "boletus_edulis"}) {
@@ -481,6 +501,7 @@ Requests golden_requests() {
     add_collisions(requests, atlas);
     add_winds(requests, atlas);
     add_shared(requests, atlas);
+    add_sets(requests, atlas);
     add_pictures(requests, atlas);
     return requests;
 }

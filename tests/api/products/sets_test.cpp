@@ -118,6 +118,35 @@ TEST_F(Sets, ErrorsNameWhatIsWrong) {
     EXPECT_NE(refused(own + R"("textures":"linked"})", "zip").find("422"), std::string::npos);
 }
 
+TEST_F(Sets, OneFileHasAllIndividuals) {
+    const std::string body =
+        R"({"species":["amanita_muscaria","boletus_edulis"],"seeds":2,"levels":[3,2],"lods":"msft",
+            "texture_size":128,"share":"species","profile":"web","wind":"uv")";
+    const Response response = handle(service_, post(body + "}", "/v1/sets.glb"));
+    ASSERT_EQ(response.status, 200) << text_of(response);
+    EXPECT_EQ(header(response, "Content-Type"), "model/gltf-binary");
+    EXPECT_EQ(header(response, "Content-Disposition"), "inline; filename=\"mushrooms.glb\"");
+    const std::string file = text_of(response);
+    for (const char* part : {"amanita_muscaria_s1_a60", "boletus_edulis_s2_a60", "_LOD2", "_LOD3",
+                             R"("individuals":[)", R"("shown":1)", R"("wind":{)"})
+        EXPECT_NE(file.find(part), std::string::npos) << part;
+    EXPECT_EQ(text_of(handle(service_, post(body + "}", "/v1/sets.glb"))), file);
+    const std::string linked =
+        text_of(handle(service_, post(body + R"(,"textures":"linked"})", "/v1/sets.glb")));
+    EXPECT_NE(linked.find(R"("uri":"mushrooms/amanita_muscaria/base_color.webp?)"),
+              std::string::npos);
+    const std::size_t at = linked.find("mushrooms/amanita_muscaria/base_color");
+    EXPECT_EQ(
+        handle(service_, test::get("/v1/" + linked.substr(at, linked.find('"', at) - at))).status,
+        200);
+
+    const std::string own = R"({"species":["amanita_muscaria"],)";
+    EXPECT_NE(refused(own + R"("levels":[2,3]})", "glb").find("\"/lods\""), std::string::npos);
+    EXPECT_NE(refused(own + R"("levels":[3],"animation":"growth"})", "glb").find("\"/animation\""),
+              std::string::npos);
+    EXPECT_NE(refused(own + R"("levels":[0],"seeds":64})", "glb").find("422"), std::string::npos);
+}
+
 TEST_F(Sets, LargeOnesAreRefusedBeforeAnyWork) {
     std::string species;
     const std::shared_ptr<const Atlas> atlas = built_in_atlas();

@@ -1,0 +1,35 @@
+// A set of mushrooms in one GLB file: individuals at several levels of detail, with shared images.
+#pragma once
+
+#include <functional>
+
+#include "core/atlas/atlas.h"
+#include "core/grow/execution_context.h"
+#include "core/grow/product.h"
+#include "core/grow/set.h"
+
+namespace sporeprint {
+
+/// Throws Impossible for options that a file of several individuals cannot have: (path "/animation")
+/// a clip, (path "/lods") several levels that are neither named nor linked, and as
+/// refuse_impossible().
+void refuse_in_one_file(const SetSpec& spec);
+
+/// Returns the URLs of the images of one mushroom.
+using ImageLinks = std::function<ImageUrls(const MushroomSpec&)>;
+
+/// Builds one file of all individuals of a set, side by side on a grid. Each has a node for each
+/// level of detail, named as the mesh is; with lods=msft only the first ones are in the scene.
+/// Individuals with the same images have one material, and all levels have the images of the first.
+/// asset.extras lists the individuals: name, species, seed, age, how often the scene shows them,
+/// bounding box about their own origin, and levels with nodes, counts and coverages. Weights of wind
+/// are relative to the largest displacement of all.
+///
+/// spec    levels are ascending
+/// plan    planned_set() of the spec
+/// links   for Textures::linked
+/// throws  as refuse_in_one_file() and grow_mushroom()
+[[nodiscard]] Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
+                             const ImageLinks& links = {}, const ExecutionContext& execution = {});
+
+}  // namespace sporeprint
