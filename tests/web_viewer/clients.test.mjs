@@ -1,0 +1,101 @@
+// Tests of the client kit for three.js in headless Chromium against a running server.
+import assert from "node:assert/strict";
+import { createServer } from "node:http";
+import path from "node:path";
+import test, { after, before } from "node:test";
+import { launchBrowser, logEvents, packages, root, screenshotFolder, serverUrl } from "./support.mjs";
+
+const server = serverUrl({ everySpecies: true });
+const kit = path.join(root, "web_viewer/clients/three");
+let browser;
+let pages;
+let address;
+
+/** Returns a script and what it imports as one text. */
+async function bundled(file) {
+    const { outputFiles } = await packages("esbuild").build({
+        entryPoints: [file],
+        bundle: true,
+        write: false,
+        format: "esm",
+        target: ["es2022"],
+    });
+    return outputFiles[0].text;
+}
+
+before(async () => {
+    browser = await launchBrowser();
+    const script = await bundled(path.join(kit, "examples/forest.ts"));
+    const page = '<!doctype html><canvas></canvas><script type="module" src="/script.js"></script>';
+    pages = createServer(({ url }, response) => {
+        const isScript = url === "/script.js";
+        response.setHeader("Content-Type", isScript ? "text/javascript" : "text/html");
+        response.end(isScript ? script : page);
+    });
+    await new Promise((resolve) => pages.listen(0, "127.0.0.1", resolve));
+    address = `http://127.0.0.1:${pages.address().port}/`;
+});
+
+after(async () => {
+    await browser?.close();
+    pages?.close();
+});
+
+const twelve = [
+    "amanita_muscaria",
+    "boletus_edulis",
+    "cantharellus_cibarius",
+    "mycena_sanguinolenta",
+    "hypholoma_fasciculare",
+    "russula_emetica",
+    "macrolepiota_procera",
+    "coprinus_comatus",
+    "lactarius_deliciosus",
+    "hydnum_repandum",
+    "lepista_nuda",
+    "morchella_esculenta",
+];
+
+/** Opens the forest; returns its report, and the requests and bytes that it took. */
+async function walked(t, species) {
+    const page = await browser.newPage({ viewport: { width: 640, height: 360 } });
+    t.after(() => page.close());
+    const log = logEvents(page);
+    const downloads = [];
+    page.on("response", (response) => {
+        if (response.url().startsWith(server)) downloads.push(response.body().catch(() => ""));
+    });
+    await page.goto(`${address}?${new URLSearchParams({ server, species: species.join() })}`);
+    await page.waitForFunction(() => window.forest ?? window.forestError, null, {
+        timeout: 120_000,
+    });
+    const error = await page.evaluate(() => window.forestError);
+    const report = await page.evaluate(() => window.forest);
+    const bodies = await Promise.all(downloads);
+    const bytes = bodies.reduce((sum, body) => sum + body.length, 0);
+    if (report) await page.screenshot({ path: path.join(await screenshotFolder(), "forest.png") });
+    return { report, error, requests: downloads.length, bytes, log };
+}
+
+test("a forest of 300 individuals fits on a phone", async (t) => {
+    const { report, error, requests, bytes, log } = await walked(t, twelve);
+    assert.equal(error, undefined);
+    t.diagnostic(`${JSON.stringify(report)}, ${requests} requests, ${bytes} bytes`);
+    assert.equal(report.individuals, 300);
+    assert.equal(report.species, 12);
+    assert.ok(report.draws <= 20, `${report.draws} draw calls`);
+    assert.ok(report.triangles <= 200_000, `${report.triangles} triangles in view`);
+    assert.ok(report.imageBytes <= 72e6, `${report.imageBytes} bytes of images`);
+    assert.ok(requests <= 5, `${requests} requests`);
+    assert.ok(bytes <= 3.5e6, `${bytes} bytes downloaded`);
+    assert.ok(report.levels.length === 3 && report.levels.every((count) => count > 0));
+    assert.ok(report.switches > 0, "levels follow the camera");
+    assert.ok(report.colliders >= 24, "every prototype has solids");
+    assert.ok(report.moved > 0.005, "the wind moves what is seen");
+    assert.deepEqual(log.console.filter((line) => /^(error|uncaught)/.test(line)), []);
+});
+
+test("a refusal names the parameter", async (t) => {
+    const { error } = await walked(t, ["amanita_muscara"]);
+    assert.match(error, /404.*amanita_muscara/);
+});

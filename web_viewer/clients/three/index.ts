@@ -1,0 +1,11 @@
+// Sporeprint for three.js: loading, levels of detail, batching and wind.
+export {
+    Field,
+    prototypesOf,
+    type FieldCounts,
+    type Placement,
+    type Prototype,
+    type PrototypeLevel,
+} from "./field";
+export { RequestRefused, Sporeprint, type SetOrder } from "./server";
+export { Wind, windOf, type WindExtras } from "./wind";
