@@ -54,7 +54,7 @@ std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals) 
     wide.reserve(normals.size());
     for (const glm::vec3& normal : normals) wide.emplace_back(normal, 0.0F);
     std::vector<Quantized16> out(normals.size());
-    meshopt_encodeFilterOct(out.data(), out.size(), sizeof(Quantized16), 12, &wide[0].x);
+    meshopt_encodeFilterOct(out.data(), out.size(), sizeof(Quantized16), 10, &wide[0].x);
     return out;
 }
 

@@ -37,8 +37,8 @@ inline constexpr int most_quantized = 16383;
 /// handedness (w) exact.
 [[nodiscard]] std::vector<Quantized8> quantized_tangents(std::span<const glm::vec4> tangents);
 
-/// Returns unit vectors for the filter OCTAHEDRAL, with 12 bits for each coordinate: decoding
-/// returns what quantized_normals() returns, within 0.08 degrees.
+/// Returns unit vectors for the filter OCTAHEDRAL, with 10 bits for each coordinate: decoding
+/// returns what quantized_normals() returns, within 0.3 degrees.
 [[nodiscard]] std::vector<Quantized16> octahedral_normals(std::span<const glm::vec3> normals);
 
 /// Returns tangents for the filter OCTAHEDRAL, with 8 bits for each coordinate: decoding returns

@@ -11,8 +11,11 @@
 #include "api/products/morphs.h"
 #include "api/products/mushrooms.h"
 #include "api/products/presets.h"
+#include "api/products/sets.h"
 #include "api/products/trees.h"
 #include "core/atlas/atlas.h"
+#include "core/grow/set_file.h"
+#include "core/params/canonical.h"
 #include "core/params/reader.h"
 #include "tests/fuzz/expect.h"
 
@@ -97,6 +100,34 @@ void read_as_colony(std::string_view text, const Atlas& atlas) {
     expect(none.empty() && key(again) == key(spec), "a colony reads back from its own text");
 }
 
+void read_as_set(std::string_view text, const Atlas& atlas) {
+    api::ValidationErrors errors;
+    SetSpec spec = api::read_set(text, atlas, errors).spec;
+    if (!errors.empty()) return;
+    const auto key = [](const SetSpec& one) {
+        std::string of;
+        for (const Mix& mix : one.species) (of += mix_text(mix)) += ' ';
+        return of + canonical_text(one.params) + canonical_text(one.mushroom);
+    };
+    Value own = Value::object(), species = Value::array();
+    for (const Mix& mix : spec.species) species.push(mix_text(mix));
+    own.set("species", std::move(species));
+    const Value of_set = write(spec.params), of_mushroom = write(spec.mushroom);
+    for (const auto& [name, value] : of_set.members()) own.set(name, value);
+    for (const auto& [name, value] : of_mushroom.members())
+        if (name != "seed" && name != "age" && name != "lod") own.set(name, value);
+    api::ValidationErrors none;
+    const SetSpec again = api::read_set(dump(own), atlas, none).spec;
+    expect(none.empty() && key(again) == key(spec), "a set reads back from its own text");
+    expect(most_files(spec) >= spec.species.size(), "a set has a file for each species");
+    spec.packing = SetPacking::one_file;
+    try {
+        refuse_in_one_file(spec);
+    } catch (const Impossible& refused) {
+        expect(!refused.problems().empty(), "a refusal says why");
+    }
+}
+
 template <class Kind>
 void read_as(std::string_view text, const Atlas& atlas) {
     using Spec = typename Kind::Spec;
@@ -129,6 +160,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     read_as_mushroom(text, *atlas);
     read_as_morph(text, *atlas);
     read_as_colony(text, *atlas);
+    read_as_set(text, *atlas);
     read_as<api::Leaves>(text, *atlas);
     read_as<api::Trees>(text, *atlas);
     return 0;

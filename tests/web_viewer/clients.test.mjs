@@ -19,18 +19,25 @@ async function bundled(file) {
         write: false,
         format: "esm",
         target: ["es2022"],
+        nodePaths: [path.join(root, "web_viewer/node_modules")],
     });
     return outputFiles[0].text;
 }
 
 before(async () => {
     browser = await launchBrowser();
-    const script = await bundled(path.join(kit, "examples/forest.ts"));
-    const page = '<!doctype html><canvas></canvas><script type="module" src="/script.js"></script>';
+    const scripts = {
+        "/forest.js": await bundled(path.join(kit, "examples/forest.ts")),
+        "/compare.js": await bundled(path.join(root, "tests/web_viewer/compare_page.mjs")),
+    };
     pages = createServer(({ url }, response) => {
-        const isScript = url === "/script.js";
-        response.setHeader("Content-Type", isScript ? "text/javascript" : "text/html");
-        response.end(isScript ? script : page);
+        const script = scripts[url];
+        const name = new URL(url, "http://127.0.0.1").pathname.slice(1);
+        response.setHeader("Content-Type", script ? "text/javascript" : "text/html");
+        response.end(
+            script ??
+                `<!doctype html><canvas></canvas><script type="module" src="/${name}.js"></script>`,
+        );
     });
     await new Promise((resolve) => pages.listen(0, "127.0.0.1", resolve));
     address = `http://127.0.0.1:${pages.address().port}/`;
@@ -65,7 +72,7 @@ async function walked(t, species) {
     page.on("response", (response) => {
         if (response.url().startsWith(server)) downloads.push(response.body().catch(() => ""));
     });
-    await page.goto(`${address}?${new URLSearchParams({ server, species: species.join() })}`);
+    await page.goto(`${address}forest?${new URLSearchParams({ server, species: species.join() })}`);
     await page.waitForFunction(() => window.forest ?? window.forestError, null, {
         timeout: 120_000,
     });
@@ -93,6 +100,29 @@ test("a forest of 300 individuals fits on a phone", async (t) => {
     assert.ok(report.colliders >= 24, "every prototype has solids");
     assert.ok(report.moved > 0.005, "the wind moves what is seen");
     assert.deepEqual(log.console.filter((line) => /^(error|uncaught)/.test(line)), []);
+});
+
+test("compressed files look like the uncompressed ones", async (t) => {
+    const small = "lod=1&texture_size=512";
+    for (const product of [
+        `mushrooms/amanita_muscaria.glb?${small}`,
+        `mushrooms/morchella_esculenta.glb?${small}`,
+        `colonies/hypholoma_fasciculare.glb?${small}`,
+        `leaves/maple.glb?${small}`,
+        `trees/spruce.glb?lod=2&texture_size=512`,
+    ])
+        for (const options of ["compress=quantize", "compress=meshopt"]) {
+            const page = await browser.newPage();
+            t.after(() => page.close());
+            const query = { server, first: product, second: `${product}&${options}` };
+            await page.goto(`${address}compare?${new URLSearchParams(query)}`);
+            await page.waitForFunction(() => window.difference, null, { timeout: 60_000 });
+            const { mean, covered, error } = await page.evaluate(() => window.difference);
+            assert.equal(error, undefined);
+            t.diagnostic(`${product} ${options}: mean ΔE ${mean.toFixed(3)}`);
+            assert.ok(covered > 0.02, `${product} covers ${covered} of the picture`);
+            assert.ok(mean < 1, `${product} ${options}: mean ΔE ${mean}`);
+        }
 });
 
 test("a refusal names the parameter", async (t) => {
