@@ -4,10 +4,12 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <utility>
 
 #include "api/products/product.h"
 #include "api/products/resource.h"
+#include "core/individual/mushroom_spec.h"
 #include "core/params/value.h"
 
 namespace sporeprint::api {
@@ -67,6 +69,11 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
         if (spec->params.textures == Textures::linked) {
             const ImageUrls urls = Kind::image_urls(context, *spec, version, job.execution());
             extras.image_urls = references_from(depth, urls);
+            if constexpr (std::is_same_v<Spec, MushroomSpec>)
+                extras.variant_urls = [&](const MushroomSpec& variant) {
+                    return references_from(
+                        depth, Kind::image_urls(context, variant, version, job.execution()));
+                };
         }
         return Kind::grow(context, *spec, *resolved, extras, depth, job.execution());
     };

@@ -19,7 +19,8 @@ using namespace gltf;
 namespace {
 
 constexpr const char *quantization = "KHR_mesh_quantization",
-                     *gpu_instancing = "EXT_mesh_gpu_instancing";
+                     *gpu_instancing = "EXT_mesh_gpu_instancing",
+                     *materials_variants = "KHR_materials_variants";
 
 /// The animation of the first node.
 struct AnimationData {
@@ -157,6 +158,25 @@ Slice head_of(std::string json, std::size_t binary) {
     return Slice(std::move(head));
 }
 
+/// Returns the member of a primitive that maps variants to materials, with a leading comma; empty for
+/// none.
+std::string variants_json(const GlbPrimitive& primitive, const GlbScene& scene) {
+    const std::vector<std::size_t>& materials = primitive.variant_materials;
+    if (materials.empty()) return {};
+    if (materials.size() != scene.variants.size())
+        throw GenerationError("a primitive has a material for each variant, or for none");
+    std::string mappings;
+    for (std::size_t i = 0; i < materials.size(); ++i) {
+        if (materials[i] >= scene.materials.size())
+            throw GenerationError("a variant wears a material that there is not");
+        append((mappings += separator(mappings)) += "{\"material\":", materials[i]);
+        append(mappings += ",\"variants\":[", i);
+        mappings += "]}";
+    }
+    return std::string(",\"extensions\":{\"") + materials_variants + "\":{\"mappings\":[" +
+           mappings + "]}}";
+}
+
 /// Returns the JSON of all meshes, and appends their buffers to `geometries`.
 ///
 /// steps  of the positions of each mesh
@@ -182,6 +202,7 @@ std::string meshes_json(const GlbScene& scene, const std::vector<float>& steps, 
             (primitives += separator(primitives)) += "{\"attributes\":{" + shape.attributes + "},";
             append(primitives += "\"indices\":", shape.indices_accessor);
             if (has_material) append(primitives += ",\"material\":", primitive.material);
+            primitives += variants_json(primitive, scene);
             primitives += morph.targets + "}";
         }
         if (primitives.empty()) throw GenerationError("a mesh has no primitives");
@@ -279,7 +300,16 @@ Body glb(const GlbScene& scene) {
     std::string json = "{\"asset\":{\"version\":\"2.0\",\"generator\":\"Sporeprint " +
                        std::to_string(generator_version) + "\"";
     if (!scene.extras_json.empty()) (json += ",\"extras\":") += scene.extras_json;
-    const std::string extensions = extensions_json(scene.extensions, used);
+    std::vector<GlbExtension> of_file = scene.extensions;
+    if (!scene.variants.empty()) {
+        std::string names;
+        for (const std::string& name : scene.variants) {
+            append_quoted((names += separator(names)) += "{\"name\":", name);
+            names += '}';
+        }
+        of_file.push_back({materials_variants, "{\"variants\":[" + names + "]}"});
+    }
+    const std::string extensions = extensions_json(of_file, used);
     json += "}" + used.json() + extensions + ",\"scene\":0,\"scenes\":[{\"nodes\":[" + nodes.roots +
             "]}],\"nodes\":[" + nodes.nodes + "],\"meshes\":[" + meshes + "],\"materials\":[" +
             materials + "]";

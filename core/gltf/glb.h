@@ -58,6 +58,8 @@ struct GlbPrimitive {
     const Mesh* mesh = nullptr;
     std::size_t material = 0;                   ///< index into the scene's, or no_material
     std::span<const MorphTarget> targets = {};  ///< weights are 0 until a viewer sets them
+    /// The material for each of GlbScene::variants, if the primitive has any.
+    std::vector<std::size_t> variant_materials = {};
 };
 
 struct GlbMesh {
@@ -116,9 +118,10 @@ struct GlbScene {
     std::vector<GlbMaterial> materials;
     std::vector<GlbMesh> meshes;
     std::vector<GlbNode> nodes;  ///< those in the scene that are no children are its roots
-    std::vector<GlbExtension> extensions;  ///< of the file itself, which readers may ignore
-    std::string extras_json;               ///< a JSON object for asset.extras; empty for none
-    const WeightClip* clip = nullptr;      ///< animates the targets of the first node
+    std::vector<std::string> variants = {};  ///< names of KHR_materials_variants
+    std::vector<GlbExtension> extensions;    ///< of the file itself, which readers may ignore
+    std::string extras_json;                 ///< a JSON object for asset.extras; empty for none
+    const WeightClip* clip = nullptr;        ///< animates the targets of the first node
     GlbGeometry geometry = GlbGeometry::floats;
     GlbSway sway = GlbSway::attribute;  ///< of the meshes that have it
     bool material_extensions = true;    ///< whether materials have their optional extensions
@@ -141,7 +144,7 @@ struct GlbScene {
 /// throws   GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
 ///          material needs, an index of no mesh, material or node, a node with a mesh and children,
 ///          a node with two parents, a rotation that is no unit quaternion, a zero scale,
-///          targets or a clip that do not fit, sway as texture coordinates of a mesh without others,
+///          targets, variants or a clip that do not fit, sway as texture coordinates of a mesh without others,
 ///          or a file of more than 2^32 - 1 bytes
 [[nodiscard]] Body glb(const GlbScene& scene);
 

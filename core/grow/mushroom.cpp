@@ -11,6 +11,7 @@
 #include "core/grow/growth.h"
 #include "core/grow/names.h"
 #include "core/grow/painting.h"
+#include "core/grow/variants.h"
 #include "core/mesh/detail.h"
 #include "core/mesh/index_order.h"
 #include "core/params/reader.h"
@@ -66,6 +67,7 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const MushroomParams& params = spec.params;
     const bool grows = params.animation != Animation::none;
     refuse_impossible(params.file, params.textures);
+    refuse_impossible_variants(params);
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
         const MeshCount mesh = body_count(individual, lod, grows);
@@ -75,7 +77,8 @@ Estimate estimate(const MushroomSpec& spec, const Individual& individual) {
     const std::uint64_t images = textured(spec) ? 3 * side * side : 0;
     e.texels = images * static_cast<std::uint64_t>(atlases_held(spec));
     // Noisy paint takes about 1/3 byte per texel as JPEG.
-    add_image_bytes(e, images / 3, params.textures, params.file);
+    add_image_bytes(e, static_cast<std::uint64_t>(image_sets(params)) * images / 3, params.textures,
+                    params.file);
     add_solid_bytes(e, 1, 0, params.file);
     if (grows) {
         const auto frames = static_cast<std::uint64_t>(params.frames);
@@ -136,6 +139,43 @@ std::vector<Level> levels_of(const MushroomSpec& spec, const Individual& individ
     return levels;
 }
 
+namespace {
+
+/// Adds the materials of all variants; returns their images.
+std::vector<EmbeddedImages> add_variants(GlbScene& scene, const MushroomSpec& spec,
+                                         const Individual& individual, const Atlas& atlas,
+                                         const Extras& extras, const ExecutionContext& execution) {
+    std::vector<EmbeddedImages> images;
+    for (Variant& variant : variants_of(spec, individual)) {
+        GlbMaterial material = scene.materials.front();
+        material.name += '_' + variant.name;
+        material.look = variant.look;
+        if (variant.has_own_images) {
+            const MushroomSpec& painted = variant.painted;
+            const bool linked = spec.params.textures == Textures::linked && extras.variant_urls;
+            images.push_back(attach_images(material, spec.params.textures, spec.params.file,
+                                           linked ? extras.variant_urls(painted) : ImageUrls{},
+                                           execution, [&](ImageFormat format) {
+                                               return painted_images(
+                                                   paint_spec_of(painted, atlas, execution.caches),
+                                                   execution, format);
+                                           }));
+        }
+        scene.variants.push_back(std::move(variant.name));
+        scene.materials.push_back(std::move(material));
+    }
+    return images;
+}
+
+/// Returns the materials of add_variants(), which follow the first.
+std::vector<std::size_t> variant_materials(const GlbScene& scene) {
+    std::vector<std::size_t> materials;
+    for (std::size_t i = 0; i < scene.variants.size(); ++i) materials.push_back(i + 1);
+    return materials;
+}
+
+}  // namespace
+
 Mushroom grow_mushroom(const MushroomSpec& spec, const Atlas& atlas, const Extras& extras,
                        const ExecutionContext& execution) {
     execution.observer(Step::resolve);
@@ -147,6 +187,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                        const Extras& extras, const ExecutionContext& execution) {
     execution.observer(Step::build);
     const MushroomParams& params = spec.params;
+    refuse_impossible_variants(params);
     std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
     Wind wind{params.file.wind};
     if (wind.format != WindFormat::none) {
@@ -177,11 +218,13 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
         [&](ImageFormat format) {
             return painted_images(paint_spec_of(spec, atlas, execution.caches), execution, format);
         });
+    const std::vector<EmbeddedImages> variant_images =
+        add_variants(scene, spec, individual, atlas, extras, execution);
     execution.observer(Step::pack);
     Mushroom grown;
     std::vector<std::vector<GlbPrimitive>> primitives;
     for (std::size_t i = 0; i < meshes.size(); ++i) {
-        primitives.push_back({{&meshes[i], 0, growth.targets}});
+        primitives.push_back({{&meshes[i], 0, growth.targets, variant_materials(scene)}});
         grown.vertices += levels[i].vertices = meshes[i].positions.size();
         grown.triangles += levels[i].triangles = meshes[i].triangles();
     }

@@ -170,6 +170,7 @@ MushroomSpec surface_spec(const MushroomSpec& spec, const Atlas& atlas, const Ca
     params.size = length_of_step(quantised_length(params.size));
     params.seed = painted_seed(params.seed, params.share);
     params.share = ImageShare::individual;
+    params.variants = Variants::none;
     stepped.arcs.clear();
     if (spec.model) return stepped;
     params.deformation = {};

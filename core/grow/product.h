@@ -69,10 +69,14 @@ void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, T
 /// Returns the bytes that a scene becomes: those of a file, or of a picture of it.
 using SceneWriter = std::function<Body(const GlbScene&)>;
 
+/// Returns the URLs of the images of a mushroom.
+using ImageLinks = std::function<ImageUrls(const MushroomSpec&)>;
+
 struct Extras {
-    std::string canonical;    ///< canonical URL of the request; empty for none
-    ImageUrls image_urls;     ///< for Textures::linked
-    SceneWriter write = glb;  ///< called once
+    std::string canonical;         ///< canonical URL of the request; empty for none
+    ImageUrls image_urls;          ///< for Textures::linked
+    ImageLinks variant_urls = {};  ///< for the variants of Textures::linked
+    SceneWriter write = glb;       ///< called once
 };
 
 /// A finished file.

@@ -1,8 +1,6 @@
 // A set of mushrooms in one GLB file: individuals at several levels of detail, with shared images.
 #pragma once
 
-#include <functional>
-
 #include "core/atlas/atlas.h"
 #include "core/grow/execution_context.h"
 #include "core/grow/product.h"
@@ -11,12 +9,9 @@
 namespace sporeprint {
 
 /// Throws Impossible for options that a file of several individuals cannot have: (path "/animation")
-/// a clip, (path "/lods") several levels that are neither named nor linked, and as
+/// a clip, (path "/variants") variants, (path "/lods") several levels that are neither named nor linked, and as
 /// refuse_impossible().
 void refuse_in_one_file(const SetSpec& spec);
-
-/// Returns the URLs of the images of one mushroom.
-using ImageLinks = std::function<ImageUrls(const MushroomSpec&)>;
 
 /// Builds one file of all individuals of a set, side by side on a grid. Each has a node for each
 /// level of detail, named as the mesh is; with lods=msft only the first ones are in the scene.

@@ -43,6 +43,7 @@ struct MushroomParams {
     TextureSize texture_size{1024};
     Textures textures = Textures::embedded;
     ImageShare share = ImageShare::individual;
+    Variants variants = Variants::none;
     FileOptions file;
     DeformationOf<Maybe> deformation;
     OrnamentsOf<Maybe> ornaments;
@@ -73,6 +74,7 @@ struct MushroomParams {
         visit(&P::texture_size, texture_size_info);
         visit(&P::textures, textures_info);
         visit(&P::share, share_info);
+        visit(&P::variants, variants_info);
         visit(&P::file, file_info);
         visit(&P::deformation,
               Info{.name = "deformation", .doc = "Bend, twist, lean, taper and imperfection."});

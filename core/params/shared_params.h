@@ -36,6 +36,19 @@ constexpr const char* name(ImageShare share) {
     return nullptr;
 }
 
+/// Which other materials a file has beside the requested one.
+enum class Variants { none, weather };
+
+constexpr const char* name(Variants variants) {
+    switch (variants) {
+        case Variants::none:
+            return "none";
+        case Variants::weather:
+            return "weather";
+    }
+    return nullptr;
+}
+
 /// Returns the seed of what is painted on an individual.
 [[nodiscard]] constexpr std::uint32_t painted_seed(std::uint32_t seed, ImageShare share) {
     return share == ImageShare::species ? 1 : seed;
@@ -181,6 +194,13 @@ inline constexpr Info share_info{
     .doc =
         "species: individuals that differ in seed alone have the same images, those of seed 1, "
         "and with them warts, scales and gills at the same places; the shapes still differ.",
+    .group = "file"};
+
+inline constexpr Info variants_info{
+    .name = "variants",
+    .doc =
+        "weather: variants of the material beside the requested one, dry, wet, aged and frosted, "
+        "by KHR_materials_variants; four sets of images instead of one.",
     .group = "file"};
 
 /// How a file is written for the program that reads it. It belongs to every product and does not

@@ -130,6 +130,8 @@ void add_mushrooms(Cases& cases, const std::vector<std::string>& swept) {
     add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?collision=omi&lod=2&textures=none");
     add_get(cases, "/v1/trees/birch.glb?collision=nodes&lod=3&textures=none");
     add_get(cases, "/v1/mushrooms/amanita_muscaria.glb?wind=attribute&textures=none");
+    add_get(cases, "/v1/mushrooms/amanita_muscaria.glb?variants=weather&texture_size=256");
+    add_get(cases, "/v1/mushrooms/boletus_edulis.glb?variants=weather&lod=1");
     add_get(cases, "/v1/colonies/hypholoma_fasciculare.glb?wind=color&lod=1&textures=none");
     for (int lod = 0; lod < 4; ++lod)
         add_get(cases, levelled("/v1/trees/birch.glb", lod, "&wind=attribute&textures=none"));

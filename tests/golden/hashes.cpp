@@ -381,6 +381,17 @@ void add_winds(Requests& requests, const std::shared_ptr<const Atlas>& species) 
     }
 }
 
+/// Adds files with variants of their material.
+void add_variants(Requests& requests, const std::shared_ptr<const Atlas>& species) {
+    for (const char* id : {"amanita_muscaria", "morchella_esculenta", "ramaria_formosa"}) {
+        MushroomSpec spec = order_of({{id, 1000}}, 0.6, 1);
+        spec.params.textures = Textures::embedded;
+        spec.params.texture_size.value = small_side;
+        spec.params.variants = Variants::weather;
+        add_mushroom(requests, species, std::string("variants/") + id, spec);
+    }
+}
+
 /// Adds sets in one file.
 void add_sets(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const Lods lods : {Lods::nodes, Lods::msft})
@@ -502,6 +513,7 @@ Requests golden_requests() {
     add_winds(requests, atlas);
     add_shared(requests, atlas);
     add_sets(requests, atlas);
+    add_variants(requests, atlas);
     add_pictures(requests, atlas);
     return requests;
 }

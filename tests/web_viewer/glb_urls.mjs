@@ -85,6 +85,7 @@ const images = [
     "textures=none",
     "textures=none&wind=attribute",
 ];
+const variants = [...images, `${small}&variants=weather`];
 const lods = ["", "lod=1", "lod=2", "lod=3"];
 
 /** Returns for each product its route and its factors; the values are parts of a query. Some
@@ -126,14 +127,14 @@ async function requestFactors(server) {
                 ages,
                 lods,
                 ["seed=7", "seed=8&share=species", "seed=9&variation=1"],
-                images,
+                variants,
                 clips,
                 solid,
             ],
         },
         {
             route: "mushrooms",
-            factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, images, clips, storage],
+            factors: [mixes, ["age=0", "age=0.37", "age=0.5", "age=1"], lods, variants, clips, storage],
         },
         {
             route: "leaves",

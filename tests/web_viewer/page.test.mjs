@@ -554,6 +554,29 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
     }
 });
 
+test("variants of the material are offered, shown and taken back", async (t) => {
+    const query = "?species=amanita_muscaria&lod=2&texture_size=256";
+    const { page: without } = await open(t, query);
+    assert.ok(await without.locator("#variant").isHidden());
+    const { page, log } = await open(t, `${query}&variants=weather`);
+    const drawn = async (variant) => {
+        await page.locator("#variant").selectOption(variant);
+        await page.waitForTimeout(500);
+        return page.evaluate(async () => {
+            await window.sporeprint.ready();
+            return document.querySelector("#canvas").toDataURL();
+        });
+    };
+    const names = await page.locator("#variant option").allTextContents();
+    assert.deepEqual(names, ["As requested", "dry", "wet", "aged", "frosted"]);
+    const plain = await drawn("");
+    const pictures = new Set([plain]);
+    for (const name of names.slice(1)) pictures.add(await drawn(name));
+    assert.equal(pictures.size, 5);
+    assert.equal(await drawn(""), plain);
+    expectNoProblems(log);
+});
+
 test("a request to a busy server is repeated after Retry-After, which is shown", async (t) => {
     const { page } = await open(t, `?species=${species[0].id}`);
     await galleryComplete(page);

@@ -13,6 +13,7 @@ import {
 } from "three";
 import { MeshoptDecoder } from "three/addons/libs/meshopt_decoder.module.js";
 import { GLTFLoader } from "three/addons/loaders/GLTFLoader.js";
+import { MaterialVariants } from "../clients/three/variants";
 import { windOf, type WindExtras } from "../clients/three/wind";
 import type { DraftTextures } from "./draft_textures";
 
@@ -37,11 +38,13 @@ function materialsOf(mesh: Mesh): Material[] {
 
 export function texturesOf(model: Object3D): Set<Texture> {
     const textures = new Set<Texture>();
+    const materials = new Set(modelVariants(model)?.materials);
     for (const mesh of meshesOf(model)) {
-        for (const material of materialsOf(mesh)) {
-            for (const value of Object.values(material)) {
-                if (value instanceof Texture) textures.add(value);
-            }
+        for (const material of materialsOf(mesh)) materials.add(material);
+    }
+    for (const material of materials) {
+        for (const value of Object.values(material)) {
+            if (value instanceof Texture) textures.add(value);
         }
     }
     return textures;
@@ -93,6 +96,11 @@ export function modelWind(model: Object3D): WindExtras | undefined {
     return model.userData["wind"] as WindExtras | undefined;
 }
 
+/** Returns the variants of the materials of a model; none of a model that was not parsed. */
+export function modelVariants(model: Object3D): MaterialVariants | undefined {
+    return model.userData["variants"] as MaterialVariants | undefined;
+}
+
 /** Parses a GLB. Links to images are relative to the address `from`; they are fetched now, or later
  *  if shared textures are given. */
 export async function parseModel(
@@ -103,9 +111,11 @@ export async function parseModel(
     const loader = new GLTFLoader().setMeshoptDecoder(MeshoptDecoder);
     const linkedImages = new Map<string, string>();
     if (sharedTextures) loader.register(sharedTextures.plugin(linkedImages, from));
-    const { scene, animations, asset } = await loader.parseAsync(bytes, new URL(".", from).href);
-    scene.animations = animations;
-    scene.userData["wind"] = windOf(asset);
+    const file = await loader.parseAsync(bytes, new URL(".", from).href);
+    const { scene } = file;
+    scene.animations = file.animations;
+    scene.userData["wind"] = windOf(file.asset);
+    scene.userData["variants"] = new MaterialVariants(file);
     scene.userData["linkedImages"] = linkedImages;
     outlineSolids(scene);
     for (const mesh of meshesOf(scene)) {

@@ -15,7 +15,7 @@ import { asRequestFailed, type ProblemItem, type RequestFailed } from "./http";
 import { MatrixTable } from "./matrix";
 import { readShares } from "./mix";
 import type { ModeLinks } from "./mode_links";
-import { countsOf, linkedImagesOf, modelWind, type Counts } from "./model";
+import { countsOf, linkedImagesOf, modelVariants, modelWind, type Counts } from "./model";
 import { NamePlate, type ColonyCount } from "./name_plate";
 import { showNumbers } from "./number_list";
 import { DraftTextures } from "./draft_textures";
@@ -127,6 +127,7 @@ export class Page {
         });
         this.toolbar = new Toolbar(this.settings, stage, {
             view: (name) => this.view(name, false),
+            variant: (name) => void this.stage.showVariant(name),
             lodChosen: () => this.changed("lod"),
         });
         stage.onFrame = () => showScaleBar(stage, product.noun);
@@ -256,6 +257,7 @@ export class Page {
         if (this.player.ready) this.controls.show();
         this.player.take(loaded.model);
         this.toolbar.offerWind(modelWind(loaded.model) !== undefined);
+        this.toolbar.offerVariants(modelVariants(loaded.model)?.names ?? []);
         if (!loaded.draft) {
             this.controls.clearErrors();
             this.matrix?.clearErrors();

@@ -20,7 +20,7 @@ import { fittingDistance, pixelsPerMetre, type Directions, type ViewName } from 
 import { ContactShadow } from "./contact_shadow";
 import { Ground } from "./ground";
 import { Wind } from "../clients/three/wind";
-import { boundsOf, disposeModel, modelWind, setWireframe, stemsOf, texturesOf } from "./model";
+import { boundsOf, disposeModel, modelVariants, modelWind, setWireframe, stemsOf, texturesOf } from "./model";
 import { niceStep } from "./schema";
 
 /** Speed of the wind in which models sway, m/s. */
@@ -189,6 +189,18 @@ export class Stage {
     /** Shows weights of wind as colours. */
     set weightsShown(on: boolean) {
         this.wind.weightsShown = on;
+        this.draw();
+    }
+
+    /** Shows a variant of the material of the model; the requested one if it has none of this name. */
+    async showVariant(name: string): Promise<void> {
+        const model = this.model;
+        if (!model) return;
+        await modelVariants(model)?.show(name);
+        const wind = modelWind(model);
+        if (wind) this.wind.attach(model, wind);
+        setWireframe(model, this.wireframe_);
+        for (const texture of texturesOf(model)) texture.anisotropy = 8;
         this.draw();
     }
 

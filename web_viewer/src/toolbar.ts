@@ -7,6 +7,8 @@ import type { Stage } from "./stage";
 
 export interface ToolbarEvents {
     view: (name: ViewName) => void;
+    /** A variant of the material was chosen; "" for the requested one. */
+    variant: (name: string) => void;
     /** Another level of detail was chosen; the settings have it already. */
     lodChosen: () => void;
 }
@@ -58,12 +60,24 @@ export class Toolbar {
         makeToggle("wind-weights", (on) => (stage.weightsShown = on));
         makeToggle("night", (on) => setDusk(stage, on));
         setDusk(stage, false);
+        const select = byId<HTMLSelectElement>("variant");
+        select.addEventListener("change", () => this.events.variant(select.value));
     }
 
     /** Marks the view of the roots, the only one that hides a part of the model. */
     markView(name: ViewName): void {
         const button = byId("views").querySelector('[data-view="roots"]');
         button?.setAttribute("aria-pressed", String(name === "roots"));
+    }
+
+    /** Offers the variants of the material of a model, the requested one first. */
+    offerVariants(names: readonly string[]): void {
+        const select = byId<HTMLSelectElement>("variant");
+        select.hidden = names.length === 0;
+        select.replaceChildren(
+            make("option", { value: "" }, "As requested"),
+            ...names.map((name) => make("option", { value: name }, name)),
+        );
     }
 
     /** Shows the buttons of wind if the model has its weights. */

@@ -1,4 +1,4 @@
-// Sporeprint for three.js: loading, levels of detail, batching and wind.
+// Sporeprint for three.js: loading, levels of detail, batching, variants and wind.
 export {
     Field,
     prototypesOf,
@@ -8,4 +8,5 @@ export {
     type PrototypeLevel,
 } from "./field";
 export { RequestRefused, Sporeprint, type SetOrder } from "./server";
+export { MaterialVariants } from "./variants";
 export { Wind, windOf, type WindExtras } from "./wind";
