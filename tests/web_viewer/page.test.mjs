@@ -554,6 +554,28 @@ test("weights of wind move the model in a breeze and are shown as colours", asyn
     }
 });
 
+test("numbers tell the memory of images and the levels, and code for an engine is copied", async (t) => {
+    const { page, log } = await open(t, "?species=boletus_edulis&lod=1&texture_size=512&profile=godot");
+    await page.locator("#level-list").waitFor();
+    const numbers = await page.locator("#number-list").innerText();
+    // Three images of 256 x 256 with mipmaps.
+    assert.match(numbers, /3, 1\.0 MB on the graphics card/);
+    assert.match(numbers, /L1 [\d,\u2009\u202f ]+ down to .*L3/);
+    const copied = page.waitForEvent("dialog").then(async (dialog) => {
+        const text = dialog.defaultValue();
+        await dialog.accept();
+        return text;
+    });
+    await page.evaluate(() => {
+        navigator.clipboard.writeText = () => Promise.reject(new Error("not allowed"));
+    });
+    await page.locator("#copy-code").click();
+    const text = await copied;
+    assert.match(text, /GLTFDocument/);
+    assert.match(text, /\/v1\/mushrooms\/boletus_edulis\.glb\?.*profile=godot/);
+    expectNoProblems(log);
+});
+
 test("variants of the material are offered, shown and taken back", async (t) => {
     const query = "?species=amanita_muscaria&lod=2&texture_size=256";
     const { page: without } = await open(t, query);

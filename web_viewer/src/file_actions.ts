@@ -1,6 +1,7 @@
-// The buttons for the shown model: download, copied URL, copied curl command.
+// The buttons for the shown model: download, copied URL, copied curl command, copied code.
 import { byId, make } from "./dom";
 import type { LoadedModel } from "./model_loader";
+import { snippetFor } from "./snippets";
 import { announce } from "./status_line";
 
 /** Time after which the memory of a saved file is freed: the download has begun by then. */
@@ -46,19 +47,27 @@ export class FileActions {
         byId("copy-curl").addEventListener("click", () => {
             if (this.shown) void copy(this.curlCommand(this.shown), "curl command");
         });
+        byId("copy-code").addEventListener("click", () => {
+            if (!this.shown) return;
+            const url = canonicalUrl(this.shown);
+            const profile = new URL(url).searchParams.get("profile") ?? "";
+            void copy(snippetFor(profile, url), "Code");
+        });
     }
 
     /** Lets the buttons act on this model; drafts cannot be taken away. */
     show(loaded: LoadedModel): void {
         this.shown = loaded;
         const { fetched, draft, request } = loaded;
-        for (const id of ["download", "copy-url", "copy-curl"]) {
+        for (const id of ["download", "copy-url", "copy-curl", "copy-code"]) {
             byId<HTMLButtonElement>(id).disabled = draft;
         }
         if (request.body !== undefined) {
             // Arcs and rows are sent in a body: a URL exists only if the server names one.
-            byId<HTMLButtonElement>("copy-url").disabled =
-                !fetched.response.headers.has("content-location");
+            for (const id of ["copy-url", "copy-code"]) {
+                byId<HTMLButtonElement>(id).disabled =
+                    !fetched.response.headers.has("content-location");
+            }
         }
     }
 

@@ -22,6 +22,8 @@ export interface Counts {
     vertices: number;
     drawCalls: number;
     textures: number;
+    /** Bytes of all images with their mipmaps, as RGBA, on the graphics card. */
+    imageBytes: number;
 }
 
 export function meshesOf(model: Object3D): Mesh[] {
@@ -127,8 +129,16 @@ export async function parseModel(
     return scene;
 }
 
+/** Returns the bytes of a texture with its mipmaps, as RGBA; 0 while it is being loaded. */
+function bytesOf({ image }: Texture): number {
+    const { width = 0, height = 0 } = (image ?? {}) as { width?: number; height?: number };
+    return (width * height * 4 * 4) / 3;
+}
+
 export function countsOf(model: Object3D): Counts {
-    const counts = { triangles: 0, vertices: 0, drawCalls: 0, textures: texturesOf(model).size };
+    const textures = texturesOf(model);
+    const imageBytes = [...textures].reduce((sum, texture) => sum + bytesOf(texture), 0);
+    const counts = { triangles: 0, vertices: 0, drawCalls: 0, textures: textures.size, imageBytes };
     for (const mesh of meshesOf(model)) {
         const { geometry } = mesh;
         const times = mesh instanceof InstancedMesh ? mesh.count : 1;

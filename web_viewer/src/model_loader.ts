@@ -4,6 +4,7 @@ import type { Object3D } from "three";
 import { asRequestFailed, getJson, getModel, type RequestFailed, type FetchedModel } from "./http";
 import { parseModel } from "./model";
 import type { DraftTextures } from "./draft_textures";
+import type { LevelReport } from "./number_list";
 import type { LoadProgress } from "./progress_box";
 import type { Settings, ModelRequest } from "./settings";
 
@@ -22,6 +23,8 @@ export interface ModelReport {
     effective?: unknown;
     /** Ramification matrix in force, of a tree. */
     matrix?: number[][];
+    /** The level of detail that is shown and all below it. */
+    levels?: LevelReport[];
     /** Number of individuals, of a colony. */
     made?: number;
 }

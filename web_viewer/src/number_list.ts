@@ -12,6 +12,34 @@ function timingsOf(header: string): string[] {
     });
 }
 
+function megabytes(bytes: number): string {
+    return `${(bytes / 1e6).toFixed(1)} MB`;
+}
+
+/** One level of detail, as the server describes it. */
+export interface LevelReport {
+    lod: number;
+    triangles: number;
+    /** Height of the bounding box over that of the screen down to which it is drawn. */
+    screen_coverage: number;
+}
+
+/** Shows which share of the screen each level of detail is made for. */
+export function showLevels(levels: readonly LevelReport[]): void {
+    const list = byId("number-list");
+    list.querySelector("#level-name")?.remove();
+    list.querySelector("#level-list")?.remove();
+    if (levels.length === 0) return;
+    const texts = levels.map(
+        ({ lod, triangles, screen_coverage: coverage }) =>
+            `L${lod} ${grouped(triangles)} down to ${(100 * coverage).toPrecision(2)} %`,
+    );
+    list.append(
+        make("dt", { id: "level-name", title: "Triangles, and height on the screen" }, "Levels"),
+        make("dd", { id: "level-list" }, texts.join(" · ")),
+    );
+}
+
 /** Shows the numbers of a model. */
 export function showNumbers(loaded: LoadedModel): void {
     const { response, bytes, source } = loaded.fetched;
@@ -27,7 +55,7 @@ export function showNumbers(loaded: LoadedModel): void {
         ["Triangles", grouped(counts.triangles)],
         ["Vertices", grouped(counts.vertices)],
         ["Draw calls", String(counts.drawCalls)],
-        ["Images", String(counts.textures)],
+        ["Images", `${counts.textures}, ${megabytes(counts.imageBytes)} on the graphics card`],
         ["Status", `${response.status}${origin}`],
         ["Cache", header("cache-status")],
         ["Server ms", timingsOf(header("server-timing") ?? "").join(" · ") || undefined],

@@ -17,7 +17,7 @@ import { readShares } from "./mix";
 import type { ModeLinks } from "./mode_links";
 import { countsOf, linkedImagesOf, modelVariants, modelWind, type Counts } from "./model";
 import { NamePlate, type ColonyCount } from "./name_plate";
-import { showNumbers } from "./number_list";
+import { showLevels, showNumbers } from "./number_list";
 import { DraftTextures } from "./draft_textures";
 import { ProblemBox } from "./problem_box";
 import { mushrooms, type Product } from "./products";
@@ -153,7 +153,7 @@ export class Page {
     }
 
     get counts(): Counts {
-        if (!this.loaded) return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0 };
+        if (!this.loaded) return { triangles: 0, vertices: 0, drawCalls: 0, textures: 0, imageBytes: 0 };
         return countsOf(this.loaded.model);
     }
 
@@ -278,7 +278,8 @@ export class Page {
     }
 
     /** Shows what the service reports about the shown model. */
-    private showEffective({ effective, matrix, made }: ModelReport): void {
+    private showEffective({ effective, matrix, made, levels }: ModelReport): void {
+        showLevels(levels ?? []);
         this.controls.show(effective);
         this.toolbar.markLod(effective);
         this.matrix?.showServed(matrix);
