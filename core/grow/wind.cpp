@@ -21,19 +21,15 @@ constexpr double drag = 0.8, modulus = 2e6;
 /// Largest displacement of the top, in heights: a bent stem turns its cap out of the wind.
 constexpr double most_displacement = 0.3;
 
-/// Names of the four channels.
-struct Channels {
-    std::array<const char*, 4> bend_flutter_phase_branch;
-};
-
-Channels channels_of(WindFormat format) {
+/// Returns the channels of bend, flutter, phase and branch.
+std::array<const char*, 4> channels_of(WindFormat format) {
     switch (format) {
         case WindFormat::uv:
-            return {{"TEXCOORD_1.x", "TEXCOORD_2.x", "TEXCOORD_1.y", "TEXCOORD_2.y"}};
+            return {"TEXCOORD_1.x", "TEXCOORD_2.x", "TEXCOORD_1.y", "TEXCOORD_2.y"};
         case WindFormat::attribute:
-            return {{"_WIND.x", "_WIND.y", "_WIND.z", "_WIND.w"}};
+            return {"_WIND.x", "_WIND.y", "_WIND.z", "_WIND.w"};
         case WindFormat::color:
-            return {{"COLOR_0.x", "COLOR_0.y", "COLOR_0.z", "COLOR_0.w"}};
+            return {"COLOR_0.x", "COLOR_0.y", "COLOR_0.z", "COLOR_0.w"};
         case WindFormat::none:
             break;
     }
@@ -43,7 +39,7 @@ Channels channels_of(WindFormat format) {
 }  // namespace
 
 Value wind_value(const Wind& wind) {
-    const auto [bend, flutter, phase, branch] = channels_of(wind.format).bend_flutter_phase_branch;
+    const auto [bend, flutter, phase, branch] = channels_of(wind.format);
     Value channels = Value::object();
     channels.set("bend", Value(std::string(bend)));
     channels.set("flutter", Value(std::string(flutter)));
