@@ -636,6 +636,7 @@ Grown grow_colony(const ColonySpec& spec, const Atlas& atlas, const Extras& extr
 Grown grow_colony(const ColonySpec& spec, const Individual& typical, const Atlas& atlas,
                   const Extras& extras, const ExecutionContext& execution) {
     const ColonyParams& params = spec.params;
+    refuse_impossible(params.file, params.textures);
     Colony colony = colony_parts(spec, typical, atlas, execution);
     const Bounds box = bounds(colony);
     GlbScene scene;

@@ -125,6 +125,7 @@ Grown grow_leaf(const LeafSpec& spec, const Atlas& atlas, const Extras& extras,
                 const ExecutionContext& execution) {
     const LeafParams& params = spec.params;
     refuse_collision(params.file);
+    refuse_impossible(params.file, params.textures);
     execution.observer(Step::build);
     std::vector<Mesh> meshes = level_meshes(spec);
     Wind wind{params.file.wind};

@@ -187,6 +187,7 @@ Mushroom grow_mushroom(const MushroomSpec& spec, const Individual& individual, c
                        const Extras& extras, const ExecutionContext& execution) {
     execution.observer(Step::build);
     const MushroomParams& params = spec.params;
+    refuse_impossible(params.file, params.textures);
     refuse_impossible_variants(params);
     std::vector<Mesh> meshes = level_meshes(spec, individual, execution);
     Wind wind{params.file.wind};

@@ -209,7 +209,17 @@ TEST(Wind, TextureCoordinatesNeedThoseOfImages) {
     leaf.params.textures = Textures::none;
     leaf.params.file.wind = WindFormat::uv;
     EXPECT_TRUE(names(refusal([&] { (void)estimate(leaf); }), "/wind", "uv"));
-    EXPECT_THROW((void)grow_mushroom(spec, atlas()), GenerationError);
+    EXPECT_TRUE(names(refusal([&] { (void)grow_mushroom(spec, atlas()); }), "/wind", "uv"));
+    EXPECT_TRUE(names(refusal([&] { (void)grow_leaf(leaf, atlas()); }), "/wind", "uv"));
+    ColonySpec colony;
+    colony.mix = {{"boletus_edulis", 1000}};
+    colony.params.textures = Textures::none;
+    colony.params.file.wind = WindFormat::uv;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_colony(colony, atlas()); }), "/wind", "uv"));
+    TreeSpec tree{"birch", params_of(*tree_preset("birch"))};
+    tree.params.textures = Textures::none;
+    tree.params.file.wind = WindFormat::uv;
+    EXPECT_TRUE(names(refusal([&] { (void)grow_tree(tree, atlas()); }), "/wind", "uv"));
 }
 
 }  // namespace
