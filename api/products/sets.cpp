@@ -227,11 +227,8 @@ Cost guessed_cost(const SetSpec& spec, bool is_made, const Atlas& atlas) {
         if (spec.packing == SetPacking::one_file) file.params.file.lods = Lods::single;
         for (std::size_t level = 0; level < spec.params.levels.size(); ++level) {
             file.params.lod = spec.params.levels[level];
-            file.params.textures = spec.mushroom.textures;
             for (int seed = 0; seed < spec.params.seeds; ++seed) {
-                if (file.params.textures == Textures::embedded &&
-                    !has_own_images(spec, seed, level))
-                    file.params.textures = Textures::linked;
+                file.params.textures = counted_textures(spec, seed, level);
                 const Cost one = Mushrooms::guess(file, Product::glb, atlas);
                 for (std::size_t age = 0; age < spec.params.ages.size(); ++age) cost += one;
             }

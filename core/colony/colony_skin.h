@@ -41,8 +41,8 @@ struct SkinOptions {
 /// The surface of the skeleton of a colony.
 struct ColonySkin {
     Mesh mesh;
-    std::vector<std::uint32_t>
-        stems;  ///< by vertex: 0 on a root, 1 + index of its member on a stem
+    /// By vertex: 0 on a root, 1 + the index of its member on a stem.
+    std::vector<std::uint32_t> stems;
 };
 
 /// Cleans a skeleton and returns its surface. The texture coordinates of a stem cover

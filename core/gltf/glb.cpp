@@ -158,8 +158,8 @@ Slice head_of(std::string json, std::size_t binary) {
     return Slice(std::move(head));
 }
 
-/// Returns the member of a primitive that maps variants to materials, with a leading comma; empty for
-/// none.
+/// Returns the member of a primitive that maps variants to materials, with a leading comma; empty
+/// for none.
 std::string variants_json(const GlbPrimitive& primitive, const GlbScene& scene) {
     const std::vector<std::size_t>& materials = primitive.variant_materials;
     if (materials.empty()) return {};

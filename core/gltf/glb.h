@@ -134,9 +134,9 @@ struct GlbScene {
 /// textures. Identity transforms of nodes are omitted. Targets are dense: positions and normals
 /// move nearly everywhere, so sparse accessors would be larger.
 ///
-/// Quantised positions and their targets are i16 in steps by which the nodes of the mesh are scaled,
-/// so that the origin stays the pivot. Normals are normalised i16, tangents normalised i8; normals
-/// of targets stay floats, for their differences exceed 1.
+/// Quantised positions and their targets are i16 in steps by which the nodes of the mesh are
+/// scaled, so that the origin stays the pivot. Normals are normalised i16, tangents normalised i8;
+/// normals of targets stay floats, for their differences exceed 1.
 ///
 /// returns  slices: head (GLB header, JSON, BIN header), the geometry of each primitive with its
 ///          targets, the instances of each node that has some, the clip, then each image with its
@@ -144,8 +144,8 @@ struct GlbScene {
 /// throws   GenerationError for a scene without nodes, an empty mesh, a mesh that lacks what its
 ///          material needs, an index of no mesh, material or node, a node with a mesh and children,
 ///          a node with two parents, a rotation that is no unit quaternion, a zero scale,
-///          targets, variants or a clip that do not fit, sway as texture coordinates of a mesh without others,
-///          or a file of more than 2^32 - 1 bytes
+///          targets, variants or a clip that do not fit, sway as texture coordinates of a mesh
+///          without others, or a file of more than 2^32 - 1 bytes
 [[nodiscard]] Body glb(const GlbScene& scene);
 
 }  // namespace sporeprint

@@ -32,9 +32,9 @@ struct Estimate {
 /// Sets how a scene is written.
 void set_options(GlbScene& scene, const FileOptions& file);
 
-/// Throws Impossible for options that exclude each other: (path "/collision") OMI_physics_shape with
-/// quantised geometry, which a shape cannot scale; (path "/wind") texture coordinates of wind without
-/// those of images, which have to precede them.
+/// Throws Impossible for options that exclude each other: (path "/collision") OMI_physics_shape
+/// with quantised geometry, which a shape cannot scale; (path "/wind") texture coordinates of wind
+/// without those of images, which have to precede them.
 void refuse_impossible(const FileOptions& file, Textures textures);
 
 /// Adds the images of a file to its size.
@@ -92,8 +92,8 @@ struct FileLevels {
     Lods lods = Lods::single;
 };
 
-/// Returns a bounding box as JSON: {"min":[x,y,z],"max":[x,y,z]}, whose numbers are exactly those of
-/// the vertices.
+/// Returns a bounding box as JSON: {"min":[x,y,z],"max":[x,y,z]}, whose numbers are exactly those
+/// of the vertices.
 [[nodiscard]] Value bounds_value(const Bounds& box);
 
 /// Returns asset.extras: the canonical URL, the effective parameters, the bounding box in metres,

@@ -105,9 +105,12 @@ MushroomSpec file_spec(const SetSpec& spec, const SetIndividual& individual, std
     return one;
 }
 
-bool has_own_images(const SetSpec& spec, int seed, std::size_t level) {
-    return spec.packing == SetPacking::files ||
-           (level == 0 && (seed == 0 || spec.mushroom.share == ImageShare::individual));
+Textures counted_textures(const SetSpec& spec, int seed, std::size_t level) {
+    const Textures textures = spec.mushroom.textures;
+    if (spec.packing == SetPacking::files || textures != Textures::embedded) return textures;
+    const bool is_first =
+        level == 0 && (seed == 0 || spec.mushroom.share == ImageShare::individual);
+    return is_first ? textures : Textures::linked;
 }
 
 SetPlan planned_set(const SetSpec& spec, const Atlas& atlas, const ExecutionContext& execution) {
@@ -140,9 +143,7 @@ SetPlan planned_set(const SetSpec& spec, const Atlas& atlas, const ExecutionCont
                     one.individual.params.texture_size.value = side;
                     for (std::size_t level = 0; level < params.levels.size(); ++level) {
                         MushroomSpec file = file_spec(spec, one.individual, level);
-                        if (file.params.textures == Textures::embedded &&
-                            !has_own_images(spec, seed, level))
-                            file.params.textures = Textures::linked;
+                        file.params.textures = counted_textures(spec, seed, level);
                         files.push_back(estimate(file, resolved));
                     }
                 }

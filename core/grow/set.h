@@ -108,12 +108,13 @@ struct SetPlan {
 [[nodiscard]] MushroomSpec file_spec(const SetSpec& spec, const SetIndividual& individual,
                                      std::size_t level);
 
-/// Returns true if a file has the images of its individual itself: every one of files, and of one
-/// file the first level of the first individual with these images.
+/// Returns the textures with which a level of an individual counts in estimates: those of the
+/// request in files of their own; in one file images count once, for the first level of the first
+/// individual that has them, and all others are as large as with linked ones.
 ///
 /// seed   index of its seed, from 0
 /// level  index into SetParams::levels
-[[nodiscard]] bool has_own_images(const SetSpec& spec, int seed, std::size_t level);
+[[nodiscard]] Textures counted_textures(const SetSpec& spec, int seed, std::size_t level);
 
 /// Returns the individuals of a set: all combinations of species, ages and seeds, in this order,
 /// with as many seeds and as large images as the budget allows.

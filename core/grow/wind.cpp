@@ -15,8 +15,8 @@ namespace {
 
 /// Dynamic pressure of a breeze of 3 m/s, Pa: half of 1.2 kg/m^3 times its square.
 constexpr double pressure = 5.4;
-/// Drag coefficient of a cap, and Young's modulus of the flesh of a stem, Pa: estimates between those
-/// of a sphere and a disc, and of fresh plant tissue.
+/// Drag coefficient of a cap, and Young's modulus of the flesh of a stem, Pa: estimates between
+/// those of a sphere and a disc, and of fresh plant tissue.
 constexpr double drag = 0.8, modulus = 2e6;
 /// Largest displacement of the top, in heights: a bent stem turns its cap out of the wind.
 constexpr double most_displacement = 0.3;

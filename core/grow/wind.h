@@ -10,8 +10,8 @@
 
 namespace sporeprint {
 
-/// What a file states about wind: where its weights are, and the displacements for weights of 1 in a
-/// breeze of 3 m/s, metres.
+/// What a file states about wind: where its weights are, and the displacements for weights of 1 in
+/// a breeze of 3 m/s, metres.
 struct Wind {
     WindFormat format = WindFormat::none;
     double sway = 0.0, flutter = 0.0;

@@ -193,8 +193,8 @@ inline constexpr int tree_lods = 4;
 /// The surface of trunk, branches and twigs.
 struct Bark {
     Mesh mesh;
-    std::vector<std::uint32_t>
-        edges;  ///< by vertex: the node of the ramification that its edge enters
+    /// By vertex: the node of the ramification that its edge enters.
+    std::vector<std::uint32_t> edges;
 };
 
 /// Returns the surface of trunk, branches and twigs. High orders are subdivided, twigs are not; each

@@ -345,6 +345,16 @@ void add_written(Requests& requests, const std::shared_ptr<const Atlas>& species
     };
 }
 
+/// Adds a small leaf that is written with these options.
+void add_written_leaf(Requests& requests, const std::string& folder, const FileOptions& file) {
+    LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
+    leaf.params.texture_size.value = small_side;
+    leaf.params.file = file;
+    requests[line_of(folder + "leaf", 1, 0, small_side)] = [leaf] {
+        return grow_leaf(leaf, atlas()).glb;
+    };
+}
+
 /// Adds products with solids for collision.
 void add_collisions(Requests& requests, const std::shared_ptr<const Atlas>& species) {
     for (const CollisionFormat format : {CollisionFormat::nodes, CollisionFormat::omi}) {
@@ -372,12 +382,7 @@ void add_winds(Requests& requests, const std::shared_ptr<const Atlas>& species) 
             add_mushroom(requests, species, folder + id, spec);
         }
         add_written(requests, species, folder, file);
-        LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
-        leaf.params.texture_size.value = small_side;
-        leaf.params.file = file;
-        requests[line_of(folder + "leaf", 1, 0, small_side)] = [leaf] {
-            return grow_leaf(leaf, atlas()).glb;
-        };
+        add_written_leaf(requests, folder, file);
     }
 }
 
@@ -435,12 +440,7 @@ void add_chains(Requests& requests, const std::shared_ptr<const Atlas>& species)
             add_mushroom(requests, species, folder + id, spec);
         }
         add_written(requests, species, folder, file);
-        LeafSpec leaf{"maple", params_of(*leaf_preset("maple"))};
-        leaf.params.texture_size.value = small_side;
-        leaf.params.file = file;
-        requests[line_of(folder + "leaf", 1, 0, small_side)] = [leaf] {
-            return grow_leaf(leaf, atlas()).glb;
-        };
+        add_written_leaf(requests, folder, file);
     }
 }
 
