@@ -1,8 +1,11 @@
 #include "api/products/trees.h"
 
+#include <cmath>
+
 #include "api/products/leaves.h"
 #include "core/grow/collision.h"
 #include "core/params/schema.h"
+#include "core/plant/foliage.h"
 
 namespace sporeprint::api {
 
@@ -90,11 +93,15 @@ Measures Trees::measure(const TreeSpec& spec, const Atlas& atlas,
 }
 
 Cost Trees::cost_of_growing(const TreeSpec& spec) {
-    const double twigs = expected_tips(spec.params.look.shape.topology);
-    // Its trunk is grown once more.
-    const std::size_t levels = levels_in_file(spec.params.lod, spec.params.file).size() +
-                               (spec.params.file.collision != CollisionFormat::none ? 1 : 0);
-    return {.base = 100, .twigs = levels * static_cast<std::uint64_t>(twigs)};
+    const TreeParams& params = spec.params;
+    const double twigs = expected_tips(params.look.shape.topology);
+    const auto leaves = static_cast<std::size_t>(std::ceil(twigs * params.look.leaves.per_tip));
+    // Leaves are gathered from all twigs into groups at coarse levels, and for solids the trunk is
+    // grown once more.
+    std::size_t times = params.file.collision != CollisionFormat::none ? 1 : 0;
+    for (const int lod : levels_in_file(params.lod, params.file))
+        times += foliage_count(lod, leaves) < leaves ? 2 : 1;
+    return {.base = 100, .twigs = times * static_cast<std::uint64_t>(twigs)};
 }
 
 Cost Trees::cost_of_painting(const TreeSpec& spec, const Atlas& atlas) {

@@ -1,11 +1,8 @@
 #include "core/grow/tree.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
-#include <glm/vector_relational.hpp>
 #include <optional>
 #include <utility>
 #include <vector>
@@ -19,6 +16,7 @@
 #include "core/params/canonical.h"
 #include "core/params/messages.h"
 #include "core/params/reader.h"
+#include "core/plant/foliage.h"
 #include "core/plant/tree_sway.h"
 
 namespace sporeprint {
@@ -58,106 +56,16 @@ void refuse_beyond_bounds(const Tree& tree) {
             problems.front().message);
 }
 
-struct Box {
-    glm::dvec3 low{1e9}, high{-1e9};
-};
-
-/// Returns the largest distance of a vertex from the origin.
-double reach_of(const Mesh& mesh) {
-    double reach = 0.0;
-    for (const glm::vec3& place : mesh.positions)
-        reach = std::max(reach, static_cast<double>(glm::length(place)));
-    return reach;
-}
-
-/// Returns the bounding box of one placed leaf.
-Box box_of(const PlacedLeaf& leaf, const Mesh& mesh) {
-    const glm::dvec3 side = glm::cross(leaf.up, leaf.along);
-    Box box;
-    for (const glm::vec3& place : mesh.positions) {
-        const glm::dvec3 own = leaf.size * glm::dvec3(place);
-        const glm::dvec3 at = leaf.place + own.x * side + own.y * leaf.up + own.z * leaf.along;
-        box.low = glm::min(box.low, at);
-        box.high = glm::max(box.high, at);
-    }
-    return box;
-}
-
-/// Moves the leaves that reach farthest, two along each axis, before all others, so that every
-/// level of detail has them.
-///
-/// returns  the bounding box of all leaves
-Box farthest_first(std::vector<PlacedLeaf>& leaves, const Mesh& mesh) {
-    const double reach = reach_of(mesh);
-    Box box;
-    std::array<std::size_t, 6> farthest{};
-    for (std::size_t i = 0; i < leaves.size(); ++i) {
-        const glm::dvec3 margin(reach * leaves[i].size);
-        if (glm::all(glm::greaterThanEqual(leaves[i].place - margin, box.low)) &&
-            glm::all(glm::lessThanEqual(leaves[i].place + margin, box.high)))
-            continue;
-        const Box own = box_of(leaves[i], mesh);
-        for (int axis = 0; axis < 3; ++axis) {
-            const auto at = static_cast<std::size_t>(axis);
-            if (own.low[axis] < box.low[axis]) farthest[at] = i;
-            if (own.high[axis] > box.high[axis]) farthest[at + 3] = i;
-        }
-        box = {glm::min(box.low, own.low), glm::max(box.high, own.high)};
-    }
-    std::sort(farthest.begin(), farthest.end());
-    const auto end = std::unique(farthest.begin(), farthest.end());
-    std::size_t front = 0;
-    for (auto one = farthest.begin(); one != end; ++one, ++front) {
-        const auto first = leaves.begin() + static_cast<std::ptrdiff_t>(front),
-                   found = leaves.begin() + static_cast<std::ptrdiff_t>(*one);
-        std::rotate(first, found, found + 1);
-    }
-    return box;
-}
-
-/// Moves leaves that reach beyond a box back into it.
-void keep_within(const Box& box, const Mesh& mesh, std::vector<PlacedLeaf>& leaves) {
-    const double reach = reach_of(mesh);
-    for (PlacedLeaf& leaf : leaves) {
-        const glm::dvec3 margin(reach * leaf.size);
-        if (glm::all(glm::greaterThanEqual(leaf.place - margin, box.low)) &&
-            glm::all(glm::lessThanEqual(leaf.place + margin, box.high)))
-            continue;
-        const Box own = box_of(leaf, mesh);
-        // A leaf wider than the box is centred in it.
-        const glm::dvec3 in = glm::max(box.low - own.low, 0.0),
-                         out = glm::max(own.high - box.high, 0.0);
-        for (int axis = 0; axis < 3; ++axis)
-            leaf.place[axis] += in[axis] > 0.0 && out[axis] > 0.0 ? 0.5 * (in[axis] - out[axis])
-                                                                  : in[axis] - out[axis];
-    }
-}
-
-/// Returns the mesh of the leaves at a level of detail. At coarse levels a leaf represents others
-/// near it: it is enlarged about its middle, not away from its twig, and the crown keeps its
-/// extent.
+/// Returns the mesh of the leaves at a level of detail.
 ///
 /// sway  of the tree; null for leaves without it
-Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& own_leaf,
+Mesh leaves_of(const Tree& tree, const TreeParams& params, const LeafParams& leaf,
                const TreeSway* sway) {
-    const LeafShape shape = shape_of(own_leaf);
-    std::vector<PlacedLeaf> all = placed_leaves(tree, params.look.leaves, params.seed);
-    if (all.empty()) return {};
-    const auto count = static_cast<double>(all.size());
-    const auto merged = [&](std::span<const PlacedLeaf> leaves, const Mesh& leaf) {
-        Mesh mesh = merged_leaves(leaves, leaf);
-        if (sway) mesh.sway = sway_of(leaves, leaf, *sway);
-        return mesh;
-    };
-    if (params.lod == 0) return merged(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
-    const Box box = farthest_first(all, foliage_leaf(shape, leaf_triangles(0, all.size())));
-    std::vector<PlacedLeaf> left = thinned(all, leaf_share(params.lod, count));
-    if (params.lod >= 2)
-        for (std::size_t i = 0; i < left.size(); ++i)
-            left[i].place -= 0.5 * shape.length * (left[i].size - all[i].size) * left[i].along;
-    const Mesh leaf = foliage_leaf(shape, leaf_triangles(params.lod, left.size()));
-    keep_within(box, leaf, left);
-    return merged(left, leaf);
+    const Foliage foliage =
+        foliage_of(tree, params.look.leaves, shape_of(leaf), params.seed, params.lod);
+    Mesh mesh = merged_leaves(foliage.leaves, foliage.leaf);
+    if (sway && !foliage.leaves.empty()) mesh.sway = sway_of(foliage.leaves, foliage.leaf, *sway);
+    return mesh;
 }
 
 void add_images(Estimate& e, const TreeParams& params) {
@@ -170,19 +78,24 @@ void add_images(Estimate& e, const TreeParams& params) {
 /// all  number of leaves at LOD 0
 MeshCount expected_count(const TreeParams& params, int lod, double all) {
     const TreeCount bark = count_of_bark(params.look.shape, lod);
-    const auto leaves = static_cast<std::uint64_t>(std::ceil(leaf_share(lod, all) * all));
-    const std::uint64_t triangles = leaf_triangles(lod, leaves);
-    return {static_cast<std::uint64_t>(bark.vertices) + leaves * (triangles + 2),
+    const auto placed = static_cast<std::size_t>(std::ceil(all));
+    const std::uint64_t leaves = foliage_count(lod, placed);
+    const std::uint64_t triangles = leaf_triangles(lod, placed);
+    return {static_cast<std::uint64_t>(bark.vertices) + leaves * leaf_vertices(triangles),
             static_cast<std::uint64_t>(bark.triangles) + leaves * triangles};
 }
 
-/// Returns about how far the outline of a crown is from the true one: by how much its enlarged
-/// leaves reach farther than their own, or, on a bare tree, the length of the longest edges that are
-/// left out; metres.
+/// Returns about how far the outline of a crown is from the true one: by how much a leaf in place of
+/// others reaches farther than they, or a leaf of few triangles differs from its own outline, or, on a
+/// bare tree, the length of the longest edges that are left out; metres.
 double crown_error(const TreeParams& params, const Atlas& atlas, int lod, double leaves) {
     if (leaves > 0.0) {
-        const double length = leaf_of(params, atlas).shape.length;
-        return 0.5 * params.size * length * (1.0 / std::sqrt(leaf_share(lod, leaves)) - 1.0);
+        const double length =
+            params.size * params.look.leaves.leaf_size * leaf_of(params, atlas).shape.length;
+        const auto placed = static_cast<std::size_t>(std::ceil(leaves));
+        const double remaining = static_cast<double>(foliage_count(lod, placed)) / leaves;
+        const auto triangles = static_cast<double>(leaf_triangles(lod, placed));
+        return 0.5 * length * std::max(1.0 / std::sqrt(remaining) - 1.0, 1.0 / triangles);
     }
     const std::vector<ExpectedOrder> orders = expected_orders(params.look.shape);
     double longest = 0.0;
@@ -219,9 +132,12 @@ Estimate estimate(const TreeSpec& spec) {
                                                 number_text(std::floor(tips + 0.5)) +
                                                 " twigs; at most " + std::to_string(most_leaves) +
                                                 " are placed");
+    // The number of twigs varies with the seed: a standard deviation of a Poisson process above its
+    // mean, which matters for herbs alone.
+    const double most = (tips + std::sqrt(tips)) * look.leaves.per_tip;
     Estimate e;
     for (const int lod : levels_in_file(params.lod, params.file)) {
-        const MeshCount count = expected_count(params, lod, all);
+        const MeshCount count = expected_count(params, lod, most);
         add_level(e, count.vertices, count.triangles, params.textures, params.file);
     }
     add_images(e, params);

@@ -321,7 +321,9 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
         half.push_back(place);
         if (place == tip) break;
     }
-    std::vector<glm::dvec2> border = simplified(half, centre, triangles / 4 + 1);
+    // Four triangles are a kite on either face, more are fans about a centre.
+    const bool kite = triangles == 4;
+    std::vector<glm::dvec2> border = simplified(half, centre, kite ? 3 : triangles / 4 + 1);
     const std::vector<glm::dvec2> whole = border_of(lamina);
     if (preserved == Preserved::extent) stretch(border, centre, whole);
     for (std::size_t i = border.size() - 2; i > 0; --i)
@@ -334,8 +336,13 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
     for (const bool upper : {true, false}) {
         for (const glm::dvec2& place : border)
             shell.add(bent.at(grown * place, 0.0), chart.texture_point(place, upper));
+        if (kite) continue;
         const double lift = upper ? 0.5 * shape.thickness : -0.5 * shape.thickness;
         shell.add(bent.at(grown * centre, lift), chart.texture_point(centre, upper));
+    }
+    if (kite) {
+        shell.triangles = {{0, 1, 2}, {0, 2, 3}, {4, 6, 5}, {4, 7, 6}};
+        return shell;
     }
     for (std::uint32_t i = 0; i < count; ++i) {
         const std::uint32_t next = (i + 1) % count, below = count + 1;
@@ -349,8 +356,8 @@ Shell foliage_shell(const LeafShape& shape, const Bending& bent, std::size_t tri
 
 Mesh foliage_leaf(const LeafShape& shape, std::size_t triangles) {
     throw_if_invalid(shape);
-    if (triangles < 8 || triangles > most_foliage_triangles || triangles % 4 != 0)
-        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 8, 12 or 16");
+    if (triangles < 4 || triangles > most_foliage_triangles || triangles % 4 != 0)
+        throw InvalidInput("/triangles", std::to_string(triangles) + " is not 4, 8, 12 or 16");
     return foliage_shell(shape, Bending(shape), triangles, Preserved::area).mesh(shape.length);
 }
 

@@ -150,9 +150,10 @@ struct LeafCount {
 inline constexpr std::size_t most_foliage_triangles = 16;
 
 /// Returns the leaf of a tree: one closed piece of a few triangles with the area of the lamina seen
-/// from above, without a petiole (root of the lamina at the origin).
+/// from above, without a petiole (root of the lamina at the origin). Of four triangles it is a kite,
+/// its root and its tip at the ends of the axis.
 ///
-/// triangles  8, 12 or 16
+/// triangles  4, 8, 12 or 16
 /// throws     InvalidInput with all that check() reports, or for another number of triangles
 [[nodiscard]] Mesh foliage_leaf(const LeafShape& shape,
                                 std::size_t triangles = most_foliage_triangles);

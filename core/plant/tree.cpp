@@ -424,16 +424,16 @@ Mesh merged_leaves(std::span<const PlacedLeaf> leaves, const Mesh& leaf) {
         const glm::dvec3 side = glm::cross(one.up, one.along);
         const auto shift = static_cast<std::uint32_t>(mesh.positions.size());
         for (std::size_t i = 0; i < leaf.positions.size(); ++i) {
-            const glm::dvec3 at = one.size * glm::dvec3(leaf.positions[i]);
             const glm::dvec3 normal(leaf.normals[i]);
-            mesh.positions.emplace_back(one.place + at.x * side + at.y * one.up + at.z * one.along);
-            mesh.normals.emplace_back(
-                glm::normalize(normal.x * side + normal.y * one.up + normal.z * one.along));
+            mesh.positions.emplace_back(one.at(glm::dvec3(leaf.positions[i])));
+            mesh.normals.emplace_back(glm::normalize(normal.x / one.breadth * side +
+                                                     normal.y * one.up + normal.z * one.along));
         }
         for (const glm::vec4& tangent : leaf.tangents) {
             const glm::dvec3 t(tangent);
-            mesh.tangents.emplace_back(
-                glm::vec3(glm::normalize(t.x * side + t.y * one.up + t.z * one.along)), tangent.w);
+            mesh.tangents.emplace_back(glm::vec3(glm::normalize(one.breadth * t.x * side +
+                                                                t.y * one.up + t.z * one.along)),
+                                       tangent.w);
         }
         mesh.texture_coordinates.insert(mesh.texture_coordinates.end(),
                                         leaf.texture_coordinates.begin(),

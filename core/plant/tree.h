@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 #include <span>
 #include <string>
@@ -256,8 +257,15 @@ static_assert(well_described<LeafStyle>());
 struct PlacedLeaf {
     glm::dvec3 place{0.0}, along{0.0, 0.0, 1.0}, up{0.0, 1.0, 0.0};
     double size = 1.0;
+    double breadth = 1.0;    ///< relative to its size
     std::uint32_t id = 0;    ///< key of its own random stream
     std::uint32_t twig = 0;  ///< node of the ramification that its edge enters
+
+    /// Returns the position of a point of the leaf mesh.
+    [[nodiscard]] glm::dvec3 at(const glm::dvec3& point) const {
+        return place +
+               size * (breadth * point.x * glm::cross(up, along) + point.y * up + point.z * along);
+    }
 };
 
 /// The largest number of leaves of a tree.

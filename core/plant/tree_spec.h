@@ -103,13 +103,4 @@ void without_unused_rows(TreeParams& params);
 /// preset  that of params.look.leaf
 [[nodiscard]] LeafParams leaf_of(const TreeParams& params, const LeafPreset& preset);
 
-/// Returns the share of leaves that remains at a level of detail; these are enlarged to the same
-/// total area. With few leaves the share is larger, so that a herb does not end in a few huge
-/// leaves.
-[[nodiscard]] double leaf_share(int lod, double leaves);
-
-/// Returns the number of triangles of a leaf at a level of detail, by the number of leaves that
-/// remain: 8, 12 or 16.
-[[nodiscard]] std::size_t leaf_triangles(int lod, std::size_t leaves);
-
 }  // namespace sporeprint

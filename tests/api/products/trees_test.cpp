@@ -268,12 +268,12 @@ TEST_F(TreesTest, WhatIsTooMuchIs422WithItsSizeBeforeAnyWork) {
     EXPECT_EQ(generated(), 0u);
 
     ServiceOptions options;
-    options.most_vertices = 3000;
+    options.most_vertices = 5000;
     options.most_texels = 6 * 256 * 256;
     Service poor(built_in_atlas(), options);
     const Response response = handle(poor, get(oak));
     expect_problem(response, 422);
-    EXPECT_TRUE(names(response, "lod", "at most 3000"));
+    EXPECT_TRUE(names(response, "lod", "at most 5000"));
     EXPECT_TRUE(names(response, "texture_size"));
     EXPECT_TRUE(names(handle(poor, body(R"({"preset":"broadleaf"})")), "/lod"));
     const Response image = handle(poor, get("/v1/trees/birch/normal.jpg"));

@@ -74,18 +74,6 @@ TEST(TreeSpec, UsesTheImagesOfItsLeafAlone) {
     EXPECT_EQ(paint_of(leaf_of(params, *leaf_preset("oak"))), paint_of(alone));
 }
 
-TEST(TreeSpec, LevelsOfDetailHaveFewerLeavesOfFewerTriangles) {
-    for (int lod = 1; lod < tree_lods; ++lod) {
-        EXPECT_LT(leaf_share(lod, 9000), 0.5 * leaf_share(lod - 1, 9000));
-        EXPECT_GE(leaf_share(lod, 100) * 100, 50.0) << "few leaves stay";
-        EXPECT_LE(leaf_triangles(lod, 500), leaf_triangles(lod - 1, 500));
-    }
-    EXPECT_EQ(leaf_share(0, 9000), 1.0);
-    EXPECT_EQ(leaf_share(3, 0), 1.0);
-    EXPECT_EQ(leaf_triangles(0, 10), most_foliage_triangles);
-    EXPECT_EQ(leaf_triangles(0, most_leaves), 8u) << "a crown of many leaves has simple ones";
-}
-
 TEST(TreeSpec, RowsAreUsedIfAMatrixIsOwn) {
     TreeParams params = params_of(*tree_preset("broadleaf"));
     params.look.shape.topology.rows = {{0.5, 0.5}};

@@ -1,0 +1,54 @@
+// The foliage of a tree at its levels of detail: which leaves stand where, and of what mesh they are
+// copies.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/mesh/mesh.h"
+#include "core/plant/leaf.h"
+#include "core/plant/tree.h"
+
+namespace sporeprint {
+
+/// The placed leaves of a tree, and the mesh of which each is a copy.
+struct Foliage {
+    std::vector<PlacedLeaf> leaves;
+    Mesh leaf;
+};
+
+/// Returns how many leaves a level of detail has, by the number of all leaves: all at levels 0 and 1
+/// of common trees, fewer at coarser ones.
+///
+/// lod  0..tree_lods - 1
+[[nodiscard]] std::size_t foliage_count(int lod, std::size_t leaves);
+
+/// Returns the number of triangles of each leaf at a level of detail, by the number of all leaves:
+/// 4, 8, 12 or 16.
+[[nodiscard]] std::size_t leaf_triangles(int lod, std::size_t leaves);
+
+/// Returns the vertices of foliage_leaf() of so many triangles.
+[[nodiscard]] std::size_t leaf_vertices(std::size_t triangles);
+
+/// Returns flat leaves that cover what all leaves cover, each in place of neighbours in the order of
+/// the tree. Such a leaf lies in the plane of its group's first two principal axes, and its area is
+/// what the group covers: with S the mean section of the group's ellipsoid and A the total area of
+/// its leaves, 2 S (1 - exp(-A / 2 S)), since leaves in a small volume hide each other.
+///
+/// leaf   the mesh of which the result has copies; a foliage_leaf() of four triangles
+/// count  at least 1; at least as many leaves as leaves are returned unchanged
+/// source the Poisson model of foliage, after Monsi and Saeki
+[[nodiscard]] std::vector<PlacedLeaf> grouped(const Tree& tree, std::span<const PlacedLeaf> leaves,
+                                              const Mesh& leaf, std::size_t count);
+
+/// Returns the foliage of a tree at a level of detail. The crown has the same extent at every level:
+/// the leaves that reach farthest are always there, and no other reaches beyond them.
+///
+/// shape   of each leaf
+/// throws  Impossible (path "/per_tip") for more than most_leaves
+[[nodiscard]] Foliage foliage_of(const Tree& tree, const LeafStyle& style, const LeafShape& shape,
+                                 std::uint32_t seed, int lod);
+
+}  // namespace sporeprint
