@@ -8,6 +8,7 @@
 #include "api/http/query.h"
 #include "api/products/mix.h"
 #include "core/atlas/atlas.h"
+#include "core/grow/names.h"
 #include "core/individual/mushroom_spec.h"
 #include "core/params/canonical.h"
 #include "core/params/query.h"
@@ -26,7 +27,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
         const Mix mix = api::read_mix(std::string_view(target.segments.back()), *atlas, errors);
         if (!mix.empty()) {
             api::ValidationErrors none;
-            const Mix again = api::read_mix(std::string_view(api::mix_text(mix)), *atlas, none);
+            const Mix again = api::read_mix(std::string_view(mix_text(mix)), *atlas, none);
             expect(again == mix, "a canonical mix is its own canonical form");
         }
     }
