@@ -113,10 +113,10 @@ const Individual& resolved_individual(const Context& context, const MushroomSpec
 /// as far as that is known once the individual is resolved; no mesh is built.
 Estimate weighed(const Context& context, const MushroomSpec& spec, const Caches& caches,
                  Mushrooms::Resolved& resolved) {
-    if (spec.model && spec.params.textures == Textures::linked)
+    if (spec.model && has_addresses(spec.params.textures))
         throw Impossible(
             "/textures",
-            "a model of your own has no address that images could be linked to; ask for embedded "
+            "a model of your own has no address that images could have; ask for embedded "
             "or none");
     const Estimate cost = estimate(spec, resolved_individual(context, spec, caches, resolved));
     if (spec.model) resolved.reset();

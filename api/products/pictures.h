@@ -151,7 +151,7 @@ struct Pictures {
 template <class Kind, class Requested>
 Plan plan_picture(RouteCall& call, const PictureQuery& query, Requested requested) {
     using Spec = decltype(requested.spec);
-    if (requested.spec.params.textures == Textures::linked)
+    if (has_addresses(requested.spec.params.textures))
         call.errors.add(422, "textures", "a picture links to no images; ask for embedded or none");
     PictureRequest<Spec> picture{{std::move(requested.spec), read_picture(query, call.errors)},
                                  Product::png,

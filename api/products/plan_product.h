@@ -48,7 +48,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
     resource.type = type_of(product);
     resource.file_name = Kind::file_name(*spec, product, *context.atlas);
     resource.requested_version = std::move(requested.version);
-    resource.is_linked = product == Product::glb && spec->params.textures == Textures::linked;
+    resource.is_linked = product == Product::glb && has_addresses(spec->params.textures);
     resource.estimate_cost = [&context, spec, product, resolved](const Caches& caches) {
         return Kind::cost(context, *spec, product, caches, *resolved);
     };
@@ -66,7 +66,7 @@ Plan plan_product(Context& context, const Request& request, Requested requested,
                 dump(Kind::describe(context, *spec, *resolved, version, job.execution())))};
         Extras extras;
         extras.canonical = url;
-        if (spec->params.textures == Textures::linked) {
+        if (has_addresses(spec->params.textures)) {
             const ImageUrls urls = Kind::image_urls(context, *spec, version, job.execution());
             extras.image_urls = references_from(depth, urls);
             if constexpr (std::is_same_v<Spec, MushroomSpec>)

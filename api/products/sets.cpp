@@ -166,7 +166,7 @@ Value manifest(const Context& context, const SetSpec& spec, const SetPlan& plan,
         item.set("individual", individual).set("lod", file.params.lod);
         item.set("vertices", one.files[i].vertices).set("triangles", one.files[i].triangles);
         item.set("bytes", size);
-        if (file.params.textures == Textures::linked) {
+        if (has_addresses(file.params.textures)) {
             const ImageUrls urls = Mushrooms::image_urls(context, file, version, execution);
             Value images = Value::array();
             for (const std::string& url :
@@ -291,12 +291,12 @@ Plan plan_set(RouteCall& call) {
     resource.key = key_of(*spec, ending_of(output), resource.version);
     resource.type = type_of(output);
     resource.file_name = std::string("mushrooms") + ending_of(output);
-    resource.is_linked = output == Output::file && spec->mushroom.textures == Textures::linked;
+    resource.is_linked = output == Output::file && has_addresses(spec->mushroom.textures);
     resource.requested_version = std::move(requested.version);
     resource.estimate_cost = [&context, spec](const Caches&) {
         const Cost cost = guessed_cost(*spec, is_made, *context.atlas);
         if (output == Output::file) refuse_in_one_file(*spec);
-        if (output == Output::archive && spec->mushroom.textures == Textures::linked)
+        if (output == Output::archive && has_addresses(spec->mushroom.textures))
             throw Impossible("/textures",
                              "links of files in an archive lead nowhere; ask for embedded or none");
         refuse_large(*spec, cost, is_made);

@@ -73,7 +73,7 @@ bool Trees::has_address(const TreeSpec& spec, const Atlas& atlas) {
 Grown Trees::grow(const TreeSpec& spec, const Atlas& atlas, const Extras& extras, int depth,
                   const ExecutionContext& execution) {
     ImageUrls of_leaves;
-    if (spec.params.textures == Textures::linked) {
+    if (has_addresses(spec.params.textures)) {
         const std::string leaf = spec.params.look.leaf.id.string();
         of_leaves =
             references_from(depth, preset_image_urls<Leaves>(atlas, folder_of_leaves, leaf,

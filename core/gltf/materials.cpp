@@ -144,6 +144,18 @@ std::string material_extensions_json(const MaterialLook& look, std::optional<std
     return emission + ",\"extensions\":{" + extensions + "}";
 }
 
+/// Returns the extras with the addresses of images that readers do not load, with a leading comma;
+/// empty for a material without them.
+std::string external_images_json(const GlbMaterial& material) {
+    if (!material.is_external) return {};
+    std::string images;
+    for (std::size_t i = 0; i < material.image_urls.size(); ++i) {
+        append_quoted(images += separator(images), name(static_cast<ImageKind>(i)));
+        append_quoted(images += ':', material.image_urls[i]);
+    }
+    return ",\"extras\":{\"images\":{" + images + "}}";
+}
+
 }  // namespace
 
 bool is_textured(const GlbMaterial& material) {
@@ -154,9 +166,10 @@ std::string material_json(const GlbMaterial& material, bool extended, TextureTab
                           Tables& tables, Extensions& used) {
     std::string json = "{\"name\":";
     append_quoted(json, material.name);
-    if (!is_textured(material))
+    if (!is_textured(material) || material.is_external)
         return json + ",\"pbrMetallicRoughness\":{\"metallicFactor\":0}" +
-               material_extensions_json(material.look, std::nullopt, extended, used) + "}";
+               material_extensions_json(material.look, std::nullopt, extended, used) +
+               external_images_json(material) + "}";
     const std::size_t first = texture_tables.textures_of(material, tables, used);
     append(json += ",\"pbrMetallicRoughness\":{\"baseColorTexture\":{\"index\":", first);
     append(json += "},\"metallicFactor\":0,\"metallicRoughnessTexture\":{\"index\":", first + 2);

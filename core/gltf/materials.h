@@ -42,7 +42,7 @@ struct TextureTables {
     std::size_t sampler_of(bool repeats_u);
 };
 
-/// Returns true if a material has images, embedded or linked.
+/// Returns true if a material has images, embedded, linked or external.
 [[nodiscard]] bool is_textured(const GlbMaterial& material);
 
 /// Returns the JSON object of a material; adds its textures to the tables.

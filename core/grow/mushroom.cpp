@@ -152,7 +152,7 @@ std::vector<EmbeddedImages> add_variants(GlbScene& scene, const MushroomSpec& sp
         material.look = variant.look;
         if (variant.has_own_images) {
             const MushroomSpec& painted = variant.painted;
-            const bool linked = spec.params.textures == Textures::linked && extras.variant_urls;
+            const bool linked = has_addresses(spec.params.textures) && extras.variant_urls;
             images.push_back(attach_images(material, spec.params.textures, spec.params.file,
                                            linked ? extras.variant_urls(painted) : ImageUrls{},
                                            execution, [&](ImageFormat format) {

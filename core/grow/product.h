@@ -66,6 +66,9 @@ struct EmbeddedImages {
 void add_level(Estimate& sum, std::uint64_t vertices, std::uint64_t triangles, Textures textures,
                const FileOptions& file);
 
+/// Returns the approximate size of a transform of EXT_mesh_gpu_instancing.
+[[nodiscard]] std::uint64_t bytes_of_instance(const FileOptions& file);
+
 /// Returns the bytes that a scene becomes: those of a file, or of a picture of it.
 using SceneWriter = std::function<Body(const GlbScene&)>;
 
@@ -74,8 +77,8 @@ using ImageLinks = std::function<ImageUrls(const MushroomSpec&)>;
 
 struct Extras {
     std::string canonical;         ///< canonical URL of the request; empty for none
-    ImageUrls image_urls;          ///< for Textures::linked
-    ImageLinks variant_urls = {};  ///< for the variants of Textures::linked
+    ImageUrls image_urls;          ///< if has_addresses(textures)
+    ImageLinks variant_urls = {};  ///< of variants
     SceneWriter write = glb;       ///< called once
 };
 

@@ -217,7 +217,7 @@ Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
         material.name = found->first;
         material.look = look_of(individual.model);
         const ImageUrls urls =
-            mushroom.textures == Textures::linked && links ? links(first) : ImageUrls{};
+            has_addresses(mushroom.textures) && links ? links(first) : ImageUrls{};
         images.push_back(attach_images(
             material, mushroom.textures, mushroom.file, urls, execution, [&](ImageFormat format) {
                 return painted_images(paint_spec_of(first, atlas, execution.caches), execution,

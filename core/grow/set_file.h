@@ -22,7 +22,7 @@ void refuse_in_one_file(const SetSpec& spec);
 ///
 /// spec    levels are ascending
 /// plan    planned_set() of the spec
-/// links   for Textures::linked
+/// links   if has_addresses(textures)
 /// throws  as refuse_in_one_file() and grow_mushroom()
 [[nodiscard]] Grown grow_set(const SetSpec& spec, const SetPlan& plan, const Atlas& atlas,
                              const ImageLinks& links = {}, const ExecutionContext& execution = {});

@@ -9,7 +9,7 @@
 namespace sporeprint {
 
 /// How the images are delivered.
-enum class Textures { embedded, linked, none };
+enum class Textures { embedded, linked, external, none };
 
 constexpr const char* name(Textures textures) {
     switch (textures) {
@@ -17,10 +17,17 @@ constexpr const char* name(Textures textures) {
             return "embedded";
         case Textures::linked:
             return "linked";
+        case Textures::external:
+            return "external";
         case Textures::none:
             return "none";
     }
     return nullptr;
+}
+
+/// Returns whether a file has addresses of its images instead of images.
+constexpr bool has_addresses(Textures textures) {
+    return textures == Textures::linked || textures == Textures::external;
 }
 
 /// Which individuals have the same images.
@@ -187,7 +194,10 @@ inline constexpr Info texture_size_info{
     .unit = "texels",
     .doc = "Side of the image atlas at LOD 0; it halves with every level."};
 inline constexpr Info textures_info{.name = "textures",
-                                    .doc = "Images inside the file, linked by address, or none."};
+                                    .doc =
+                                        "Images inside the file, linked by address, external "
+                                        "(addresses in the extras of materials, for clients "
+                                        "that load and share images themselves), or none."};
 
 inline constexpr Info share_info{
     .name = "share",

@@ -26,6 +26,27 @@ std::vector<std::string> references_in(const Response& file) {
     return found;
 }
 
+/// Returns the request for the same file with textures=external.
+Request external(Request request) {
+    for (std::string* text : {&request.target, &request.body}) {
+        const std::size_t at = text->find("linked");
+        if (at != std::string::npos) text->replace(at, 6, "external");
+    }
+    return request;
+}
+
+/// Returns the references in extras of materials.
+std::vector<std::string> external_references_in(const Response& file) {
+    const std::string text = text_of(file);
+    std::vector<std::string> found;
+    for (std::size_t at = 0; (at = text.find("{\"images\":{", at)) != std::string::npos; ++at)
+        for (const std::string kind : {"base_color", "normal", "orm"}) {
+            const std::size_t begin = text.find(kind + "\":\"", at) + kind.size() + 3;
+            found.push_back(text.substr(begin, text.find('"', begin) - begin));
+        }
+    return found;
+}
+
 TEST(Resolved, GoesUpAndDownAsClientsDo) {
     EXPECT_EQ(resolved("../b/c:d.jpg?x=../y", "/v1/a/x.glb?q=/z"), "/v1/b/c:d.jpg?x=../y");
     EXPECT_EQ(resolved("b/c.jpg", "/v1/a.glb"), "/v1/b/c.jpg");
@@ -68,6 +89,9 @@ TEST_F(LinksTest, HoldWhereverAFileWasFetchedFrom) {
             const Response file = handle(service, request);
             ASSERT_EQ(file.status, 200) << text_of(file);
             for (const std::string& reference : references_in(file)) expect_relative(reference);
+            const Response alone = handle(service, external(request));
+            EXPECT_EQ(references_in(alone), std::vector<std::string>{});
+            EXPECT_EQ(external_references_in(alone), references_in(file)) << text_of(alone);
             const std::string from =
                 absolute ? request.target.substr(std::string("http://a.example").size())
                          : request.target;

@@ -66,7 +66,7 @@ TEST_F(ServiceTest, ErrorsOfAUrlAreNamed) {
         {"animation=dance", 400, "animation", "none, growth"},
         {"frames=5", 422, "frames", "animation=growth"},
         {"frames=17&animation=growth", 400, "frames", "2..16"},
-        {"textures=fast", 400, "textures", "embedded, linked, none"},
+        {"textures=fast", 400, "textures", "embedded, linked, external, none"},
         {"weathering.fade=2", 400, "weathering.fade", "outside"},
         {"weathering=1", 400, "weathering", "unknown"},
         {"fade=1", 400, "fade", "unknown"},

@@ -321,6 +321,27 @@ TEST(Mushroom, LinkedTexturesNeedUrls) {
     EXPECT_EQ(found.uris, (std::vector<std::string>{"/a.jpg", "/b.jpg", "/c.jpg"}));
 }
 
+// The geometry is that of linked images, and readers load none: the client has them already.
+TEST(Mushroom, ExternalTexturesAreAddressesInExtras) {
+    MushroomSpec spec = order_of("boletus_edulis", 0.6, 1, 2);
+    spec.params.textures = Textures::external;
+    EXPECT_TRUE(
+        names(refusal([&] { (void)grow_mushroom(spec, atlas()); }), "/textures", "'external'"));
+    const Extras extras{"/v1/x", {{"/a.jpg", "/b.jpg", "/c.jpg"}, {}}};
+    const Bytes file = joined(grow_mushroom(spec, atlas(), extras).glb);
+    const ReadBack found = expect_glb(file);
+    EXPECT_TRUE(found.uris.empty());
+    EXPECT_TRUE(found.images.empty());
+    EXPECT_EQ(found.textures, 0u);
+    const Value json = json_chunk(file);
+    EXPECT_EQ(dump(*json.find("materials")->items().front().find("extras")),
+              R"({"images":{"base_color":"/a.jpg","normal":"/b.jpg","orm":"/c.jpg"}})");
+    spec.params.textures = Textures::linked;
+    const ReadBack linked = expect_glb(joined(grow_mushroom(spec, atlas(), extras).glb));
+    EXPECT_EQ(found.mesh.texture_coordinates, linked.mesh.texture_coordinates);
+    EXPECT_TRUE(found.mesh.tangents.empty()) << "no map of normals would use them";
+}
+
 TEST(Mushroom, DescribesItselfInExtras) {
     const MushroomSpec spec = order_of("boletus_edulis", 0.6, 1, 2);
     const Bytes file = joined(grow_mushroom(spec, atlas(), {"/v1/canonical", {}}).glb);
